@@ -1,0 +1,168 @@
+//! Ids of vertices, half-edges and faces.
+//!
+//! Each id is a newtype over `u32`, so that the three kinds cannot be mixed up
+//! and half of the memory of a `usize` is saved. A half-edge needs no record of
+//! its own: the half-edges of face `f` are `3f`, `3f + 1` and `3f + 2`, so
+//! `face`, `next` and `prev` are arithmetic (see `mesh.rs`).
+
+use std::fmt;
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident, $letter:literal) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(u32);
+
+        impl $name {
+            /// The number of ids of this kind: ids run from 0 to `LIMIT - 1`.
+            pub const LIMIT: usize = u32::MAX as usize;
+
+            /// The id with this index, or `None` from [`Self::LIMIT`] on.
+            #[inline]
+            #[must_use]
+            pub const fn new(index: usize) -> Option<Self> {
+                if index < Self::LIMIT { Some(Self(index as u32)) } else { None }
+            }
+
+            /// The index, for use with slices.
+            #[inline]
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.0 as usize
+            }
+
+            /// The id whose index is known to fit: every mesh keeps its counts
+            /// below the limits of its ids (I1).
+            #[inline]
+            pub(crate) const fn from_u32(index: u32) -> Self {
+                Self(index)
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, concat!($letter, "{}"), self.0)
+            }
+        }
+
+        impl fmt::Debug for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                fmt::Display::fmt(self, f)
+            }
+        }
+
+        impl From<$name> for u32 {
+            fn from(id: $name) -> u32 {
+                id.0
+            }
+        }
+    };
+}
+
+id!(
+    /// A vertex. Written `v7`.
+    ///
+    /// Ids are stable: a split appends a vertex and never renumbers one.
+    VertexId,
+    "v"
+);
+id!(
+    /// A half-edge, which is also a corner of a face. Written `h7`.
+    ///
+    /// The half-edge `h` of a face starts at the corner `h`, so one id names both.
+    HalfEdgeId,
+    "h"
+);
+id!(
+    /// A face, always a triangle. Written `f7`.
+    FaceId,
+    "f"
+);
+
+impl VertexId {
+    #[inline]
+    pub(crate) const fn to_u32(self) -> u32 {
+        self.0
+    }
+}
+
+impl HalfEdgeId {
+    #[inline]
+    pub(crate) const fn to_u32(self) -> u32 {
+        self.0
+    }
+
+    /// The face of this half-edge.
+    #[inline]
+    #[must_use]
+    pub const fn face(self) -> FaceId {
+        FaceId(self.0 / 3)
+    }
+
+    /// Which corner of its face this is: 0, 1 or 2.
+    #[inline]
+    #[must_use]
+    pub const fn corner(self) -> usize {
+        (self.0 % 3) as usize
+    }
+
+    /// The next half-edge of the same face.
+    #[inline]
+    #[must_use]
+    pub const fn next(self) -> HalfEdgeId {
+        HalfEdgeId(if self.0 % 3 == 2 {
+            self.0 - 2
+        } else {
+            self.0 + 1
+        })
+    }
+
+    /// The previous half-edge of the same face.
+    #[inline]
+    #[must_use]
+    pub const fn prev(self) -> HalfEdgeId {
+        HalfEdgeId(if self.0.is_multiple_of(3) {
+            self.0 + 2
+        } else {
+            self.0 - 1
+        })
+    }
+}
+
+impl FaceId {
+    /// The three half-edges of this face, in order.
+    #[inline]
+    #[must_use]
+    pub const fn half_edges(self) -> [HalfEdgeId; 3] {
+        [
+            HalfEdgeId(3 * self.0),
+            HalfEdgeId(3 * self.0 + 1),
+            HalfEdgeId(3 * self.0 + 2),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_half_edge_knows_its_face_and_its_neighbours_in_it() {
+        for f in 0..5 {
+            let [a, b, c] = FaceId(f).half_edges();
+            for (h, next, prev, corner) in [(a, b, c, 0), (b, c, a, 1), (c, a, b, 2)] {
+                assert_eq!(
+                    (h.face(), h.next(), h.prev(), h.corner()),
+                    (FaceId(f), next, prev, corner)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn ids_end_before_the_value_that_stands_for_none() {
+        assert_eq!(VertexId::new(VertexId::LIMIT), None);
+        assert_eq!(VertexId::new(7).map(VertexId::index), Some(7));
+        assert_eq!(HalfEdgeId(7).to_string(), "h7");
+    }
+}
