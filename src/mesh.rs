@@ -1,0 +1,314 @@
+//! The half-edge mesh: which triangles meet where, and nothing else.
+//!
+//! A [`Mesh`] is made of triangles by [`Mesh::build`], which accepts an oriented
+//! 2-manifold with or without boundary and refuses anything else. From then on only
+//! vertex splits change it (`split.rs`). A torn mesh need no longer be a manifold:
+//! two fans of triangles may share a vertex without sharing an edge (Souza et al. 2014,
+//! Fig. 2). All faces of such a vertex are still found, because a half-edge
+//! that loses its pair keeps it as its *ghost pair* (§IV-B, Fig. 3).
+//!
+//! **The state of a half-edge.** In the paper, `pair` is erased when an edge is
+//! torn, and saved in `ghost pair`. At any time at most one of the two is set, and
+//! their union never changes. So both are one link and one bit here, "both set" cannot
+//! be written down, and a ghost pair cannot be overwritten or lost.
+//!
+//! **What is stored.** Half-edge `h` is corner `h % 3` of face `h / 3`, so `face`,
+//! `next` and `prev` are arithmetic. Stored are: the origin of each half-edge (which is
+//! also the index buffer, see [`Mesh::indices`]), its link, and for each vertex its
+//! smallest half-edge: 24 bytes a face and 4 a vertex. Why no pointers or hash maps:
+//! ids survive, copies are cheap, and a mesh can be compared bit for bit.
+
+mod build;
+mod check;
+mod diagnose;
+mod walk;
+
+use std::iter::FusedIterator;
+
+pub use build::{BuildError, Defect};
+pub use check::{Invariant, Violation};
+pub use walk::{BoundaryLoop, Components, Corners, Fan};
+
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+
+/// An oriented triangle mesh that tears.
+///
+/// ```
+/// use tearmesh::Mesh;
+///
+/// // Two triangles that share the edge 1-2.
+/// let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
+/// let h = mesh.half_edges().find(|&h| mesh.pair(h).is_some()).unwrap();
+/// assert_eq!(mesh.origin(h), mesh.target(mesh.pair(h).unwrap()));
+/// assert_eq!(mesh.edges().count(), 5);
+/// # Ok::<(), tearmesh::BuildError>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Mesh {
+    /// The vertex at which each half-edge starts, as `u32` so that
+    /// [`Mesh::indices`] costs nothing.
+    origin: Vec<u32>,
+    link: Vec<Link>,
+    /// For each vertex the smallest half-edge that starts there, or [`NO_HALF_EDGE`].
+    /// "Smallest" makes it a function of `origin`, so an undone split leaves no trace.
+    outgoing: Vec<u32>,
+}
+
+const NO_HALF_EDGE: u32 = u32::MAX;
+
+/// The opposite half-edge, and whether the link to it is torn.
+///
+/// 31 bits hold the half-edge, the top bit the tear. All bits set stand for the
+/// original boundary, where there is no opposite.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Link(u32);
+
+impl Link {
+    const BOUNDARY: Link = Link(u32::MAX);
+    const TORN: u32 = 1 << 31;
+
+    const fn to(opposite: HalfEdgeId) -> Link {
+        Link(opposite.to_u32())
+    }
+
+    #[inline]
+    const fn opposite(self) -> Option<HalfEdgeId> {
+        if self.0 == Self::BOUNDARY.0 {
+            None
+        } else {
+            Some(HalfEdgeId::from_u32(self.0 & !Self::TORN))
+        }
+    }
+
+    #[inline]
+    const fn is_torn(self) -> bool {
+        self.0 >= Self::TORN && self.0 != Self::BOUNDARY.0
+    }
+}
+
+impl Mesh {
+    /// The most faces a mesh can have: three half-edges each, below 2^31, so that
+    /// a half-edge and a torn mark fit 32 bits.
+    pub const MAX_FACES: usize = (1 << 31) / 3;
+
+    /// The most vertices that a mesh can be built with. Splits may add as many
+    /// as there are half-edges, and the sum still fits the id type.
+    pub const MAX_VERTICES: usize = 1 << 31;
+
+    /// The number of vertices, those without a face included.
+    #[inline]
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.outgoing.len()
+    }
+
+    /// The number of faces. It never changes.
+    #[inline]
+    #[must_use]
+    pub fn face_count(&self) -> usize {
+        self.origin.len() / 3
+    }
+
+    /// The number of half-edges: three a face.
+    #[inline]
+    #[must_use]
+    pub fn half_edge_count(&self) -> usize {
+        self.origin.len()
+    }
+
+    /// All vertices, ascending.
+    pub fn vertices(
+        &self,
+    ) -> impl ExactSizeIterator<Item = VertexId> + DoubleEndedIterator + FusedIterator + Clone + use<>
+    {
+        (0..self.vertex_count() as u32).map(VertexId::from_u32)
+    }
+
+    /// All faces, ascending.
+    pub fn faces(
+        &self,
+    ) -> impl ExactSizeIterator<Item = FaceId> + DoubleEndedIterator + FusedIterator + Clone + use<>
+    {
+        (0..self.face_count() as u32).map(FaceId::from_u32)
+    }
+
+    /// All half-edges, ascending.
+    pub fn half_edges(
+        &self,
+    ) -> impl ExactSizeIterator<Item = HalfEdgeId> + DoubleEndedIterator + FusedIterator + Clone + use<>
+    {
+        (0..self.half_edge_count() as u32).map(HalfEdgeId::from_u32)
+    }
+
+    /// The half-edge on the other side of the same edge, where the edge has two faces
+    /// and is not torn.
+    ///
+    /// # Panics
+    ///
+    /// Like all queries: if the id is none of this mesh.
+    #[inline]
+    #[must_use]
+    pub fn pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        let link = self.link[h.index()];
+        if link.is_torn() {
+            None
+        } else {
+            link.opposite()
+        }
+    }
+
+    /// The half-edge that was the pair of `h` before the edge between them was torn
+    /// (Souza et al. 2014 §IV-B).
+    #[inline]
+    #[must_use]
+    pub fn ghost_pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        let link = self.link[h.index()];
+        if link.is_torn() {
+            link.opposite()
+        } else {
+            None
+        }
+    }
+
+    /// The pair, or else the ghost pair: `None` only on the boundary of the mesh
+    /// as it was built.
+    #[inline]
+    #[must_use]
+    pub fn pair_or_ghost(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        self.link[h.index()].opposite()
+    }
+
+    /// The next half-edge of the same face.
+    #[inline]
+    #[must_use]
+    pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
+        h.next()
+    }
+
+    /// The previous half-edge of the same face.
+    #[inline]
+    #[must_use]
+    pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
+        h.prev()
+    }
+
+    /// The face of a half-edge.
+    #[inline]
+    #[must_use]
+    pub fn face(&self, h: HalfEdgeId) -> FaceId {
+        h.face()
+    }
+
+    /// The vertex at which a half-edge starts.
+    #[inline]
+    #[must_use]
+    pub fn origin(&self, h: HalfEdgeId) -> VertexId {
+        VertexId::from_u32(self.origin[h.index()])
+    }
+
+    /// The vertex at which a half-edge ends.
+    #[inline]
+    #[must_use]
+    pub fn target(&self, h: HalfEdgeId) -> VertexId {
+        self.origin(h.next())
+    }
+
+    /// The three vertices of a face, in order.
+    #[inline]
+    #[must_use]
+    pub fn corners(&self, f: FaceId) -> [VertexId; 3] {
+        f.half_edges().map(|h| self.origin(h))
+    }
+
+    /// The smallest half-edge that starts at `v`; `None` for a vertex without
+    /// a face.
+    #[inline]
+    #[must_use]
+    pub fn half_edge_of(&self, v: VertexId) -> Option<HalfEdgeId> {
+        match self.outgoing[v.index()] {
+            NO_HALF_EDGE => None,
+            h => Some(HalfEdgeId::from_u32(h)),
+        }
+    }
+
+    /// The vertices of all faces, three a face: an index buffer, at no cost.
+    #[inline]
+    #[must_use]
+    pub fn indices(&self) -> &[u32] {
+        &self.origin
+    }
+
+    /// Every edge once, by one of its half-edges: the smaller one of a pair, and each
+    /// half-edge without a pair. A torn edge is two edges.
+    pub fn edges(&self) -> impl FusedIterator<Item = HalfEdgeId> + Clone + '_ {
+        self.half_edges()
+            .filter(|&h| self.pair(h).is_none_or(|pair| h < pair))
+    }
+
+    /// Makes room for `vertices` more vertices, so that as many splits
+    /// do not allocate.
+    pub fn reserve(&mut self, vertices: usize) {
+        self.outgoing.reserve(vertices);
+    }
+
+    /// Relabels the origin of a corner. For `split.rs` alone: the invariants that
+    /// tie origins to links are its to restore.
+    #[inline]
+    pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
+        self.origin[h.index()] = v.to_u32();
+    }
+
+    #[inline]
+    pub(crate) fn set_half_edge_of(&mut self, v: VertexId, h: HalfEdgeId) {
+        self.outgoing[v.index()] = h.to_u32();
+    }
+
+    /// The id that [`Mesh::push_vertex`] will give.
+    #[inline]
+    pub(crate) fn next_vertex(&self) -> VertexId {
+        VertexId::from_u32(self.outgoing.len() as u32)
+    }
+
+    #[inline]
+    pub(crate) fn push_vertex(&mut self, h: HalfEdgeId) {
+        self.outgoing.push(h.to_u32());
+    }
+
+    /// Makes a pair a ghost pair, on both of its sides. For `split.rs` alone.
+    #[inline]
+    pub(crate) fn tear(&mut self, h: HalfEdgeId, opposite: HalfEdgeId) {
+        debug_assert_eq!(
+            self.pair(h),
+            Some(opposite),
+            "I4: the link is an involution"
+        );
+        debug_assert_eq!(
+            self.pair(opposite),
+            Some(h),
+            "I4: the link is an involution"
+        );
+        self.link[h.index()].0 |= Link::TORN;
+        self.link[opposite.index()].0 |= Link::TORN;
+    }
+}
+
+impl std::fmt::Debug for Mesh {
+    /// Counts and, for a small mesh, its triangles; never a million lines.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "Mesh({} vertices, {} faces",
+            self.vertex_count(),
+            self.face_count()
+        )?;
+        if self.face_count() <= 32 {
+            let triangles: Vec<_> = self.indices().chunks_exact(3).collect();
+            let torn: Vec<_> = self
+                .half_edges()
+                .filter_map(|h| self.ghost_pair(h).filter(|&g| h < g).map(|g| (h, g)))
+                .collect();
+            write!(f, ", {triangles:?}, torn {torn:?}")?;
+        }
+        f.write_str(")")
+    }
+}

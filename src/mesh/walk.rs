@@ -1,0 +1,325 @@
+//! Walks: round a vertex, along the boundary, over the components.
+//!
+//! **Round a vertex**, in two forms. Let ρ(h) = opposite(prev h) turn a corner to the
+//! next one round the same vertex, through a pair or a ghost pair.
+//!
+//! * [`Mesh::fan`] goes through pairs only, and so lists the corners that are joined to
+//!   one corner by shared edges.
+//! * [`Mesh::corners_of`] goes through pairs and ghost pairs, both ways where the orbit is
+//!   open, crosses faces that no longer have the vertex *without stopping*, and reports
+//!   those that do. Every simpler reading of the paper misses faces (Souza et al. 2014 §IV-B
+//!   leaves the reading open; `invariants.md`, I10, has the counter-examples).
+//!
+//! No walk allocates but those that say so. A step costs a nanosecond or two in cache; a
+//! walk round a vertex visits as many faces as the vertex had when the mesh was built.
+
+use std::iter::FusedIterator;
+
+use super::Mesh;
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+
+impl Mesh {
+    /// All corners of a vertex, as the half-edges that start there: one for each
+    /// face that has the vertex, however torn its surroundings are.
+    ///
+    /// ```
+    /// use tearmesh::{Mesh, VertexId};
+    ///
+    /// let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
+    /// let v = VertexId::new(1).unwrap();
+    /// assert_eq!(mesh.corners_of(v).count(), 2);
+    /// # Ok::<(), tearmesh::BuildError>(())
+    /// ```
+    #[must_use]
+    pub fn corners_of(&self, v: VertexId) -> Corners<'_> {
+        Corners {
+            vertex: v,
+            orbit: Orbit::new(self, self.half_edge_of(v)),
+        }
+    }
+
+    /// The faces of a vertex, in the order of [`Mesh::corners_of`].
+    pub fn faces_of(&self, v: VertexId) -> impl FusedIterator<Item = FaceId> + '_ {
+        self.corners_of(v).map(HalfEdgeId::face)
+    }
+
+    /// The corners that are joined to the corner `h` through pairs, `h` first: one fan of
+    /// the vertex at which `h` starts.
+    #[must_use]
+    pub fn fan(&self, h: HalfEdgeId) -> Fan<'_> {
+        Fan {
+            mesh: self,
+            first: h,
+            at: Some(h),
+            backward: false,
+        }
+    }
+
+    /// One corner of each fan of a vertex.
+    ///
+    /// A vertex inside an untorn surface, or on its boundary, has one fan. Two
+    /// and more make it a bow-tie (Souza et al. 2014, Fig. 2).
+    pub fn fans(&self, v: VertexId) -> impl FusedIterator<Item = HalfEdgeId> + '_ {
+        // The first corner of an open fan has no pair behind it; a fan without such
+        // a corner is closed, and then is the whole orbit.
+        let first_corners = move || self.corners_of(v).filter(|&h| self.pair(h).is_none());
+        let closed = if first_corners().next().is_none() {
+            self.half_edge_of(v)
+        } else {
+            None
+        };
+        first_corners().chain(closed)
+    }
+
+    /// The vertex that `v` was before any split: the smallest of those that
+    /// were split from the same one, since the old vertex always keeps a face.
+    #[must_use]
+    pub fn root(&self, v: VertexId) -> VertexId {
+        Orbit::new(self, self.half_edge_of(v))
+            .map(|h| self.origin(h))
+            .min()
+            .unwrap_or(v)
+    }
+
+    /// The corners of all vertices that were split from the vertex of `h`, and its own.
+    pub(crate) fn orbit(&self, h: HalfEdgeId) -> Orbit<'_> {
+        Orbit::new(self, Some(h))
+    }
+
+    /// The corner after `h` round its vertex: ρ(h) = opposite(prev h).
+    #[inline]
+    pub(crate) fn ahead(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        self.pair_or_ghost(h.prev())
+    }
+
+    /// The corner before `h` round its vertex: next(opposite h).
+    #[inline]
+    pub(crate) fn behind(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        self.pair_or_ghost(h).map(HalfEdgeId::next)
+    }
+
+    /// The half-edges of the boundary loop on which `h` lies, `h` first; the sides
+    /// of a tear are boundary too. Empty if `h` has a pair.
+    ///
+    /// ```
+    /// use tearmesh::Mesh;
+    ///
+    /// let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
+    /// let [start] = mesh.boundary_loops()[..] else { panic!("one loop") };
+    /// assert_eq!(mesh.boundary_loop(start).count(), 4);
+    /// # Ok::<(), tearmesh::BuildError>(())
+    /// ```
+    #[must_use]
+    pub fn boundary_loop(&self, h: HalfEdgeId) -> BoundaryLoop<'_> {
+        let at = if self.pair(h).is_none() {
+            Some(h)
+        } else {
+            None
+        };
+        BoundaryLoop {
+            mesh: self,
+            first: h,
+            at,
+        }
+    }
+
+    /// The smallest half-edge of each boundary loop, ascending.
+    ///
+    /// Allocates a mark for each half-edge; linear.
+    #[must_use]
+    pub fn boundary_loops(&self) -> Vec<HalfEdgeId> {
+        let mut seen = vec![false; self.half_edge_count()];
+        let mut loops = Vec::new();
+        for h in self.half_edges() {
+            if self.pair(h).is_none() && !seen[h.index()] {
+                loops.push(h);
+                for on in self.boundary_loop(h) {
+                    seen[on.index()] = true;
+                }
+            }
+        }
+        loops
+    }
+
+    /// The components: sets of faces joined by shared edges.
+    ///
+    /// Allocates a number for each face; linear.
+    #[must_use]
+    pub fn components(&self) -> Components {
+        let mut of_face = vec![u32::MAX; self.face_count()];
+        let mut count = 0;
+        let mut stack = Vec::new();
+        for seed in self.faces() {
+            if of_face[seed.index()] != u32::MAX {
+                continue;
+            }
+            of_face[seed.index()] = count;
+            stack.push(seed);
+            while let Some(face) = stack.pop() {
+                for neighbour in self.neighbours(face) {
+                    if of_face[neighbour.index()] == u32::MAX {
+                        of_face[neighbour.index()] = count;
+                        stack.push(neighbour);
+                    }
+                }
+            }
+            count += 1;
+        }
+        Components {
+            of_face,
+            count: count as usize,
+        }
+    }
+
+    /// The faces that share an edge with a face, up to three.
+    pub fn neighbours(&self, f: FaceId) -> impl FusedIterator<Item = FaceId> + '_ {
+        f.half_edges()
+            .into_iter()
+            .filter_map(|h| self.pair(h))
+            .map(HalfEdgeId::face)
+    }
+}
+
+/// The corners of a vertex: see [`Mesh::corners_of`].
+#[derive(Clone, Debug)]
+pub struct Corners<'m> {
+    vertex: VertexId,
+    orbit: Orbit<'m>,
+}
+
+impl Iterator for Corners<'_> {
+    type Item = HalfEdgeId;
+
+    #[inline]
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let (mesh, vertex) = (self.orbit.mesh, self.vertex);
+        self.orbit.find(|&h| mesh.origin(h) == vertex)
+    }
+}
+
+impl FusedIterator for Corners<'_> {}
+
+/// The corners of one orbit of ρ, in order: ahead from the first one, and where
+/// the orbit is open, then behind it.
+#[derive(Clone, Debug)]
+pub(crate) struct Orbit<'m> {
+    mesh: &'m Mesh,
+    first: Option<HalfEdgeId>,
+    at: Option<HalfEdgeId>,
+    backward: bool,
+}
+
+impl<'m> Orbit<'m> {
+    fn new(mesh: &'m Mesh, first: Option<HalfEdgeId>) -> Self {
+        Orbit {
+            mesh,
+            first,
+            at: first,
+            backward: false,
+        }
+    }
+}
+
+impl Iterator for Orbit<'_> {
+    type Item = HalfEdgeId;
+
+    #[inline]
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let h = self.at?;
+        let first = self.first?;
+        self.at = if self.backward {
+            self.mesh.behind(h)
+        } else {
+            match self.mesh.ahead(h) {
+                Some(ahead) if ahead == first => None,
+                Some(ahead) => Some(ahead),
+                None => {
+                    self.backward = true;
+                    self.mesh.behind(first)
+                }
+            }
+        };
+        Some(h)
+    }
+}
+
+impl FusedIterator for Orbit<'_> {}
+
+/// The corners of a fan: see [`Mesh::fan`].
+#[derive(Clone, Debug)]
+pub struct Fan<'m> {
+    mesh: &'m Mesh,
+    first: HalfEdgeId,
+    at: Option<HalfEdgeId>,
+    backward: bool,
+}
+
+impl Iterator for Fan<'_> {
+    type Item = HalfEdgeId;
+
+    #[inline]
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let h = self.at?;
+        self.at = if self.backward {
+            self.mesh.pair(h).map(HalfEdgeId::next)
+        } else {
+            match self.mesh.pair(h.prev()) {
+                Some(ahead) if ahead == self.first => None,
+                Some(ahead) => Some(ahead),
+                None => {
+                    self.backward = true;
+                    self.mesh.pair(self.first).map(HalfEdgeId::next)
+                }
+            }
+        };
+        Some(h)
+    }
+}
+
+impl FusedIterator for Fan<'_> {}
+
+/// The half-edges of a boundary loop: see [`Mesh::boundary_loop`].
+#[derive(Clone, Debug)]
+pub struct BoundaryLoop<'m> {
+    mesh: &'m Mesh,
+    first: HalfEdgeId,
+    at: Option<HalfEdgeId>,
+}
+
+impl Iterator for BoundaryLoop<'_> {
+    type Item = HalfEdgeId;
+
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let h = self.at?;
+        // The boundary leaves the fan at the end of `h` on its other side.
+        let mut following = h.next();
+        while let Some(pair) = self.mesh.pair(following) {
+            following = pair.next();
+        }
+        self.at = Some(following).filter(|&following| following != self.first);
+        Some(h)
+    }
+}
+
+impl FusedIterator for BoundaryLoop<'_> {}
+
+/// The components of a mesh: see [`Mesh::components`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Components {
+    of_face: Vec<u32>,
+    count: usize,
+}
+
+impl Components {
+    /// The number of components.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The component of a face, from 0; components are numbered by their smallest face.
+    #[must_use]
+    pub fn of(&self, f: FaceId) -> usize {
+        self.of_face[f.index()] as usize
+    }
+}
