@@ -1,0 +1,47 @@
+//! The faces round a vertex, before and behind a plane.
+//!
+//! A face is behind a plane where its centre is strictly behind it (Souza et al. 2014
+//! §IV: "the ones whose centers are behind the plane are assigned to the new vertex"). Three
+//! times the signed distance of the centre is the sum of those of the corners, which are
+//! summed in ascending vertex order, so the answer does not depend on the order of
+//! corners. Zero is front. For a plane through one of the vertices that vertex contributes
+//! an exact zero, and the rule reads n·(b − v) + n·(c − v) < 0.
+
+use crate::geometry::{Plane, Side};
+use crate::id::{FaceId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Place;
+
+/// The side of a plane on which the centre of a face lies.
+///
+/// # Panics
+///
+/// If the face is none of this mesh, or `place` does not know its vertices.
+#[must_use]
+pub fn face(mesh: &Mesh, f: FaceId, plane: &Plane, place: &(impl Place + ?Sized)) -> Side {
+    side(mesh, f, |v| plane.offset(place.at(v)))
+}
+
+/// The same, of offsets that are known already.
+pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> Side {
+    let mut corners = mesh.corners(f);
+    corners.sort();
+    let [a, b, c] = corners.map(offset);
+    Side::of(a + b + c)
+}
+
+/// The faces of a vertex, each with its side of the plane: the two sets of Souza et al.
+/// 2014 §IV-B, in the order of [`Mesh::corners_of`].
+///
+/// # Panics
+///
+/// If the vertex is none of this mesh, or `place` does not know its neighbours.
+pub fn faces_of<'m, P: Place + ?Sized>(
+    mesh: &'m Mesh,
+    v: VertexId,
+    plane: &'m Plane,
+    place: &'m P,
+) -> impl Iterator<Item = (FaceId, Side)> + 'm {
+    mesh.faces_of(v)
+        .map(move |f| (f, face(mesh, f, plane, place)))
+}

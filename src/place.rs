@@ -1,0 +1,201 @@
+//! Where the vertices are.
+//!
+//! The mesh has no coordinates. What needs them reads a [`Place`], which any storage
+//! can be; what cuts also writes [`Positions`], the library's own, in step with the mesh.
+
+use std::fmt;
+
+use crate::edit::{Edit, Follower};
+use crate::geometry::{Point, check_point};
+use crate::id::VertexId;
+
+/// Where vertices are: read-only, whatever the storage.
+///
+/// Implemented for [`Positions`] and for slices of points and of `[f64; 3]`. Coordinates
+/// should be finite; a face with a NaN counts as lying in front of every plane.
+pub trait Place {
+    /// The point at which a vertex is.
+    ///
+    /// # Panics
+    ///
+    /// If the vertex is not known.
+    fn at(&self, v: VertexId) -> Point;
+}
+
+impl Place for [Point] {
+    fn at(&self, v: VertexId) -> Point {
+        self[v.index()]
+    }
+}
+
+impl Place for [[f64; 3]] {
+    fn at(&self, v: VertexId) -> Point {
+        self[v.index()].into()
+    }
+}
+
+/// The positions of the vertices, finite and in step with a mesh.
+///
+/// ```
+/// use tearmesh::{Positions, VertexId};
+///
+/// let positions = Positions::new([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])?;
+/// assert_eq!(positions.at(VertexId::new(1).unwrap()).x, 1.0);
+///
+/// let error = Positions::new([[0.0, f64::NAN, 0.0]]).unwrap_err();
+/// assert_eq!(error.to_string(), "1 vertex has a coordinate that is not usable: v0 (0, NaN, 0)");
+/// # Ok::<(), tearmesh::PositionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Positions {
+    points: Vec<Point>,
+    next_edit: u64,
+}
+
+impl Positions {
+    /// The positions of vertices 0, 1, 2, …, which have seen no edit yet.
+    ///
+    /// # Errors
+    ///
+    /// Where coordinates are not finite or beyond
+    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX): all such vertices.
+    pub fn new(
+        points: impl IntoIterator<Item = impl Into<Point>>,
+    ) -> Result<Positions, PositionError> {
+        let points: Vec<Point> = points.into_iter().map(Into::into).collect();
+        let bad = |(i, &point): (usize, &Point)| {
+            check_point(point)
+                .is_err()
+                .then(|| (VertexId::new(i), point))
+        };
+        let unusable: Vec<_> = points
+            .iter()
+            .enumerate()
+            .filter_map(bad)
+            .filter_map(|(v, point)| Some((v?, point)))
+            .collect();
+        if unusable.is_empty() {
+            Ok(Positions {
+                points,
+                next_edit: 0,
+            })
+        } else {
+            Err(PositionError { unusable })
+        }
+    }
+
+    /// The same positions, for a log whose next record has this number.
+    #[must_use]
+    pub fn starting_at(self, next_edit: u64) -> Positions {
+        Positions { next_edit, ..self }
+    }
+
+    /// The position of a vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, v: VertexId) -> Point {
+        self.points[v.index()]
+    }
+
+    /// The number of vertices.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether there is no vertex.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// The positions of all vertices, by id.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// The positions from vertex number `start` on, rounded to `f32`: what a vertex
+    /// buffer lacks after splits. `start = 0` gives all of it.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer than `start` vertices.
+    #[must_use]
+    pub fn tail_f32(&self, start: usize) -> Vec<[f32; 3]> {
+        self.points[start..]
+            .iter()
+            .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+            .collect()
+    }
+}
+
+impl Place for Positions {
+    fn at(&self, v: VertexId) -> Point {
+        self.at(v)
+    }
+}
+
+impl Follower for Positions {
+    fn next_edit(&self) -> u64 {
+        self.next_edit
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        match edit {
+            Edit::Split(split) => {
+                assert_eq!(
+                    split.new.index(),
+                    self.len(),
+                    "positions are in step with the mesh"
+                );
+                self.points.push(self.at(split.old));
+            }
+        }
+        self.next_edit = edit.number() + 1;
+    }
+}
+
+/// Vertices whose coordinates were refused.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PositionError {
+    unusable: Vec<(VertexId, Point)>,
+}
+
+impl PositionError {
+    /// Every vertex with a coordinate that is not finite or too large, and where it was
+    /// to be; ascending, never empty.
+    #[must_use]
+    pub fn unusable(&self) -> &[(VertexId, Point)] {
+        &self.unusable
+    }
+}
+
+/// How many vertices a message shows.
+const SHOWN: usize = 20;
+
+impl fmt::Display for PositionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.unusable.len();
+        let (noun, verb) = if count == 1 {
+            ("vertex", "has")
+        } else {
+            ("vertices", "have")
+        };
+        write!(f, "{count} {noun} {verb} a coordinate that is not usable:")?;
+        for (i, (v, p)) in self.unusable.iter().take(SHOWN).enumerate() {
+            let comma = if i == 0 { "" } else { "," };
+            write!(f, "{comma} {v} ({}, {}, {})", p.x, p.y, p.z)?;
+        }
+        if count > SHOWN {
+            write!(f, " and {} more", count - SHOWN)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for PositionError {}
