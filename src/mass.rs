@@ -1,0 +1,412 @@
+//! Masses of vertices, conserved exactly.
+//!
+//! Two rules, both followers of the log and both with the same [`Ledger`]:
+//!
+//! * **area** (the default choice): a vertex weighs a third of each of its faces, so
+//!   after a split each half weighs what its faces weigh. In plain floats
+//!   `m_old + m_new` would differ from the mass before in a quarter of all splits. So each
+//!   corner's mass is rounded once, when masses are made, to a whole number of *units*: 2^-52 of
+//!   the power of two above the total. Sums of units are exact in any order.
+//! * **half** (Souza et al. 2014 §IV-A): each half weighs half, however many faces it
+//!   has. Halving a float is exact as long as it stays normal. A mass is kept as that of the root
+//!   and the number of halvings, which a merge in another order will need.
+//!
+//! A follower cannot refuse a split that has happened, so what could go wrong later
+//! is refused when masses are made.
+
+use std::fmt;
+
+use crate::edit::{Edit, Follower};
+use crate::exact::{ExactSum, exponent_above, power_of_two};
+use crate::geometry::area;
+use crate::id::{FaceId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Place;
+
+/// The masses of all vertices.
+///
+/// ```
+/// use tearmesh::{shapes, split, Edits, FaceId, Masses, VertexId};
+///
+/// let (mut mesh, positions) = shapes::grid(3, 3);
+/// let mut masses = Masses::area(&mesh, &positions, 1.0)?;
+/// let v = VertexId::new(5).unwrap();
+/// let before = masses.at(v);
+///
+/// let mut edits = Edits::new();
+/// let face = mesh.faces_of(v).next().unwrap();
+/// let new = split::faces(&mut mesh, v, &[face], &mut edits)?.new;
+/// edits.replay(&mut masses);
+/// assert_eq!(masses.at(v) + masses.at(new), before); // bit for bit
+/// assert!(masses.ledger().is_balanced());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Masses {
+    store: Store,
+    opening: ExactSum,
+    next_edit: u64,
+}
+
+#[derive(Clone, Debug)]
+enum Store {
+    /// Whole numbers of units, of corners and of vertices.
+    Area {
+        unit: f64,
+        corners: Vec<u64>,
+        vertices: Vec<u64>,
+    },
+    /// The mass of the root, and how often it was halved.
+    Half { vertices: Vec<(f64, u32)> },
+}
+
+impl Masses {
+    /// Masses by area: each face gives a third of its mass to each of its corners.
+    ///
+    /// `density` is mass per area, in the units of the model. A corner weighs at least
+    /// one unit (2^-52 of the power of two above the total), so that a face without area
+    /// does not make a vertex without mass. A vertex without a face weighs nothing. Linear.
+    ///
+    /// # Errors
+    ///
+    /// See [`MassError`].
+    ///
+    /// # Panics
+    ///
+    /// If `place` does not know a vertex.
+    pub fn area(
+        mesh: &Mesh,
+        place: &(impl Place + ?Sized),
+        density: f64,
+    ) -> Result<Masses, MassError> {
+        let (unit, corners, vertices) = lattice(mesh, place, density)?;
+        Ok(Masses::opened(Store::Area {
+            unit,
+            corners,
+            vertices,
+        }))
+    }
+
+    /// Masses by halves, starting from those of [`Masses::area`].
+    ///
+    /// # Errors
+    ///
+    /// See [`MassError`].
+    ///
+    /// # Panics
+    ///
+    /// If `place` does not know a vertex.
+    pub fn half(
+        mesh: &Mesh,
+        place: &(impl Place + ?Sized),
+        density: f64,
+    ) -> Result<Masses, MassError> {
+        let (unit, corners, units) = lattice(mesh, place, density)?;
+        let mut faces = vec![0u32; units.len()];
+        for (h, _) in mesh.half_edges().zip(&corners) {
+            faces[mesh.origin(h).index()] += 1;
+        }
+        // With n faces a vertex can be halved n - 1 times before nothing is left to split.
+        let too_light = |(v, mass): (VertexId, f64)| {
+            let halvings = faces[v.index()].saturating_sub(1) as i32;
+            mass > 0.0 && exponent_above(mass) - 1 - halvings < f64::MIN_EXP - 1
+        };
+        let mass = |v: VertexId| units[v.index()] as f64 * unit;
+        let light: Vec<_> = mesh
+            .vertices()
+            .filter(|&v| too_light((v, mass(v))))
+            .collect();
+        if !light.is_empty() {
+            return Err(MassError::TooLight { vertices: light });
+        }
+        let vertices = mesh.vertices().map(|v| (mass(v), 0)).collect();
+        Ok(Masses::opened(Store::Half { vertices }))
+    }
+
+    fn opened(store: Store) -> Masses {
+        let mut masses = Masses {
+            store,
+            opening: ExactSum::new(),
+            next_edit: 0,
+        };
+        masses.opening = masses.total();
+        masses
+    }
+
+    /// The same masses, for a log whose next record has this number.
+    #[must_use]
+    pub fn starting_at(self, next_edit: u64) -> Masses {
+        Masses { next_edit, ..self }
+    }
+
+    /// The mass of a vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn at(&self, v: VertexId) -> f64 {
+        match &self.store {
+            Store::Area { unit, vertices, .. } => vertices[v.index()] as f64 * unit,
+            Store::Half { vertices } => {
+                let (root, halvings) = vertices[v.index()];
+                halved(root, halvings)
+            }
+        }
+    }
+
+    /// The number of vertices.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match &self.store {
+            Store::Area { vertices, .. } => vertices.len(),
+            Store::Half { vertices } => vertices.len(),
+        }
+    }
+
+    /// Whether there is no vertex.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The exact sum of all masses.
+    #[must_use]
+    pub fn total(&self) -> ExactSum {
+        (0..self.len())
+            .filter_map(VertexId::new)
+            .map(|v| self.at(v))
+            .collect()
+    }
+
+    /// What there was when the masses were made, and what there is now.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger {
+        Ledger {
+            before: self.opening.clone(),
+            after: self.total(),
+        }
+    }
+}
+
+/// m / 2^halvings, in steps that an `f64` has powers of two for.
+fn halved(mut mass: f64, mut halvings: u32) -> f64 {
+    while halvings > 1000 {
+        mass *= power_of_two(-1000);
+        halvings -= 1000;
+    }
+    mass * power_of_two(-(halvings as i32))
+}
+
+/// The unit, and the masses of corners and vertices in units.
+fn lattice(
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    density: f64,
+) -> Result<(f64, Vec<u64>, Vec<u64>), MassError> {
+    if !(density > 0.0 && density.is_finite()) {
+        return Err(MassError::Density { given: density });
+    }
+    let mass = |f: FaceId| {
+        let [a, b, c] = mesh.corners(f).map(|v| place.at(v));
+        area(a, b, c) * density
+    };
+    let total: f64 = mesh.faces().map(mass).sum();
+    if total.is_nan() || total <= 0.0 {
+        return Err(MassError::NoArea);
+    }
+    if total >= f64::MAX / 2.0 || exponent_above(total) - 52 < f64::MIN_EXP - 1 {
+        return Err(MassError::OutOfRange { total });
+    }
+    let unit = power_of_two(exponent_above(total) - 52);
+    let mut corners = vec![0; mesh.half_edge_count()];
+    let mut vertices = vec![0; mesh.vertex_count()];
+    for f in mesh.faces() {
+        // Rounded once a face; the three corners share what there is, to the unit.
+        let units = ((mass(f) / unit).round() as u64).max(3);
+        for (corner, h) in f.half_edges().into_iter().enumerate() {
+            let share = (units + corner as u64) / 3;
+            corners[h.index()] = share;
+            vertices[mesh.origin(h).index()] += share;
+        }
+    }
+    Ok((unit, corners, vertices))
+}
+
+impl Follower for Masses {
+    fn next_edit(&self) -> u64 {
+        self.next_edit
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        match edit {
+            Edit::Split(split) => {
+                assert_eq!(
+                    split.new.index(),
+                    self.len(),
+                    "masses are in step with the mesh"
+                );
+                match &mut self.store {
+                    Store::Area {
+                        corners, vertices, ..
+                    } => {
+                        let moved = split.corners.iter().map(|h| corners[h.index()]).sum();
+                        vertices[split.old.index()] -= moved;
+                        vertices.push(moved);
+                    }
+                    Store::Half { vertices } => {
+                        let (root, halvings) = &mut vertices[split.old.index()];
+                        *halvings += 1;
+                        let half = (*root, *halvings);
+                        vertices.push(half);
+                    }
+                }
+            }
+        }
+        self.next_edit = edit.number() + 1;
+    }
+}
+
+/// Exact sums of masses, before and after.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ledger {
+    /// When the masses were made.
+    pub before: ExactSum,
+    /// Now.
+    pub after: ExactSum,
+}
+
+impl Ledger {
+    /// Whether nothing was lost or made: exactly, without a tolerance.
+    #[must_use]
+    pub fn is_balanced(&self) -> bool {
+        self.before == self.after
+    }
+}
+
+/// Why masses were refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MassError {
+    /// The density is not a positive finite number.
+    Density {
+        /// The density as given.
+        given: f64,
+    },
+    /// No face has an area, or a position is not a number.
+    NoArea,
+    /// The total is so large or so small that its parts are no normal numbers.
+    OutOfRange {
+        /// The total, rounded.
+        total: f64,
+    },
+    /// Half of half of … these masses, as often as they could be split, would fall below the
+    /// normal numbers, and halving would no longer be exact.
+    TooLight {
+        /// The vertices, ascending.
+        vertices: Vec<VertexId>,
+    },
+}
+
+impl fmt::Display for MassError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MassError::Density { given } => {
+                write!(f, "the density {given} is not a positive finite number")
+            }
+            MassError::NoArea => write!(f, "no face has an area, so there is no mass to lump"),
+            MassError::OutOfRange { total } => {
+                write!(
+                    f,
+                    "the total mass {total:e} leaves no room for parts that are exact"
+                )
+            }
+            MassError::TooLight { vertices } => {
+                let count = vertices.len();
+                let noun = if count == 1 {
+                    "vertex is"
+                } else {
+                    "vertices are"
+                };
+                write!(
+                    f,
+                    "{count} {noun} too light to be halved exactly, {} first",
+                    vertices[0]
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for MassError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+
+    #[test]
+    fn a_flat_unit_square_weighs_its_density() {
+        for (columns, rows) in [(1, 1), (3, 5), (32, 32)] {
+            let (mesh, positions) = shapes::grid(columns, rows);
+            let masses = Masses::area(&mesh, &positions, 2.5).unwrap();
+            let total = masses.total().to_f64();
+            assert!((total - 2.5).abs() < 1e-13, "{total}");
+            let halves = Masses::half(&mesh, &positions, 2.5).unwrap();
+            assert_eq!(masses.total(), halves.total());
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_exact_is_refused() {
+        let (mesh, positions) = shapes::fan(80, true);
+        assert_eq!(
+            Masses::area(&mesh, &positions, f64::NAN)
+                .unwrap_err()
+                .to_string(),
+            "the density NaN is not a positive finite number"
+        );
+        let flat = vec![[0.0; 3]; mesh.vertex_count()];
+        assert_eq!(
+            Masses::area(&mesh, &flat[..], 1.0).unwrap_err(),
+            MassError::NoArea
+        );
+        let nan = vec![[f64::NAN; 3]; mesh.vertex_count()];
+        assert_eq!(
+            Masses::area(&mesh, &nan[..], 1.0).unwrap_err(),
+            MassError::NoArea
+        );
+        for density in [1e308, 1e-308] {
+            let error = Masses::area(&mesh, &positions, density).unwrap_err();
+            assert!(
+                matches!(error, MassError::OutOfRange { .. }),
+                "{density}: {error}"
+            );
+        }
+        // The hub could be halved 79 times, a vertex of the rim once.
+        let density = power_of_two(-969);
+        assert!(Masses::area(&mesh, &positions, density).is_ok());
+        let hub = VertexId::new(0).unwrap();
+        assert_eq!(
+            Masses::half(&mesh, &positions, density).unwrap_err(),
+            MassError::TooLight {
+                vertices: vec![hub]
+            }
+        );
+        assert!(Masses::half(&mesh, &positions, density * power_of_two(30)).is_ok());
+    }
+
+    #[test]
+    fn a_face_without_area_still_weighs_three_units() {
+        let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).unwrap();
+        let points = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.5, 0.5, 0.0],
+        ];
+        let masses = Masses::area(&mesh, &points[..], 2.0).unwrap();
+        let lightest = masses.at(VertexId::new(3).unwrap());
+        assert_eq!(lightest, power_of_two(1 - 52));
+    }
+}
