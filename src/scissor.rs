@@ -1,0 +1,314 @@
+//! The scissor: two rays, a plane between them, and a cut along it.
+//!
+//! A user picks two points on the screen; each gives a ray. The cutting plane holds the origins
+//! of both rays and the direction of the first, and two side planes bound the cut
+//! (Souza et al. 2014 §V). Two errata of the paper are handled here:
+//!
+//! 1. **The side planes point outward as printed** (`N_A = V_A × N`, `N_B = N × V_B`): a point
+//!    half way between two parallel rays is on the negative side of both, so no vertex would be
+//!    split. The normals here are N × V_A and V_B × N, each turned round where the other
+//!    ray would be on its negative side (anti-parallel rays).
+//! 2. **Two rays from one eye give N = 0**, and that is what a perspective camera produces. The
+//!    plane is then V_A × V_B. Only rays on one line span no plane and are refused.
+//!
+//! Between parallel rays the strip extends behind the origins too; between rays from one eye
+//! it is the wedge before the eye.
+//!
+//! Methods differ in what they split: see [`Method`]. Each returns a [`CutReport`] that says
+//! what was done and what was not.
+
+mod measure;
+mod partition;
+
+use std::fmt;
+
+pub use measure::CutReport;
+
+use crate::edit::{Edits, Follower};
+use crate::geometry::{Plane, Point, Ray, Vector, cross, dot, max_abs, scaled};
+use crate::mesh::Mesh;
+use crate::place::Positions;
+use measure::Survey;
+
+/// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
+/// from. An error bound, not a tolerance.
+const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
+
+/// A cut to be made: a plane, and two planes that bound it at the sides.
+///
+/// ```
+/// use tearmesh::{shapes, Edits, Method, Point, Positions, Ray, Scissor, Vector};
+///
+/// let (mut mesh, mut positions) = shapes::grid(8, 8);
+/// let down = Vector::new(0.0, 0.0, -1.0);
+/// let a = Ray::new(Point::new(0.4, -1.0, 5.0), down)?;
+/// let b = Ray::new(Point::new(0.4, 2.0, 5.0), down)?;
+/// let mut edits = Edits::new();
+/// let report = Scissor::new(&a, &b)?.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)?;
+/// assert_eq!((report.splits, report.pieces, report.separated), (9, 2, true));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scissor {
+    plane: Plane,
+    sides: [Plane; 2],
+    skew: f64,
+    through: bool,
+    tips: Tips,
+}
+
+/// How a cut is made. All methods share the rays, the report and the log.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// Label every face by its side of the plane, smooth the labels, and give
+    /// each side its own vertices along the seam. Adds no face, always divides, and the seam
+    /// runs along edges: on irregular meshes 1.04 to 1.15 times as long as the plane's line,
+    /// and up to 0.9 edges away from it.
+    #[default]
+    Partition,
+}
+
+/// Where a finite cut ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Tips {
+    /// The paper's rule: a vertex is split if it lies between the side planes. Separates
+    /// everything strictly between them; overshoots each tip by half an edge on average.
+    #[default]
+    Vertex,
+    /// An edge is cut if its midpoint lies between the side planes: unbiased in
+    /// length, but about one vertex inside may stay shared.
+    Midpoint,
+}
+
+impl Scissor {
+    /// The scissor that two rays span.
+    ///
+    /// The plane passes through both origins and holds the direction of `a`. If the rays
+    /// are skew, `b` leaves the plane; [`Scissor::skew`] says how far.
+    ///
+    /// # Errors
+    ///
+    /// [`ScissorError::OneLine`] if both rays lie on one line, up to rounding.
+    pub fn new(a: &Ray, b: &Ray) -> Result<Scissor, ScissorError> {
+        let (along_a, along_b) = (unit_scale(a), unit_scale(b));
+        let apart = a.origin() - b.origin();
+        let reach = max_abs(a.origin().coords).max(max_abs(b.origin().coords));
+        let spanned = cross(apart, along_a);
+        let normal = if max_abs(spanned) > ROUNDING * reach {
+            spanned
+        } else {
+            // The origin of B lies on the line of A, or is that of A: one eye.
+            cross(along_a, along_b)
+        };
+        let normal = scaled(normal)
+            .filter(|_| max_abs(spanned) > ROUNDING * reach || max_abs(normal) > ROUNDING)
+            .ok_or(ScissorError::OneLine)?;
+        let plane = plane(a.origin(), normal);
+        let side_a = cross(normal, along_a);
+        let side_b = match cross(along_b, normal) {
+            // Ray B stands upright on the plane: its side plane runs along ray A.
+            upright if max_abs(upright) <= ROUNDING => -side_a,
+            side => side,
+        };
+        let sides = [
+            plane_towards(a.origin(), side_a, -apart, along_b, reach),
+            plane_towards(b.origin(), side_b, apart, along_a, reach),
+        ];
+        let unit_b = along_b / crate::geometry::length(along_b);
+        let skew = dot(plane.normal(), unit_b).abs();
+        let skew = if skew <= ROUNDING { 0.0 } else { skew };
+        Ok(Scissor {
+            plane,
+            sides,
+            skew,
+            through: false,
+            tips: Tips::default(),
+        })
+    }
+
+    /// Whether to ignore the side planes, and cut wherever the plane goes.
+    #[must_use]
+    pub fn through(self, through: bool) -> Scissor {
+        Scissor { through, ..self }
+    }
+
+    /// Where a finite cut ends.
+    #[must_use]
+    pub fn tips(self, tips: Tips) -> Scissor {
+        Scissor { tips, ..self }
+    }
+
+    /// The cutting plane.
+    #[must_use]
+    pub fn plane(&self) -> Plane {
+        self.plane
+    }
+
+    /// The side planes, through the origins of the first and second ray. What lies
+    /// in front of both is between the rays.
+    #[must_use]
+    pub fn sides(&self) -> [Plane; 2] {
+        self.sides
+    }
+
+    /// How far the second ray leaves the cutting plane for each unit of its length: the
+    /// sine of the angle between them, 0 unless the rays are skew.
+    #[must_use]
+    pub fn skew(&self) -> f64 {
+        self.skew
+    }
+
+    /// Cuts a mesh.
+    ///
+    /// Positions follow at once, because later cuts read points that earlier ones
+    /// made; everything else beside the mesh replays the log. Linear in the mesh (expected
+    /// and actual pieces are counted over all of it).
+    ///
+    /// # Errors
+    ///
+    /// [`CutError`]; then nothing has changed.
+    ///
+    /// # Panics
+    ///
+    /// If `edits` was cleared before `positions` replayed it.
+    pub fn cut(
+        &self,
+        method: Method,
+        mesh: &mut Mesh,
+        positions: &mut Positions,
+        edits: &mut Edits,
+    ) -> Result<CutReport, CutError> {
+        if positions.next_edit() != edits.next_number() {
+            let (seen, made) = (positions.next_edit(), edits.next_number());
+            return Err(CutError::Unreplayed { seen, made });
+        }
+        if positions.len() != mesh.vertex_count() {
+            let (vertices, positions) = (mesh.vertex_count(), positions.len());
+            return Err(CutError::Positions {
+                vertices,
+                positions,
+            });
+        }
+        let survey = Survey::new(self, mesh, positions);
+        let first_edit = edits.next_number();
+        let labels = match method {
+            Method::Partition => partition::cut(self, mesh, positions, &survey, edits),
+        };
+        edits.replay(positions);
+        Ok(survey.report(self, mesh, positions, &labels, edits, first_edit))
+    }
+
+    /// How far inside the nearer side plane a point lies; negative outside, and
+    /// infinite for a cut through everything.
+    fn depth(&self, p: Point) -> f64 {
+        if self.through {
+            f64::INFINITY
+        } else {
+            self.sides[0].offset(p).min(self.sides[1].offset(p))
+        }
+    }
+
+    /// The part of the segment from `p` to `q` that lies between the side planes, as two
+    /// parameters from 0 to 1; `None` if there is no such part.
+    fn clip(&self, p: Point, q: Point) -> Option<(f64, f64)> {
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        if !self.through {
+            for side in self.sides {
+                let (start, end) = (side.offset(p), side.offset(q));
+                if start < 0.0 && end < 0.0 {
+                    return None;
+                }
+                if start < 0.0 {
+                    from = from.max(start / (start - end));
+                } else if end < 0.0 {
+                    to = to.min(start / (start - end));
+                }
+            }
+        }
+        (from <= to).then_some((from, to))
+    }
+}
+
+/// The direction of a ray, scaled to about length one.
+fn unit_scale(ray: &Ray) -> Vector {
+    scaled(ray.direction()).expect("a ray has a direction")
+}
+
+fn plane(point: Point, normal: Vector) -> Plane {
+    Plane::new(point, normal).expect("a normal beyond rounding is not zero")
+}
+
+/// A side plane, turned so that the other ray is on its positive side: its origin,
+/// `towards` away, or if that lies on the plane, its direction.
+fn plane_towards(
+    point: Point,
+    normal: Vector,
+    towards: Vector,
+    along: Vector,
+    reach: f64,
+) -> Plane {
+    let normal = scaled(normal).expect("a normal beyond rounding is not zero");
+    let mut inward = dot(normal, towards);
+    if inward.abs() <= ROUNDING * reach {
+        inward = dot(normal, along);
+    }
+    plane(point, if inward < 0.0 { -normal } else { normal })
+}
+
+/// Why two rays make no scissor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ScissorError {
+    /// Both rays lie on one line, so they span no plane.
+    OneLine,
+}
+
+impl fmt::Display for ScissorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the two rays are the same line, so they span no cutting plane")
+    }
+}
+
+impl std::error::Error for ScissorError {}
+
+/// Why a cut was refused. Nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CutError {
+    /// The positions are of another number of vertices.
+    Positions {
+        /// The vertices of the mesh.
+        vertices: usize,
+        /// The positions given.
+        positions: usize,
+    },
+    /// The positions have not seen all edits.
+    Unreplayed {
+        /// The first edit that they have not seen.
+        seen: u64,
+        /// The number that the next edit will have.
+        made: u64,
+    },
+}
+
+impl fmt::Display for CutError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CutError::Positions {
+                vertices,
+                positions,
+            } => {
+                write!(f, "{positions} positions for a mesh of {vertices} vertices")
+            }
+            CutError::Unreplayed { seen, made } => {
+                write!(
+                    f,
+                    "the positions are at edit {seen}, the log is at {made}: replay first"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for CutError {}

@@ -1,0 +1,401 @@
+//! What a cut should do, and what it did.
+//!
+//! A [`Survey`] looks at the mesh before a cut: where the slit (the part of the plane
+//! between the side planes) meets it, how long it is there, and into how many pieces an ideal
+//! cut would divide it. The [`CutReport`] compares that with the mesh after the cut.
+//! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
+//! still share are counted.
+
+use super::Scissor;
+use crate::edit::{Edit, Edits};
+use crate::geometry::{Point, Side, angle, area, cross, dot, length};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Positions;
+
+/// What a cut did.
+///
+/// A *component* is a set of faces joined by shared edges. The *seam* is the set of edges
+/// that this cut tore. Lengths are in the units of the model.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CutReport {
+    /// The faces that the slit crosses.
+    pub faces_crossed: usize,
+    /// The vertices that were split, counted as often as they were.
+    pub splits: usize,
+    /// The splits that were refused for want of a face on one side.
+    pub refused: usize,
+    /// The half-edges whose pair became a ghost pair: two for each edge of the seam.
+    pub ghost_pairs: usize,
+    /// The components before the cut.
+    pub pieces_before: usize,
+    /// The components after the cut.
+    pub pieces: usize,
+    /// The components that a cut exactly along the slit would leave.
+    pub pieces_expected: usize,
+    /// Pieces beyond those expected.
+    pub crumbs: usize,
+    /// Pieces short of those expected.
+    pub lost: usize,
+    /// Whether no vertex strictly between the side planes belongs to faces of both sides, and
+    /// no edge that passes there joins both; judged where the slit meets the mesh.
+    pub separated: bool,
+    /// The length of the seam.
+    pub seam_length: f64,
+    /// The length of the seam over that of the slit on the mesh; 0 where there is no slit.
+    pub seam_length_ratio: f64,
+    /// The largest distance of a seam vertex from the plane.
+    pub seam_deviation_max: f64,
+    /// The same, over the mean edge length of the mesh before the cut.
+    pub seam_deviation_max_edges: f64,
+    /// The vertices inserted on edges and in faces.
+    pub vertices_inserted: usize,
+    /// The smallest angle of any face after the cut, in degrees.
+    pub angle_min_deg: f64,
+    /// The smallest altitude of any face after the cut.
+    pub altitude_min: f64,
+    /// Whether the slit meets no face at all.
+    pub missed: bool,
+    /// How far the vertex nearest to the slit is from it: the distance from the plane and
+    /// that by which it lies outside the side planes, as the sides of a right angle.
+    pub nearest_vertex: f64,
+}
+
+/// The mesh before a cut, as the slit sees it.
+pub(super) struct Survey {
+    offsets: Vec<f64>,
+    /// Whether the slit meets each face.
+    in_slit: Vec<bool>,
+    faces_crossed: usize,
+    slit_length: f64,
+    pieces_before: usize,
+    pieces_expected: usize,
+    mean_edge: f64,
+    nearest_vertex: f64,
+}
+
+impl Survey {
+    pub(super) fn new(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> Survey {
+        let offsets: Vec<f64> = positions
+            .as_slice()
+            .iter()
+            .map(|&p| scissor.plane.offset(p))
+            .collect();
+        let mut survey = Survey {
+            offsets,
+            in_slit: vec![false; mesh.face_count()],
+            faces_crossed: 0,
+            slit_length: 0.0,
+            pieces_before: mesh.components().count(),
+            pieces_expected: 0,
+            mean_edge: mean_edge(mesh, positions),
+            nearest_vertex: nearest_vertex(scissor, mesh, positions),
+        };
+        survey.follow_slit(scissor, mesh, positions);
+        survey
+    }
+
+    /// A number with the sign of the signed distance of a vertex from the plane.
+    pub(super) fn offset(&self, v: VertexId) -> f64 {
+        self.offsets[v.index()]
+    }
+
+    /// Whether a face has vertices strictly on both sides of the plane.
+    pub(super) fn is_crossed(&self, mesh: &Mesh, f: FaceId) -> bool {
+        let offsets = mesh.corners(f).map(|v| self.offset(v));
+        offsets.iter().any(|&d| d < 0.0) && offsets.iter().any(|&d| d > 0.0)
+    }
+
+    /// Counts the pieces of an ideal cut, and measures the slit on the way.
+    ///
+    /// Each face has a part in front and a part behind, as far as it has either. The parts
+    /// of a face are one unless the slit crosses the face fully; parts of neighbours are one
+    /// where they meet along an edge. What remains apart is a piece.
+    fn follow_slit(&mut self, scissor: &Scissor, mesh: &Mesh, positions: &Positions) {
+        let mut parts = Parts::new(mesh.face_count());
+        for f in mesh.faces() {
+            let Some([p, q]) = self.crossing(mesh, positions, f) else {
+                continue;
+            };
+            let clipped = scissor.clip(p, q);
+            if let Some((from, to)) = clipped {
+                self.faces_crossed += 1;
+                self.in_slit[f.index()] = true;
+                self.slit_length += (to - from) * length(q - p);
+            }
+            if clipped != Some((0.0, 1.0)) {
+                parts.join((f, Side::Front), (f, Side::Back));
+            }
+        }
+        for h in mesh.edges() {
+            let Some(pair) = mesh.pair(h) else { continue };
+            let (f, g) = (h.face(), pair.face());
+            let ends = [mesh.origin(h), mesh.target(h)];
+            let offsets = ends.map(|v| self.offset(v));
+            if offsets == [0.0; 2] {
+                // The edge lies on the plane, so it is slit itself if the faces differ.
+                let sides = [(f, self.lone_side(mesh, f)), (g, self.lone_side(mesh, g))];
+                let [p, q] = ends.map(|v| positions.at(v));
+                let clipped = scissor.clip(p, q).filter(|_| sides[0].1 != sides[1].1);
+                if let Some((from, to)) = clipped {
+                    self.in_slit[f.index()] = true;
+                    self.in_slit[g.index()] = true;
+                    self.slit_length += (to - from) * length(q - p);
+                }
+                if clipped != Some((0.0, 1.0)) {
+                    parts.join(sides[0], sides[1]);
+                }
+                continue;
+            }
+            if offsets.iter().any(|&d| d > 0.0) {
+                parts.join((f, Side::Front), (g, Side::Front));
+            }
+            if offsets.iter().any(|&d| d < 0.0) {
+                parts.join((f, Side::Back), (g, Side::Back));
+            }
+        }
+        self.pieces_expected =
+            parts.count(|f, side| self.is_crossed(mesh, f) || side == self.lone_side(mesh, f));
+    }
+
+    /// The side of a face that is not crossed; one that lies on the plane is in front.
+    fn lone_side(&self, mesh: &Mesh, f: FaceId) -> Side {
+        let offsets = mesh.corners(f).map(|v| self.offset(v));
+        Side::of(offsets.into_iter().fold(0.0, f64::min))
+    }
+
+    /// Where the plane enters and leaves a crossed face: at a vertex, or on an edge.
+    fn crossing(&self, mesh: &Mesh, positions: &Positions, f: FaceId) -> Option<[Point; 2]> {
+        if !self.is_crossed(mesh, f) {
+            return None;
+        }
+        let mut ends = [Point::origin(); 2];
+        let mut found = 0;
+        for h in f.half_edges() {
+            let (a, b) = (mesh.origin(h), mesh.target(h));
+            let (da, db) = (self.offset(a), self.offset(b));
+            let point = if da == 0.0 {
+                positions.at(a)
+            } else if (da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0) {
+                // From the smaller vertex, so that both faces of the edge agree on the point.
+                let (a, b, da, db) = if a < b {
+                    (a, b, da, db)
+                } else {
+                    (b, a, db, da)
+                };
+                let (p, q) = (positions.at(a), positions.at(b));
+                p + (q - p) * (da.abs() / (da.abs() + db.abs()))
+            } else {
+                continue;
+            };
+            ends[found] = point;
+            found += 1;
+        }
+        debug_assert_eq!(
+            found, 2,
+            "a plane that crosses a triangle meets its outline twice"
+        );
+        Some(ends)
+    }
+
+    /// Compares with the mesh after the cut. `labels` are the final sides of the faces, and
+    /// the records from `first_edit` on are those of the cut.
+    pub(super) fn report(
+        &self,
+        scissor: &Scissor,
+        mesh: &Mesh,
+        positions: &Positions,
+        labels: &[Side],
+        edits: &Edits,
+        first_edit: u64,
+    ) -> CutReport {
+        let pieces = mesh.components().count();
+        let (angle_min_deg, altitude_min) = quality(mesh, positions);
+        let mut splits = 0;
+        let mut ghost_pairs = 0;
+        let mut seam_length = 0.0;
+        let mut seam_deviation_max = 0.0f64;
+        for edit in edits.since(first_edit) {
+            match edit {
+                Edit::Split(split) => {
+                    splits += 1;
+                    for link in split.torn {
+                        let h = link.stayed;
+                        let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+                        ghost_pairs += 2;
+                        seam_length += length(q - p);
+                        for end in [p, q] {
+                            let deviation = scissor.plane.distance(end).abs();
+                            seam_deviation_max = seam_deviation_max.max(deviation);
+                        }
+                    }
+                }
+            }
+        }
+        let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
+        CutReport {
+            faces_crossed: self.faces_crossed,
+            splits,
+            refused: 0,
+            ghost_pairs,
+            pieces_before: self.pieces_before,
+            pieces,
+            pieces_expected: self.pieces_expected,
+            crumbs: pieces.saturating_sub(self.pieces_expected),
+            lost: self.pieces_expected.saturating_sub(pieces),
+            separated: self.separated(scissor, mesh, positions, labels),
+            seam_length,
+            seam_length_ratio: ratio(seam_length, self.slit_length),
+            seam_deviation_max,
+            seam_deviation_max_edges: ratio(seam_deviation_max, self.mean_edge),
+            vertices_inserted: 0,
+            angle_min_deg,
+            altitude_min,
+            missed: !self.in_slit.contains(&true),
+            nearest_vertex: self.nearest_vertex,
+        }
+    }
+
+    fn separated(
+        &self,
+        scissor: &Scissor,
+        mesh: &Mesh,
+        positions: &Positions,
+        labels: &[Side],
+    ) -> bool {
+        let in_slit = |h: HalfEdgeId| self.in_slit[h.face().index()];
+        let label = |h: HalfEdgeId| labels[h.face().index()];
+        let shared_vertex = |v: VertexId| {
+            let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == side);
+            mesh.corners_of(v).any(in_slit)
+                && scissor.depth(positions.at(v)) > 0.0
+                && has(Side::Front)
+                && has(Side::Back)
+        };
+        let shared_edge = |h: HalfEdgeId| {
+            let Some(pair) = mesh.pair(h) else {
+                return false;
+            };
+            let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+            let inside = |(from, to): (f64, f64)| {
+                let middle = (from + to) / 2.0;
+                from < to && scissor.depth(p + (q - p) * middle) > 0.0
+            };
+            label(h) != label(pair)
+                && (in_slit(h) || in_slit(pair))
+                && scissor.clip(p, q).is_some_and(inside)
+        };
+        !mesh.vertices().any(shared_vertex) && !mesh.edges().any(shared_edge)
+    }
+}
+
+/// A union-find forest over the two parts of each face.
+struct Parts {
+    parent: Vec<u32>,
+}
+
+impl Parts {
+    fn new(faces: usize) -> Parts {
+        Parts {
+            parent: (0..2 * faces as u32).collect(),
+        }
+    }
+
+    fn node((f, side): (FaceId, Side)) -> u32 {
+        2 * f.index() as u32 + u32::from(side == Side::Back)
+    }
+
+    fn leader(&mut self, mut node: u32) -> u32 {
+        while self.parent[node as usize] != node {
+            self.parent[node as usize] = self.parent[self.parent[node as usize] as usize];
+            node = self.parent[node as usize];
+        }
+        node
+    }
+
+    fn join(&mut self, a: (FaceId, Side), b: (FaceId, Side)) {
+        let (a, b) = (self.leader(Self::node(a)), self.leader(Self::node(b)));
+        self.parent[a.max(b) as usize] = a.min(b);
+    }
+
+    /// The number of sets with a part that exists.
+    fn count(&mut self, exists: impl Fn(FaceId, Side) -> bool) -> usize {
+        let mut seen = vec![false; self.parent.len()];
+        for f in (0..self.parent.len() as u32 / 2).map(FaceId::from_u32) {
+            for side in [Side::Front, Side::Back] {
+                if exists(f, side) {
+                    let leader = self.leader(Self::node((f, side)));
+                    seen[leader as usize] = true;
+                }
+            }
+        }
+        seen.into_iter().filter(|&seen| seen).count()
+    }
+}
+
+fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for h in mesh.edges() {
+        sum += length(positions.at(mesh.target(h)) - positions.at(mesh.origin(h)));
+        count += 1.0;
+    }
+    if count > 0.0 { sum / count } else { 0.0 }
+}
+
+fn nearest_vertex(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> f64 {
+    let [a, b] = scissor.sides;
+    let distance = |v: VertexId| {
+        let p = positions.at(v);
+        let off = scissor.plane.distance(p);
+        let outside = if scissor.through {
+            0.0
+        } else {
+            (-a.distance(p)).max(-b.distance(p)).max(0.0)
+        };
+        (off * off + outside * outside).sqrt()
+    };
+    let used = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
+    used.map(distance).fold(f64::INFINITY, f64::min)
+}
+
+/// The smallest angle in degrees and the smallest altitude of any face; zeros for a
+/// mesh without faces.
+fn quality(mesh: &Mesh, positions: &Positions) -> (f64, f64) {
+    // The smallest angle has the largest cotangent, which needs no arc function.
+    let mut cotangent_max = (f64::NEG_INFINITY, (0.0, 0.0));
+    let mut altitude_min = f64::INFINITY;
+    for f in mesh.faces() {
+        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let sides = [b - a, c - b, a - c];
+        let longest = sides.map(length).into_iter().fold(0.0, f64::max);
+        let altitude = if longest > 0.0 {
+            2.0 * area(a, b, c) / longest
+        } else {
+            0.0
+        };
+        altitude_min = altitude_min.min(altitude);
+        for (one, other) in [(0, 2), (1, 0), (2, 1)] {
+            let along = dot(sides[one], -sides[other]);
+            let across = length(cross(sides[one], -sides[other]));
+            let cotangent = if across > 0.0 {
+                along / across
+            } else if along >= 0.0 {
+                f64::INFINITY
+            } else {
+                f64::NEG_INFINITY
+            };
+            if cotangent > cotangent_max.0 {
+                cotangent_max = (cotangent, (along, across));
+            }
+        }
+    }
+    if altitude_min == f64::INFINITY {
+        return (0.0, 0.0);
+    }
+    let (along, across) = cotangent_max.1;
+    (
+        angle(along, across) * (180.0 / std::f64::consts::PI),
+        altitude_min,
+    )
+}

@@ -1,0 +1,166 @@
+//! The method `partition`: label faces by side, smooth the labels, unshare by fan.
+//!
+//! 1. **Label.** A face is in front where the signed distances of its corners sum to zero or
+//!    more. Labels far away do not matter to a finite cut, and are what makes it end where it
+//!    should: the whole mesh is labelled as for a through cut.
+//! 2. **Smooth.** A crossed face changes its label where at least two of its neighbours, and
+//!    more than half of them, have the other. Each change removes an edge from the seam, so it
+//!    ends. Raw labels leave crumbs of one face and a longer seam.
+//! 3. **Unshare by fan.** At each vertex of the seam, faces that are joined through edges
+//!    that are not seam stay together. The fan with the smallest half-edge keeps
+//!    the vertex, every other one gets a vertex of its own. So both sides share no vertex
+//!    there, which is why the method always divides.
+//!
+//! The order of the splits does not change the fans: a split tears seam edges only,
+//! and those separate fans before and after.
+
+use std::collections::VecDeque;
+
+use super::measure::Survey;
+use super::{Scissor, Tips};
+use crate::classify;
+use crate::edit::Edits;
+use crate::geometry::{Point, Side};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Positions;
+use crate::split;
+
+/// Cuts, and returns the side of each face.
+pub(super) fn cut(
+    scissor: &Scissor,
+    mesh: &mut Mesh,
+    positions: &Positions,
+    survey: &Survey,
+    edits: &mut Edits,
+) -> Vec<Side> {
+    let mut labels: Vec<Side> = mesh
+        .faces()
+        .map(|f| classify::side(mesh, f, |v| survey.offset(v)))
+        .collect();
+    smooth(mesh, survey, &mut labels);
+    let seam = Seam {
+        scissor,
+        positions,
+        labels: &labels,
+    };
+    let mut fans = Fans::default();
+    for v in seam.vertices(mesh) {
+        fans.find(mesh, v, |mesh, h| seam.cuts(mesh, h));
+        for faces in fans.leaving() {
+            split::faces(mesh, v, faces, edits).expect("a fan is some of a vertex's faces");
+        }
+    }
+    labels
+}
+
+fn smooth(mesh: &Mesh, survey: &Survey, labels: &mut [Side]) {
+    let crossed = |f: FaceId| survey.is_crossed(mesh, f);
+    let mut queue: VecDeque<FaceId> = mesh.faces().filter(|&f| crossed(f)).collect();
+    let mut queued = vec![false; mesh.face_count()];
+    for f in &queue {
+        queued[f.index()] = true;
+    }
+    while let Some(f) = queue.pop_front() {
+        queued[f.index()] = false;
+        let label = labels[f.index()];
+        let neighbours = mesh.neighbours(f).count();
+        let other = mesh
+            .neighbours(f)
+            .filter(|g| labels[g.index()] != label)
+            .count();
+        if other < 2 || 2 * other <= neighbours {
+            continue;
+        }
+        labels[f.index()] = if label == Side::Front {
+            Side::Back
+        } else {
+            Side::Front
+        };
+        for g in mesh.neighbours(f) {
+            if crossed(g) && !queued[g.index()] {
+                queued[g.index()] = true;
+                queue.push_back(g);
+            }
+        }
+    }
+}
+
+/// Which edges and vertices the cut separates.
+struct Seam<'a> {
+    scissor: &'a Scissor,
+    positions: &'a Positions,
+    labels: &'a [Side],
+}
+
+impl Seam<'_> {
+    /// Whether the cut separates the two faces of an edge.
+    fn cuts(&self, mesh: &Mesh, h: HalfEdgeId) -> bool {
+        let Some(pair) = mesh.pair(h) else {
+            return false;
+        };
+        if self.labels[h.face().index()] == self.labels[pair.face().index()] {
+            return false;
+        }
+        match self.scissor.tips {
+            Tips::Vertex => true,
+            Tips::Midpoint => {
+                let (a, b) = (mesh.origin(h), mesh.target(h));
+                let (a, b) = (self.positions.at(a.min(b)), self.positions.at(a.max(b)));
+                self.scissor.depth(Point::from((a.coords + b.coords) / 2.0)) >= 0.0
+            }
+        }
+    }
+
+    /// The vertices to unshare, ascending.
+    fn vertices(&self, mesh: &Mesh) -> Vec<VertexId> {
+        let mut on_seam = vec![false; mesh.vertex_count()];
+        for h in mesh.half_edges().filter(|&h| self.cuts(mesh, h)) {
+            on_seam[mesh.origin(h).index()] = true;
+        }
+        let unshared = |&v: &VertexId| {
+            on_seam[v.index()]
+                && (self.scissor.tips == Tips::Midpoint
+                    || self.scissor.depth(self.positions.at(v)) >= 0.0)
+        };
+        mesh.vertices().filter(unshared).collect()
+    }
+}
+
+/// The faces of a vertex, grouped by fan. Reused from vertex to vertex.
+#[derive(Default)]
+struct Fans {
+    faces: Vec<FaceId>,
+    /// The smallest half-edge of each fan, and where its faces end.
+    fans: Vec<(HalfEdgeId, usize, usize)>,
+}
+
+impl Fans {
+    /// Groups the faces of `v` by the edges at `v` that join them: those with a pair for
+    /// which `cuts` does not hold.
+    fn find(&mut self, mesh: &Mesh, v: VertexId, cuts: impl Fn(&Mesh, HalfEdgeId) -> bool) {
+        self.faces.clear();
+        self.fans.clear();
+        let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !cuts(mesh, h));
+        for first in mesh.corners_of(v).filter(|&h| joined(h).is_none()) {
+            let start = self.faces.len();
+            let mut smallest = first;
+            let mut at = Some(first);
+            while let Some(h) = at {
+                self.faces.push(h.face());
+                smallest = smallest.min(h);
+                at = joined(h.prev());
+            }
+            self.fans.push((smallest, start, self.faces.len()));
+        }
+        self.fans.sort();
+    }
+
+    /// The faces of each fan that does not keep the vertex.
+    fn leaving(&self) -> impl Iterator<Item = &[FaceId]> {
+        self.fans
+            .iter()
+            .skip(1)
+            .map(|&(_, start, end)| &self.faces[start..end])
+    }
+}
