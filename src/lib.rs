@@ -9,6 +9,8 @@ mod mass;
 mod mesh;
 mod place;
 mod scissor;
+#[cfg(feature = "script")]
+pub mod script;
 pub mod shapes;
 pub mod split;
 

@@ -1,0 +1,111 @@
+//! Scripts: a small mesh and operations on it, from bytes and from text.
+//!
+//! One driver for property tests, fuzzing, exhaustive runs and reproducers. Every byte string is
+//! a script of bounded size ([`Script::from_bytes`]), so a fuzzer can mutate bytes freely;
+//! every script prints as text, one operation a line, and the text can be parsed again, so a
+//! failing case can be pasted into a regression test. Nothing here is random: the bytes decide.
+//!
+//! [`Script::run`] applies the operations to a [`World`] (a mesh and everything that can follow
+//! it) and shows an observer each step, so that it can keep a model of its own in lock
+//! step. The tests of this library compare with a naive list of triangles; a program that keeps
+//! more beside a mesh can check its own follower with the same meshes and operations.
+//!
+//! This module is behind the feature `script`.
+//!
+//! ```
+//! use tearmesh::script::{Script, Step};
+//!
+//! let script: Script = "
+//!     grid 2 2 0b0110       # two by two cells; which diagonals rise
+//!     split 4 0b11          # the first two faces of vertex 4 get a vertex of their own
+//!     plane 1 1 0 0         # split vertex 1 by the plane through it with this normal
+//! ".parse()?;
+//!
+//! let mut refused = 0;
+//! let world = script.run(|world, step| {
+//!     assert_eq!(world.mesh.check(), []);
+//!     match step {
+//!         Step::Split { outcome: Err(_), .. } | Step::Plane { outcome: None, .. } => refused += 1,
+//!         _ => {}
+//!     }
+//! });
+//! assert_eq!((world.mesh.vertex_count(), refused), (11, 0));
+//!
+//! assert_eq!(Script::from_bytes(&script.to_bytes()), script);
+//! assert_eq!(script.to_string().parse(), Ok(script));
+//! # Ok::<(), tearmesh::script::ScriptError>(())
+//! ```
+
+mod bytes;
+mod shape;
+mod text;
+mod world;
+
+pub use shape::{GROWN_MAX, Shape};
+pub use text::ScriptError;
+pub use world::{Step, World};
+
+use crate::scissor::Tips;
+
+/// A mesh to start with, and what is done to it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Script {
+    /// The mesh to start with.
+    pub shape: Shape,
+    /// What is done, in order.
+    pub operations: Vec<Operation>,
+}
+
+impl Script {
+    /// The most operations that [`Script::from_bytes`] gives.
+    pub const OPERATIONS_MAX: usize = 60;
+}
+
+/// One thing to do to a [`World`]. Numbers of vertices, faces and so on are taken modulo
+/// how many there are, so that every operation fits every mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// Split a vertex by a set of its faces.
+    Split {
+        /// The vertex.
+        vertex: u16,
+        /// Which of its faces move to the new vertex: bit `i % 16` for face `i` of them in
+        /// ascending order, whatever the order of a walk. The empty and the full set are
+        /// there too, and are refused.
+        mask: u16,
+        /// What is wrong with the set otherwise.
+        fault: Fault,
+    },
+    /// Split a vertex by a plane through it.
+    Plane {
+        /// The vertex.
+        vertex: u16,
+        /// The normal of the plane. Where it is zero, nothing is done.
+        normal: [i8; 3],
+    },
+    /// Cut between two rays, if they span a plane.
+    Cut {
+        /// Whether the cut goes on beyond the rays.
+        through: bool,
+        /// Where it ends if not.
+        tips: Tips,
+        /// The rays: each the origin, in units of 1/32, and the direction.
+        rays: [[[i8; 3]; 2]; 2],
+    },
+    /// Tear the mesh to pieces: split each vertex until every face has its own.
+    Tear,
+    /// Let all followers replay the log, and clear it.
+    Clear,
+}
+
+/// What is deliberately wrong with a set of faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Nothing.
+    None,
+    /// Face number `.0` of the set is named a second time.
+    Repeated(u8),
+    /// This face of the mesh is named too, after the others. It may happen to be a face of
+    /// the vertex.
+    Foreign(u16),
+}

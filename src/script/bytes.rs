@@ -1,0 +1,209 @@
+//! Scripts as bytes: every byte string is one.
+
+use super::{Fault, GROWN_MAX, Operation, Script, Shape};
+use crate::scissor::Tips;
+
+impl Script {
+    /// The script that these bytes stand for: at most [`Script::OPERATIONS_MAX`] operations on
+    /// a mesh of at most a few hundred faces. Where bytes are missing they count as zero.
+    #[must_use]
+    pub fn from_bytes(bytes: &[u8]) -> Script {
+        let mut bytes = Bytes(bytes);
+        let shape = bytes.shape();
+        let mut operations = Vec::new();
+        while !bytes.0.is_empty() && operations.len() < Script::OPERATIONS_MAX {
+            operations.push(bytes.operation());
+        }
+        Script { shape, operations }
+    }
+
+    /// Bytes that stand for this script: what [`Script::from_bytes`] gave, and what was parsed
+    /// from text, comes back. Numbers beyond the limits of a [`Shape`] do not.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        write_shape(&self.shape, &mut bytes);
+        for &operation in &self.operations {
+            write_operation(operation, &mut bytes);
+        }
+        bytes
+    }
+}
+
+/// Bytes to be read, followed by zeros without end.
+struct Bytes<'b>(&'b [u8]);
+
+impl Bytes<'_> {
+    fn byte(&mut self) -> u8 {
+        let [first, rest @ ..] = self.0 else { return 0 };
+        self.0 = rest;
+        *first
+    }
+
+    /// A number from `least` to `most`.
+    fn within(&mut self, least: u8, most: u8) -> u8 {
+        least + self.byte() % (most - least + 1)
+    }
+
+    fn array<const N: usize>(&mut self) -> [u8; N] {
+        std::array::from_fn(|_| self.byte())
+    }
+
+    fn u16(&mut self) -> u16 {
+        u16::from_le_bytes(self.array())
+    }
+
+    fn vector(&mut self) -> [i8; 3] {
+        self.array().map(u8::cast_signed)
+    }
+
+    fn shape(&mut self) -> Shape {
+        match self.byte() % 9 {
+            0 => Shape::Grid {
+                columns: self.within(1, 6),
+                rows: self.within(1, 6),
+                rising: u64::from_le_bytes(self.array()),
+            },
+            1 => Shape::Fan {
+                faces: self.within(3, 16),
+                closed: self.byte() % 2 == 1,
+            },
+            2 => Shape::Saddle,
+            3 => Shape::Tube {
+                around: self.within(3, 8),
+                along: self.within(1, 4),
+            },
+            4 => Shape::Torus {
+                around: self.within(3, 6),
+                across: self.within(3, 6),
+            },
+            5 => Shape::Tetrahedron {
+                subdivisions: self.within(0, 2),
+            },
+            6 => Shape::Octahedron {
+                subdivisions: self.within(0, 2),
+            },
+            7 => {
+                let count = usize::from(self.byte()) % (GROWN_MAX + 1);
+                Shape::Grown((0..count).map(|_| self.byte()).collect())
+            }
+            _ => {
+                let faces = self.within(1, 24);
+                let count = usize::from(self.byte()) % (GROWN_MAX + 1);
+                Shape::Glued {
+                    faces,
+                    sides: (0..count).map(|_| self.array()).collect(),
+                }
+            }
+        }
+    }
+
+    fn operation(&mut self) -> Operation {
+        // Most are splits by a sound set; tearing to pieces ends what can happen, so it is rare.
+        let code = self.byte();
+        match code % 16 {
+            0..=6 => self.split(|_| Fault::None),
+            7 => self.split(|bytes| Fault::Repeated(bytes.byte())),
+            8 => self.split(|bytes| Fault::Foreign(bytes.u16())),
+            9..=12 => Operation::Plane {
+                vertex: self.u16(),
+                normal: self.vector(),
+            },
+            13 => {
+                let flags = self.byte();
+                Operation::Cut {
+                    through: flags & 1 == 1,
+                    tips: if flags & 2 == 2 {
+                        Tips::Midpoint
+                    } else {
+                        Tips::Vertex
+                    },
+                    rays: [(); 2].map(|()| [self.vector(), self.vector()]),
+                }
+            }
+            14 if code / 16 == 0 => Operation::Tear,
+            _ => Operation::Clear,
+        }
+    }
+
+    fn split(&mut self, fault: impl Fn(&mut Self) -> Fault) -> Operation {
+        Operation::Split {
+            vertex: self.u16(),
+            mask: self.u16(),
+            fault: fault(self),
+        }
+    }
+}
+
+fn write_shape(shape: &Shape, bytes: &mut Vec<u8>) {
+    match *shape {
+        Shape::Grid {
+            columns,
+            rows,
+            rising,
+        } => {
+            bytes.extend([0, columns - 1, rows - 1]);
+            bytes.extend(rising.to_le_bytes());
+        }
+        Shape::Fan { faces, closed } => bytes.extend([1, faces - 3, closed.into()]),
+        Shape::Saddle => bytes.push(2),
+        Shape::Tube { around, along } => bytes.extend([3, around - 3, along - 1]),
+        Shape::Torus { around, across } => bytes.extend([4, around - 3, across - 3]),
+        Shape::Tetrahedron { subdivisions } => bytes.extend([5, subdivisions]),
+        Shape::Octahedron { subdivisions } => bytes.extend([6, subdivisions]),
+        Shape::Grown(ref moves) => {
+            bytes.extend([7, moves.len() as u8]);
+            bytes.extend(moves);
+        }
+        Shape::Glued { faces, ref sides } => {
+            bytes.extend([8, faces - 1, sides.len() as u8]);
+            bytes.extend(sides.as_flattened());
+        }
+    }
+}
+
+fn write_operation(operation: Operation, bytes: &mut Vec<u8>) {
+    match operation {
+        Operation::Split {
+            vertex,
+            mask,
+            fault,
+        } => {
+            bytes.push(match fault {
+                Fault::None => 0,
+                Fault::Repeated(_) => 7,
+                Fault::Foreign(_) => 8,
+            });
+            bytes.extend(vertex.to_le_bytes());
+            bytes.extend(mask.to_le_bytes());
+            match fault {
+                Fault::None => {}
+                Fault::Repeated(face) => bytes.push(face),
+                Fault::Foreign(face) => bytes.extend(face.to_le_bytes()),
+            }
+        }
+        Operation::Plane { vertex, normal } => {
+            bytes.push(9);
+            bytes.extend(vertex.to_le_bytes());
+            bytes.extend(normal.map(i8::cast_unsigned));
+        }
+        Operation::Cut {
+            through,
+            tips,
+            rays,
+        } => {
+            bytes.extend([
+                13,
+                u8::from(through) | u8::from(tips == Tips::Midpoint) << 1,
+            ]);
+            bytes.extend(
+                rays.as_flattened()
+                    .as_flattened()
+                    .iter()
+                    .map(|x| x.cast_unsigned()),
+            );
+        }
+        Operation::Tear => bytes.push(14),
+        Operation::Clear => bytes.push(15),
+    }
+}

@@ -1,0 +1,241 @@
+//! The meshes that scripts start with.
+
+use crate::id::HalfEdgeId;
+use crate::mesh::Mesh;
+use crate::place::Positions;
+use crate::shapes;
+
+/// A small mesh with positions, given by a few numbers.
+///
+/// The limits are those of bytes and text; [`Shape::make`] knows none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// A grid of cells, with a bit for each diagonal (modulo 64): see
+    /// [`shapes::grid_with_diagonals`].
+    Grid {
+        /// 1 to 6.
+        columns: u8,
+        /// 1 to 6.
+        rows: u8,
+        /// Bit `row * columns + column`: the diagonal of that cell rises.
+        rising: u64,
+    },
+    /// See [`shapes::fan`].
+    Fan {
+        /// 3 to 16.
+        faces: u8,
+        /// Whether the fan goes all the way round.
+        closed: bool,
+    },
+    /// See [`shapes::saddle`].
+    Saddle,
+    /// See [`shapes::tube`].
+    Tube {
+        /// 3 to 8.
+        around: u8,
+        /// 1 to 4.
+        along: u8,
+    },
+    /// See [`shapes::torus`].
+    Torus {
+        /// 3 to 6.
+        around: u8,
+        /// 3 to 6.
+        across: u8,
+    },
+    /// A tetrahedron, each face cut in four so many times.
+    Tetrahedron {
+        /// 0 to 2.
+        subdivisions: u8,
+    },
+    /// An octahedron, each face cut in four so many times.
+    Octahedron {
+        /// 0 to 2.
+        subdivisions: u8,
+    },
+    /// A triangulation of a disc, a sphere or something with holes, grown from one triangle by
+    /// up to [`GROWN_MAX`] moves: modulo 4, each byte puts a vertex in a face, puts an
+    /// ear on a boundary edge, flips an edge, or closes the gap between two boundary edges; the
+    /// rest of the byte says where. What would not be a manifold is left undone.
+    Grown(
+        /// The moves.
+        Vec<u8>,
+    ),
+    /// Loose triangles whose sides are glued in pairs, in any genus and any number of
+    /// components, and one vertex without a face. What would not be a manifold
+    /// is left unglued.
+    Glued {
+        /// 1 to 24.
+        faces: u8,
+        /// Pairs of sides, up to [`GROWN_MAX`], modulo three times the faces.
+        sides: Vec<[u8; 2]>,
+    },
+}
+
+/// The most moves of a grown mesh, and the most gluings of a glued one.
+pub const GROWN_MAX: usize = 48;
+
+impl Shape {
+    /// The mesh, and the positions of its vertices.
+    ///
+    /// # Panics
+    ///
+    /// If the numbers are below the limits given with each shape.
+    #[must_use]
+    pub fn make(&self) -> (Mesh, Positions) {
+        match *self {
+            Shape::Grid {
+                columns,
+                rows,
+                rising,
+            } => {
+                let bit = |column, row| (row * u32::from(columns) + column) % 64;
+                shapes::grid_with_diagonals(columns.into(), rows.into(), |column, row| {
+                    rising >> bit(column, row) & 1 == 1
+                })
+            }
+            Shape::Fan { faces, closed } => shapes::fan(faces.into(), closed),
+            Shape::Saddle => shapes::saddle(),
+            Shape::Tube { around, along } => shapes::tube(around.into(), along.into()),
+            Shape::Torus { around, across } => shapes::torus(around.into(), across.into()),
+            Shape::Tetrahedron { subdivisions } => subdivided(shapes::tetrahedron(), subdivisions),
+            Shape::Octahedron { subdivisions } => subdivided(shapes::octahedron(), subdivisions),
+            Shape::Grown(ref moves) => on_a_lattice(grown(moves)),
+            Shape::Glued { faces, ref sides } => on_a_lattice(glued(faces, sides)),
+        }
+    }
+}
+
+/// Each face in four, so many times; the new vertices are the middles of the edges.
+fn subdivided((mesh, positions): (Mesh, Positions), times: u8) -> (Mesh, Positions) {
+    if times == 0 {
+        return (mesh, positions);
+    }
+    let mut points = positions.as_slice().to_vec();
+    let mut middle = vec![0; mesh.half_edge_count()];
+    for h in mesh.edges() {
+        let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+        for side in [Some(h), mesh.pair(h)].into_iter().flatten() {
+            middle[side.index()] = points.len() as u32;
+        }
+        points.push(((p.coords + q.coords) / 2.0).into());
+    }
+    let mut triangles = Vec::new();
+    for f in mesh.faces() {
+        let [a, b, c] = mesh.corners(f).map(u32::from);
+        let [ab, bc, ca] = f.half_edges().map(|h| middle[h.index()]);
+        triangles.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
+    }
+    let mesh = Mesh::build(points.len(), &triangles).expect("a subdivided manifold is one");
+    let positions = Positions::new(points).expect("middles are finite");
+    subdivided((mesh, positions), times - 1)
+}
+
+/// Small whole coordinates, all different for the first 385 vertices, so that planes through
+/// one vertex often pass through others.
+fn on_a_lattice(mesh: Mesh) -> (Mesh, Positions) {
+    let points = (0..mesh.vertex_count() as u32).map(|i| {
+        let coordinate =
+            |factor: u32, modulus: u32| f64::from(factor * i % modulus) - f64::from(modulus / 2);
+        [coordinate(3, 7), coordinate(5, 11), coordinate(2, 5)]
+    });
+    let positions = Positions::new(points).expect("whole numbers are finite");
+    (mesh, positions)
+}
+
+fn grown(moves: &[u8]) -> Mesh {
+    let mut vertices = 3;
+    let mut triangles = vec![[0, 1, 2]];
+    let mut mesh = Mesh::build(vertices, &triangles).expect("a triangle is a manifold");
+    for &code in moves {
+        let place = usize::from(code / 4);
+        let mut trial = triangles.clone();
+        let new = vertices as u32;
+        let added = match code % 4 {
+            0 => {
+                let [a, b, c] = trial[place % triangles.len()];
+                trial[place % triangles.len()] = [a, b, new];
+                trial.extend([[b, c, new], [c, a, new]]);
+                1
+            }
+            1 => {
+                let Some(h) = nth(&mesh, place, false) else {
+                    continue;
+                };
+                trial.push([mesh.target(h).into(), mesh.origin(h).into(), new]);
+                1
+            }
+            2 => {
+                let Some(h) = nth(&mesh, place, true) else {
+                    continue;
+                };
+                let g = mesh.pair(h).expect("an inner edge has a pair");
+                let [a, b] = [mesh.origin(h), mesh.origin(g)].map(u32::from);
+                let [c, d] = [h, g].map(|side| mesh.origin(side.prev()).into());
+                trial[h.face().index()] = [a, d, c];
+                trial[g.face().index()] = [d, b, c];
+                0
+            }
+            _ => {
+                let Some(h) = nth(&mesh, place, false) else {
+                    continue;
+                };
+                let Some(after) = mesh.boundary_loop(h).nth(1) else {
+                    continue;
+                };
+                let [a, b, c] = [mesh.origin(h), mesh.origin(after), mesh.target(after)];
+                trial.push([a, c, b].map(u32::from));
+                0
+            }
+        };
+        if let Ok(grown) = Mesh::build(vertices + added, &trial) {
+            (mesh, triangles, vertices) = (grown, trial, vertices + added);
+        }
+    }
+    mesh
+}
+
+/// A half-edge with a pair, or one without, by number modulo how many there are.
+fn nth(mesh: &Mesh, number: usize, paired: bool) -> Option<HalfEdgeId> {
+    let wanted = || {
+        mesh.half_edges()
+            .filter(|&h| mesh.pair(h).is_some() == paired)
+    };
+    wanted().nth(number % wanted().count().max(1))
+}
+
+fn glued(faces: u8, sides: &[[u8; 2]]) -> Mesh {
+    let corners = 3 * u32::from(faces);
+    let mut triangles: Vec<[u32; 3]> = (0..u32::from(faces))
+        .map(|f| [3 * f, 3 * f + 1, 3 * f + 2])
+        .collect();
+    for pair in sides {
+        let [[a, b], [c, d]] = pair.map(|side| {
+            let (face, corner) = (usize::from(side) / 3, usize::from(side) % 3);
+            let triangle = triangles[face % usize::from(faces)];
+            [triangle[corner], triangle[(corner + 1) % 3]]
+        });
+        let mut trial = triangles.clone();
+        for v in trial.as_flattened_mut() {
+            *v = if *v == d {
+                a
+            } else if *v == c {
+                b
+            } else {
+                *v
+            };
+        }
+        if Mesh::build(corners as usize, &trial).is_ok() {
+            triangles = trial;
+        }
+    }
+    let mut number = vec![None; corners as usize];
+    let mut vertices = 0;
+    for v in triangles.as_flattened_mut() {
+        *v = *number[*v as usize].get_or_insert_with(|| {
+            vertices += 1;
+            vertices - 1
+        });
+    }
+    Mesh::build(vertices as usize + 1, &triangles).expect("renumbering keeps a manifold")
+}
