@@ -131,13 +131,12 @@ fn subdivided((mesh, positions): (Mesh, Positions), times: u8) -> (Mesh, Positio
     subdivided((mesh, positions), times - 1)
 }
 
-/// Small whole coordinates, all different for the first 385 vertices, so that planes through
-/// one vertex often pass through others.
+/// Small whole coordinates, so that planes through one vertex often pass through others. The
+/// first 77 points differ already by their first two.
 fn on_a_lattice(mesh: Mesh) -> (Mesh, Positions) {
     let points = (0..mesh.vertex_count() as u32).map(|i| {
-        let coordinate =
-            |factor: u32, modulus: u32| f64::from(factor * i % modulus) - f64::from(modulus / 2);
-        [coordinate(3, 7), coordinate(5, 11), coordinate(2, 5)]
+        let [x, y, z] = [3 * i % 7, 5 * i % 11, i * i % 13].map(f64::from);
+        [x - 3.0, y - 5.0, z - 6.0]
     });
     let positions = Positions::new(points).expect("whole numbers are finite");
     (mesh, positions)
