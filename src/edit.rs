@@ -81,6 +81,7 @@ impl Edits {
     }
 
     /// The records, oldest first.
+    #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Edit<'_>> + DoubleEndedIterator {
         (0..self.records.len()).map(|i| Edit::Split(self.record(i)))
     }
@@ -90,6 +91,7 @@ impl Edits {
     /// # Panics
     ///
     /// If a record from there on was cleared.
+    #[must_use]
     pub fn since(
         &self,
         number: u64,

@@ -92,7 +92,7 @@ impl ExactSum {
         let (digit, offset) = (shift / DIGIT_BITS, shift % DIGIT_BITS);
         let mut rest = u128::from(mantissa) << offset;
         for place in &mut self.digits[digit..digit + 3] {
-            *place += sign * (rest as u32 as i64);
+            *place += sign * i64::from(rest as u32);
             rest >>= DIGIT_BITS;
         }
     }

@@ -240,6 +240,7 @@ impl Mesh {
 
     /// Every edge once, by one of its half-edges: the smaller one of a pair, and each
     /// half-edge without a pair. A torn edge is two edges.
+    #[must_use]
     pub fn edges(&self) -> impl FusedIterator<Item = HalfEdgeId> + Clone + '_ {
         self.half_edges()
             .filter(|&h| self.pair(h).is_none_or(|pair| h < pair))

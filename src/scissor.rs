@@ -6,10 +6,10 @@
 //!
 //! 1. **The side planes point outward as printed** (`N_A = V_A × N`, `N_B = N × V_B`): a point
 //!    half way between two parallel rays is on the negative side of both, so no vertex would be
-//!    split. The normals here are N × V_A and V_B × N, each turned round where the other
+//!    split. The normals here are `N × V_A` and `V_B × N`, each turned round where the other
 //!    ray would be on its negative side (anti-parallel rays).
 //! 2. **Two rays from one eye give N = 0**, and that is what a perspective camera produces. The
-//!    plane is then V_A × V_B. Only rays on one line span no plane and are refused.
+//!    plane is then `V_A × V_B`. Only rays on one line span no plane and are refused.
 //!
 //! Between parallel rays the strip extends behind the origins too; between rays from one eye
 //! it is the wedge before the eye.

@@ -92,8 +92,7 @@ pub fn fan(faces: u32, closed: bool) -> (Mesh, Positions) {
         let (y, x) = (turn * f64::from(i) / f64::from(faces)).sin_cos();
         points.push([x, y, 0.0]);
     }
-    let triangles: Vec<_> = (0..faces).map(|i| [0, 1 + i, 1 + (i + 1) % rim]).collect();
-    made(points, &triangles)
+    made(points, &spokes(faces, rim))
 }
 
 /// The surface of a regular tetrahedron.
@@ -191,15 +190,14 @@ fn ring_cells(around: u32, rows: u32, rings: u32) -> Vec<[u32; 3]> {
 /// centre gives two bow-ties at once.
 #[must_use]
 pub fn saddle() -> (Mesh, Positions) {
-    let (mesh, flat) = fan(8, true);
     let heights = [0.0, 0.5, 0.0, -0.5, 0.0, 0.5, 0.0, -0.5, 0.0];
-    let points = flat
-        .as_slice()
-        .iter()
-        .zip(heights)
-        .map(|(p, z)| Point::new(p.x, p.y, z));
-    (
-        mesh,
-        Positions::new(points).expect("a named shape has finite coordinates"),
-    )
+    let flat = fan(8, true).1;
+    let raised = |(p, z): (&Point, f64)| [p.x, p.y, z];
+    let points = flat.as_slice().iter().zip(heights).map(raised).collect();
+    made(points, &spokes(8, 8))
+}
+
+/// Triangles round the vertex 0, over a rim of vertices from 1 on.
+fn spokes(faces: u32, rim: u32) -> Vec<[u32; 3]> {
+    (0..faces).map(|i| [0, 1 + i, 1 + (i + 1) % rim]).collect()
 }

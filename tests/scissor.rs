@@ -347,7 +347,11 @@ fn two_triangles_are_cut_apart_and_a_corner_can_be_cut_off() {
         (2, 2, true)
     );
     let (mut mesh, mut positions) = shapes::grid_with_diagonals(3, 3, |_, _| false);
-    let report = cut(&between([0.52, 1.2], [1.2, 0.52]), &mut mesh, &mut positions);
+    let report = cut(
+        &between([0.52, 1.2], [1.2, 0.52]),
+        &mut mesh,
+        &mut positions,
+    );
     assert_eq!((report.pieces, report.pieces_expected), (2, 2));
 }
 

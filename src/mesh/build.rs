@@ -33,6 +33,10 @@ impl Mesh {
     /// let error = Mesh::build(5, &[[0, 1, 2], [2, 1, 3], [1, 2, 4]]).unwrap_err();
     /// assert!(matches!(error.defects(), [Defect::CrowdedEdge { faces, .. }] if faces.len() == 3));
     /// ```
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "only a bug of ours can trip the assertion"
+    )]
     pub fn build(vertices: usize, triangles: &[[u32; 3]]) -> Result<Mesh, BuildError> {
         build(vertices, triangles).ok_or_else(|| {
             let defects = diagnose(vertices, triangles);
@@ -50,22 +54,21 @@ fn build(vertices: usize, triangles: &[[u32; 3]]) -> Option<Mesh> {
     if vertices > Mesh::MAX_VERTICES || triangles.len() > Mesh::MAX_FACES {
         return None;
     }
-    let origin = triangles.as_flattened().to_vec();
-    let mut outgoing = vec![NO_HALF_EDGE; vertices];
-    let mut bucket_ends = vec![0u32; vertices + 1];
-    for (f, &[a, b, c]) in triangles.iter().enumerate() {
+    let mut bucket_ends = vec![0u32; vertices];
+    for &[a, b, c] in triangles {
         if a.max(b).max(c) as usize >= vertices || a == b || b == c || c == a {
             return None;
         }
-        for (corner, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-            bucket_ends[from.min(to) as usize + 1] += 1;
-            let first = &mut outgoing[from as usize];
-            if *first == NO_HALF_EDGE {
-                *first = (3 * f + corner) as u32;
-            }
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            bucket_ends[from.min(to) as usize] += 1;
         }
     }
     let link = pair_half_edges(triangles, bucket_ends)?;
+    let origin = triangles.as_flattened().to_vec();
+    let mut outgoing = vec![NO_HALF_EDGE; vertices];
+    for (h, &v) in origin.iter().enumerate().rev() {
+        outgoing[v as usize] = h as u32; // The last one written is the smallest.
+    }
     let mesh = Mesh {
         origin,
         link,
@@ -74,56 +77,52 @@ fn build(vertices: usize, triangles: &[[u32; 3]]) -> Option<Mesh> {
     (every_vertex_has_one_fan(&mesh) && no_face_lies_on_another(&mesh)).then_some(mesh)
 }
 
-/// A half-edge in the bucket of its smaller vertex.
-#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
-    larger: u32,
-    /// The half-edge, times two, plus one if it runs from the larger vertex
-    /// to the smaller.
-    half_edge: u32,
+/// A half-edge in the bucket of its smaller vertex, in one number so that entries sort
+/// fast: the larger vertex, the half-edge, and whether it runs from larger to smaller.
+fn entry(from: u32, to: u32, half_edge: u32) -> u64 {
+    u64::from(from.max(to)) << 32 | u64::from(half_edge) << 1 | u64::from(from > to)
 }
 
 /// Above this size a bucket is sorted by the library, below by insertion.
 const SMALL_BUCKET: usize = 48;
 
+/// Links the half-edges that run along the same edge in opposite directions; `None` where
+/// there are others along it. `bucket_ends` has the size of each bucket.
 fn pair_half_edges(triangles: &[[u32; 3]], mut bucket_ends: Vec<u32>) -> Option<Vec<Link>> {
     // First the number of entries before each bucket; filling then moves
     // each number on to the end of its bucket.
     let mut before = 0;
     for end in &mut bucket_ends {
         before += *end;
-        *end = before;
+        *end = before - *end;
     }
-    let mut entries = vec![Entry::default(); 3 * triangles.len()];
-    for (f, &[a, b, c]) in triangles.iter().enumerate() {
-        for (corner, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+    let mut entries = vec![0u64; 3 * triangles.len()];
+    let mut half_edge = 0;
+    for &[a, b, c] in triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
             let slot = &mut bucket_ends[from.min(to) as usize];
-            let half_edge = ((3 * f + corner) as u32) << 1 | u32::from(from > to);
-            entries[*slot as usize] = Entry {
-                larger: from.max(to),
-                half_edge,
-            };
+            entries[*slot as usize] = entry(from, to, half_edge);
             *slot += 1;
+            half_edge += 1;
         }
     }
     let mut link = vec![Link::BOUNDARY; entries.len()];
     let mut start = 0;
-    for &end in &bucket_ends[..bucket_ends.len() - 1] {
+    for end in bucket_ends {
         let bucket = &mut entries[start..end as usize];
         start = end as usize;
         sort(bucket);
         let mut rest = &*bucket;
-        while let [one, tail @ ..] = rest {
-            rest = tail;
-            let [other, tail @ ..] = tail else { break };
-            if one.larger != other.larger {
+        while let [one, other, tail @ ..] = rest {
+            if one >> 32 != other >> 32 {
+                rest = &rest[1..];
                 continue;
             }
-            let same_direction = (one.half_edge ^ other.half_edge) & 1 == 0;
-            if same_direction || tail.first().is_some_and(|third| third.larger == one.larger) {
+            let same_direction = (one ^ other) & 1 == 0;
+            if same_direction || tail.first().is_some_and(|third| third >> 32 == one >> 32) {
                 return None;
             }
-            let (h, g) = (one.half_edge >> 1, other.half_edge >> 1);
+            let (h, g) = (*one as u32 >> 1, *other as u32 >> 1);
             link[h as usize] = Link::to(HalfEdgeId::from_u32(g));
             link[g as usize] = Link::to(HalfEdgeId::from_u32(h));
             rest = tail;
@@ -132,14 +131,14 @@ fn pair_half_edges(triangles: &[[u32; 3]], mut bucket_ends: Vec<u32>) -> Option<
     Some(link)
 }
 
-fn sort(bucket: &mut [Entry]) {
+fn sort(bucket: &mut [u64]) {
     if bucket.len() > SMALL_BUCKET {
         return bucket.sort_unstable();
     }
     for i in 1..bucket.len() {
         let entry = bucket[i];
         let mut at = i;
-        while at > 0 && bucket[at - 1].larger > entry.larger {
+        while at > 0 && bucket[at - 1] > entry {
             bucket[at] = bucket[at - 1];
             at -= 1;
         }

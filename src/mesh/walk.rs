@@ -59,6 +59,7 @@ impl Mesh {
     ///
     /// A vertex inside an untorn surface, or on its boundary, has one fan. Two
     /// and more make it a bow-tie (Souza et al. 2014, Fig. 2).
+    #[must_use]
     pub fn fans(&self, v: VertexId) -> impl FusedIterator<Item = HalfEdgeId> + '_ {
         // The first corner of an open fan has no pair behind it; a fan without such
         // a corner is closed, and then is the whole orbit.

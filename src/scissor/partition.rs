@@ -42,14 +42,11 @@ pub(super) fn cut(
         .map(|f| classify::side(mesh, f, |v| survey.offset(v)))
         .collect();
     smooth(mesh, survey, &mut labels);
-    let seam = Seam {
-        scissor,
-        positions,
-        labels: &labels,
-    };
+    // Decided before the first split: positions know no vertex that is made on the way.
+    let seam = Seam::new(scissor, mesh, positions, &labels);
     let mut fans = Fans::default();
-    for v in seam.vertices(mesh) {
-        fans.find(mesh, v, |mesh, h| seam.cuts(mesh, h));
+    for v in seam.vertices(scissor, mesh, positions) {
+        fans.find(mesh, v, |h| seam.cuts(h));
         for faces in fans.leaving() {
             split::faces(mesh, v, faces, edits).expect("a fan is some of a vertex's faces");
         }
@@ -120,42 +117,47 @@ fn is_crumb(mesh: &Mesh, survey: &Survey, labels: &[Side], f: FaceId) -> bool {
     false
 }
 
-/// Which edges and vertices the cut separates.
-struct Seam<'a> {
-    scissor: &'a Scissor,
-    positions: &'a Positions,
-    labels: &'a [Side],
+/// The edges whose faces the cut separates, by half-edge.
+struct Seam {
+    cut: Vec<bool>,
 }
 
-impl Seam<'_> {
-    /// Whether the cut separates the two faces of an edge.
-    fn cuts(&self, mesh: &Mesh, h: HalfEdgeId) -> bool {
-        let Some(pair) = mesh.pair(h) else {
-            return false;
-        };
-        if self.labels[h.face().index()] == self.labels[pair.face().index()] {
-            return false;
-        }
-        match self.scissor.tips {
-            Tips::Vertex => true,
-            Tips::Midpoint => {
-                let (a, b) = (mesh.origin(h), mesh.target(h));
-                let (a, b) = (self.positions.at(a.min(b)), self.positions.at(a.max(b)));
-                self.scissor.depth(Point::from((a.coords + b.coords) / 2.0)) >= 0.0
+impl Seam {
+    fn new(scissor: &Scissor, mesh: &Mesh, positions: &Positions, labels: &[Side]) -> Seam {
+        let is_cut = |h: HalfEdgeId| {
+            let Some(pair) = mesh.pair(h) else {
+                return false;
+            };
+            if labels[h.face().index()] == labels[pair.face().index()] {
+                return false;
             }
+            match scissor.tips {
+                Tips::Vertex => true,
+                Tips::Midpoint => {
+                    let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
+                    // A sum does not depend on the order of two, so both half-edges agree.
+                    scissor.depth(Point::from((a + b) / 2.0)) >= 0.0
+                }
+            }
+        };
+        Seam {
+            cut: mesh.half_edges().map(is_cut).collect(),
         }
     }
 
+    fn cuts(&self, h: HalfEdgeId) -> bool {
+        self.cut[h.index()]
+    }
+
     /// The vertices to unshare, ascending.
-    fn vertices(&self, mesh: &Mesh) -> Vec<VertexId> {
+    fn vertices(&self, scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> Vec<VertexId> {
         let mut on_seam = vec![false; mesh.vertex_count()];
-        for h in mesh.half_edges().filter(|&h| self.cuts(mesh, h)) {
+        for h in mesh.half_edges().filter(|&h| self.cuts(h)) {
             on_seam[mesh.origin(h).index()] = true;
         }
         let unshared = |&v: &VertexId| {
             on_seam[v.index()]
-                && (self.scissor.tips == Tips::Midpoint
-                    || self.scissor.depth(self.positions.at(v)) >= 0.0)
+                && (scissor.tips == Tips::Midpoint || scissor.depth(positions.at(v)) >= 0.0)
         };
         mesh.vertices().filter(unshared).collect()
     }
@@ -172,10 +174,10 @@ struct Fans {
 impl Fans {
     /// Groups the faces of `v` by the edges at `v` that join them: those with a pair for
     /// which `cuts` does not hold.
-    fn find(&mut self, mesh: &Mesh, v: VertexId, cuts: impl Fn(&Mesh, HalfEdgeId) -> bool) {
+    fn find(&mut self, mesh: &Mesh, v: VertexId, cuts: impl Fn(HalfEdgeId) -> bool) {
         self.faces.clear();
         self.fans.clear();
-        let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !cuts(mesh, h));
+        let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !cuts(h));
         for first in mesh.corners_of(v).filter(|&h| joined(h).is_none()) {
             let start = self.faces.len();
             let mut smallest = first;
