@@ -1,4 +1,90 @@
-//! placeholder
+//! A strict, verification-first half-edge kernel for triangle meshes that tear.
+//!
+//! A [`Mesh`] is built from triangles and split at its vertices. A split that separates two
+//! faces turns the pair between them into a *ghost pair*, so that all faces of a vertex are
+//! found however torn the mesh is, also where it is no longer a 2-manifold. On this stand a
+//! [`Scissor`] that cuts along two rays, and exact [`Masses`]. The technique is that of
+//! M. S. Souza, A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC
+//! Journal on Interactive Systems 5(1), 2014; where this library differs, the module
+//! concerned says why.
+//!
+//! # Build, split, upload
+//!
+//! ```
+//! use tearmesh::{split, Edits, Mesh, Plane, Positions, Vector, VertexId};
+//!
+//! // Four triangles round the vertex 4.
+//! let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+//! let points = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0.5, 0.5, 0.]];
+//! let mut mesh = Mesh::build(points.len(), &triangles)?; // an error lists every offender
+//! let mut positions = Positions::new(points)?;
+//! let mut edits = Edits::new();
+//!
+//! let (v, old) = (VertexId::new(4).unwrap(), positions.len());
+//! let plane = Plane::new(positions.at(v), Vector::new(1.0, -1.0, 0.0))?;
+//! match split::by_plane(&mut mesh, v, &plane, &positions, &mut edits) {
+//!     Some(split) => println!("{} took {} faces of {v}", split.new, split.corners.len()),
+//!     None => println!("{v}: every face lies on one side, nothing changed"),
+//! }
+//! edits.replay(&mut positions);
+//!
+//! let (index_buffer, new_vertices) = (mesh.indices(), positions.tail_f32(old));
+//! assert_eq!((index_buffer.len(), new_vertices), (12, vec![[0.5, 0.5, 0.0]]));
+//! assert!(mesh.check().is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Cut by two rays; texture coordinates and masses follow
+//!
+//! ```
+//! use tearmesh::{shapes, Edits, Masses, Method, PerCorner, Point, Ray, Scissor, Vector};
+//!
+//! let (mut mesh, mut positions) = shapes::grid(16, 16);
+//! let mut masses = Masses::area(&mesh, &positions, 0.15)?;
+//! let mut uv = PerCorner::new(mesh.indices().to_vec());
+//! let mut edits = Edits::new();
+//!
+//! let eye = Point::new(0.5, 0.5, 3.0);
+//! let a = Ray::new(eye, Vector::new(-0.6, 0.1, -3.0))?;
+//! let b = Ray::new(eye, Vector::new(0.6, -0.1, -3.0))?;
+//! let report = Scissor::new(&a, &b)?.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)?;
+//! edits.replay(&mut (&mut uv, &mut masses));
+//!
+//! assert_eq!((report.pieces, report.lost, report.crumbs), (2, 0, 0));
+//! assert!(masses.ledger().is_balanced());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Map of the code
+//!
+//! Imports run downward only:
+//!
+//! | floor | modules |
+//! |---|---|
+//! | 0 | `id` (ids), `geometry` (planes, rays, the tie rule), `exact` (sums without rounding) |
+//! | 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) |
+//! | 2 | [`split`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`], `script` |
+//! | 3 | `scissor` (two rays to a cut; a file for each method) |
+//!
+//! Architecture invariants: floors 0 to 3 read no file, print nothing, know no clock and no
+//! randomness, and have no unsafe code. `mesh` and `split` know no float. Only `split` tears a
+//! link. Results depend on `+ − × ÷ √` in a fixed order: the same input gives the same bytes on
+//! every machine. `src/mesh/invariants.md` numbers what holds of every mesh.
+//!
+//! # Errors
+//!
+//! Bad input is an error with ids, one type for each operation. "There is nothing to do" is a
+//! value: `None`, or [`split::Refusal`]. A panic is a bug, of ours or in the caller's ids, and
+//! names the invariant.
+
+#![cfg_attr(
+    test,
+    allow(
+        clippy::unwrap_used,
+        reason = "a test that unwraps an error has failed"
+    )
+)]
+
 mod attribute;
 pub mod classify;
 mod edit;
@@ -25,3 +111,8 @@ pub use mesh::{
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
+
+/// The library's example in the README is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

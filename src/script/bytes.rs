@@ -60,8 +60,8 @@ impl Bytes<'_> {
     fn shape(&mut self) -> Shape {
         match self.byte() % 9 {
             0 => Shape::Grid {
-                columns: self.within(1, 6),
-                rows: self.within(1, 6),
+                columns: self.within(1, 5),
+                rows: self.within(1, 5),
                 rising: u64::from_le_bytes(self.array()),
             },
             1 => Shape::Fan {
@@ -74,14 +74,14 @@ impl Bytes<'_> {
                 along: self.within(1, 4),
             },
             4 => Shape::Torus {
-                around: self.within(3, 6),
-                across: self.within(3, 6),
+                around: self.within(3, 5),
+                across: self.within(3, 5),
             },
             5 => Shape::Tetrahedron {
-                subdivisions: self.within(0, 2),
+                subdivisions: self.within(0, 1),
             },
             6 => Shape::Octahedron {
-                subdivisions: self.within(0, 2),
+                subdivisions: self.within(0, 1),
             },
             7 => {
                 let count = usize::from(self.byte()) % (GROWN_MAX + 1);

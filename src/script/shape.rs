@@ -13,9 +13,9 @@ pub enum Shape {
     /// A grid of cells, with a bit for each diagonal (modulo 64): see
     /// [`shapes::grid_with_diagonals`].
     Grid {
-        /// 1 to 6.
+        /// 1 to 5.
         columns: u8,
-        /// 1 to 6.
+        /// 1 to 5.
         rows: u8,
         /// Bit `row * columns + column`: the diagonal of that cell rises.
         rising: u64,
@@ -38,19 +38,19 @@ pub enum Shape {
     },
     /// See [`shapes::torus`].
     Torus {
-        /// 3 to 6.
+        /// 3 to 5.
         around: u8,
-        /// 3 to 6.
+        /// 3 to 5.
         across: u8,
     },
-    /// A tetrahedron, each face cut in four so many times.
+    /// A tetrahedron, each face cut in four as often as this says.
     Tetrahedron {
-        /// 0 to 2.
+        /// 0 or 1.
         subdivisions: u8,
     },
-    /// An octahedron, each face cut in four so many times.
+    /// An octahedron, each face cut in four as often as this says.
     Octahedron {
-        /// 0 to 2.
+        /// 0 or 1.
         subdivisions: u8,
     },
     /// A triangulation of a disc, a sphere or something with holes, grown from one triangle by

@@ -251,8 +251,8 @@ impl<'t> Line<'t> {
     fn shape(&mut self, name: &str) -> Result<Shape, ScriptError> {
         Ok(match name {
             "grid" => Shape::Grid {
-                columns: self.within(1, 6)?,
-                rows: self.within(1, 6)?,
+                columns: self.within(1, 5)?,
+                rows: self.within(1, 5)?,
                 rising: self.within(0, u64::MAX.into())?,
             },
             "fan" | "open-fan" => Shape::Fan {
@@ -265,14 +265,14 @@ impl<'t> Line<'t> {
                 along: self.within(1, 4)?,
             },
             "torus" => Shape::Torus {
-                around: self.within(3, 6)?,
-                across: self.within(3, 6)?,
+                around: self.within(3, 5)?,
+                across: self.within(3, 5)?,
             },
             "tetrahedron" => Shape::Tetrahedron {
-                subdivisions: self.within(0, 2)?,
+                subdivisions: self.within(0, 1)?,
             },
             "octahedron" => Shape::Octahedron {
-                subdivisions: self.within(0, 2)?,
+                subdivisions: self.within(0, 1)?,
             },
             "grown" => Shape::Grown(self.groups::<1>()?.into_flattened()),
             "glued" => Shape::Glued {

@@ -1,0 +1,79 @@
+//! Replays what the fuzz target `script` starts from, and what it found.
+
+use std::path::{Path, PathBuf};
+
+use tearmesh::script::Script;
+
+use crate::lockstep;
+
+/// The seeds of the target, as text: one for each shape and each kind of operation. With
+/// `TEARMESH_BLESS` set, the files are written.
+const SEEDS: [(&str, &str); 9] = [
+    (
+        "grid",
+        "grid 3 3 0b101\nsplit 5 0b11\nplane 6 1 0 0\nsplit 5 0b1 foreign 3\nclear\nsplit 16 1",
+    ),
+    (
+        "fan",
+        "fan 6\nplane 0 0 1 0\nplane 1 0 1 0\nsplit 0 0b101\nclear\nsplit 7 0b10",
+    ),
+    (
+        "open_fan",
+        "open-fan 3\nsplit 0 0b10\nsplit 2 0b1\nsplit 0 0b1 repeated 0\nsplit 0 0b11",
+    ),
+    ("saddle", "saddle\nplane 0 0 0 1\nplane 9 1 1 0"),
+    (
+        "tube",
+        "tube 5 2\ncut through 0 -64 32 0 0 -1 0 64 32 0 0 -1\nclear\nplane 6 1 -1 0",
+    ),
+    (
+        "torus",
+        "torus 4 4\nsplit 3 0b111\ncut -10 -64 32 0 0 -1 -10 64 32 0 0 -1\ntear",
+    ),
+    (
+        "sphere",
+        "octahedron 1\ncut midpoint 3 -64 32 0 0 -1 3 2 32 0 0 -1\nsplit 8 0b101",
+    ),
+    (
+        "grown",
+        "grown 0 1 5 2 6 3 9 13 1 4 7 11\nplane 2 1 2 -1\nplane 4 -1 0 3\nsplit 1 0b110\ntear",
+    ),
+    (
+        "glued",
+        "glued 6 0 3 1 6 4 9 10 12 7 15\nsplit 2 0b1\nplane 3 1 0 0\nclear\ntear",
+    ),
+];
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("fuzz")
+        .join(name)
+}
+
+#[test]
+fn the_seeds_are_these_scripts() {
+    for (name, text) in SEEDS {
+        let script: Script = text.parse().expect(name);
+        lockstep::check(&script);
+        let path = folder("seeds/script").join(name);
+        if std::env::var_os("TEARMESH_BLESS").is_some() {
+            std::fs::write(&path, script.to_bytes()).expect("a file can be written");
+        }
+        let bytes = std::fs::read(&path).expect("a seed");
+        assert_eq!(Script::from_bytes(&bytes), script, "{}", path.display());
+    }
+}
+
+#[test]
+fn what_fuzzing_found_stays_found() {
+    let Ok(folder) = folder("regressions/script").read_dir() else {
+        return; // Nothing was found so far.
+    };
+    for entry in folder {
+        let path = entry.expect("a readable folder").path();
+        let bytes = std::fs::read(&path).expect("a readable file");
+        let script = Script::from_bytes(&bytes);
+        println!("{}:\n{script}", path.display());
+        lockstep::check(&script);
+    }
+}

@@ -1,0 +1,271 @@
+//! A naive triangle soup: so simple that it is unlikely to be wrong.
+//!
+//! Nothing here is imported from the library, and nothing is stored that can be found by
+//! looking at all faces. There are no links and no walks: which faces a vertex has, which
+//! edges are torn and which faces hang together is worked out anew from the triangles
+//! and the root of each vertex. Masses are integers.
+
+mod strict;
+
+pub(crate) use strict::{Fault, faults, is_strict};
+
+/// Triangles whose vertices are split, and what belongs to the vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Soup {
+    /// The triangles as they were at first.
+    pub(crate) input: Vec<[u32; 3]>,
+    /// The triangles as they are now.
+    pub(crate) faces: Vec<[u32; 3]>,
+    /// For each vertex the one that it was at first.
+    pub(crate) root: Vec<u32>,
+    /// For each vertex its position.
+    pub(crate) points: Vec<[f64; 3]>,
+    /// For each corner its lumped mass, in units.
+    pub(crate) corner_mass: Vec<[u64; 3]>,
+    /// For each vertex the mass that its root had, in units, and how often it was halved.
+    pub(crate) halved: Vec<(u64, u32)>,
+    /// The sides of faces that lay opposite each other at first: (face, side), (face, side).
+    pub(crate) links: Vec<[(usize, usize); 2]>,
+}
+
+/// Why a split was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Refused {
+    Empty,
+    Everything,
+    Foreign(usize),
+    Repeated(usize),
+}
+
+impl Soup {
+    /// The soup of these triangles. `corner_mass` has three units for each face.
+    pub(crate) fn new(points: &[[f64; 3]], faces: &[[u32; 3]], corner_mass: &[[u64; 3]]) -> Soup {
+        let mut soup = Soup {
+            input: faces.to_vec(),
+            faces: faces.to_vec(),
+            root: (0..points.len() as u32).collect(),
+            points: points.to_vec(),
+            corner_mass: corner_mass.to_vec(),
+            halved: Vec::new(),
+            links: Vec::new(),
+        };
+        for v in 0..points.len() {
+            soup.halved.push((soup.lumped_mass(v), 0));
+        }
+        for f in 0..faces.len() {
+            for g in f + 1..faces.len() {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        if side(faces[f], i) == reversed(side(faces[g], j)) {
+                            soup.links.push([(f, i), (g, j)]);
+                        }
+                    }
+                }
+            }
+        }
+        soup
+    }
+
+    /// The faces of a vertex, ascending.
+    pub(crate) fn faces_of(&self, v: usize) -> Vec<usize> {
+        let mut faces = Vec::new();
+        for (f, face) in self.faces.iter().enumerate() {
+            if face.contains(&(v as u32)) {
+                faces.push(f);
+            }
+        }
+        faces
+    }
+
+    /// The corners of every vertex, three a face, ascending.
+    pub(crate) fn corners_by_vertex(&self) -> Vec<Vec<usize>> {
+        let mut corners = vec![Vec::new(); self.root.len()];
+        for (f, face) in self.faces.iter().enumerate() {
+            for i in 0..3 {
+                corners[face[i] as usize].push(3 * f + i);
+            }
+        }
+        corners
+    }
+
+    /// Splits a vertex; the new one has the last number.
+    pub(crate) fn split(&mut self, v: usize, moving: &[usize]) -> Result<(), Refused> {
+        for (i, &f) in moving.iter().enumerate() {
+            if !self.faces[f].contains(&(v as u32)) {
+                return Err(Refused::Foreign(f));
+            }
+            if moving[..i].contains(&f) {
+                return Err(Refused::Repeated(f));
+            }
+        }
+        if moving.is_empty() {
+            return Err(Refused::Empty);
+        }
+        if moving.len() == self.faces_of(v).len() {
+            return Err(Refused::Everything);
+        }
+        let new = self.root.len() as u32;
+        for &f in moving {
+            for corner in &mut self.faces[f] {
+                if *corner == v as u32 {
+                    *corner = new;
+                }
+            }
+        }
+        self.root.push(self.root[v]);
+        self.points.push(self.points[v]);
+        self.halved[v].1 += 1;
+        self.halved.push(self.halved[v]);
+        Ok(())
+    }
+
+    /// The faces of a vertex whose centres are strictly behind the plane through that vertex:
+    /// n·(b − v) + n·(c − v) < 0.
+    pub(crate) fn behind(&self, v: usize, normal: [f64; 3]) -> Vec<usize> {
+        let origin = self.points[v];
+        let mut behind = self.faces_of(v);
+        behind.retain(|&f| {
+            let mut sum = 0.0;
+            for &corner in &self.faces[f] {
+                if corner != v as u32 {
+                    let [x, y, z] = self.points[corner as usize];
+                    sum += normal[0] * (x - origin[0])
+                        + normal[1] * (y - origin[1])
+                        + normal[2] * (z - origin[2]);
+                }
+            }
+            sum < 0.0
+        });
+        behind
+    }
+
+    /// Whether the two ends of a link no longer agree.
+    pub(crate) fn is_torn(&self, [(f, i), (g, j)]: [(usize, usize); 2]) -> bool {
+        side(self.faces[f], i) != reversed(side(self.faces[g], j))
+    }
+
+    /// The corners of every vertex, in sets that are joined by edges which are not torn: each
+    /// set ascending, the sets by their smallest corner.
+    pub(crate) fn fans_by_vertex(&self) -> Vec<Vec<Vec<usize>>> {
+        let mut joined = Vec::new();
+        for &link in &self.links {
+            if !self.is_torn(link) {
+                // Where one side starts the other one ends, and the other way round.
+                let [(f, i), (g, j)] = link;
+                joined.push([3 * f + i, 3 * g + (j + 1) % 3]);
+                joined.push([3 * f + (i + 1) % 3, 3 * g + j]);
+            }
+        }
+        let fan_of = joined_sets(3 * self.faces.len(), &joined);
+        let mut fans = vec![Vec::<Vec<usize>>::new(); self.root.len()];
+        for (v, corners) in self.corners_by_vertex().iter().enumerate() {
+            for &corner in corners {
+                let known = fans[v]
+                    .iter_mut()
+                    .find(|fan| fan_of[fan[0]] == fan_of[corner]);
+                match known {
+                    Some(fan) => fan.push(corner),
+                    None => fans[v].push(vec![corner]),
+                }
+            }
+        }
+        fans
+    }
+
+    /// The number of edges: each side of a face, but the two sides of a link that is not
+    /// torn once.
+    pub(crate) fn edge_count(&self) -> usize {
+        let joined = self.links.iter().filter(|&&link| !self.is_torn(link));
+        3 * self.faces.len() - joined.count()
+    }
+
+    /// The number of sets of faces that are joined by edges which are not torn.
+    pub(crate) fn piece_count(&self) -> usize {
+        let joined = self.links.iter().filter(|&&link| !self.is_torn(link));
+        let joined: Vec<_> = joined.map(|link| link.map(|(f, _)| f)).collect();
+        let piece_of = joined_sets(self.faces.len(), &joined);
+        (0..self.faces.len()).filter(|&f| piece_of[f] == f).count()
+    }
+
+    /// The sum of the lumped masses of the corners of a vertex, in units.
+    pub(crate) fn lumped_mass(&self, v: usize) -> u64 {
+        let mut mass = 0;
+        for (face, corner_mass) in self.faces.iter().zip(&self.corner_mass) {
+            for i in 0..3 {
+                if face[i] == v as u32 {
+                    mass += corner_mass[i];
+                }
+            }
+        }
+        mass
+    }
+
+    /// The total of the halved masses, in units divided by 2^`halvings`.
+    pub(crate) fn halved_total(&self, halvings: u32) -> u128 {
+        let mut total = 0;
+        for &(mass, times) in &self.halved {
+            total += u128::from(mass) << (halvings - times);
+        }
+        total
+    }
+}
+
+/// Masses of corners by area, and what a unit of them is: 2^-52 of the power of two above the
+/// total area. Each face is rounded to whole units, at least three; its corners share them, and
+/// where there is a remainder the last corners get it.
+pub(crate) fn lump(points: &[[f64; 3]], faces: &[[u32; 3]]) -> (f64, Vec<[u64; 3]>) {
+    let area = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| points[v as usize]);
+        let [ux, uy, uz] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+        let [vx, vy, vz] = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
+        let [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+        (x * x + y * y + z * z).sqrt() / 2.0
+    };
+    let mut total = 0.0;
+    for face in faces {
+        total += area(face);
+    }
+    let mut above = 1.0;
+    while above <= total {
+        above *= 2.0;
+    }
+    while above / 2.0 > total {
+        above /= 2.0;
+    }
+    let mut unit = above;
+    for _ in 0..52 {
+        unit /= 2.0;
+    }
+    let mut corner_mass = Vec::new();
+    for face in faces {
+        let units = ((area(face) / unit).round() as u64).max(3);
+        corner_mass.push([units / 3, (units + 1) / 3, units.div_ceil(3)]);
+    }
+    (unit, corner_mass)
+}
+
+/// For each of `count` things the smallest one that it is joined with, directly or through others.
+pub(crate) fn joined_sets(count: usize, joined: &[[usize; 2]]) -> Vec<usize> {
+    let mut least: Vec<usize> = (0..count).collect();
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for &[a, b] in joined {
+            if least[a] != least[b] {
+                let smaller = least[a].min(least[b]);
+                (least[a], least[b]) = (smaller, smaller);
+                changed = true;
+            }
+        }
+    }
+    least
+}
+
+/// The side `i` of a face, from its corner `i` to the next.
+fn side(face: [u32; 3], i: usize) -> [u32; 2] {
+    [face[i], face[(i + 1) % 3]]
+}
+
+fn reversed([a, b]: [u32; 2]) -> [u32; 2] {
+    [b, a]
+}

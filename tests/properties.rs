@@ -1,0 +1,255 @@
+//! Properties of random scripts and of random triangle lists.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestError, TestRunner};
+use tearmesh::script::Script;
+use tearmesh::{Defect, Mesh};
+
+use crate::lockstep;
+use crate::oracle::{Fault, faults, is_strict};
+
+/// How many random cases each property gets, unless `TEARMESH_CASES` says otherwise.
+const CASES: u32 = 10_000;
+
+/// Runs a property on random cases. Every property comes through here, so that a failure is
+/// printed and never written to a file: what is worth keeping becomes a regression.
+fn for_all<S: Strategy>(strategy: &S, property: impl Fn(S::Value)) -> u32
+where
+    S::Value: std::fmt::Display,
+{
+    let cases = std::env::var("TEARMESH_CASES").ok();
+    let cases = cases.map_or(CASES, |cases| {
+        cases.parse().expect("TEARMESH_CASES is a number")
+    });
+    let config = Config {
+        failure_persistence: None,
+        ..Config::with_cases(cases)
+    };
+    let result = TestRunner::new(config).run(strategy, |case| {
+        property(case);
+        Ok(())
+    });
+    if let Err(TestError::Fail(reason, case)) = &result {
+        panic!("{reason}\nthe smallest failing case:\n{case}");
+    }
+    result.unwrap_or_else(|error| panic!("{error:?}"));
+    cases
+}
+
+/// Scripts of up to 60 operations. Shape and operations have bytes of their own, so that a
+/// failing case shrinks by dropping operations.
+fn scripts() -> impl Strategy<Value = Script> {
+    let shape = prop::collection::vec(any::<u8>(), 0..=100);
+    let operation = prop::array::uniform16(any::<u8>());
+    let operations = prop::collection::vec(operation, 0..=Script::OPERATIONS_MAX);
+    (shape, operations).prop_map(|(shape, operations)| {
+        let first = |bytes: [u8; 16]| {
+            let saddle_first = [&[2], &bytes[..]].concat();
+            Script::from_bytes(&saddle_first).operations[0]
+        };
+        Script {
+            shape: Script::from_bytes(&shape).shape,
+            operations: operations.into_iter().map(first).collect(),
+        }
+    })
+}
+
+#[test]
+fn every_step_agrees_with_the_oracle() {
+    let splits = AtomicUsize::new(0);
+    let cases = for_all(&scripts(), |script| {
+        splits.fetch_add(lockstep::check(&script), Ordering::Relaxed);
+    });
+    println!("{cases} scripts with {} splits", splits.into_inner());
+}
+
+#[test]
+fn a_script_survives_bytes_and_text() {
+    for_all(&scripts(), |script| {
+        assert!(script.operations.len() <= Script::OPERATIONS_MAX);
+        assert_eq!(Script::from_bytes(&script.to_bytes()), script);
+        assert_eq!(script.to_string().parse(), Ok(script));
+    });
+}
+
+/// Triangles over so many vertices, right or wrong.
+#[derive(Clone, Debug)]
+struct Triangles {
+    vertices: usize,
+    faces: Vec<[u32; 3]>,
+}
+
+impl std::fmt::Display for Triangles {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} vertices, {:?}", self.vertices, self.faces)
+    }
+}
+
+/// The builder accepts what the oracle accepts, and names what the oracle names.
+fn building_agrees_with_the_oracle(vertices: usize, triangles: &[[u32; 3]]) {
+    let known = faults(vertices, triangles);
+    assert_eq!(
+        known.is_empty(),
+        is_strict(vertices, triangles),
+        "the oracle agrees with itself"
+    );
+    match Mesh::build(vertices, triangles) {
+        Ok(mesh) => {
+            assert_eq!(known, [], "refused by the oracle alone");
+            assert_eq!(mesh.indices(), triangles.as_flattened());
+            assert_eq!(mesh.vertex_count(), vertices);
+            assert_eq!(mesh.check(), []);
+        }
+        Err(error) => {
+            let mut named: Vec<Fault> = error.defects().iter().map(plain).collect();
+            named.sort();
+            assert_eq!(named, known, "what is wrong");
+        }
+    }
+}
+
+/// A defect, in the words of the oracle.
+fn plain(defect: &Defect) -> Fault {
+    let numbers = |faces: &[tearmesh::FaceId]| faces.iter().map(|f| f.index()).collect();
+    match defect {
+        Defect::IndexOutOfRange { face, corner, .. } => Fault::OutOfRange {
+            face: face.index(),
+            corner: *corner,
+        },
+        Defect::RepeatedVertex { face, vertex } => Fault::Repeated {
+            face: face.index(),
+            vertex: (*vertex).into(),
+        },
+        Defect::DuplicateFaces { faces, .. } => Fault::Duplicate {
+            faces: numbers(faces),
+        },
+        Defect::Pillow { faces, .. } => Fault::Pillow {
+            faces: numbers(faces),
+        },
+        Defect::CrowdedEdge { ends, faces } => Fault::Crowded {
+            ends: ends.map(u32::from),
+            faces: numbers(faces),
+        },
+        Defect::FlippedFace { from, to, faces } => Fault::Flipped {
+            from: (*from).into(),
+            to: (*to).into(),
+            faces: numbers(faces),
+        },
+        Defect::BowTie { vertex, fans } => Fault::BowTie {
+            vertex: (*vertex).into(),
+            fans: fans.iter().map(|fan| numbers(fan)).collect(),
+        },
+        other => panic!("no small mesh has {other}"),
+    }
+}
+
+#[test]
+fn random_triangles_are_built_or_refused_like_the_oracle_does() {
+    let faces = |vertices: u32| {
+        let triangle = prop::array::uniform3(0..vertices + u32::from(vertices > 6));
+        prop::collection::vec(triangle, 0..=7)
+    };
+    let triangles = (3u32..=8).prop_flat_map(move |vertices| {
+        faces(vertices).prop_map(move |faces| Triangles {
+            vertices: vertices as usize,
+            faces,
+        })
+    });
+    for_all(&triangles, |it| {
+        building_agrees_with_the_oracle(it.vertices, &it.faces);
+    });
+}
+
+#[test]
+fn damaged_shapes_are_built_or_refused_like_the_oracle_does() {
+    let damage = prop::collection::vec(any::<[u8; 3]>(), 0..=3);
+    let triangles = (scripts(), damage).prop_map(|(script, damage)| {
+        let (mesh, _) = script.shape.make();
+        let mut triangles = Triangles {
+            vertices: mesh.vertex_count(),
+            faces: mesh
+                .faces()
+                .map(|f| mesh.corners(f).map(u32::from))
+                .collect(),
+        };
+        for [kind, a, b] in damage {
+            triangles.damage(kind, a.into(), b.into());
+        }
+        triangles
+    });
+    for_all(&triangles, |it| {
+        building_agrees_with_the_oracle(it.vertices, &it.faces);
+    });
+}
+
+impl Triangles {
+    fn damage(&mut self, kind: u8, a: usize, b: usize) {
+        let count = self.faces.len();
+        let [f, g] = [a % count, b % count];
+        let [i, j] = [a / 3 % 3, b / 3 % 3];
+        match kind % 8 {
+            0 => self.faces[f].swap(0, 1),       // flipped
+            1 => self.faces.push(self.faces[f]), // twice
+            2 => {
+                let [x, y, z] = self.faces[f];
+                self.faces.push([y, x, z]); // back to back
+            }
+            3 => {
+                let [x, y, _] = self.faces[f];
+                self.faces.push([y, x, self.faces[g][j]]); // a third face, or a bridge
+            }
+            4 => self.faces[f][i] = self.vertices as u32 + b as u32 % 2, // out of range
+            5 => self.faces[f][i] = self.faces[f][(i + 1) % 3],          // a vertex twice
+            6 => self.faces[f][i] = self.faces[g][j], // another vertex: a bow-tie, or worse
+            _ => {
+                let [from, to] = [self.faces[f][i], self.faces[g][j]];
+                for v in self.faces.as_flattened_mut() {
+                    if *v == from {
+                        *v = to; // two vertices made one
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Every list of up to three oriented triangles on six vertices, and of up to four on five.
+#[test]
+fn all_small_lists_are_built_or_refused_like_the_oracle_does() {
+    let mut lists = 0;
+    for (vertices, most) in [(6, 3), (5, 4)] {
+        let mut all = Vec::new();
+        for a in 0..vertices {
+            for b in a + 1..vertices {
+                for c in b + 1..vertices {
+                    all.extend([[a, b, c], [a, c, b]]);
+                }
+            }
+        }
+        let mut list = Vec::new();
+        all_lists(&all, most, &mut list, &mut |list| {
+            building_agrees_with_the_oracle(vertices as usize, list);
+            lists += 1;
+        });
+    }
+    println!("{lists} lists of triangles");
+}
+
+/// Shows every list of up to `most` triangles, none later in `all` than the next.
+fn all_lists(
+    all: &[[u32; 3]],
+    most: usize,
+    list: &mut Vec<[u32; 3]>,
+    show: &mut impl FnMut(&[[u32; 3]]),
+) {
+    show(list);
+    if list.len() < most {
+        for (i, &triangle) in all.iter().enumerate() {
+            list.push(triangle);
+            all_lists(&all[i..], most, list, show);
+            list.pop();
+        }
+    }
+}
