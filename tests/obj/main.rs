@@ -1,0 +1,58 @@
+//! Tests of `tearmesh-obj` through its public interface.
+
+mod accept;
+mod corpus;
+mod mesh;
+mod refuse;
+mod round_trip;
+mod torn;
+mod triangulate;
+
+use proptest::test_runner::Config;
+use tearmesh::{Mesh, Positions};
+use tearmesh_obj::Document;
+
+/// The settings of every property: `factor` times as many cases as usual, and no files
+/// written for those that fail (a find becomes a test of its own).
+fn properties(factor: u32) -> Config {
+    let default = Config::default();
+    Config {
+        cases: factor * default.cases,
+        failure_persistence: None,
+        ..default
+    }
+}
+
+/// Reads a file that must be accepted.
+fn read(bytes: &[u8]) -> Document {
+    match Document::read(bytes) {
+        Ok(document) => document,
+        Err(error) => panic!("{error}\n{}", String::from_utf8_lossy(bytes)),
+    }
+}
+
+/// The positions of a document, for writing it with its own mesh.
+fn positions(document: &Document) -> Positions {
+    Positions::new(document.positions().iter().copied()).expect("the reader checks coordinates")
+}
+
+/// Writes a document as a mesh.
+fn write_as(document: &Document, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
+    let mut out = Vec::new();
+    document
+        .write(mesh, positions, &mut out)
+        .expect("memory can be written");
+    out
+}
+
+/// Reads, builds and writes.
+fn rewritten(bytes: &[u8]) -> Vec<u8> {
+    let document = read(bytes);
+    let mesh = document.mesh().unwrap_or_else(|error| panic!("{error}"));
+    write_as(&document, &mesh, &positions(&document))
+}
+
+/// Bytes as text, for comparisons that a person can read.
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}

@@ -1,0 +1,190 @@
+//! Writing a mesh after splits.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use tearmesh::{Edits, FaceId, Mesh, Positions, VertexId, split};
+use tearmesh_obj::{Document, WriteSummary};
+
+use super::{positions, read, rewritten, text, write_as};
+
+/// A cut: the vertex (from 0), and the faces that move to the new one.
+type Cut<'c> = (usize, &'c [usize]);
+
+fn cut(document: &Document, cuts: &[Cut<'_>]) -> (Mesh, Positions) {
+    let mut mesh = document.mesh().unwrap_or_else(|error| panic!("{error}"));
+    let mut positions = positions(document);
+    let mut edits = Edits::new();
+    for &(vertex, faces) in cuts {
+        let vertex = VertexId::new(vertex).expect("small");
+        let faces: Vec<_> = faces
+            .iter()
+            .map(|&f| FaceId::new(f).expect("small"))
+            .collect();
+        split::faces(&mut mesh, vertex, &faces, &mut edits).expect("a split that is possible");
+    }
+    edits.replay(&mut positions);
+    (mesh, positions)
+}
+
+fn check(file: &str, cuts: &[Cut<'_>], expected: &str) -> WriteSummary {
+    let document = read(file.as_bytes());
+    let (mesh, positions) = cut(&document, cuts);
+    let written = write_as(&document, &mesh, &positions);
+    assert_eq!(text(&written), expected);
+    assert_eq!(text(&rewritten(&written)), expected, "written again");
+    document
+        .write(&mesh, &positions, &mut std::io::sink())
+        .expect("a sink takes all")
+}
+
+// Where a vertex at the end of a torn edge lies on the boundary, the two faces no longer share
+// an edge there: it gets a second `v`, too.
+
+#[test]
+fn new_vertices_follow_the_last_one_and_copy_its_numbers() {
+    check(
+        "o flag\nv 0 0 0\nv 1 0 0 0.5 0.25 -0\nv 0 1 0\nv 1 1 0\nvt 0 0\n# faces\n\
+         f 1/1 2/1 3/1\nf 3/1 2/1 4/1\n",
+        &[(1, &[1])],
+        "o flag\nv 0 0 0\nv 1 0 0 0.5 0.25 -0\nv 0 1 0\nv 1 1 0\nv 1 0 0 0.5 0.25 -0\nv 0 1 0\n\
+         vt 0 0\n# faces\nf 1/1 2/1 3/1\nf 6/1 5/1 4/1\n",
+    );
+}
+
+#[test]
+fn later_vertices_move_up_before_the_face_that_needs_a_new_one() {
+    check(
+        "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng one\nf 1 2 3\nf 3 2 4\n\
+         o b\nv 5 0 0\nnv 1 2 3\n# kept\nv 6 0 0\nv 5 1 0\nny 0 0 0\nnv 7 8 \\\n9\nusemtl b\nf 5 6 7\n",
+        &[(1, &[1])],
+        "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng one\nf 1 2 3\n\
+         v 5 0 0\nnv 1 2 3\nv 6 0 0\nv 5 1 0\nny 0 0 0\nnv 7 8 \\\n9\nv 1 0 0\nv 0 1 0\nf 9 8 4\n\
+         o b\n# kept\nusemtl b\nf 5 6 7\n",
+    );
+}
+
+#[test]
+fn new_vertices_of_a_later_object_leave_the_earlier_one_in_place() {
+    check(
+        "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 1 0\nnl 4\n\
+         # end of b\nf 4 5 6\nf 6 5 7\n",
+        &[(4, &[2])],
+        "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 1 0\nnl 4\n\
+         v 6 0 0\nv 5 1 0\n# end of b\nf 4 5 6\nf 9 8 7\n",
+    );
+}
+
+#[test]
+fn a_vertex_with_several_fans_is_written_as_several() {
+    // Six faces round vertex 7. Two opposite ones move to vertex 8: each is a fan there, and
+    // 7 keeps two fans of two. Each torn spoke parts two faces that shared a vertex of the rim.
+    let file = "v 1 0 0\nv 0.5 1 0\nv -0.5 1 0\nv -1 0 0\nv -0.5 -1 0\nv 0.5 -1 0\nv 0 0 0 0.125\n\
+                f 7 1 2\nf 7 2 3\nf 7 3 4\nf 7 4 5\nf 7 5 6\nf 7 6 1\n";
+    let summary = check(
+        file,
+        &[(6, &[0, 3])],
+        "v 1 0 0\nv 0.5 1 0\nv -0.5 1 0\nv -1 0 0\nv -0.5 -1 0\nv 0.5 -1 0\nv 0 0 0 0.125\n\
+         v 0 0 0 0.125\n\
+         v 1 0 0\nv 0.5 1 0\nv -1 0 0\nv -0.5 -1 0\nv 0 0 0 0.125\nv 0 0 0 0.125\n\
+         f 8 1 2\nf 7 10 3\nf 7 3 4\nf 14 11 5\nf 13 12 6\nf 13 6 9\n",
+    );
+    assert_eq!(
+        summary,
+        WriteSummary {
+            vertices: 14,
+            faces: 6,
+            separated: 6
+        }
+    );
+}
+
+#[test]
+fn the_triangles_of_a_quad_can_be_torn_apart() {
+    check(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0\nvt 1\nvn 0 0 1\nf 1/1/1 2/2/1 3//1 4\n",
+        &[(0, &[1])],
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nv 1 1 0\nvt 0\nvt 1\nvn 0 0 1\n\
+         f 1/1/1 2/2/1 3//1\nf 5/1/1 6//1 4\n",
+    );
+}
+
+/// A grid of quads and triangles in two objects, the faces of the second before its vertices.
+fn two_sheets(side: usize) -> String {
+    let mut file = String::new();
+    for object in 0..2 {
+        file += &format!("o sheet{object}\n");
+        let vertices: String = (0..(side + 1) * (side + 1))
+            .map(|i| {
+                format!(
+                    "v {} {} {object} 0.{i}\nnl {i}\n",
+                    i % (side + 1),
+                    i / (side + 1)
+                )
+            })
+            .collect();
+        let first = object * (side + 1) * (side + 1) + 1;
+        let faces: String = (0..side * side)
+            .map(|i| {
+                let a = first + i % side + i / side * (side + 1);
+                let (b, c, d) = (a + 1, a + side + 2, a + side + 1);
+                if i % 3 == 0 {
+                    format!("f {a} {b} {c} {d}\n")
+                } else {
+                    format!("f {a} {b} {c}\nf {a} {c} {d}\n")
+                }
+            })
+            .collect();
+        file += &if object == 0 {
+            vertices + &faces
+        } else {
+            faces + &vertices
+        };
+    }
+    file
+}
+
+proptest! {
+    #![proptest_config(super::properties(1))]
+
+    /// Any splits: what is written is a mesh without bow-ties that has the same corners, and
+    /// is written again byte for byte.
+    #[test]
+    fn a_torn_mesh_is_written_whole(
+        choices in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..60),
+    ) {
+        let document = read(two_sheets(3).as_bytes());
+        let mut mesh = document.mesh().expect("a grid is a mesh");
+        let mut positions = positions(&document);
+        let mut edits = Edits::new();
+        for (vertex, mask) in choices {
+            let vertex = VertexId::new(vertex.index(mesh.vertex_count())).expect("small");
+            let moving: Vec<FaceId> = mesh
+                .faces_of(vertex)
+                .enumerate()
+                .filter(|(i, _)| mask >> i & 1 == 1)
+                .map(|(_, face)| face)
+                .collect();
+            let _refused = split::faces(&mut mesh, vertex, &moving, &mut edits);
+        }
+        edits.replay(&mut positions);
+        let written = write_as(&document, &mesh, &positions);
+        let again = read(&written);
+        prop_assert_eq!(text(&rewritten(&written)), text(&written));
+
+        let fans: usize = mesh.vertices().map(|v| mesh.fans(v).count().max(1)).sum();
+        prop_assert_eq!(again.positions().len(), fans);
+        let ends: BTreeSet<_> = again.triangles().iter().flatten().collect();
+        prop_assert_eq!(ends.len(), fans);
+        for (torn, original) in again.triangles().iter().zip(document.triangles()) {
+            for (&vertex, &root) in torn.iter().zip(original) {
+                let (vertex, root) = (vertex as usize, root as usize);
+                prop_assert_eq!(again.positions()[vertex], document.positions()[root]);
+                prop_assert_eq!(again.extra_numbers(vertex), document.extra_numbers(root));
+            }
+        }
+        for (v, point) in positions.as_slice().iter().enumerate() {
+            prop_assert_eq!(again.positions()[v], *point, "vertex {} keeps its number", v);
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! The document: everything that a file held.
+
+use tearmesh::Point;
+
+use crate::diagnostic::Diagnostic;
+use crate::store::{Column, Layout, Rows};
+use crate::triangulate::Triangulation;
+
+/// An OBJ file in memory: its numbers bit for bit, its faces as they were and as triangles, and
+/// every other line as bytes, in order.
+///
+/// Indices count from 0 here, and from 1 in files. A document takes about as much
+/// memory as its file: 24 bytes a vertex, 20 a triangle, more where corners have
+/// texture coordinates or normals.
+#[derive(Clone, Debug, Default)]
+pub struct Document {
+    pub(crate) positions: Vec<Point>,
+    /// What a `v` has after its three coordinates: a weight, a colour.
+    pub(crate) extras: Rows,
+    pub(crate) texture: Rows,
+    pub(crate) normals: Vec<[f64; 3]>,
+    pub(crate) polygons: Polygons,
+    /// `None` if every polygon is a triangle.
+    pub(crate) triangulation: Option<Triangulation>,
+    pub(crate) layout: Layout,
+    /// The text of the layout's text runs, one after the other.
+    pub(crate) text: Vec<u8>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+/// The faces as the file has them, corner by corner.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Polygons {
+    /// The vertex of each corner.
+    pub(crate) vertices: Vec<u32>,
+    pub(crate) texture: Column,
+    pub(crate) normals: Column,
+    /// The first corner of each polygon.
+    pub(crate) starts: Vec<u32>,
+}
+
+/// What a corner of a face refers to, counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Corner {
+    /// The vertex, a `v`.
+    pub vertex: u32,
+    /// The texture coordinate, a `vt`.
+    pub texture: Option<u32>,
+    /// The normal, a `vn`.
+    pub normal: Option<u32>,
+}
+
+impl Document {
+    /// Where the vertices are.
+    #[must_use]
+    pub fn positions(&self) -> &[Point] {
+        &self.positions
+    }
+
+    /// The numbers that a `v` statement has after x, y and z: a weight, a colour, or both.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn extra_numbers(&self, vertex: usize) -> &[f64] {
+        assert!(
+            vertex < self.positions.len(),
+            "vertex {vertex} is none of this document"
+        );
+        self.extras.row(vertex)
+    }
+
+    /// The number of texture coordinates.
+    #[must_use]
+    pub fn texture_count(&self) -> usize {
+        self.texture.len()
+    }
+
+    /// A texture coordinate: the one, two or three numbers that the file gives.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such texture coordinate.
+    #[must_use]
+    pub fn texture(&self, index: usize) -> &[f64] {
+        assert!(
+            index < self.texture.len(),
+            "texture coordinate {index} is none of this document"
+        );
+        self.texture.row(index)
+    }
+
+    /// The normals.
+    #[must_use]
+    pub fn normals(&self) -> &[[f64; 3]] {
+        &self.normals
+    }
+
+    /// The vertices of all triangles. The triangles of a polygon are neighbours, and polygons
+    /// are in the order of the file.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        match &self.triangulation {
+            Some(triangulation) => triangulation.triangles(),
+            None => self.polygons.vertices.as_chunks().0,
+        }
+    }
+
+    /// What a corner (0, 1 or 2) of a triangle refers to. Takes the logarithm of the
+    /// number of polygons, unless all are triangles.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such triangle or corner.
+    #[must_use]
+    pub fn corner(&self, triangle: usize, corner: usize) -> Corner {
+        assert!(corner < 3, "a triangle has no corner {corner}");
+        assert!(
+            triangle < self.triangles().len(),
+            "triangle {triangle} is none of this document"
+        );
+        self.polygons
+            .corner(self.corner_of_polygon(triangle, corner, self.polygon_of(triangle)))
+    }
+
+    /// The number of polygons: the `f` statements.
+    #[must_use]
+    pub fn polygon_count(&self) -> usize {
+        self.polygons.len()
+    }
+
+    /// The corners of a polygon, in order.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such polygon.
+    #[must_use]
+    pub fn polygon(&self, polygon: usize) -> impl ExactSizeIterator<Item = Corner> + '_ {
+        self.polygons
+            .corners(polygon)
+            .map(|corner| self.polygons.corner(corner))
+    }
+
+    /// The polygon that a triangle is a part of. Takes the logarithm of their number,
+    /// unless all are triangles.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such triangle.
+    #[must_use]
+    pub fn polygon_of(&self, triangle: usize) -> usize {
+        assert!(
+            triangle < self.triangles().len(),
+            "triangle {triangle} is none of this document"
+        );
+        match self.triangulation {
+            Some(_) => self.polygons.of_triangle(triangle),
+            None => triangle,
+        }
+    }
+
+    /// The line of the file, from 1, on which the `f` statement of a triangle begins.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such triangle.
+    #[must_use]
+    pub fn line_of_triangle(&self, triangle: usize) -> usize {
+        self.layout.line_of_polygon(self.polygon_of(triangle))
+    }
+
+    /// The line of the file, from 1, on which the `v` statement of a vertex begins.
+    /// Linear in the number of times that statements change kind; meant for messages.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn line_of_vertex(&self, vertex: usize) -> usize {
+        let line = self.layout.line_of_vertex(vertex);
+        line.unwrap_or_else(|| panic!("vertex {vertex} is none of this document"))
+    }
+
+    /// Warnings and notes, in the order in which they should be shown.
+    #[must_use]
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// The corner of all polygons' corners that a corner of a triangle is.
+    #[inline]
+    pub(crate) fn corner_of_polygon(
+        &self,
+        triangle: usize,
+        corner: usize,
+        polygon: usize,
+    ) -> usize {
+        match &self.triangulation {
+            Some(triangulation) => {
+                let [a, b, c] = triangulation.corners(triangle);
+                self.polygons.starts[polygon] as usize + usize::from([a, b, c][corner])
+            }
+            None => 3 * triangle + corner,
+        }
+    }
+}
+
+impl Polygons {
+    #[inline]
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The corners of a polygon.
+    #[inline]
+    pub(crate) fn corners(&self, polygon: usize) -> std::ops::Range<usize> {
+        let end = self
+            .starts
+            .get(polygon + 1)
+            .map_or(self.vertices.len(), |&end| end as usize);
+        self.starts[polygon] as usize..end
+    }
+
+    #[inline]
+    pub(crate) fn corner(&self, corner: usize) -> Corner {
+        Corner {
+            vertex: self.vertices[corner],
+            texture: self.texture.get(corner),
+            normal: self.normals.get(corner),
+        }
+    }
+
+    /// The triangles of a polygon: a polygon of n corners has n − 2, so the corners before
+    /// it say how many come before.
+    #[inline]
+    pub(crate) fn triangles(&self, polygon: usize) -> std::ops::Range<usize> {
+        let corners = self.corners(polygon);
+        corners.start - 2 * polygon..corners.end - 2 * (polygon + 1)
+    }
+
+    fn of_triangle(&self, triangle: usize) -> usize {
+        let (mut low, mut high) = (0, self.len());
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            if self.triangles(middle).start <= triangle {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// Whether every polygon is a triangle.
+    pub(crate) fn all_triangles(&self) -> bool {
+        self.vertices.len() == 3 * self.len()
+    }
+}

@@ -1,0 +1,40 @@
+//! The keywords of the OBJ format, as far as statements are told apart by them.
+
+/// What kind of statement a keyword begins, apart from `v`, `vt`, `vn` and `f`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Class {
+    /// Structure that a cut leaves in place: nothing to warn of.
+    Structure,
+    /// Lines and points, which a cut does not divide.
+    Element,
+    /// In the format, and not interpreted here: free-form geometry, display attributes.
+    Uninterpreted,
+    /// Not in the format, such as the `nl`, `ny`, `nv`, `vv` of `ARCSim`, which say more about the
+    /// element before them.
+    Foreign,
+}
+
+impl Class {
+    pub(crate) fn of(keyword: &[u8]) -> Class {
+        match keyword {
+            b"o" | b"g" | b"s" | b"usemtl" | b"mtllib" | b"mg" => Class::Structure,
+            b"l" | b"p" => Class::Element,
+            b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf"
+            | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"bevel"
+            | b"c_interp" | b"d_interp" | b"lod" | b"maplib" | b"usemap" | b"shadow_obj"
+            | b"trace_obj" | b"ctech" | b"stech" | b"call" | b"csh" => Class::Uninterpreted,
+            _ => Class::Foreign,
+        }
+    }
+}
+
+/// How many tokens come before the indices of an uninterpreted statement whose indices count
+/// the vertices `v`; `None` if it has none.
+pub(crate) fn tokens_before_indices(keyword: &[u8]) -> Option<usize> {
+    match keyword {
+        b"l" | b"p" => Some(0),
+        b"curv" => Some(2),
+        b"surf" => Some(4),
+        _ => None,
+    }
+}

@@ -1,0 +1,237 @@
+//! The mesh of a document, or what is wrong with it in the terms of the file.
+//!
+//! The kernel speaks of faces and vertices by id; a person who has to repair a file wants
+//! lines, and vertices as the file counts them, from 1.
+
+use std::fmt;
+
+use tearmesh::{BuildError, Defect, FaceId, Mesh, VertexId};
+
+use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::document::Document;
+
+/// How many defects are put into words, and how many lines one of them lists.
+const SHOWN: usize = 20;
+
+impl Document {
+    /// Builds the mesh of the triangles.
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError`] if they do not form an oriented 2-manifold. It holds every defect.
+    ///
+    /// ```
+    /// use tearmesh_obj::Document;
+    ///
+    /// let bytes = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
+    /// let error = Document::read(&bytes[..])?.mesh().unwrap_err();
+    /// assert_eq!(error.shown()[0].to_string(), "line 8: edge 1-2 has 3 faces (lines 6, 7, 8)");
+    /// # Ok::<(), tearmesh_obj::ReadError>(())
+    /// ```
+    pub fn mesh(&self) -> Result<Mesh, MeshError> {
+        Mesh::build(self.positions.len(), self.triangles()).map_err(|error| {
+            let shown = error
+                .defects()
+                .iter()
+                .take(SHOWN)
+                .map(|d| self.describe(d))
+                .collect();
+            MeshError { error, shown }
+        })
+    }
+
+    /// Puts a defect of this document's triangles into the terms of the file.
+    ///
+    /// # Panics
+    ///
+    /// If the defect names a face or vertex that is none of this document.
+    #[must_use]
+    pub fn describe(&self, defect: &Defect) -> Diagnostic {
+        let (code, face, message, help) = match defect {
+            Defect::CrowdedEdge {
+                ends: [a, b],
+                faces,
+            } => (
+                "E-MESH-EDGE",
+                faces.last(),
+                format!(
+                    "edge {}-{} has {} faces ({})",
+                    number(*a),
+                    number(*b),
+                    faces.len(),
+                    self.lines(faces)
+                ),
+                "an edge of a surface has at most two faces: delete the surplus ones",
+            ),
+            Defect::FlippedFace { from, to, faces } => (
+                "E-MESH-FLIP",
+                faces.last(),
+                format!(
+                    "two faces run from vertex {} to vertex {} ({}): one of them is flipped",
+                    number(*from),
+                    number(*to),
+                    self.lines(faces)
+                ),
+                "make the orientation consistent: neighbours run along their common edge in \
+                 opposite directions",
+            ),
+            Defect::BowTie { vertex, fans } => (
+                "E-MESH-BOWTIE",
+                fans.last().and_then(|fan| fan.first()),
+                format!(
+                    "vertex {} (line {}) joins {} fans of faces that share no edge ({})",
+                    number(*vertex),
+                    self.line_of_vertex(vertex.index()),
+                    fans.len(),
+                    self.lines_of_fans(fans)
+                ),
+                "give each fan a vertex of its own at the same place",
+            ),
+            Defect::DuplicateFaces {
+                vertices: [a, b, c],
+                faces,
+            } => (
+                "E-MESH-DUPLICATE",
+                faces.last(),
+                format!(
+                    "{} faces have the same vertices {}, {}, {} ({})",
+                    faces.len(),
+                    number(*a),
+                    number(*b),
+                    number(*c),
+                    self.lines(faces)
+                ),
+                "delete all of these faces but one",
+            ),
+            Defect::Pillow {
+                vertices: [a, b, c],
+                faces,
+            } => (
+                "E-MESH-PILLOW",
+                faces.last(),
+                format!(
+                    "two faces lie back to back on the vertices {}, {}, {} ({})",
+                    number(*a),
+                    number(*b),
+                    number(*c),
+                    self.lines(faces)
+                ),
+                "delete one of the two: cloth is drawn from both sides, but modelled once",
+            ),
+            Defect::RepeatedVertex { face, vertex } => (
+                "E-MESH-REPEAT",
+                Some(face),
+                format!("a face has vertex {} twice", number(*vertex)),
+                "a triangle with a repeated vertex has no area: remove it",
+            ),
+            Defect::IndexOutOfRange {
+                face,
+                index,
+                vertices,
+                ..
+            } => (
+                "E-MESH-RANGE",
+                Some(face),
+                format!(
+                    "vertex {} does not exist: there are {vertices}",
+                    u64::from(*index) + 1
+                ),
+                "indices count from 1 through the whole file",
+            ),
+            Defect::TooManyVertices { .. } | Defect::TooManyFaces { .. } => (
+                "E-MESH-LIMIT",
+                None,
+                defect.to_string(),
+                "split the model into several files",
+            ),
+            // A defect that this crate does not know yet still has words of its own.
+            _ => (
+                "E-MESH-OTHER",
+                None,
+                defect.to_string(),
+                "repair the model where it was made",
+            ),
+        };
+        Diagnostic {
+            level: Level::Error,
+            code,
+            location: face.map(|&face| Location {
+                line: self.line(face),
+                column: 1,
+            }),
+            message,
+            excerpt: None,
+            help: Some(help.to_owned()),
+        }
+    }
+
+    fn line(&self, face: FaceId) -> usize {
+        self.line_of_triangle(face.index())
+    }
+
+    /// `lines 3, 4, 9`, each once: triangles of one polygon stand on one line.
+    fn lines(&self, faces: &[FaceId]) -> String {
+        let mut lines: Vec<usize> = faces.iter().take(SHOWN).map(|&f| self.line(f)).collect();
+        lines.dedup();
+        let plural = if lines.len() == 1 { "" } else { "s" };
+        let list: Vec<String> = lines.iter().map(usize::to_string).collect();
+        let more = match faces.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        format!("line{plural} {}{more}", list.join(", "))
+    }
+
+    fn lines_of_fans(&self, fans: &[Vec<FaceId>]) -> String {
+        let shown: Vec<String> = fans.iter().take(SHOWN).map(|fan| self.lines(fan)).collect();
+        let more = if fans.len() > SHOWN { " | …" } else { "" };
+        format!("{}{more}", shown.join(" | "))
+    }
+}
+
+/// The number of a vertex in the file.
+fn number(vertex: VertexId) -> usize {
+    vertex.index() + 1
+}
+
+/// Why the triangles of a document are no mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshError {
+    error: BuildError,
+    shown: Vec<Diagnostic>,
+}
+
+impl MeshError {
+    /// All defects, by the ids of the document: face `i` is its triangle `i`.
+    /// [`Document::describe`] puts each into words.
+    #[must_use]
+    pub fn defects(&self) -> &[Defect] {
+        self.error.defects()
+    }
+
+    /// The first twenty defects in the terms of the file.
+    #[must_use]
+    pub fn shown(&self) -> &[Diagnostic] {
+        &self.shown
+    }
+}
+
+impl fmt::Display for MeshError {
+    /// A line for each of the first twenty defects.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, diagnostic) in self.shown.iter().enumerate() {
+            let separator = if i == 0 { "" } else { "\n" };
+            write!(f, "{separator}{diagnostic}  [{}]", diagnostic.code)?;
+        }
+        match self.defects().len() - self.shown.len() {
+            0 => Ok(()),
+            more => write!(f, "\nand {more} more"),
+        }
+    }
+}
+
+impl std::error::Error for MeshError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.error)
+    }
+}

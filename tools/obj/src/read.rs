@@ -1,0 +1,416 @@
+//! Reading: bytes to a [`Document`], in one pass.
+//!
+//! Strict where a mistake would change the model (numbers, indices, faces), and lenient where
+//! files merely differ (line ends, blanks, signs, trailing slashes). What is not
+//! understood is kept as bytes, and reported.
+//!
+//! One pass over the input in chunks of 64 KiB; nothing is allocated for a line. Several hundred
+//! megabytes a second.
+
+mod face;
+mod fault;
+mod foreign;
+mod forward;
+mod lines;
+mod scan;
+
+pub(crate) use self::foreign::attached_length;
+
+use std::io::Read;
+
+use tearmesh::{COORDINATE_MAX, Mesh, Point};
+
+use self::face::Element;
+use self::fault::{Fault, Parsed, quoted, refuse};
+use self::foreign::{Tally, binary};
+use self::forward::{Forward, beyond};
+use self::lines::{Line, Lines};
+use self::scan::Scan;
+use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
+use crate::document::{Document, Polygons};
+use crate::store::{Column, Kind, Rows, push};
+use crate::triangulate::Triangulation;
+
+/// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
+const NUMBERS_MAX: usize = 16;
+
+impl Document {
+    /// Reads a file. The input needs no buffer of its own.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError::Refused`] names the first thing that a strict reader cannot accept, with line,
+    /// column and text. [`ReadError::Input`] if the input fails.
+    ///
+    /// ```
+    /// use tearmesh_obj::Document;
+    ///
+    /// let error = Document::read(&b"v 0 0 0\nv 1 0,5 0\n"[..]).unwrap_err();
+    /// assert_eq!(error.to_string(), "line 2, column 5: cannot read number `0,5`");
+    /// ```
+    pub fn read(input: impl Read) -> Result<Document, ReadError> {
+        let mut lines = Lines::new(input);
+        let mut reader = Reader::default();
+        reader.start(&mut lines)?;
+        while let Some(line) = lines.next()? {
+            reader
+                .statement(&line)
+                .map_err(|fault| textual(fault, &line).at(&line))?;
+        }
+        let last_line = lines.number().saturating_sub(1).max(1);
+        reader.finish(last_line as usize)
+    }
+}
+
+/// What has been read so far.
+#[derive(Debug, Default)]
+struct Reader {
+    document: Document,
+    forward: [Forward; 3],
+    tally: Tally,
+}
+
+impl Reader {
+    /// Drops a byte order mark, and recognises what is no OBJ file from its first bytes.
+    fn start(&mut self, lines: &mut Lines<impl Read>) -> Result<(), ReadError> {
+        const MARK: &[u8] = b"\xef\xbb\xbf";
+        if lines.peek(3)?.starts_with(MARK) {
+            while lines.peek(3)?.starts_with(MARK) {
+                lines.skip(3);
+            }
+            self.document.diagnostics.push(Diagnostic {
+                level: Level::Note,
+                code: "W-OBJ-BOM",
+                location: Some(Location { line: 1, column: 1 }),
+                message: "the byte order mark at the start is dropped".to_owned(),
+                excerpt: None,
+                help: None,
+            });
+        }
+        let first = lines.peek(4)?;
+        // Without a byte order mark, UTF-16 shows by every other byte being zero.
+        let zeros: Vec<bool> = first.iter().take(4).map(|&byte| byte == 0).collect();
+        let fault = match first {
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => utf16(),
+            _ if zeros == [true, false, true, false] || zeros == [false, true, false, true] => {
+                utf16()
+            }
+            [b'g', b'l', b'T', b'F', ..] => binary(0, b'g'),
+            _ => return Ok(()),
+        };
+        Err(fault.at(&Line {
+            bytes: &first[..first.len().min(4)],
+            number: 1,
+        }))
+    }
+
+    #[inline]
+    fn statement(&mut self, line: &Line<'_>) -> Parsed<()> {
+        let mut scan = Scan::new(line.bytes);
+        scan.find_token();
+        let keyword = scan.token();
+        let start = scan.at;
+        scan.at += keyword.len();
+        match keyword {
+            b"v" => self.vertex(line, &mut scan)?,
+            b"f" => self.face(line, &mut scan)?,
+            b"vt" => self.texture(line, &mut scan)?,
+            b"vn" => self.normal(line, &mut scan)?,
+            _ => return self.carry(line, &mut Scan { at: start, ..scan }),
+        }
+        self.carry_comment(line, &scan)
+    }
+
+    fn vertex(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
+        let start = *scan;
+        let mut numbers = [0.0; NUMBERS_MAX];
+        let count = read_numbers(scan, &mut numbers, 3, "a vertex")?;
+        let [x, y, z, ..] = numbers;
+        let largest = x.abs().max(y.abs()).max(z.abs());
+        if largest > COORDINATE_MAX {
+            return Err(too_large(start, &numbers));
+        }
+        let index = self.document.positions.len();
+        limit(index, Mesh::MAX_VERTICES, "vertices")?;
+        push(&mut self.document.positions, Point::new(x, y, z));
+        if count > 3 {
+            limit(
+                self.document.extras.value_count(),
+                Rows::LIMIT - NUMBERS_MAX,
+                "numbers",
+            )?;
+            self.document.extras.set(index, &numbers[3..count]);
+        }
+        self.document.layout.push(Kind::Vertex, line.number);
+        Ok(())
+    }
+
+    fn texture(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
+        let mut numbers = [0.0; 3];
+        let count = read_numbers(scan, &mut numbers, 1, "a texture coordinate")?;
+        let texture = &mut self.document.texture;
+        limit(texture.value_count(), Rows::LIMIT - NUMBERS_MAX, "numbers")?;
+        texture.set(texture.len(), &numbers[..count]);
+        self.document.layout.push(Kind::Texture, line.number);
+        Ok(())
+    }
+
+    fn normal(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
+        let mut numbers = [0.0; 3];
+        read_numbers(scan, &mut numbers, 3, "a normal")?;
+        limit(self.document.normals.len(), Column::LIMIT, "normals")?;
+        push(&mut self.document.normals, numbers);
+        self.document.layout.push(Kind::Normal, line.number);
+        Ok(())
+    }
+
+    /// How many elements of a kind there are so far.
+    #[inline]
+    fn count(&self, element: Element) -> usize {
+        match element {
+            Element::Vertex => self.document.positions.len(),
+            Element::Texture => self.document.texture.len(),
+            Element::Normal => self.document.normals.len(),
+        }
+    }
+
+    /// Judges what can be judged only when the whole file is known.
+    fn finish(mut self, last_line: usize) -> Result<Document, ReadError> {
+        let offenders = Element::ALL.iter().filter_map(|&element| {
+            let count = self.count(element);
+            Some((
+                self.forward[element as usize].first_beyond(count)?,
+                element,
+                count,
+            ))
+        });
+        if let Some((step, element, count)) = offenders.min_by_key(|&((location, ..), ..)| location)
+        {
+            return Err(beyond(element.name(), element.plural(), step, count));
+        }
+        if self.document.polygons.len() == 0 {
+            return Err(self.no_face(last_line));
+        }
+        self.document.shrink();
+        self.document.triangulate();
+        self.tally.report(&mut self.document.diagnostics);
+        Ok(self.document)
+    }
+
+    #[cold]
+    fn no_face(&self, last_line: usize) -> ReadError {
+        let help = match self.tally.first.as_deref() {
+            Some(b"ply") => "this looks like a PLY file; convert it to OBJ first",
+            Some(b"solid") => "this looks like an STL file; convert it to OBJ first",
+            Some(b"OFF") => "this looks like an OFF file; convert it to OBJ first",
+            Some(b"newmtl") => "this is a material library; read the OBJ file that names it",
+            _ => "a cut needs faces (`f`); lines, points and curves have none",
+        };
+        let message = match self.document.positions.len() {
+            0 => "this file has no face".to_owned(),
+            1 => "this file has no face, only 1 vertex".to_owned(),
+            count => format!("this file has no face, only {count} vertices"),
+        };
+        let location = Location {
+            line: last_line,
+            column: 1,
+        };
+        refuse(
+            "E-OBJ-EMPTY",
+            location,
+            message,
+            None,
+            Some(help.to_owned()),
+        )
+    }
+}
+
+impl Document {
+    fn shrink(&mut self) {
+        let Polygons {
+            vertices,
+            texture,
+            normals,
+            starts,
+        } = &mut self.polygons;
+        vertices.shrink_to_fit();
+        texture.shrink();
+        normals.shrink();
+        starts.shrink_to_fit();
+        self.positions.shrink_to_fit();
+        self.extras.shrink();
+        self.texture.shrink();
+        self.normals.shrink_to_fit();
+        self.layout.shrink();
+        self.text.shrink_to_fit();
+    }
+
+    fn triangulate(&mut self) {
+        if self.polygons.all_triangles() {
+            return;
+        }
+        let triangulation = Triangulation::of(&self.polygons, &self.positions);
+        let larger = |&polygon: &usize| self.polygons.corners(polygon).len() > 3;
+        let mut polygons = (0..self.polygons.len()).filter(larger);
+        let first = polygons.next().expect("not all polygons are triangles");
+        let count = 1 + polygons.clone().count();
+        let triangles: usize = polygons
+            .chain([first])
+            .map(|polygon| self.polygons.triangles(polygon).len())
+            .sum();
+        let message = match count {
+            1 => format!("1 face with more than 3 corners is cut into {triangles} triangles"),
+            _ => format!(
+                "{count} faces with more than 3 corners are cut into {triangles} triangles (the first here)"
+            ),
+        };
+        self.diagnostics.push(Diagnostic {
+            level: Level::Warning,
+            code: "W-OBJ-QUAD",
+            location: Some(Location {
+                line: self.layout.line_of_polygon(first),
+                column: 1,
+            }),
+            message,
+            excerpt: None,
+            help: None,
+        });
+        self.triangulation = Some(triangulation);
+    }
+}
+
+/// Reads the numbers of a statement, of which there must be `least` and may be as many as there
+/// is room for; how many there are.
+#[inline]
+fn read_numbers<const MOST: usize>(
+    scan: &mut Scan<'_>,
+    numbers: &mut [f64; MOST],
+    least: usize,
+    what: &'static str,
+) -> Parsed<usize> {
+    let start = *scan;
+    let mut count = 0;
+    while scan.find_token() {
+        let Some(slot) = numbers.get_mut(count) else {
+            return Err(too_many_numbers(start, what, MOST));
+        };
+        *slot = scan.number()?;
+        count += 1;
+    }
+    if count < least {
+        Err(too_few_numbers(start, what, count, least))
+    } else {
+        Ok(count)
+    }
+}
+
+#[cold]
+fn too_few_numbers(scan: Scan<'_>, what: &str, count: usize, least: usize) -> Box<Fault> {
+    let end = scan.end_of_tokens();
+    let plural = if least == 1 { "" } else { "s" };
+    let message = format!("{what} needs {least} number{plural}, this one has {count}");
+    Fault::new("E-OBJ-COUNT", end..end, message, "expected another number")
+}
+
+#[cold]
+fn too_many_numbers(scan: Scan<'_>, what: &str, most: usize) -> Box<Fault> {
+    let span = nth_token(scan, most);
+    let message = format!("{what} has at most {most} numbers");
+    Fault::new("E-OBJ-COUNT", span, message, "one too many")
+}
+
+#[cold]
+fn too_large(scan: Scan<'_>, numbers: &[f64; NUMBERS_MAX]) -> Box<Fault> {
+    let at = numbers.iter().position(|x| x.abs() > COORDINATE_MAX);
+    let span = nth_token(scan, at.unwrap_or(0));
+    let text = quoted(&scan.bytes[span.clone()]);
+    let message = format!("the coordinate {text} is too large");
+    Fault::new(
+        "E-OBJ-COORDINATE",
+        span,
+        message,
+        format!("expected at most {COORDINATE_MAX:e}"),
+    )
+    .help("scale the model: computations with larger numbers would overflow")
+}
+
+fn nth_token(mut scan: Scan<'_>, n: usize) -> std::ops::Range<usize> {
+    scan.find_token();
+    for _ in 0..n {
+        scan.at += scan.token().len();
+        scan.find_token();
+    }
+    scan.at..scan.at + scan.token().len()
+}
+
+#[inline]
+fn limit(count: usize, most: usize, what: &str) -> Parsed<()> {
+    if count < most {
+        Ok(())
+    } else {
+        Err(over_limit(most, what))
+    }
+}
+
+#[cold]
+fn over_limit(most: usize, what: &str) -> Box<Fault> {
+    Fault::new(
+        "E-OBJ-LIMIT",
+        0..1,
+        format!("the file has more than {most} {what}"),
+        "one too many",
+    )
+    .help("split the model into several files")
+}
+
+#[cold]
+fn utf16() -> Box<Fault> {
+    Fault::new(
+        "E-OBJ-UTF16",
+        0..0,
+        "this is a UTF-16 file",
+        "expected UTF-8 or ASCII",
+    )
+    .help("save it as UTF-8")
+}
+
+/// Whatever is wrong with a line that holds a zero byte, is that it is no text.
+#[cold]
+fn textual(fault: Box<Fault>, line: &Line<'_>) -> Box<Fault> {
+    match line.bytes.iter().position(|&byte| byte == 0) {
+        Some(at) => binary(at, 0),
+        None => fault,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fault::locate;
+    use super::*;
+
+    #[test]
+    fn a_limit_is_the_most_that_is_accepted() {
+        assert!(limit(2, 3, "vertices").is_ok());
+        let fault = limit(3, 3, "vertices").expect_err("over the limit");
+        let error = fault.at(&Line {
+            bytes: b"v 0 0 0",
+            number: 4,
+        });
+        assert_eq!(
+            error.to_string(),
+            "line 4, column 1: the file has more than 3 vertices"
+        );
+        assert_eq!(error.diagnostic().map(|d| d.code), Some("E-OBJ-LIMIT"));
+    }
+
+    #[test]
+    fn the_place_of_a_fault_is_that_in_its_physical_line() {
+        let line = Line {
+            bytes: b"f 1 \\\n  \xc3\xa9\xff 2",
+            number: 7,
+        };
+        let (location, excerpt) = locate(&line, &(11..12));
+        assert_eq!(location, Location { line: 8, column: 5 });
+        assert_eq!((&excerpt.text[..], excerpt.length), ("  é\u{fffd} 2", 1));
+    }
+}

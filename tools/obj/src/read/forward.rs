@@ -1,0 +1,104 @@
+//! References to elements that come later in the file, or never.
+//!
+//! A face may precede its vertices, so an index beyond the current count is judged at the
+//! end of the file; the first one that is still beyond must then be named with its line, column
+//! and text. What is kept is a staircase: only references larger than all before them, since a
+//! smaller one fails only if an earlier one does. A step takes 24 bytes and has an index of its
+//! own, which takes about as many digits in the file as the logarithm of the number of
+//! steps, so the staircase stays within a few times the file. The texts, which would not, are
+//! kept within a budget, and then the line and column must do.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use super::fault::{locate, refuse};
+use super::lines::Line;
+use crate::diagnostic::{Excerpt, Location, ReadError};
+
+/// The most bytes of text that are kept.
+const TEXT_BUDGET: usize = 1 << 20;
+
+/// The staircase of forward references to one kind of element.
+#[derive(Debug, Default)]
+pub(super) struct Forward {
+    steps: VecDeque<Step>,
+    text: usize,
+}
+
+#[derive(Debug)]
+struct Step {
+    /// As in the file, from 1.
+    index: u32,
+    line: u32,
+    column: u32,
+    excerpt: Option<Box<Excerpt>>,
+}
+
+impl Forward {
+    /// Notes a reference to the element `index` (from 1), of which `count` exist so far.
+    #[cold]
+    pub(super) fn note(&mut self, index: u32, count: usize, line: &Line<'_>, span: Range<usize>) {
+        while self
+            .steps
+            .front()
+            .is_some_and(|step| step.index as usize <= count)
+        {
+            let step = self.steps.pop_front();
+            self.text -= step
+                .and_then(|step| step.excerpt)
+                .map_or(0, |excerpt| excerpt.text.len());
+        }
+        if self.steps.back().is_some_and(|step| step.index >= index) {
+            return;
+        }
+        let (location, excerpt) = locate(line, &span);
+        let fits = self.text + excerpt.text.len() <= TEXT_BUDGET;
+        self.text += if fits { excerpt.text.len() } else { 0 };
+        if self.steps.len() == self.steps.capacity() {
+            self.steps.reserve_exact(self.steps.len() / 2 + 16);
+        }
+        self.steps.push_back(Step {
+            index,
+            line: location.line as u32,
+            column: location.column as u32,
+            excerpt: fits.then(|| Box::new(excerpt)),
+        });
+    }
+
+    /// The place of the first reference beyond the final count.
+    pub(super) fn first_beyond(&self, count: usize) -> Option<(Location, u32, Option<Excerpt>)> {
+        let step = self.steps.iter().find(|step| step.index as usize > count)?;
+        let location = Location {
+            line: step.line as usize,
+            column: step.column as usize,
+        };
+        Some((location, step.index, step.excerpt.as_deref().cloned()))
+    }
+}
+
+/// The error for an index that no element has, though the whole file is known.
+pub(super) fn beyond(
+    what: &str,
+    plural: &str,
+    (location, index, excerpt): (Location, u32, Option<Excerpt>),
+    count: usize,
+) -> ReadError {
+    let message = match count {
+        0 => format!("{what} {index} does not exist: the file has no {plural}"),
+        1 => format!("{what} {index} does not exist: the file has 1 {what}"),
+        _ => format!("{what} {index} does not exist: the file has {count} {plural}"),
+    };
+    let label = match count {
+        0 => "expected no index here".to_owned(),
+        _ => format!("expected 1 to {count}"),
+    };
+    let help = "indices count from 1 through the whole file, not from each object on";
+    let excerpt = excerpt.map(|excerpt| excerpt.labelled(label));
+    refuse(
+        "E-OBJ-RANGE",
+        location,
+        message,
+        excerpt,
+        Some(help.to_owned()),
+    )
+}

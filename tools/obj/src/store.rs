@@ -1,0 +1,270 @@
+//! Compact storage for what a file holds.
+//!
+//! A hostile file must not cost more than twelve times its size, and an honest one should
+//! cost little more than its numbers: rows of numbers are one flat list, an attribute that no
+//! corner has takes no memory, and the order of statements is a list of runs.
+
+/// Appends a value. Grows by half where `Vec` doubles: the memory for a file stays within
+/// its bound even at the moment of growth, when old and new storage exist side by side.
+#[inline]
+pub(crate) fn push<T>(list: &mut Vec<T>, value: T) {
+    if list.len() == list.capacity() {
+        grow(list, 1);
+    }
+    list.push(value);
+}
+
+/// Appends values, growing as [`push`] does.
+pub(crate) fn extend<T: Copy>(list: &mut Vec<T>, values: &[T]) {
+    if list.capacity() - list.len() < values.len() {
+        grow(list, values.len());
+    }
+    list.extend_from_slice(values);
+}
+
+#[cold]
+fn grow<T>(list: &mut Vec<T>, least: usize) {
+    list.reserve_exact((list.len() / 2 + 64).max(least));
+}
+
+/// Rows of numbers, each with a length of its own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Rows {
+    values: Vec<f64>,
+    /// Where each row ends in `values`. Rows that are missing at the end are empty.
+    ends: Vec<u32>,
+}
+
+impl Rows {
+    /// The most numbers that fit.
+    pub(crate) const LIMIT: usize = u32::MAX as usize;
+
+    /// Appends a row as the row `index`; those between the last one and it are empty.
+    #[inline]
+    pub(crate) fn set(&mut self, index: usize, row: &[f64]) {
+        let end = self.values.len() as u32;
+        while self.ends.len() < index {
+            push(&mut self.ends, end);
+        }
+        for &value in row {
+            push(&mut self.values, value);
+        }
+        push(&mut self.ends, self.values.len() as u32);
+    }
+
+    /// A row; empty beyond the last one.
+    #[inline]
+    pub(crate) fn row(&self, index: usize) -> &[f64] {
+        let Some(&end) = self.ends.get(index) else {
+            return &[];
+        };
+        let start = if index == 0 { 0 } else { self.ends[index - 1] };
+        &self.values[start as usize..end as usize]
+    }
+
+    /// The number of rows, up to the last that was set.
+    pub(crate) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The number of numbers.
+    pub(crate) fn value_count(&self) -> usize {
+        self.values.len()
+    }
+
+    pub(crate) fn shrink(&mut self) {
+        self.values.shrink_to_fit();
+        self.ends.shrink_to_fit();
+    }
+}
+
+/// An optional index for each corner. Costs nothing until the first corner has one.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Column {
+    /// Corners that are missing at the end have none.
+    values: Vec<u32>,
+}
+
+impl Column {
+    const NONE: u32 = u32::MAX;
+
+    /// The most indices there can be, so that none equals the mark for "none".
+    pub(crate) const LIMIT: usize = Self::NONE as usize;
+
+    /// Gives the corner `index`, which comes after all that have one, an index.
+    #[inline]
+    pub(crate) fn set(&mut self, index: usize, value: u32) {
+        while self.values.len() < index {
+            push(&mut self.values, Self::NONE);
+        }
+        push(&mut self.values, value);
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, index: usize) -> Option<u32> {
+        self.values
+            .get(index)
+            .copied()
+            .filter(|&value| value != Self::NONE)
+    }
+
+    pub(crate) fn shrink(&mut self) {
+        self.values.shrink_to_fit();
+    }
+}
+
+/// The kinds of things that a file is a sequence of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// `v`
+    Vertex,
+    /// `vt`
+    Texture,
+    /// `vn`
+    Normal,
+    /// `f`
+    Polygon,
+    /// Anything else, kept as bytes: whole lines, each with `\n` at its end.
+    Text,
+}
+
+/// Neighbouring statements of one kind, on consecutive lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub(crate) kind: Kind,
+    /// How many statements, or for text, how many bytes.
+    pub(crate) count: u32,
+    /// The line of the first statement.
+    line: u32,
+    /// How many polygons come before this run.
+    polygons_before: u32,
+}
+
+/// In which order the statements of a file come, and on which lines they stand.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Layout {
+    runs: Vec<Run>,
+    polygons: u32,
+}
+
+impl Layout {
+    /// Adds a statement that is not text.
+    #[inline]
+    pub(crate) fn push(&mut self, kind: Kind, line: u32) {
+        let polygons_before = self.polygons;
+        self.polygons += u32::from(kind == Kind::Polygon);
+        match self.runs.last_mut() {
+            Some(run) if run.kind == kind && run.line.wrapping_add(run.count) == line => {
+                run.count += 1;
+            }
+            _ => push(
+                &mut self.runs,
+                Run {
+                    kind,
+                    count: 1,
+                    line,
+                    polygons_before,
+                },
+            ),
+        }
+    }
+
+    /// Adds bytes of text.
+    pub(crate) fn push_text(&mut self, bytes: usize, line: u32) {
+        let polygons_before = self.polygons;
+        let bytes = u32::try_from(bytes).expect("the cap on the length of a line fits 32 bits");
+        match self.runs.last_mut() {
+            Some(Run {
+                kind: Kind::Text,
+                count,
+                ..
+            }) if count.checked_add(bytes).is_some() => {
+                *count += bytes;
+            }
+            _ => push(
+                &mut self.runs,
+                Run {
+                    kind: Kind::Text,
+                    count: bytes,
+                    line,
+                    polygons_before,
+                },
+            ),
+        }
+    }
+
+    pub(crate) fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// The line on which a polygon begins. Takes the logarithm of the number of runs.
+    pub(crate) fn line_of_polygon(&self, polygon: usize) -> usize {
+        let after = self
+            .runs
+            .partition_point(|run| run.polygons_before as usize <= polygon);
+        let run = self.runs[..after]
+            .iter()
+            .rfind(|run| run.kind == Kind::Polygon);
+        let run = run.expect("every polygon belongs to a run");
+        run.line as usize + polygon - run.polygons_before as usize
+    }
+
+    /// The line on which a vertex stands. Linear in the number of runs.
+    pub(crate) fn line_of_vertex(&self, vertex: usize) -> Option<usize> {
+        let mut before = 0;
+        for run in self.runs.iter().filter(|run| run.kind == Kind::Vertex) {
+            if vertex < before + run.count as usize {
+                return Some(run.line as usize + vertex - before);
+            }
+            before += run.count as usize;
+        }
+        None
+    }
+
+    pub(crate) fn shrink(&mut self) {
+        self.runs.shrink_to_fit();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_that_were_skipped_are_empty() {
+        let mut rows = Rows::default();
+        rows.set(2, &[1.0, 2.0]);
+        rows.set(3, &[3.0]);
+        let all: Vec<&[f64]> = (0..6).map(|i| rows.row(i)).collect();
+        assert_eq!(all, [&[][..], &[], &[1.0, 2.0], &[3.0], &[], &[]]);
+    }
+
+    #[test]
+    fn corners_that_were_skipped_have_no_index() {
+        let mut column = Column::default();
+        column.set(1, 7);
+        column.set(3, 0);
+        let all: Vec<_> = (0..5).map(|i| column.get(i)).collect();
+        assert_eq!(all, [None, Some(7), None, Some(0), None]);
+    }
+
+    #[test]
+    fn lines_are_found_again_across_gaps() {
+        let mut layout = Layout::default();
+        for (kind, line) in [
+            (Kind::Vertex, 1),
+            (Kind::Vertex, 2),
+            (Kind::Polygon, 3),
+            (Kind::Polygon, 4),
+            (Kind::Polygon, 7), // The polygon before it was continued on lines 5 and 6.
+            (Kind::Vertex, 8),
+            (Kind::Polygon, 9),
+        ] {
+            layout.push(kind, line);
+        }
+        let polygons: Vec<_> = (0..4).map(|p| layout.line_of_polygon(p)).collect();
+        assert_eq!(polygons, [3, 4, 7, 9]);
+        let vertices: Vec<_> = (0..4).map(|v| layout.line_of_vertex(v)).collect();
+        assert_eq!(vertices, [Some(1), Some(2), Some(8), None]);
+    }
+}

@@ -1,0 +1,301 @@
+//! Polygons to triangles.
+//!
+//! A polygon is looked at along its Newell normal, more exactly along the axis nearest to
+//! it: dropping a coordinate is exact, where a rotation would round. If all triangles of
+//! the fan from its first corner face the viewer, that fan is taken: so a convex quad becomes
+//! (0, 1, 2), (0, 2, 3), as everywhere. Otherwise ears are cut off: corners whose triangle faces
+//! the viewer and holds no other corner.
+//!
+//! A polygon of n corners gives n − 2 triangles whatever its shape. One that crosses itself, or has
+//! no area, runs out of ears; then the least bad corner is cut off instead.
+//!
+//! O(n²): a corner remembers which corner was found in its triangle, and is tested again
+//! only when that one is gone, or its triangle has changed, which happens twice for each ear.
+
+mod flip;
+
+use tearmesh::Point;
+
+use crate::document::Polygons;
+
+/// The triangles of all polygons, where not all are triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct Triangulation {
+    triangles: Vec<[u32; 3]>,
+    /// For each corner of a triangle, which corner of its polygon it is.
+    corners: Vec<[u16; 3]>,
+}
+
+impl Triangulation {
+    pub(crate) fn of(polygons: &Polygons, positions: &[Point]) -> Triangulation {
+        let count = polygons.vertices.len() - 2 * polygons.len();
+        let mut corners = Vec::with_capacity(count);
+        let mut triangles = Vec::with_capacity(count);
+        let mut flat = Vec::new();
+        for polygon in 0..polygons.len() {
+            let vertices = &polygons.vertices[polygons.corners(polygon)];
+            let first = corners.len();
+            if vertices.len() > 3 {
+                flatten(vertices, positions, &mut flat);
+                cut_into_triangles(&flat, &mut corners);
+            } else {
+                corners.push([0, 1, 2]);
+            }
+            let vertex = |corner| vertices[usize::from(corner)];
+            triangles.extend(corners[first..].iter().map(|triangle| triangle.map(vertex)));
+        }
+        assert_eq!(
+            corners.len(),
+            count,
+            "a polygon of n corners has n − 2 triangles"
+        );
+        let mut triangulation = Triangulation { triangles, corners };
+        flip::flip_colliding(&mut triangulation, polygons, positions);
+        triangulation
+    }
+
+    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    #[inline]
+    pub(crate) fn corners(&self, triangle: usize) -> [u16; 3] {
+        self.corners[triangle]
+    }
+}
+
+/// A point of a polygon as it is seen.
+type Flat = [f64; 2];
+
+/// Projects a polygon along an axis so that its area is positive.
+fn flatten(vertices: &[u32], positions: &[Point], flat: &mut Vec<Flat>) {
+    // Seen from the first corner, large coordinates of a small face do not cancel digits.
+    let at = |vertex: u32| positions[vertex as usize];
+    let origin = at(vertices[0]);
+    let mut normal = [0.0; 3];
+    for (i, &vertex) in vertices.iter().enumerate() {
+        let a = at(vertex) - origin;
+        let b = at(vertices[(i + 1) % vertices.len()]) - origin;
+        normal[0] += a.y * b.z - a.z * b.y;
+        normal[1] += a.z * b.x - a.x * b.z;
+        normal[2] += a.x * b.y - a.y * b.x;
+    }
+    let [x, y, z] = normal.map(f64::abs);
+    let (dropped, kept) = match () {
+        () if z >= x && z >= y => (2, [0, 1]),
+        () if y >= x => (1, [2, 0]),
+        () => (0, [1, 2]),
+    };
+    let [u, v] = if normal[dropped] < 0.0 {
+        [kept[1], kept[0]]
+    } else {
+        kept
+    };
+    flat.clear();
+    flat.extend(
+        vertices
+            .iter()
+            .map(|&vertex| [at(vertex)[u], at(vertex)[v]]),
+    );
+}
+
+/// Appends n − 2 triangles of a polygon of n ≥ 3 points.
+fn cut_into_triangles(flat: &[Flat], triangles: &mut Vec<[u16; 3]>) {
+    let fan = (1..flat.len() - 1).map(|i| [0, i as u16, i as u16 + 1]);
+    if fan
+        .clone()
+        .all(|[a, b, c]| doubled_area(flat, a, b, c) > 0.0)
+    {
+        triangles.extend(fan);
+    } else {
+        Clipper::new(flat).clip(triangles);
+    }
+}
+
+/// Twice the signed area of a triangle of points of the polygon.
+#[inline]
+fn doubled_area(flat: &[Flat], a: u16, b: u16, c: u16) -> f64 {
+    let [a, b, c] = [a, b, c].map(|corner| flat[usize::from(corner)]);
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// A polygon from which ears are cut off.
+struct Clipper<'p> {
+    flat: &'p [Flat],
+    /// The corners that are left, as a ring.
+    next: Vec<u16>,
+    previous: Vec<u16>,
+    left: usize,
+    /// For each corner, how many of the others, in order, are known not to lie in its
+    /// triangle.
+    cleared: Vec<u16>,
+}
+
+impl<'p> Clipper<'p> {
+    fn new(flat: &'p [Flat]) -> Self {
+        let count = flat.len() as u16;
+        Clipper {
+            flat,
+            next: (0..count).map(|i| (i + 1) % count).collect(),
+            previous: (0..count).map(|i| (i + count - 1) % count).collect(),
+            left: flat.len(),
+            cleared: vec![0; flat.len()],
+        }
+    }
+
+    fn clip(mut self, triangles: &mut Vec<[u16; 3]>) {
+        let mut corner = 1;
+        while self.left > 3 {
+            let ear = self.find_ear(corner);
+            triangles.push([
+                self.previous[usize::from(ear)],
+                ear,
+                self.next[usize::from(ear)],
+            ]);
+            corner = self.cut_off(ear);
+        }
+        triangles.push([
+            self.previous[usize::from(corner)],
+            corner,
+            self.next[usize::from(corner)],
+        ]);
+    }
+
+    /// The first ear from a corner on; where there is none, the first corner without area,
+    /// else the first convex one, else the first.
+    fn find_ear(&mut self, from: u16) -> u16 {
+        let (mut flat, mut convex) = (None, None);
+        let mut corner = from;
+        for _ in 0..self.left {
+            let area = self.area(corner);
+            if area > 0.0 {
+                if self.is_empty(corner) {
+                    return corner;
+                }
+                convex = convex.or(Some(corner));
+            } else if area == 0.0 {
+                flat = flat.or(Some(corner));
+            }
+            corner = self.next[usize::from(corner)];
+        }
+        flat.or(convex).unwrap_or(from)
+    }
+
+    /// Removes a corner; the one after it.
+    fn cut_off(&mut self, corner: u16) -> u16 {
+        let (before, after) = (
+            self.previous[usize::from(corner)],
+            self.next[usize::from(corner)],
+        );
+        self.next[usize::from(before)] = after;
+        self.previous[usize::from(after)] = before;
+        // Marks it as gone: no other corner is its own neighbour.
+        self.next[usize::from(corner)] = corner;
+        self.cleared[usize::from(before)] = 0;
+        self.cleared[usize::from(after)] = 0;
+        self.left -= 1;
+        after
+    }
+
+    fn area(&self, corner: u16) -> f64 {
+        let (before, after) = (
+            self.previous[usize::from(corner)],
+            self.next[usize::from(corner)],
+        );
+        doubled_area(self.flat, before, corner, after)
+    }
+
+    /// Whether no other corner that is left lies in the triangle of a convex corner or on its
+    /// border. One at the same place as a corner of the triangle does not count: a
+    /// polygon with a hole returns to where it was.
+    fn is_empty(&mut self, corner: u16) -> bool {
+        let (before, after) = (
+            self.previous[usize::from(corner)],
+            self.next[usize::from(corner)],
+        );
+        let triangle = [before, corner, after];
+        let places = triangle.map(|i| self.flat[usize::from(i)]);
+        while let Some(&place) = self
+            .flat
+            .get(usize::from(self.cleared[usize::from(corner)]))
+        {
+            let other = self.cleared[usize::from(corner)];
+            let gone = self.next[usize::from(other)] == other;
+            let inside = || {
+                [(before, corner), (corner, after), (after, before)]
+                    .into_iter()
+                    .all(|(a, b)| doubled_area(self.flat, a, b, other) >= 0.0)
+            };
+            if !gone && !places.contains(&place) && inside() {
+                return false;
+            }
+            self.cleared[usize::from(corner)] += 1;
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangles(flat: &[Flat]) -> Vec<[u16; 3]> {
+        let mut triangles = Vec::new();
+        cut_into_triangles(flat, &mut triangles);
+        triangles
+    }
+
+    fn areas(flat: &[Flat]) -> Vec<f64> {
+        triangles(flat)
+            .iter()
+            .map(|&[a, b, c]| doubled_area(flat, a, b, c))
+            .collect()
+    }
+
+    #[test]
+    fn a_quad_is_cut_along_the_diagonal_that_lies_in_it() {
+        let convex = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        assert_eq!(triangles(&convex), [[0, 1, 2], [0, 2, 3]]);
+        for turn in 0..4 {
+            let mut dart = [[0.0, 0.0], [4.0, 0.0], [1.0, 1.0], [0.0, 4.0]];
+            dart.rotate_left(turn);
+            assert!(areas(&dart).iter().all(|&area| area > 0.0), "{turn}");
+        }
+    }
+
+    #[test]
+    fn shapes_without_ears_still_give_two_triangles_less_than_corners() {
+        let line: Vec<Flat> = (0..9).map(|i| [f64::from(i), 0.0]).collect();
+        let point = vec![[1.0, 1.0]; 7];
+        let eight = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+        let huge = vec![
+            [1e75, -1e75],
+            [-1e75, 1e75],
+            [1e75, 1e75],
+            [-1e75, -1e75],
+            [0.0, 1e-300],
+        ];
+        for flat in [line, point, eight, huge] {
+            assert_eq!(triangles(&flat).len(), flat.len() - 2);
+        }
+    }
+
+    #[test]
+    fn a_comb_is_cut_without_overlap() {
+        // Teeth up and down: every other corner is reflex, and a fan would not do.
+        let teeth = 100;
+        let mut comb = vec![[0.0, -10.0], [f64::from(teeth), -10.0]];
+        for i in (0..=2 * teeth).rev() {
+            comb.push([f64::from(i) / 2.0, if i % 2 == 0 { 5.0 } else { 0.0 }]);
+        }
+        let total: f64 = (0..comb.len())
+            .map(|i| {
+                let (a, b) = (comb[i], comb[(i + 1) % comb.len()]);
+                a[0] * b[1] - a[1] * b[0]
+            })
+            .sum();
+        let areas = areas(&comb);
+        assert!(areas.iter().all(|&area| area >= 0.0));
+        assert_eq!(areas.iter().sum::<f64>(), total);
+    }
+}

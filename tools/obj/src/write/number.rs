@@ -1,0 +1,119 @@
+//! Numbers to text: the shortest digits that read back as the same bits.
+
+/// Appends a finite number: a whole number without `.0`, decimal between 1e-7 and 1e21, with an
+/// exponent outside. Minus zero keeps its sign.
+pub(super) fn write_number(out: &mut Vec<u8>, number: f64) {
+    let size = number.abs();
+    if size < 9e15 && size.fract() == 0.0 {
+        if number.is_sign_negative() {
+            out.push(b'-');
+        }
+        return write_integer(out, size as u64);
+    }
+    let mut buffer = ryu::Buffer::new();
+    let digits = buffer.format_finite(number);
+    match digits.split_once('e') {
+        None => out.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes()),
+        Some((mantissa, exponent)) if (1e-7..1e21).contains(&size) => {
+            let exponent = exponent.parse().expect("an exponent is a whole number");
+            write_decimal(out, mantissa, exponent);
+        }
+        Some(_) => out.extend_from_slice(digits.as_bytes()),
+    }
+}
+
+/// Appends a whole number.
+#[inline]
+pub(super) fn write_integer(out: &mut Vec<u8>, mut number: u64) {
+    let mut digits = [0; 20];
+    let mut start = digits.len();
+    loop {
+        start -= 1;
+        digits[start] = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    out.extend_from_slice(&digits[start..]);
+}
+
+/// Appends `-1.25e-7` as `-0.000000125`, and `1.25e17` as `125000000000000000`.
+fn write_decimal(out: &mut Vec<u8>, mantissa: &str, exponent: i32) {
+    let unsigned = mantissa.strip_prefix('-').unwrap_or(mantissa);
+    if unsigned.len() < mantissa.len() {
+        out.push(b'-');
+    }
+    let digits: Vec<u8> = unsigned.bytes().filter(|&byte| byte != b'.').collect();
+    // The mantissa has one digit before its point.
+    if exponent < 0 {
+        out.extend_from_slice(b"0.");
+        out.resize(out.len() + (-exponent - 1) as usize, b'0');
+        out.extend_from_slice(&digits);
+    } else {
+        let whole = exponent as usize + 1;
+        out.extend_from_slice(&digits[..whole.min(digits.len())]);
+        if digits.len() <= whole {
+            out.resize(out.len() + whole - digits.len(), b'0');
+        } else {
+            out.push(b'.');
+            out.extend_from_slice(&digits[whole..]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(number: f64) -> String {
+        let mut out = Vec::new();
+        write_number(&mut out, number);
+        String::from_utf8(out).expect("digits are ASCII")
+    }
+
+    #[test]
+    fn numbers_look_as_a_person_would_write_them() {
+        for (number, expected) in [
+            (0.0, "0"),
+            (-0.0, "-0"),
+            (1.0, "1"),
+            (-12.0, "-12"),
+            (0.1, "0.1"),
+            (-0.5, "-0.5"),
+            (1e-5, "0.00001"),
+            (1.25e-6, "0.00000125"),
+            (1e-7, "0.0000001"),
+            (-1.25e-7, "-0.000000125"),
+            (9.9e-8, "9.9e-8"),
+            (1e16, "10000000000000000"),
+            (9_007_199_254_740_993.0, "9007199254740992"),
+            (-1.25e17, "-125000000000000000"),
+            (1.234_567_890_123_456_8e20, "123456789012345680000"),
+            (1e21, "1e21"),
+            (1e300, "1e300"),
+            (5e-324, "5e-324"),
+            (f64::MAX, "1.7976931348623157e308"),
+        ] {
+            assert_eq!(text(number), expected);
+        }
+    }
+
+    #[test]
+    fn numbers_read_back_as_the_same_bits() {
+        let mut bits = 1_u64;
+        for _ in 0..200_000 {
+            bits = bits
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            // Random bits, and numbers of a size that models have.
+            let small = ((bits >> 40) as f64 - 8e6) / 1e6 * [1.0, 1e-6, 1e9][(bits % 3) as usize];
+            for number in [f64::from_bits(bits), small] {
+                if number.is_finite() {
+                    let back: f64 = text(number).parse().expect("a number");
+                    assert_eq!(back.to_bits(), number.to_bits(), "{number:e}");
+                }
+            }
+        }
+    }
+}
