@@ -32,7 +32,7 @@ fn flag() -> String {
         vertex(&mut obj, [2.0 * u - 1.0, 2.0 * v - 1.0, z]);
     });
     grid(cells, |i, j| {
-        writeln!(obj, "vt {} {}", step(i), step(j)).expect("a string grows")
+        writeln!(obj, "vt {} {}", step(i), step(j)).expect("a string grows");
     });
     obj.push_str("usemtl cloth\n");
     let number = |i: usize, j: usize| j * (cells + 1) + i + 1;

@@ -1,0 +1,108 @@
+//! Runs the command as a person would, in a folder of its own.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// The repository.
+pub(crate) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// A folder with the project's test meshes, removed at the end.
+pub(crate) struct Folder {
+    folder: tempfile::TempDir,
+}
+
+impl Folder {
+    /// The meshes lie in the folder itself, and where a clone has them.
+    pub(crate) fn new() -> Folder {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let data = folder.path().join("tests/data");
+        fs::create_dir_all(&data).expect("a folder for data");
+        for entry in fs::read_dir(root().join("tests/data")).expect("the project's data") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "obj") {
+                let name = path.file_name().expect("a name");
+                fs::copy(&path, data.join(name)).expect("a copy");
+                fs::copy(&path, folder.path().join(name)).expect("a copy");
+            }
+        }
+        Folder { folder }
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).expect("a written file");
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).expect("a file with text")
+    }
+
+    /// The names of all files in the folder itself.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path()).expect("the folder");
+        let mut names: Vec<_> = entries
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// The command, ready to run in this folder, without a terminal.
+    pub(crate) fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_tearmesh"));
+        command
+            .current_dir(self.folder.path())
+            .stdin(Stdio::null())
+            .env_remove("NO_COLOR");
+        command
+    }
+
+    /// Runs a line such as `tearmesh cut in.obj … > out.obj`.
+    pub(crate) fn run(&self, line: &str) -> Output {
+        let line = line.replace("cargo run --release --", "tearmesh");
+        let words = shlex::split(&line).expect("words that a shell understands");
+        let mut words = words.into_iter();
+        assert_eq!(words.next().as_deref(), Some("tearmesh"), "{line}");
+        let mut command = self.command();
+        while let Some(word) = words.next() {
+            let mut file = || self.path(&words.next().expect("the name of a file"));
+            match word.as_str() {
+                "<" => {
+                    command.stdin(File::open(file()).expect("an input"));
+                }
+                ">" => {
+                    command.stdout(File::create(file()).expect("an output"));
+                }
+                _ => {
+                    command.arg(word);
+                }
+            }
+        }
+        command.output().expect("the command runs")
+    }
+}
+
+/// What a person sees: the words on standard error, those on standard output, and the exit
+/// status unless it is 0.
+pub(crate) fn seen(output: &Output) -> String {
+    let mut text = String::from_utf8_lossy(&output.stderr).into_owned();
+    text.push_str(&String::from_utf8_lossy(&output.stdout));
+    match output.status.code() {
+        Some(0) => {}
+        Some(code) => text.push_str(&format!("(exit {code})\n")),
+        None => text.push_str("(killed)\n"),
+    }
+    text
+}

@@ -1,0 +1,9 @@
+//! Tests of the command: transcripts, the README's commands, streams and files, and cuts
+//! checked against a reader of OBJ that shares no code with ours.
+
+#![expect(clippy::print_stdout, reason = "tests say how much they did")]
+
+mod files;
+mod harness;
+mod through;
+mod transcripts;

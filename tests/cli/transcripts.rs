@@ -1,0 +1,119 @@
+//! Transcripts: what is typed, and what is answered, to the letter.
+//!
+//! A line that begins with `$ ` is typed; the lines behind it, up to the next one or an
+//! empty line, are the answer: standard error, then standard output, then `(exit N)` unless N
+//! is 0. The files that commands leave behind stay for the commands after them.
+//! `TEARMESH_BLESS=1` writes the answers anew; read the difference before you keep it.
+
+use std::fs;
+use std::path::Path;
+
+use crate::harness::{Folder, root, seen};
+
+#[test]
+fn transcripts_are_answered_to_the_letter() {
+    let folder = root().join("tests/cli/transcripts");
+    let mut paths: Vec<_> = fs::read_dir(folder)
+        .expect("transcripts")
+        .map(|entry| entry.expect("one").path())
+        .collect();
+    paths.sort();
+    let mut commands = 0;
+    for path in paths {
+        let folder = Folder::new();
+        bad_inputs(&folder);
+        commands += play(&path, &folder, true);
+    }
+    println!("{commands} commands");
+    assert!(commands >= 30);
+}
+
+#[test]
+fn the_commands_of_the_readme_answer_as_it_says() {
+    let folder = Folder::new();
+    bad_inputs(&folder);
+    assert!(play(&root().join("README.md"), &folder, false) >= 5);
+}
+
+/// Plays the commands of a file, and counts them. In Markdown only `console` blocks count.
+fn play(path: &Path, folder: &Folder, plain: bool) -> usize {
+    let text = fs::read_to_string(path).expect("a transcript");
+    let mut lines = text.lines().peekable();
+    let mut played = String::new();
+    let mut in_block = plain;
+    let mut commands = 0;
+    while let Some(line) = lines.next() {
+        played.push_str(line);
+        played.push('\n');
+        if !plain && line.starts_with("```") {
+            in_block = line == "```console";
+        }
+        let Some(typed) = line.strip_prefix("$ ").filter(|_| in_block) else {
+            continue;
+        };
+        if !typed.starts_with("tearmesh ") && !typed.starts_with("cargo run ") {
+            continue; // A command of the shell, which is not ours to test.
+        }
+        let is_answer = |line: &str| !line.is_empty() && !line.starts_with("$ ") && line != "```";
+        while lines.next_if(|line| is_answer(line)).is_some() {}
+        let answer = seen(&folder.run(typed));
+        for line in answer.lines() {
+            // An empty line would end the answer.
+            let line = line.trim_end();
+            played.push_str(if line.is_empty() { "." } else { line });
+            played.push('\n');
+        }
+        commands += 1;
+    }
+    if std::env::var_os("TEARMESH_BLESS").is_some() {
+        fs::write(path, &played).expect("a blessed transcript");
+    }
+    let name = path.file_name().expect("a name").display();
+    assert!(
+        played == text,
+        "{name} reads otherwise; the answers are now:\n{played}"
+    );
+    commands
+}
+
+/// The bad files that the transcripts speak of.
+fn bad_inputs(folder: &Folder) {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let files = [
+        (
+            "comma.obj",
+            "v 0 0 0\nv 1 0 0\nv 1 0,5 0\nf 1 2 3\n".to_owned(),
+        ),
+        ("range.obj", format!("{square}f 1 2 9\n")),
+        ("zero.obj", format!("{square}f 0 1 2\n")),
+        (
+            "nan.obj",
+            "v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n".to_owned(),
+        ),
+        ("twice.obj", format!("{square}f 1 2 2\n")),
+        ("empty.obj", String::new()),
+        (
+            "three.obj",
+            format!("{square}v 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
+        ),
+        ("flipped.obj", format!("{square}f 1 2 3\nf 1 4 3\n")),
+        ("bowtie.obj", format!("{square}v 2 2 0\nf 1 2 3\nf 3 5 4\n")),
+        ("pillow.obj", format!("{square}f 1 2 3\nf 3 2 1\n")),
+        (
+            "flat.obj",
+            "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n".to_owned(),
+        ),
+        (
+            "rays.txt",
+            "# two cuts\n0.31,2,5:0,0,-1 0.31,-2,5:0,0,-1\n2,0.1,5:0,0,-1;-2,0.1,5:0,0,-1\n"
+                .to_owned(),
+        ),
+        (
+            "bad-rays.txt",
+            "# one ray is missing\n\n0.31,2,5:0,0,-1\n".to_owned(),
+        ),
+    ];
+    for (name, content) in files {
+        folder.write(name, content);
+    }
+}

@@ -1,0 +1,254 @@
+//! What can be typed.
+
+use std::ffi::{OsStr, OsString};
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+/// Cuts triangle meshes in OBJ files, and verifies what it did.
+#[derive(Debug, Parser)]
+#[command(name = "tearmesh", version, disable_help_subcommand = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    Cut(Box<CutArgs>),
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh cut flag.obj --rays 0,2,5:0,0,-1 0,-2,5:0,0,-1 -o torn.obj
+      cuts a flag along x = 0, looking down the z-axis
+  tearmesh cut flag.obj --rays 0,0,9@-1,0.2,0 0,0,9@1,0.2,0 --format json
+      cuts between two points seen from the eye 0,0,9, and prints the report only";
+
+/// Cut a mesh along the plane between two rays.
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct CutArgs {
+    /// The OBJ file to cut; `-` is standard input.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Two rays, as origin:direction or origin@target; may be given repeatedly.
+    ///
+    /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
+    /// `ox,oy,oz@tx,ty,tz` (origin and a point that it is aimed at). The cut
+    /// follows the plane through both rays, and ends at the rays unless --through is given.
+    /// Several pairs are cuts one after another.
+    #[arg(long, value_name = "A B")]
+    pub(crate) rays: Vec<String>,
+
+    /// A file of rays: two a line, `#` begins a comment.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) rays_file: Option<PathBuf>,
+
+    /// Where to write the torn mesh; `-` is standard output.
+    ///
+    /// Without it the mesh goes to standard output if that is a pipe or a file.
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Allow the output to replace the input.
+    #[arg(long)]
+    pub(crate) in_place: bool,
+
+    /// How to cut.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) method: Method,
+
+    /// Cut wherever the plane goes, not only between the rays.
+    #[arg(long)]
+    pub(crate) through: bool,
+
+    /// Where a cut ends: split the vertices, or cut the edges whose midpoint, lies between the
+    /// rays.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) tips: Tips,
+
+    /// How a split divides mass: by the area of the faces, or by half.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) mass: Mass,
+
+    /// Do everything but write.
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+
+    /// Succeed, and write the mesh, even if nothing was cut.
+    #[arg(long)]
+    pub(crate) allow_miss: bool,
+
+    /// Print words, or the report as JSON.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+
+    /// Write the JSON report to a file as well.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Leave times out of the report, so that it is the same on every run.
+    #[arg(long)]
+    pub(crate) no_timing: bool,
+
+    /// When to use colours.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Method {
+    /// Label the faces by side and unshare the seam; adds no face.
+    #[default]
+    Partition,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Tips {
+    #[default]
+    Vertex,
+    Midpoint,
+}
+
+impl Method {
+    /// As it is typed, and as it stands in the report.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Method::Partition => "partition",
+        }
+    }
+}
+
+impl Tips {
+    /// As it is typed, and as it stands in the report.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Tips::Vertex => "vertex",
+            Tips::Midpoint => "midpoint",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Mass {
+    #[default]
+    Area,
+    Half,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    #[default]
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Color {
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+/// Makes one argument of `--rays A B`, so that a negative number is no option, and an option is
+/// no second ray.
+///
+/// `--rays A B`, `--rays "A B"`, `--rays "A;B"` and `--rays=A B` all become `--rays=A;B`. What
+/// does not look like a ray is left to the parser.
+pub(crate) fn join_rays(args: &[OsString]) -> Vec<OsString> {
+    let mut joined = Vec::with_capacity(args.len());
+    let mut rest = args.iter().peekable();
+    while let Some(arg) = rest.next() {
+        if arg == "--" {
+            joined.push(arg.clone());
+            joined.extend(rest.by_ref().cloned());
+            break;
+        }
+        let mut value = match arg.to_str() {
+            Some("--rays") => String::new(),
+            Some(arg) if arg.starts_with("--rays=") => arg["--rays=".len()..].to_owned(),
+            _ => {
+                joined.push(arg.clone());
+                continue;
+            }
+        };
+        while crate::rays::split_pair(&value).count() < 2
+            && let Some(ray) = rest.next_if(|next| looks_like_rays(next))
+        {
+            value.push(';');
+            value.push_str(&ray.to_string_lossy());
+        }
+        if value.is_empty() && arg == "--rays" {
+            joined.push(arg.clone());
+        } else {
+            joined.push(format!("--rays={}", value.trim_start_matches(';')).into());
+        }
+    }
+    joined
+}
+
+/// Whether an argument is meant as a ray: numbers with commas between them.
+fn looks_like_rays(arg: &OsStr) -> bool {
+    let text = arg.to_string_lossy();
+    let number = text.trim_start().trim_start_matches(['+', '-']);
+    text.contains(',') && number.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn joined(args: &str) -> String {
+        let args: Vec<OsString> = args.split('|').map(OsString::from).collect();
+        let joined = join_rays(&args);
+        joined
+            .iter()
+            .map(|arg| arg.to_string_lossy())
+            .collect::<Vec<_>>()
+            .join("|")
+    }
+
+    #[test]
+    fn the_arguments_parse_without_a_clash() {
+        use clap::CommandFactory as _;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn two_rays_become_one_argument_however_they_are_written() {
+        let one = "cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x";
+        for args in [
+            "cut|--rays|1,2,3:4,5,6|-1,0,0@7,8,9|-o|x",
+            "cut|--rays|1,2,3:4,5,6;-1,0,0@7,8,9|-o|x",
+            "cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x",
+            "cut|--rays=1,2,3:4,5,6|-1,0,0@7,8,9|-o|x",
+        ] {
+            assert_eq!(joined(args), one);
+        }
+        assert_eq!(
+            joined("cut|--rays|1,2,3:4,5,6 -1,0,0@7,8,9|-o|x"),
+            "cut|--rays=1,2,3:4,5,6 -1,0,0@7,8,9|-o|x"
+        );
+    }
+
+    #[test]
+    fn what_is_no_ray_is_left_alone() {
+        assert_eq!(
+            joined("cut|--rays|1,2,3:4,5,6|-o|x"),
+            "cut|--rays=1,2,3:4,5,6|-o|x"
+        );
+        assert_eq!(joined("cut|--rays|-o|x"), "cut|--rays|-o|x");
+        assert_eq!(
+            joined("cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6"),
+            "cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6"
+        );
+        assert_eq!(joined("cut|--rays-file|a,b"), "cut|--rays-file|a,b");
+    }
+}

@@ -1,0 +1,64 @@
+//! A reproducer for a bug of ours.
+//!
+//! It is an OBJ file that begins with the story in comments, so that the same command on this
+//! file shows the bug again.
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::input::Input;
+use crate::output;
+use crate::say::Fault;
+
+const NAME: &str = "tearmesh-reproducer.obj";
+
+/// Says that an invariant broke, and writes the reproducer into the current folder.
+pub(crate) fn report(args: &[OsString], input: Option<&Input>, broken: &[String]) -> Fault {
+    let written = output::write(Path::new(NAME), |out| reproducer(out, args, input, broken));
+    let help = match written {
+        Ok(()) => format!("this is a bug in tearmesh: please report it, with the file `{NAME}`"),
+        Err(error) => {
+            format!("this is a bug in tearmesh: please report it (no `{NAME}` written: {error})")
+        }
+    };
+    Fault {
+        code: "E-BUG-INVARIANT",
+        message: broken.join("; "),
+        help: Some(help),
+        ..Fault::default()
+    }
+}
+
+fn reproducer(
+    out: &mut dyn Write,
+    args: &[OsString],
+    input: Option<&Input>,
+    broken: &[String],
+) -> io::Result<()> {
+    writeln!(
+        out,
+        "# tearmesh {} broke an invariant",
+        env!("CARGO_PKG_VERSION")
+    )?;
+    let command: Vec<_> = args
+        .iter()
+        .skip(1)
+        .map(|arg| arg.to_string_lossy())
+        .collect();
+    writeln!(
+        out,
+        "# command: tearmesh {}",
+        command.join(" ").replace(['\n', '\r'], " ")
+    )?;
+    for line in broken.iter().flat_map(|text| text.lines()) {
+        writeln!(out, "# {line}")?;
+    }
+    if let Some(input) = input {
+        let mut bytes = input
+            .open()
+            .map_err(|fault| io::Error::other(fault.message))?;
+        io::copy(&mut bytes, out)?;
+    }
+    Ok(())
+}

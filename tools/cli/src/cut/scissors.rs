@@ -1,0 +1,80 @@
+//! From what was typed to scissors.
+
+use std::io::Read as _;
+
+use tearmesh::Scissor;
+
+use super::{Stop, words};
+use crate::args::{CutArgs, Tips};
+use crate::input::{Input, cannot_read};
+use crate::rays::{self, Pair};
+use crate::say::Fault;
+use crate::{Exit, Streams};
+
+/// The rays that were given, with the scissor that each pair spans.
+pub(super) fn scissors(
+    args: &CutArgs,
+    streams: &mut Streams<'_>,
+    faults: &mut Vec<Fault>,
+) -> Result<Vec<(Pair, Scissor)>, Stop> {
+    let refused = |fault: Fault| {
+        let exit = if fault.code == "E-RAY-ZERO" {
+            Exit::NoPlane
+        } else {
+            Exit::Usage
+        };
+        Stop::new(exit, fault)
+    };
+    let mut pairs = Vec::new();
+    for text in &args.rays {
+        pairs.push(rays::pair(text, "--rays", 1).map_err(refused)?);
+    }
+    if let Some(path) = &args.rays_file {
+        let unreadable = |fault| Stop::new(Exit::Input, fault);
+        let file = Input::find(path, streams.input).map_err(unreadable)?;
+        let mut text = String::new();
+        let read = file.open().map_err(unreadable)?.read_to_string(&mut text);
+        read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
+        pairs.extend(rays::file(&text, &file.name).map_err(refused)?);
+    }
+    if pairs.is_empty() {
+        return Err(refused(Fault {
+            code: "E-RAY-COUNT",
+            message: "a cut takes two rays, and none was given".to_owned(),
+            help: Some("add --rays A B, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1".to_owned()),
+            ..Fault::default()
+        }));
+    }
+    let mut cuts = Vec::new();
+    for pair in pairs {
+        let scissor = Scissor::new(&pair[0], &pair[1]).map_err(|error| {
+            let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
+            let (left, right) = (x - 1.0, x + 1.0);
+            let eye = format!("{x},{y},{z}");
+            let help = format!(
+                "move one origin, or aim at two points: {eye}@{left},{y},0 {eye}@{right},{y},0"
+            );
+            let fault = Fault {
+                code: "E-RAY-ONE-LINE",
+                message: error.to_string(),
+                help: Some(help),
+                ..Fault::default()
+            };
+            Stop::new(Exit::NoPlane, fault)
+        })?;
+        if scissor.skew() > 0.0 {
+            let leaves = words::short(scissor.skew());
+            let message = format!(
+                "the rays are skew: the second leaves the cutting plane by {leaves} for each \
+                 unit of its length"
+            );
+            faults.push(Fault::warning("W-RAY-SKEW", message));
+        }
+        let tips = match args.tips {
+            Tips::Vertex => tearmesh::Tips::Vertex,
+            Tips::Midpoint => tearmesh::Tips::Midpoint,
+        };
+        cuts.push((pair, scissor.through(args.through).tips(tips)));
+    }
+    Ok(cuts)
+}

@@ -1,0 +1,85 @@
+//! Where the mesh comes from.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use crate::say::Fault;
+
+/// The input, and how it is called in messages and in the report.
+pub(crate) struct Input {
+    pub(crate) name: String,
+    source: Source,
+}
+
+enum Source {
+    File(PathBuf),
+    /// Standard input can be read only once, and a reproducer needs its bytes.
+    Bytes(Vec<u8>),
+}
+
+impl Input {
+    /// Finds the input; `-` is standard input.
+    pub(crate) fn find(path: &Path, stdin: &mut dyn Read) -> Result<Input, Fault> {
+        let name = path.display().to_string();
+        if path == Path::new("-") {
+            let mut bytes = Vec::new();
+            let read = stdin.read_to_end(&mut bytes);
+            read.map_err(|error| cannot_read("standard input", &error))?;
+            return Ok(Input {
+                name,
+                source: Source::Bytes(bytes),
+            });
+        }
+        match path.metadata() {
+            Ok(found) if found.is_dir() => Err(Fault::error(
+                "E-IO-DIRECTORY",
+                format!("`{name}` is a directory, not a file"),
+            )),
+            Ok(_) => Ok(Input {
+                name,
+                source: Source::File(path.to_owned()),
+            }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(Fault {
+                code: "E-IO-MISSING",
+                message: format!("there is no file `{name}`"),
+                help: similar(path).map(|near| format!("did you mean `{}`?", near.display())),
+                ..Fault::default()
+            }),
+            Err(error) => Err(cannot_read(&name, &error)),
+        }
+    }
+
+    /// The bytes, from the beginning.
+    pub(crate) fn open(&self) -> Result<Box<dyn Read + '_>, Fault> {
+        match &self.source {
+            Source::Bytes(bytes) => Ok(Box::new(&bytes[..])),
+            Source::File(path) => match File::open(path) {
+                Ok(file) => Ok(Box::new(BufReader::new(file))),
+                Err(error) => Err(cannot_read(&self.name, &error)),
+            },
+        }
+    }
+}
+
+pub(crate) fn cannot_read(name: &str, error: &io::Error) -> Fault {
+    Fault::error("E-IO-READ", format!("cannot read `{name}`: {error}"))
+}
+
+/// The file of the same folder whose name is nearest, if it is near.
+fn similar(path: &Path) -> Option<PathBuf> {
+    let wanted = path.file_name()?.to_string_lossy();
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let entries = folder.unwrap_or(Path::new(".")).read_dir().ok()?;
+    let names = entries.filter_map(|entry| Some(entry.ok()?.file_name()));
+    let near = names
+        .map(|name| {
+            (
+                strsim::damerau_levenshtein(&wanted, &name.to_string_lossy()),
+                name,
+            )
+        })
+        .filter(|(distance, _)| 3 * distance <= wanted.chars().count());
+    let (_, name) = near.min()?;
+    Some(folder.map_or_else(|| PathBuf::from(&name), |folder| folder.join(&name)))
+}

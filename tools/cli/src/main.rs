@@ -1,0 +1,24 @@
+//! The command `tearmesh`.
+
+use std::io::{self, BufWriter, IsTerminal};
+use std::process::ExitCode;
+
+use tearmesh_cli::{Streams, abandon_output, run};
+
+fn main() -> ExitCode {
+    // An interrupted run leaves no half of a file behind. If the handler cannot be
+    // installed, the system's own ends the program just as well.
+    let _ = ctrlc::set_handler(|| {
+        abandon_output();
+        std::process::exit(130);
+    });
+    let (stdin, stdout, stderr) = (io::stdin(), io::stdout(), io::stderr());
+    let streams = Streams {
+        output_is_terminal: stdout.is_terminal(),
+        error_is_terminal: stderr.is_terminal(),
+        input: &mut stdin.lock(),
+        output: &mut BufWriter::new(stdout.lock()),
+        error: &mut stderr.lock(),
+    };
+    run(std::env::args_os(), streams).into()
+}

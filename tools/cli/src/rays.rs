@@ -1,0 +1,257 @@
+//! Rays as people write them.
+//!
+//! `ox,oy,oz:dx,dy,dz` is an origin and a direction, `ox,oy,oz@tx,ty,tz` an origin and a target;
+//! `->` means the same as `@`. Two rays are separated by blanks or a semicolon.
+
+use std::ops::Range;
+
+use tearmesh::{Point, Ray, Vector};
+
+use crate::say::{Excerpt, Fault};
+
+/// The two rays of a cut.
+pub(crate) type Pair = [Ray; 2];
+
+/// The texts of the rays in a text, and where each is.
+pub(crate) fn split_pair(text: &str) -> impl Iterator<Item = Range<usize>> + '_ {
+    let is_separator = |c: char| c == ';' || c.is_whitespace();
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let start = at + text[at..].find(|c| !is_separator(c))?;
+        let end = text[start..]
+            .find(is_separator)
+            .map_or(text.len(), |length| start + length);
+        at = end;
+        Some(start..end)
+    })
+}
+
+/// Reads two rays. `origin` names the place of the text in an error, and `line` its line.
+pub(crate) fn pair(text: &str, origin: &str, line: usize) -> Result<Pair, Fault> {
+    let fault = |code, message: String, span: Range<usize>, label: &str, help: &str| Fault {
+        code,
+        message,
+        excerpt: Some(Box::new(Excerpt {
+            path: origin.to_owned(),
+            line,
+            text: text.to_owned(),
+            first_column: 1,
+            span,
+            label: label.to_owned(),
+        })),
+        help: Some(help.to_owned()),
+        ..Fault::default()
+    };
+    let spans: Vec<_> = split_pair(text).collect();
+    let (a, b) = match &spans[..] {
+        [a, b] => (a.clone(), b.clone()),
+        [.., last] => {
+            let message = match spans.len() {
+                1 => "a cut takes two rays, and one was given".to_owned(),
+                count => format!("a cut takes two rays, and {count} were given"),
+            };
+            let label = if spans.len() == 1 {
+                "a second ray is missing"
+            } else {
+                "one too many"
+            };
+            let help = "write both, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
+            return Err(fault("E-RAY-COUNT", message, last.clone(), label, help));
+        }
+        [] => {
+            let message = "a cut takes two rays, and none was given".to_owned();
+            let help = "write both, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
+            return Err(fault(
+                "E-RAY-COUNT",
+                message,
+                0..text.len(),
+                "two rays missing",
+                help,
+            ));
+        }
+    };
+    let read = |span: Range<usize>| {
+        ray(&text[span.clone()]).map_err(
+            |Unreadable {
+                 code,
+                 message,
+                 part,
+                 label,
+             }| {
+                let part = span.start + part.start..span.start + part.end;
+                let help =
+                    "write origin:direction as in 0,1,5:0,0,-1, or origin@target as in 0,1,5@0,1,0";
+                fault(code, message, part, label, help)
+            },
+        )
+    };
+    Ok([read(a)?, read(b)?])
+}
+
+/// Reads a file of rays: two a line; `#` begins a comment.
+pub(crate) fn file(text: &str, path: &str) -> Result<Vec<Pair>, Fault> {
+    let mut pairs = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let rays = line.split('#').next().unwrap_or_default();
+        if !rays.trim().is_empty() {
+            pairs.push(pair(rays.trim_end(), path, i + 1)?);
+        }
+    }
+    Ok(pairs)
+}
+
+/// What is wrong with the text of a ray, and where.
+#[derive(Debug)]
+struct Unreadable {
+    code: &'static str,
+    message: String,
+    part: Range<usize>,
+    label: &'static str,
+}
+
+fn ray(text: &str) -> Result<Ray, Unreadable> {
+    let separator = [("->", true), ("@", true), (":", false)]
+        .into_iter()
+        .find_map(|(mark, aimed)| Some((text.find(mark)?, mark.len(), aimed)));
+    let Some((at, width, aimed)) = separator else {
+        return Err(Unreadable {
+            code: "E-RAY-SYNTAX",
+            message: format!("cannot read the ray `{text}`"),
+            part: 0..text.len(),
+            label: "expected `:` and a direction, or `@` and a target",
+        });
+    };
+    let origin = triple(text, 0..at)?;
+    let second = triple(text, at + width..text.len())?;
+    let origin = Point::from(origin);
+    let direction = if aimed {
+        Point::from(second) - origin
+    } else {
+        Vector::from(second)
+    };
+    Ray::new(origin, direction).map_err(|error| Unreadable {
+        code: "E-RAY-ZERO",
+        message: error.to_string(),
+        part: match error {
+            tearmesh::RayError::Origin { .. } => 0..at,
+            tearmesh::RayError::Direction { .. } => at + width..text.len(),
+        },
+        label: if aimed {
+            "expected another point than the origin"
+        } else {
+            "expected a direction"
+        },
+    })
+}
+
+fn triple(text: &str, part: Range<usize>) -> Result<[f64; 3], Unreadable> {
+    let mut numbers = [0.0; 3];
+    let mut count = 0;
+    let mut at = part.start;
+    for number in text[part.clone()].split(',') {
+        let span = at..at + number.len();
+        at = span.end + 1;
+        let parsed = number.parse().ok().filter(|x: &f64| x.is_finite());
+        let (Some(slot), Some(x)) = (numbers.get_mut(count), parsed) else {
+            let label = if count < 3 {
+                "expected a finite number"
+            } else {
+                "a fourth number"
+            };
+            return Err(Unreadable {
+                code: "E-RAY-SYNTAX",
+                message: format!("cannot read the ray `{text}`"),
+                part: span,
+                label,
+            });
+        };
+        *slot = x;
+        count += 1;
+    }
+    if count < 3 {
+        return Err(Unreadable {
+            code: "E-RAY-SYNTAX",
+            message: format!("cannot read the ray `{text}`"),
+            part,
+            label: "expected three numbers with commas between them",
+        });
+    }
+    Ok(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<[[f64; 3]; 4], (&'static str, usize, usize)> {
+        match pair(text, "--rays", 1) {
+            Ok([a, b]) => Ok([
+                a.origin().into(),
+                a.direction().into(),
+                b.origin().into(),
+                b.direction().into(),
+            ]),
+            Err(fault) => {
+                let span = fault.excerpt.expect("an excerpt").span;
+                Err((fault.code, span.start, span.end))
+            }
+        }
+    }
+
+    #[test]
+    fn directions_and_targets_are_read() {
+        let expected = Ok([
+            [0.0, 1.0, 5.0],
+            [0.0, 0.0, -1.0],
+            [-0.5, 1e-3, 2.0],
+            [1.5, -1e-3, -2.0],
+        ]);
+        assert_eq!(read("0,1,5:0,0,-1 -.5,1e-3,2@1,0,0"), expected);
+        assert_eq!(read("0,1,5@0,1,4;-.5,1e-3,2->1,0,0"), expected);
+        assert_eq!(read(" 0,1,5@0,1,4 ; -.5,1e-3,2->1,0,0 "), expected);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_pointed_at() {
+        assert_eq!(read("0,1,5:0,0,-1"), Err(("E-RAY-COUNT", 0, 12)));
+        assert_eq!(read(""), Err(("E-RAY-COUNT", 0, 0)));
+        assert_eq!(
+            read("0,0,1:0,0,1 0,0,2:0,0,1 0,0,3:1,1,1"),
+            Err(("E-RAY-COUNT", 24, 35))
+        );
+        assert_eq!(read("0,1,5:0,0,-1 0,1,5"), Err(("E-RAY-SYNTAX", 13, 18)));
+        assert_eq!(
+            read("0,1,5:0,0,-1 0,x,5:0,0,1"),
+            Err(("E-RAY-SYNTAX", 15, 16))
+        );
+        assert_eq!(
+            read("0,1,5:0,0,-1 0,1,5:0,1"),
+            Err(("E-RAY-SYNTAX", 19, 22))
+        );
+        assert_eq!(
+            read("0,1,5,6:0,0,-1 0,1,5:0,1,1"),
+            Err(("E-RAY-SYNTAX", 6, 7))
+        );
+        assert_eq!(
+            read("0,nan,5:0,0,-1 0,1,5:0,1,1"),
+            Err(("E-RAY-SYNTAX", 2, 5))
+        );
+        assert_eq!(read("0,1,5:0,0,0 0,1,5:0,1,1"), Err(("E-RAY-ZERO", 6, 11)));
+        assert_eq!(read("0,1,5@0,1,5 0,1,5:0,1,1"), Err(("E-RAY-ZERO", 6, 11)));
+        assert_eq!(
+            read("0,1,1e99:0,1,5 0,1,5:0,1,1"),
+            Err(("E-RAY-ZERO", 0, 8))
+        );
+    }
+
+    #[test]
+    fn a_file_of_rays_has_comments_and_blank_lines() {
+        let text = "# two cuts\n\n0,1,5:0,0,-1 0,2,5:0,0,-1 # one\n0,1,5:1,0,-1;0,2,5:1,0,-1\n";
+        assert_eq!(
+            file(text, "rays.txt").map(|pairs| pairs.len()).ok(),
+            Some(2)
+        );
+        let fault = file("\n0,1,5:0,0,-1 # one\n", "rays.txt").expect_err("one ray");
+        assert_eq!(fault.excerpt.map(|excerpt| excerpt.line), Some(2));
+    }
+}

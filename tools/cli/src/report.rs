@@ -1,0 +1,209 @@
+//! The JSON report. Others rely on these names: add more, rename none.
+
+use serde::Serialize;
+use tearmesh::{CutReport, Mesh, Point, Ray, Scissor, Vector};
+
+use crate::say::{Fault, Severity};
+
+#[derive(Debug, Serialize)]
+pub(crate) struct Report {
+    pub(crate) schema: &'static str,
+    pub(crate) version: &'static str,
+    pub(crate) command: &'static str,
+    pub(crate) ok: bool,
+    pub(crate) exit: u8,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) input: Option<File>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) output: Option<File>,
+    pub(crate) cuts: Vec<Cut>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) mass: Option<Mass>,
+    pub(crate) invariants: Invariants,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) timing_ms: Option<Timing>,
+    pub(crate) diagnostics: Vec<Entry>,
+}
+
+impl Report {
+    pub(crate) fn new(command: &'static str) -> Report {
+        Report {
+            schema: "tearmesh.report/1",
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+            ok: false,
+            exit: 0,
+            input: None,
+            output: None,
+            cuts: Vec::new(),
+            mass: None,
+            invariants: Invariants::default(),
+            timing_ms: Some(Timing::default()),
+            diagnostics: Vec::new(),
+        }
+    }
+}
+
+/// A mesh, and the file that it came from or went to.
+#[derive(Debug, Serialize)]
+pub(crate) struct File {
+    /// `-` for a standard stream; none where nothing was written.
+    pub(crate) path: Option<String>,
+    pub(crate) vertices: usize,
+    pub(crate) faces: usize,
+    pub(crate) components: usize,
+    pub(crate) boundary_loops: usize,
+}
+
+impl File {
+    pub(crate) fn of(path: Option<String>, mesh: &Mesh) -> File {
+        File {
+            path,
+            vertices: mesh.vertex_count(),
+            faces: mesh.face_count(),
+            components: mesh.components().count(),
+            boundary_loops: mesh.boundary_loops().len(),
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct Cut {
+    rays: [RayEntry; 2],
+    method: &'static str,
+    through: bool,
+    tips: &'static str,
+    plane: PlaneEntry,
+    faces_crossed: usize,
+    splits: usize,
+    refused: usize,
+    ghost_pairs: usize,
+    separated: bool,
+    pieces_before: usize,
+    pieces: usize,
+    pieces_expected: usize,
+    crumbs: usize,
+    lost: usize,
+    seam_length: f64,
+    seam_length_ratio: f64,
+    seam_deviation_max: f64,
+    seam_deviation_max_edges: f64,
+    vertices_inserted: usize,
+    angle_min_deg: f64,
+    altitude_min: f64,
+}
+
+impl Cut {
+    pub(crate) fn new(
+        rays: &[Ray; 2],
+        scissor: &Scissor,
+        (method, through, tips): (&'static str, bool, &'static str),
+        report: &CutReport,
+    ) -> Cut {
+        let plane = scissor.plane();
+        Cut {
+            rays: rays.map(|ray| RayEntry {
+                origin: numbers(ray.origin().coords),
+                direction: numbers(ray.direction()),
+            }),
+            method,
+            through,
+            tips,
+            plane: PlaneEntry {
+                point: point(plane.point()),
+                normal: numbers(plane.normal()),
+            },
+            faces_crossed: report.faces_crossed,
+            splits: report.splits,
+            refused: report.refused,
+            ghost_pairs: report.ghost_pairs,
+            separated: report.separated,
+            pieces_before: report.pieces_before,
+            pieces: report.pieces,
+            pieces_expected: report.pieces_expected,
+            crumbs: report.crumbs,
+            lost: report.lost,
+            seam_length: report.seam_length,
+            seam_length_ratio: report.seam_length_ratio,
+            seam_deviation_max: report.seam_deviation_max,
+            seam_deviation_max_edges: report.seam_deviation_max_edges,
+            vertices_inserted: report.vertices_inserted,
+            angle_min_deg: report.angle_min_deg,
+            altitude_min: report.altitude_min,
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct RayEntry {
+    origin: [f64; 3],
+    direction: [f64; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct PlaneEntry {
+    point: [f64; 3],
+    normal: [f64; 3],
+}
+
+fn point(p: Point) -> [f64; 3] {
+    numbers(p.coords)
+}
+
+fn numbers(v: Vector) -> [f64; 3] {
+    // Adding zero turns −0 into 0.
+    [v.x + 0.0, v.y + 0.0, v.z + 0.0]
+}
+
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Mass {
+    pub(crate) before: f64,
+    pub(crate) after: f64,
+}
+
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct Invariants {
+    pub(crate) checked: bool,
+    pub(crate) violations: Vec<String>,
+}
+
+/// Milliseconds of each stage.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(crate) struct Timing {
+    pub(crate) read: f64,
+    pub(crate) build: f64,
+    pub(crate) cut: f64,
+    pub(crate) check: f64,
+    pub(crate) write: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct Entry {
+    level: &'static str,
+    code: &'static str,
+    path: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    help: Option<String>,
+}
+
+impl Entry {
+    pub(crate) fn new(fault: &Fault) -> Entry {
+        let (path, line, column) = match (&fault.excerpt, &fault.place) {
+            (Some(at), _) => (Some(at.path.clone()), Some(at.line), Some(at.column())),
+            (None, Some((path, line))) => (Some(path.clone()), Some(*line), None),
+            (None, None) => (None, None, None),
+        };
+        Entry {
+            level: Severity::name(fault.severity),
+            code: fault.code,
+            path,
+            line,
+            column,
+            message: fault.message.clone(),
+            help: fault.help.clone(),
+        }
+    }
+}

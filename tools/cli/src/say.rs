@@ -1,0 +1,181 @@
+//! Diagnostics, on a screen and in the report.
+
+use std::io::{self, Write};
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use tearmesh_obj::{Diagnostic, Level as ObjLevel};
+
+use crate::args::Color;
+
+/// Something that has to be said: an error, a warning or a note.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Fault {
+    pub(crate) severity: Severity,
+    pub(crate) code: &'static str,
+    pub(crate) message: String,
+    /// The file and line concerned, where there is no text to show.
+    pub(crate) place: Option<(String, usize)>,
+    /// The text concerned.
+    pub(crate) excerpt: Option<Box<Excerpt>>,
+    pub(crate) help: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Severity {
+    #[default]
+    Error,
+    Warning,
+    Note,
+}
+
+impl Severity {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        }
+    }
+}
+
+/// A line of text, and the part of it that is meant.
+#[derive(Clone, Debug)]
+pub(crate) struct Excerpt {
+    pub(crate) path: String,
+    pub(crate) line: usize,
+    pub(crate) text: String,
+    /// The column of the first character of `text`, where it is a part of a long line.
+    pub(crate) first_column: usize,
+    /// Bytes of `text`.
+    pub(crate) span: Range<usize>,
+    pub(crate) label: String,
+}
+
+impl Excerpt {
+    /// The column, from 1, at which the part that is meant begins.
+    pub(crate) fn column(&self) -> usize {
+        self.first_column + self.text[..self.span.start].chars().count()
+    }
+}
+
+impl Fault {
+    pub(crate) fn error(code: &'static str, message: String) -> Fault {
+        Fault {
+            code,
+            message,
+            ..Fault::default()
+        }
+    }
+
+    pub(crate) fn warning(code: &'static str, message: String) -> Fault {
+        Fault {
+            severity: Severity::Warning,
+            ..Fault::error(code, message)
+        }
+    }
+
+    pub(crate) fn help(self, help: impl Into<String>) -> Fault {
+        Fault {
+            help: Some(help.into()),
+            ..self
+        }
+    }
+
+    /// What the OBJ library says of a file, with the name of the file.
+    pub(crate) fn of_file(path: &str, diagnostic: &Diagnostic) -> Fault {
+        let excerpt = match (&diagnostic.location, &diagnostic.excerpt) {
+            (Some(location), Some(excerpt)) => {
+                let from = location.column.saturating_sub(excerpt.first_column);
+                let byte = |n: usize| {
+                    excerpt
+                        .text
+                        .char_indices()
+                        .nth(n)
+                        .map_or(excerpt.text.len(), |(at, _)| at)
+                };
+                Some(Box::new(Excerpt {
+                    path: path.to_owned(),
+                    line: location.line,
+                    text: excerpt.text.clone(),
+                    first_column: excerpt.first_column,
+                    span: byte(from)..byte(from + excerpt.length),
+                    label: excerpt.label.clone(),
+                }))
+            }
+            _ => None,
+        };
+        Fault {
+            severity: match diagnostic.level {
+                ObjLevel::Error => Severity::Error,
+                ObjLevel::Warning => Severity::Warning,
+                ObjLevel::Note => Severity::Note,
+            },
+            code: diagnostic.code,
+            message: diagnostic.message.clone(),
+            place: diagnostic
+                .location
+                .map(|location| (path.to_owned(), location.line)),
+            excerpt,
+            help: diagnostic.help.clone(),
+        }
+    }
+
+    fn render(&self, colored: bool) -> String {
+        let level = match self.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+            Severity::Note => Level::NOTE,
+        };
+        let mut group = Group::with_title(level.primary_title(&*self.message).id(self.code));
+        if let Some(excerpt) = &self.excerpt {
+            let label = Some(&*excerpt.label).filter(|label| !label.is_empty());
+            let annotation = AnnotationKind::Primary
+                .span(excerpt.span.clone())
+                .label(label);
+            let mut snippet = Snippet::source(&*excerpt.text)
+                .line_start(excerpt.line)
+                .annotation(annotation);
+            if excerpt.first_column == 1 {
+                snippet = snippet.path(&*excerpt.path);
+            } else {
+                // The column counts from the beginning of the line, not of the excerpt.
+                let origin = Origin::path(&*excerpt.path);
+                group = group.element(origin.line(excerpt.line).char_column(excerpt.column()));
+            }
+            group = group.element(snippet);
+        } else if let Some((path, line)) = &self.place {
+            group = group.element(Origin::path(&**path).line(*line));
+        }
+        if let Some(help) = &self.help {
+            group = group.element(Level::HELP.message(&**help));
+        }
+        let renderer = if colored {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        renderer.render(&[group])
+    }
+}
+
+/// A screen for diagnostics.
+pub(crate) struct Screen<'a> {
+    pub(crate) error: &'a mut dyn Write,
+    pub(crate) colored: bool,
+}
+
+impl Screen<'_> {
+    pub(crate) fn show(&mut self, fault: &Fault) -> io::Result<()> {
+        writeln!(self.error, "{}", fault.render(self.colored))
+    }
+}
+
+/// Whether to use colours, by the option, the environment, and the kind of stream.
+pub(crate) fn is_colored(color: Color, is_terminal: bool) -> bool {
+    match color {
+        Color::Always => true,
+        Color::Never => false,
+        Color::Auto => is_terminal && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty()),
+    }
+}
