@@ -43,6 +43,12 @@ impl<T: Clone> PerVertex<T> {
         PerVertex { next_edit, ..self }
     }
 
+    /// Makes room for this many more vertices, so that as many splits can be replayed without
+    /// allocation but that of the clones.
+    pub fn reserve(&mut self, vertices: usize) {
+        self.values.reserve(vertices);
+    }
+
     /// The values of all vertices, by id.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {

@@ -139,6 +139,17 @@ impl Masses {
         Masses { next_edit, ..self }
     }
 
+    /// Makes room for this many more vertices, so that as many splits can be replayed without
+    /// allocation.
+    pub fn reserve(&mut self, vertices: usize) {
+        match &mut self.store {
+            Store::Area {
+                vertices: units, ..
+            } => units.reserve(vertices),
+            Store::Half { vertices: halves } => halves.reserve(vertices),
+        }
+    }
+
     /// The mass of a vertex.
     ///
     /// # Panics
@@ -383,17 +394,50 @@ mod tests {
                 "{density}: {error}"
             );
         }
+    }
+
+    #[test]
+    fn halving_is_refused_exactly_where_it_would_leave_the_normal_numbers() {
         // The hub could be halved 79 times, a vertex of the rim once.
-        let density = power_of_two(-969);
-        assert!(Masses::area(&mesh, &positions, density).is_ok());
+        let (mesh, positions) = shapes::fan(80, true);
         let hub = VertexId::new(0).unwrap();
+        let at_one = Masses::area(&mesh, &positions, 1.0).unwrap().at(hub);
+        let lightest = power_of_two(-1022 + 79 - (exponent_above(at_one) - 1));
+        let masses = Masses::half(&mesh, &positions, lightest).unwrap();
+        assert!(masses.at(hub) * power_of_two(-79) >= f64::MIN_POSITIVE);
         assert_eq!(
-            Masses::half(&mesh, &positions, density).unwrap_err(),
+            Masses::half(&mesh, &positions, lightest / 2.0).unwrap_err(),
             MassError::TooLight {
                 vertices: vec![hub]
             }
         );
-        assert!(Masses::half(&mesh, &positions, density * power_of_two(30)).is_ok());
+        assert!(Masses::area(&mesh, &positions, lightest / 2.0).is_ok());
+    }
+
+    #[test]
+    fn halving_takes_as_many_steps_as_powers_of_two_need() {
+        assert_eq!(halved(3.0, 0), 3.0);
+        assert_eq!(halved(3.0, 1), 1.5);
+        assert_eq!(halved(1.0, 1000), power_of_two(-1000));
+        assert_eq!(halved(1.0, 1001), power_of_two(-1001));
+        assert_eq!(halved(power_of_two(900), 1900), power_of_two(-1000));
+        assert_eq!(halved(power_of_two(1000), 2001), power_of_two(-1001));
+    }
+
+    #[test]
+    fn masses_know_how_many_and_which_edit_comes_next() {
+        let (mesh, positions) = shapes::triangle();
+        for masses in [
+            Masses::area(&mesh, &positions, 1.0),
+            Masses::half(&mesh, &positions, 1.0),
+        ] {
+            let masses = masses.unwrap();
+            assert_eq!(
+                (masses.len(), masses.is_empty(), masses.next_edit()),
+                (3, false, 0)
+            );
+            assert_eq!(masses.starting_at(7).next_edit(), 7);
+        }
     }
 
     #[test]

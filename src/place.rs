@@ -90,6 +90,12 @@ impl Positions {
         Positions { next_edit, ..self }
     }
 
+    /// Makes room for this many more vertices, so that as many splits can be replayed without
+    /// allocation.
+    pub fn reserve(&mut self, vertices: usize) {
+        self.points.reserve(vertices);
+    }
+
     /// The position of a vertex.
     ///
     /// # Panics

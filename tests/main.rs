@@ -2,9 +2,11 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod allocation;
 mod exhaustive;
 mod figures;
 mod fuzz;
+mod house;
 mod lockstep;
 mod oracle;
 mod properties;

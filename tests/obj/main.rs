@@ -2,6 +2,7 @@
 
 mod accept;
 mod corpus;
+mod fuzz;
 mod mesh;
 mod refuse;
 mod round_trip;

@@ -119,10 +119,17 @@ impl<R: Read> Lines<R> {
             return None;
         }
         self.number = number.saturating_add(1);
-        if physical == bytes.len() {
-            // The last line is continued by nothing: it ends as if the file did.
-            bytes = bytes.strip_suffix(b"\n").unwrap_or(bytes);
-            bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+        let dangling = physical == bytes.len() || is_continued(&bytes[physical..]);
+        if dangling && !bytes[..physical].contains(&b'#') {
+            // The file ends, so the `\` joins nothing to the line. It is dropped, since whatever is
+            // written behind it would be joined.
+            while let [
+                rest @ ..,
+                b' ' | b'\t' | 0x0b | 0x0c | b'\r' | b'\n' | b'\\',
+            ] = bytes
+            {
+                bytes = rest;
+            }
         }
         Some(Line { bytes, number })
     }
@@ -274,10 +281,10 @@ mod tests {
             ),
             (b"# a\\\nb", &[(1, "# a\\"), (2, "b")]),
             (b"a\\\nb # c \\\nd", &[(1, "a\\\nb # c \\"), (3, "d")]),
-            (b"a\\", &[(1, "a\\")]),
-            (b"a\\\n", &[(1, "a\\")]),
-            (b"a\\\r\n", &[(1, "a\\")]),
-            (b"a\\\n\\\n", &[(1, "a\\\n\\")]),
+            (b"a\\", &[(1, "a")]),
+            (b"a\\\n", &[(1, "a")]),
+            (b"a\\\r\n", &[(1, "a")]),
+            (b"a\\\n\\\n", &[(1, "a")]),
             (b"a\\\n b", &[(1, "a\\\n b")]),
         ] {
             let expected: Vec<_> = expected.iter().map(|&(n, s)| (n, s.to_owned())).collect();
