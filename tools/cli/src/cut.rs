@@ -123,7 +123,7 @@ impl Cutting<'_> {
 
         let clock = Clock::start();
         let ledger = masses.ledger();
-        self.verify(&mesh, &ledger)?;
+        self.verify(&document, &mesh, &positions, &ledger)?;
         let check_ms = clock.milliseconds();
         if edits.next_number() == 0 && !self.args.allow_miss {
             return Err(self.nothing_cut());
@@ -176,14 +176,30 @@ impl Cutting<'_> {
         })
     }
 
-    /// Checks every invariant and the ledger of masses.
-    fn verify(&mut self, mesh: &Mesh, ledger: &Ledger) -> Result<(), Stop> {
+    /// Checks every invariant, that each corner is where it was, and the ledger of masses.
+    fn verify(
+        &mut self,
+        document: &Document,
+        mesh: &Mesh,
+        positions: &Positions,
+        ledger: &Ledger,
+    ) -> Result<(), Stop> {
         let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
         self.report.mass = Some(report::Mass { before, after });
         self.report.invariants.checked = true;
         let violations = mesh.check();
         let broken = &mut self.report.invariants.violations;
         broken.extend(violations.iter().map(ToString::to_string));
+        let was = document.triangles().as_flattened().iter();
+        let was = was.map(|&v| document.positions()[v as usize]);
+        let moved = mesh.half_edges().zip(was).find(|&(h, was)| {
+            let is = positions.at(mesh.origin(h));
+            (0..3).any(|axis| is[axis].to_bits() != was[axis].to_bits())
+        });
+        if let Some((h, was)) = moved {
+            let is = positions.at(mesh.origin(h));
+            broken.push(format!("I20 (positions): {h} was at {was}, and is at {is}"));
+        }
         if !ledger.is_balanced() {
             broken.push(format!("I20 (mass): {before:e} became {after:e}"));
         }
