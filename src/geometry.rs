@@ -109,6 +109,12 @@ impl Plane {
         self.offset(p) / self.length
     }
 
+    /// The parallel plane through another point, which has to be usable.
+    pub(crate) fn through(&self, point: Point) -> Plane {
+        debug_assert!(check_point(point).is_ok());
+        Plane { point, ..*self }
+    }
+
     /// The same plane, seen from its other side.
     #[must_use]
     pub fn flipped(&self) -> Plane {

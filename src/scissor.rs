@@ -18,6 +18,7 @@
 //! what was done and what was not.
 
 mod measure;
+mod paper;
 mod partition;
 
 use std::fmt;
@@ -25,10 +26,11 @@ use std::fmt;
 pub use measure::CutReport;
 
 use crate::edit::{Edits, Follower};
-use crate::geometry::{Plane, Point, Ray, Vector, cross, dot, max_abs, scaled};
+use crate::geometry::{Plane, Point, Ray, Side, Vector, cross, dot, max_abs, scaled};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use measure::Survey;
+use paper::Form;
 
 /// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
 /// from. An error bound, not a tolerance.
@@ -67,6 +69,21 @@ pub enum Method {
     /// and up to 0.9 edges away from it.
     #[default]
     Partition,
+    /// The paper's first form (Souza et al. 2014 §V): split the vertices on the positive side by
+    /// the normal of the plane. Irregular meshes stay in one piece.
+    Uniform,
+    /// The paper's better form: where two vertices of a face are on the positive side, split
+    /// along the edge between them. Mostly divides, and leaves crumbs and a seam up to twice as
+    /// long as it need be.
+    Alternating,
+}
+
+/// What a method has to tell for the report.
+struct Outcome {
+    /// The side on which the method meant each face to be.
+    labels: Vec<Side>,
+    /// The splits that were tried in vain.
+    refused: usize,
 }
 
 /// Where a finite cut ends.
@@ -133,7 +150,7 @@ impl Scissor {
         Scissor { through, ..self }
     }
 
-    /// Where a finite cut ends.
+    /// Where a finite cut of the method `partition` ends; the paper's methods know one rule.
     #[must_use]
     pub fn tips(self, tips: Tips) -> Scissor {
         Scissor { tips, ..self }
@@ -192,11 +209,13 @@ impl Scissor {
         }
         let survey = Survey::new(self, mesh, positions);
         let first_edit = edits.next_number();
-        let labels = match method {
+        let outcome = match method {
             Method::Partition => partition::cut(self, mesh, positions, &survey, edits),
+            Method::Uniform => paper::cut(self, Form::Uniform, mesh, positions, edits),
+            Method::Alternating => paper::cut(self, Form::Alternating, mesh, positions, edits),
         };
         edits.replay(positions);
-        Ok(survey.report(self, mesh, positions, &labels, edits, first_edit))
+        Ok(survey.report(self, mesh, positions, &outcome, edits, first_edit))
     }
 
     /// How far inside the nearer side plane a point lies; negative outside, and

@@ -8,6 +8,8 @@ mod figures;
 mod fuzz;
 mod house;
 mod lockstep;
+mod methods;
 mod oracle;
+mod pieces;
 mod properties;
 mod scissor;

@@ -9,6 +9,8 @@ use tearmesh::{
     ScissorError, Tips, Vector, shapes,
 };
 
+use crate::pieces::pieces_by_vertices;
+
 fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
     Ray::new(origin.into(), direction.into()).expect("a usable ray")
 }
@@ -427,32 +429,6 @@ fn jittered(n: u32, jitter: f64, noise: &[(f64, f64, bool)]) -> (Mesh, Positions
         mesh,
         Positions::new(points.collect::<Vec<_>>()).expect("finite"),
     )
-}
-
-/// The numbers of the pieces that faces belong to, joined by shared vertices.
-fn pieces_by_vertices(mesh: &Mesh) -> Vec<usize> {
-    let faces: Vec<&[u32]> = mesh.indices().chunks(3).collect();
-    let mut piece: Vec<usize> = (0..faces.len()).collect();
-    let mut changed = true;
-    while changed {
-        changed = false;
-        let mut least = vec![usize::MAX; mesh.vertex_count()];
-        for (f, face) in faces.iter().enumerate() {
-            for &v in *face {
-                least[v as usize] = least[v as usize].min(piece[f]);
-            }
-        }
-        for (f, face) in faces.iter().enumerate() {
-            let smallest = face
-                .iter()
-                .map(|&v| least[v as usize])
-                .min()
-                .expect("three vertices");
-            changed |= smallest != piece[f];
-            piece[f] = smallest;
-        }
-    }
-    piece
 }
 
 proptest! {

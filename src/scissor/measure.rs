@@ -6,7 +6,7 @@
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
-use super::Scissor;
+use super::{Outcome, Scissor};
 use crate::edit::{Edit, Edits};
 use crate::geometry::{Point, Side, angle, area, cross, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -199,14 +199,14 @@ impl Survey {
         Some(ends)
     }
 
-    /// Compares with the mesh after the cut. `labels` are the final sides of the faces, and
-    /// the records from `first_edit` on are those of the cut.
+    /// Compares with the mesh after the cut. `outcome` is the method's, and the
+    /// records from `first_edit` on are those of the cut.
     pub(super) fn report(
         &self,
         scissor: &Scissor,
         mesh: &Mesh,
         positions: &Positions,
-        labels: &[Side],
+        outcome: &Outcome,
         edits: &Edits,
         first_edit: u64,
     ) -> CutReport {
@@ -237,14 +237,14 @@ impl Survey {
         CutReport {
             faces_crossed: self.faces_crossed,
             splits,
-            refused: 0,
+            refused: outcome.refused,
             ghost_pairs,
             pieces_before: self.pieces_before,
             pieces,
             pieces_expected: self.pieces_expected,
             crumbs: pieces.saturating_sub(self.pieces_expected),
             lost: self.pieces_expected.saturating_sub(pieces),
-            separated: self.separated(scissor, mesh, positions, labels),
+            separated: self.separated(scissor, mesh, positions, &outcome.labels),
             seam_length,
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,

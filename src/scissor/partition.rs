@@ -20,7 +20,7 @@
 use std::collections::VecDeque;
 
 use super::measure::Survey;
-use super::{Scissor, Tips};
+use super::{Outcome, Scissor, Tips};
 use crate::classify;
 use crate::edit::Edits;
 use crate::geometry::{Point, Side};
@@ -29,14 +29,13 @@ use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::split;
 
-/// Cuts, and returns the side of each face.
 pub(super) fn cut(
     scissor: &Scissor,
     mesh: &mut Mesh,
     positions: &Positions,
     survey: &Survey,
     edits: &mut Edits,
-) -> Vec<Side> {
+) -> Outcome {
     let mut labels: Vec<Side> = mesh
         .faces()
         .map(|f| classify::side(mesh, f, |v| survey.offset(v)))
@@ -51,7 +50,7 @@ pub(super) fn cut(
             split::faces(mesh, v, faces, edits).expect("a fan is some of a vertex's faces");
         }
     }
-    labels
+    Outcome { labels, refused: 0 }
 }
 
 fn smooth(mesh: &Mesh, survey: &Survey, labels: &mut [Side]) {

@@ -8,6 +8,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{fs, io};
 
+mod random;
+
+use random::Random;
+
 fn main() -> io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     for (name, text) in [
@@ -48,32 +52,12 @@ fn flag() -> String {
 
 /// A flat sheet of random points in the unit square, triangulated by Delaunay.
 fn sheet() -> String {
-    let mut random = Random(2014);
-    let mut points: Vec<[f64; 2]> = Vec::new();
-    for i in 0..20 {
-        let along = f64::from(i) / 20.0;
-        points.extend([
-            [along, 0.0],
-            [1.0, along],
-            [1.0 - along, 1.0],
-            [0.0, 1.0 - along],
-        ]);
-    }
-    while points.len() < 600 {
-        let point = [0.01 + 0.98 * random.next(), 0.01 + 0.98 * random.next()];
-        // Not as even as a mesher would do it, but without needles.
-        if points
-            .iter()
-            .all(|p| (p[0] - point[0]).hypot(p[1] - point[1]) > 0.015)
-        {
-            points.push(point);
-        }
-    }
+    let points = random::points(600, 20, 0.015, &mut Random(2014));
     let mut obj = String::from("# an irregular sheet\n");
     for [x, y] in &points {
         vertex(&mut obj, [*x, *y, 0.0]);
     }
-    for [a, b, c] in delaunay(&points) {
+    for [a, b, c] in random::delaunay(&points) {
         writeln!(obj, "f {} {} {}", a + 1, b + 1, c + 1).expect("a string grows");
     }
     obj
@@ -166,53 +150,4 @@ fn vertex(obj: &mut String, position: [f64; 3]) {
     // Adding zero turns −0 into 0.
     let [x, y, z] = position.map(|x| (x * 1e6).round() / 1e6 + 0.0);
     writeln!(obj, "v {x} {y} {z}").expect("a string grows");
-}
-
-/// Delaunay triangles by Bowyer and Watson's insertion, counter-clockwise; O(n²).
-fn delaunay(points: &[[f64; 2]]) -> Vec<[usize; 3]> {
-    let n = points.len();
-    let mut all = points.to_vec();
-    all.extend([[-50.0, -40.0], [50.0, -40.0], [0.5, 60.0]]);
-    let mut triangles = vec![[n, n + 1, n + 2]];
-    for p in 0..n {
-        let (hit, kept): (Vec<_>, Vec<_>) = triangles
-            .into_iter()
-            .partition(|&t| in_circle(t.map(|i| all[i]), all[p]));
-        triangles = kept;
-        let edges: Vec<[usize; 2]> = hit
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-            .collect();
-        for &[a, b] in edges.iter().filter(|&&[a, b]| !edges.contains(&[b, a])) {
-            triangles.push([a, b, p]);
-        }
-    }
-    // Points in a row on the border leave triangles without area; those go too.
-    triangles.retain(|t| t.iter().all(|&i| i < n) && double_area(t.map(|i| all[i])) > 1e-9);
-    triangles
-}
-
-fn double_area([a, b, c]: [[f64; 2]; 3]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-fn in_circle(triangle: [[f64; 2]; 3], p: [f64; 2]) -> bool {
-    let [a, b, c] = triangle.map(|q| [q[0] - p[0], q[1] - p[1]]);
-    let square = |q: [f64; 2]| q[0] * q[0] + q[1] * q[1];
-    let minor = |q: [f64; 2], r: [f64; 2]| q[0] * r[1] - q[1] * r[0];
-    square(a) * minor(b, c) + square(b) * minor(c, a) + square(c) * minor(a, b) > 0.0
-}
-
-/// A small generator (splitmix64), so that the sheet is the same for ever.
-struct Random(u64);
-
-impl Random {
-    /// A number from 0 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 }

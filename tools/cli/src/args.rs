@@ -107,6 +107,10 @@ pub(crate) enum Method {
     /// Label the faces by side and unshare the seam; adds no face.
     #[default]
     Partition,
+    /// The paper's first form: leaves irregular meshes undivided.
+    Uniform,
+    /// The paper's better form: leaves crumbs, and a long seam.
+    Alternating,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -121,6 +125,8 @@ impl Method {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Method::Partition => "partition",
+            Method::Uniform => "uniform",
+            Method::Alternating => "alternating",
         }
     }
 }

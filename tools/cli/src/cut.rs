@@ -158,6 +158,8 @@ impl Cutting<'_> {
     fn method(&self) -> tearmesh::Method {
         match self.args.method {
             Method::Partition => tearmesh::Method::Partition,
+            Method::Uniform => tearmesh::Method::Uniform,
+            Method::Alternating => tearmesh::Method::Alternating,
         }
     }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Stop;
-use crate::args::{CutArgs, Format};
+use crate::args::{CutArgs, Format, Method, Tips};
 use crate::say::Fault;
 use crate::{Exit, output};
 
@@ -41,7 +41,7 @@ impl Destination {
     }
 }
 
-/// Refuses streams and files that are wanted twice.
+/// Refuses streams and files that are wanted twice, and options that do not go together.
 pub(super) fn check(args: &CutArgs) -> Result<(), Stop> {
     let usage = |message: String, help: &str| {
         Err(Stop::new(
@@ -73,6 +73,16 @@ pub(super) fn check(args: &CutArgs) -> Result<(), Stop> {
     if report.is_some_and(is_stream) {
         let message = "`--report` takes the name of a file".to_owned();
         return usage(message, "print the report with --format json");
+    }
+    if args.tips == Tips::Midpoint && args.method != Method::Partition {
+        let message = format!(
+            "`--tips midpoint` is for the method partition, not {}",
+            args.method.name()
+        );
+        return usage(
+            message,
+            "leave it out: the paper's methods split vertices between the rays",
+        );
     }
     let same = |a: Option<&PathBuf>, b: Option<&PathBuf>| {
         matches!((a, b), (Some(a), Some(b))

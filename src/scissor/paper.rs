@@ -1,0 +1,101 @@
+//! The paper's two methods, `uniform` and `alternating` (Souza et al. 2014 §V), as they stand.
+//!
+//! "We iterate through all triangles on the target cloth to gather only the triangles that
+//! intersects the plane P." Of each, the vertices on the positive side of P that are also
+//! on the positive side of both side planes are split. *Uniform* splits them by a plane with the
+//! normal N of P. *Alternating* does so too where one vertex is positive; where two are, C and
+//! D, the normal is `N_tri × (D − C)`, so that the faces beyond the edge CD come off.
+//!
+//! How the paper is read where it leaves a choice: a vertex on P is positive. The crossed faces
+//! are gathered first, ascending; their corners are read again at each split, since
+//! a split before may have given the face another vertex. C and D are in the cyclic order of
+//! the face, and `N_tri` is its normal by that order.
+//!
+//! Neither method promises to divide. On irregular meshes `uniform` leaves bridges ("the mesh
+//! not being completely divided"); `alternating` mostly divides, and leaves crumbs and a
+//! longer seam, because it may split the same vertex several times. They are here to be
+//! compared with: [`Method::Partition`](super::Method::Partition) is the one to use.
+
+use super::{Outcome, Scissor};
+use crate::edit::Edits;
+use crate::geometry::{Plane, Side, Vector, cross};
+use crate::id::{FaceId, HalfEdgeId};
+use crate::mesh::Mesh;
+use crate::place::Positions;
+use crate::split;
+
+/// Which of the two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    Uniform,
+    Alternating,
+}
+
+pub(super) fn cut(
+    scissor: &Scissor,
+    form: Form,
+    mesh: &mut Mesh,
+    positions: &mut Positions,
+    edits: &mut Edits,
+) -> Outcome {
+    let is_positive = |mesh: &Mesh, positions: &Positions, h: HalfEdgeId| {
+        Side::of(scissor.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
+    };
+    let positive = |mesh: &Mesh, positions: &Positions, f: FaceId| {
+        f.half_edges()
+            .into_iter()
+            .filter(|&h| is_positive(mesh, positions, h))
+            .count()
+    };
+    // The crossed faces go with the negative side: the splits are on the positive one.
+    let labels = mesh
+        .faces()
+        .map(|f| {
+            if positive(mesh, positions, f) == 3 {
+                Side::Front
+            } else {
+                Side::Back
+            }
+        })
+        .collect();
+    let crossed: Vec<FaceId> = mesh
+        .faces()
+        .filter(|&f| matches!(positive(mesh, positions, f), 1 | 2))
+        .collect();
+    let mut refused = 0;
+    for f in crossed {
+        let corners = f.half_edges();
+        let along_edge = match form {
+            Form::Alternating if positive(mesh, positions, f) == 2 => {
+                let negative = corners
+                    .into_iter()
+                    .find(|&h| !is_positive(mesh, positions, h));
+                negative.map(|h| beyond_edge(mesh, positions, h.next()))
+            }
+            _ => None,
+        };
+        for h in corners {
+            let v = mesh.origin(h);
+            let at = positions.at(v);
+            if !is_positive(mesh, positions, h) || scissor.depth(at) < 0.0 {
+                continue;
+            }
+            let plane = match along_edge {
+                Some(normal) => Plane::new(at, normal).ok(),
+                None => Some(scissor.plane.through(at)),
+            };
+            match plane.and_then(|plane| split::by_plane(mesh, v, &plane, &*positions, edits)) {
+                Some(_) => edits.replay(positions),
+                None => refused += 1,
+            }
+        }
+    }
+    Outcome { labels, refused }
+}
+
+/// `N_tri × (D − C)` for the half-edge from C to D: in the plane of the face, pointing away from
+/// what lies beyond the edge. Zero for a face without area: there is no such direction.
+fn beyond_edge(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> Vector {
+    let [c, d, e] = [h, h.next(), h.prev()].map(|h| positions.at(mesh.origin(h)));
+    cross(cross(d - c, e - c), d - c)
+}
