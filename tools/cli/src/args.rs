@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-/// Cuts triangle meshes in OBJ files, and verifies what it did.
+/// Cuts triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
 #[command(name = "tearmesh", version, disable_help_subcommand = true)]
 pub(crate) struct Args {
@@ -16,6 +16,7 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Cut(Box<CutArgs>),
+    Check(CheckArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -100,6 +101,38 @@ pub(crate) struct CutArgs {
     /// Print no summary.
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  tearmesh check models/*.obj
+      a line for each file: ok, or the first thing that is wrong, with its line
+  tearmesh check -v shirt.obj
+      everything that is wrong, with the text of the lines concerned";
+
+/// Check OBJ files: whether they can be read and are meshes that can be cut.
+#[derive(Debug, Parser)]
+#[command(after_long_help = CHECK_EXAMPLES)]
+pub(crate) struct CheckArgs {
+    /// The OBJ files; `-` is standard input.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+
+    /// Print a line of words for each file, or a line of JSON.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+
+    /// When to use colours.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print only the files that fail.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+
+    /// Show everything there is to say of each file, with the text of the lines.
+    #[arg(short, long)]
+    pub(crate) verbose: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -13,12 +13,11 @@ use tearmesh::{Edits, Ledger, MassError, Masses, Mesh, Positions};
 use tearmesh_obj::Document;
 
 use self::files::Destination;
-use self::words::count;
 use crate::args::{CutArgs, Format, Mass, Method};
 use crate::input::Input;
 use crate::report::{self, Entry, Report};
-use crate::say::{Fault, Screen, Severity, is_colored};
-use crate::{Exit, Streams, bug, output};
+use crate::say::{Fault, Screen, Severity, count, is_colored};
+use crate::{Exit, Streams, bug, defects, output};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -96,7 +95,7 @@ impl Cutting<'_> {
         let document = read(input, &mut self.faults)?;
         let read_ms = clock.milliseconds();
         let clock = Clock::start();
-        let mut mesh = build(&input.name, &document)?;
+        let mut mesh = build(input, &document)?;
         let build_ms = clock.milliseconds();
         self.report.input = Some(report::File::of(Some(input.name.clone()), &mesh));
         let vertices_before = mesh.vertex_count();
@@ -309,42 +308,18 @@ impl Cutting<'_> {
 }
 
 fn read(input: &Input, faults: &mut Vec<Fault>) -> Result<Document, Stop> {
-    let bytes = input
-        .open()
+    let document = input
+        .document()
         .map_err(|fault| Stop::new(Exit::Input, fault))?;
-    let document = Document::read(bytes).map_err(|error| {
-        let fault = match error.diagnostic() {
-            Some(diagnostic) => Fault::of_file(&input.name, diagnostic),
-            None => Fault::error("E-IO-READ", format!("`{}`: {error}", input.name)),
-        };
-        Stop::new(Exit::Input, fault)
-    })?;
-    faults.extend(
-        document
-            .diagnostics()
-            .iter()
-            .map(|one| Fault::of_file(&input.name, one)),
-    );
+    let diagnostics = document.diagnostics().iter();
+    faults.extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
     Ok(document)
 }
 
-fn build(name: &str, document: &Document) -> Result<Mesh, Stop> {
-    document.mesh().map_err(|error| {
-        let shown = error.shown();
-        let mut faults: Vec<_> = shown.iter().map(|one| Fault::of_file(name, one)).collect();
-        let more = error.defects().len() - shown.len();
-        if let Some(last) = faults.last_mut()
-            && more > 0
-        {
-            last.message.push_str(&format!(
-                "; and {}",
-                count(more, "more defect", "more defects")
-            ));
-        }
-        Stop {
-            exit: Exit::Input,
-            faults,
-        }
+fn build(input: &Input, document: &Document) -> Result<Mesh, Stop> {
+    document.mesh().map_err(|error| Stop {
+        exit: Exit::Input,
+        faults: defects::faults(input, document, &error),
     })
 }
 

@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use tearmesh_obj::Document;
+
 use crate::say::Fault;
 
 /// The input, and how it is called in messages and in the report.
@@ -59,6 +61,14 @@ impl Input {
                 Err(error) => Err(cannot_read(&self.name, &error)),
             },
         }
+    }
+
+    /// The document in it.
+    pub(crate) fn document(&self) -> Result<Document, Fault> {
+        Document::read(self.open()?).map_err(|error| match error.diagnostic() {
+            Some(diagnostic) => Fault::of_file(&self.name, diagnostic),
+            None => Fault::error("E-IO-READ", format!("`{}`: {error}", self.name)),
+        })
     }
 }
 

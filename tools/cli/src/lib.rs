@@ -2,13 +2,15 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `cut` carries out the verb,
-//! `report` is its JSON, `say` puts diagnostics on a screen, `output` writes files whole or not
+//! Map: `args` says what can be typed, `rays` reads rays, `cut` and `check` carry out
+//! the verbs, `report` is their JSON, `defects` shows what is wrong with a mesh, `say` puts diagnostics on a screen, `output` writes files whole or not
 //! at all, `bug` writes a reproducer when an invariant broke.
 
 mod args;
 mod bug;
+mod check;
 mod cut;
+mod defects;
 mod input;
 mod output;
 mod rays;
@@ -50,7 +52,7 @@ impl std::fmt::Debug for Streams<'_> {
 pub enum Exit {
     /// Done.
     Done = 0,
-    /// Nothing was cut.
+    /// Nothing was cut; for `check`, some file failed.
     NothingCut = 1,
     /// The arguments make no sense.
     Usage = 2,
@@ -77,6 +79,9 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Args {
             verb: Verb::Cut(cut),
         }) => cut::run(&cut, &args, &mut streams),
+        Ok(Args {
+            verb: Verb::Check(check),
+        }) => check::run(&check, &mut streams),
         Err(help) if !help.use_stderr() => {
             let text = help.render();
             let shown = if streams.output_is_terminal {

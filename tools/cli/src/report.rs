@@ -185,13 +185,22 @@ pub(crate) struct Entry {
     line: Option<usize>,
     column: Option<usize>,
     message: String,
+    /// Other lines that have to do with it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    related: Vec<Place>,
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<String>,
 }
 
+#[derive(Debug, Serialize)]
+struct Place {
+    line: usize,
+    column: usize,
+}
+
 impl Entry {
     pub(crate) fn new(fault: &Fault) -> Entry {
-        let (path, line, column) = match (&fault.excerpt, &fault.place) {
+        let (path, line, column) = match (&fault.excerpt, fault.place.as_deref()) {
             (Some(at), _) => (Some(at.path.clone()), Some(at.line), Some(at.column())),
             (None, Some((path, line))) => (Some(path.clone()), Some(*line), None),
             (None, None) => (None, None, None),
@@ -203,6 +212,14 @@ impl Entry {
             line,
             column,
             message: fault.message.clone(),
+            related: fault
+                .related
+                .iter()
+                .map(|other| Place {
+                    line: other.line,
+                    column: other.column(),
+                })
+                .collect(),
             help: fault.help.clone(),
         }
     }

@@ -15,9 +15,11 @@ pub(crate) struct Fault {
     pub(crate) code: &'static str,
     pub(crate) message: String,
     /// The file and line concerned, where there is no text to show.
-    pub(crate) place: Option<(String, usize)>,
+    pub(crate) place: Option<Box<(String, usize)>>,
     /// The text concerned.
     pub(crate) excerpt: Option<Box<Excerpt>>,
+    /// Other lines that have to do with it.
+    pub(crate) related: Vec<Excerpt>,
     pub(crate) help: Option<String>,
 }
 
@@ -115,10 +117,24 @@ impl Fault {
             message: diagnostic.message.clone(),
             place: diagnostic
                 .location
-                .map(|location| (path.to_owned(), location.line)),
+                .map(|at| Box::new((path.to_owned(), at.line))),
             excerpt,
+            related: Vec::new(),
             help: diagnostic.help.clone(),
         }
+    }
+
+    /// All in one line, without the name of the file.
+    pub(crate) fn line(&self) -> String {
+        let place = match (&self.excerpt, &self.place) {
+            (Some(at), _) if self.related.is_empty() => {
+                format!("line {}, column {}: ", at.line, at.column())
+            }
+            (Some(at), _) => format!("line {}: ", at.line),
+            (None, Some(place)) => format!("line {}: ", place.1),
+            (None, None) => String::new(),
+        };
+        format!("{place}{}  [{}]", self.message, self.code)
     }
 
     fn render(&self, colored: bool) -> String {
@@ -144,7 +160,12 @@ impl Fault {
                 group = group.element(origin.line(excerpt.line).char_column(excerpt.column()));
             }
             group = group.element(snippet);
-        } else if let Some((path, line)) = &self.place {
+            for other in &self.related {
+                let annotation = AnnotationKind::Context.span(other.span.clone());
+                let snippet = Snippet::source(&*other.text).line_start(other.line);
+                group = group.element(snippet.path(&*other.path).annotation(annotation));
+            }
+        } else if let Some((path, line)) = self.place.as_deref() {
             group = group.element(Origin::path(&**path).line(*line));
         }
         if let Some(help) = &self.help {
@@ -178,4 +199,9 @@ pub(crate) fn is_colored(color: Color, is_terminal: bool) -> bool {
         Color::Never => false,
         Color::Auto => is_terminal && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty()),
     }
+}
+
+/// A number of things.
+pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
 }

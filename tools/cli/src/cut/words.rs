@@ -3,7 +3,7 @@
 use tearmesh::{CutReport, Ledger, Mesh};
 
 use super::files::Destination;
-use crate::say::Fault;
+use crate::say::{Fault, count};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
 pub(super) fn cut(number: Option<usize>, cut: &CutReport) -> String {
@@ -87,11 +87,6 @@ pub(super) fn ending(
         mesh.vertex_count(),
         mesh.face_count(),
     )
-}
-
-/// A number of things.
-pub(super) fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 /// A number for people: six digits.

@@ -1,0 +1,189 @@
+//! The verb `check`: a line for each file.
+
+use std::io;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::args::{CheckArgs, Format};
+use crate::input::Input;
+use crate::report::{Entry, File};
+use crate::say::{Fault, Screen, Severity, count, is_colored};
+use crate::{Exit, Streams, defects};
+
+/// Checks every file, whatever is wrong with those before it.
+pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
+    let width = args
+        .inputs
+        .iter()
+        .map(|path| name(path).chars().count())
+        .max()
+        .unwrap_or(0);
+    let mut exit = Exit::Done;
+    for path in &args.inputs {
+        let found = Found::of(path, streams);
+        exit = match (exit, found.exit()) {
+            (Exit::Input, _) | (_, Exit::Input) => Exit::Input,
+            (Exit::Bug, _) | (_, Exit::Bug) => Exit::Bug,
+            (one, Exit::Done) => one,
+            (_, other) => other,
+        };
+        if args.quiet && found.exit() == Exit::Done {
+            continue;
+        }
+        let said = match args.format {
+            Format::Text => found.say(width, args, streams),
+            Format::Json => found.json(streams),
+        };
+        match said {
+            Ok(()) => {}
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return exit,
+            Err(_) => return Exit::Output,
+        }
+    }
+    exit
+}
+
+fn name(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// What was found in a file.
+struct Found {
+    path: String,
+    mesh: Option<File>,
+    /// The file could not even be opened.
+    unreadable: bool,
+    faults: Vec<Fault>,
+}
+
+/// A line of JSON.
+#[derive(Serialize)]
+struct Line<'f> {
+    schema: &'static str,
+    ok: bool,
+    path: &'f str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<&'f File>,
+    diagnostics: Vec<Entry>,
+}
+
+impl Found {
+    fn of(path: &Path, streams: &mut Streams<'_>) -> Found {
+        let mut found = Found {
+            path: name(path),
+            mesh: None,
+            unreadable: false,
+            faults: Vec::new(),
+        };
+        let input = match Input::find(path, streams.input) {
+            Ok(input) => input,
+            Err(fault) => {
+                found.unreadable = true;
+                found.faults.push(fault);
+                return found;
+            }
+        };
+        let document = match input.document() {
+            Ok(document) => document,
+            Err(fault) => {
+                found.unreadable = fault.code == "E-IO-READ";
+                found.faults.push(fault);
+                return found;
+            }
+        };
+        let diagnostics = document.diagnostics().iter();
+        found
+            .faults
+            .extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
+        match document.mesh() {
+            Ok(mesh) => {
+                found.mesh = Some(File::of(Some(input.name.clone()), &mesh));
+                // For a mesh that was just built a violation would be a bug of ours.
+                let violations = mesh.check().into_iter();
+                found.faults.extend(
+                    violations.map(|broken| Fault::error("E-BUG-INVARIANT", broken.to_string())),
+                );
+            }
+            Err(error) => found
+                .faults
+                .extend(defects::faults(&input, &document, &error)),
+        }
+        found
+    }
+
+    fn errors(&self) -> impl Iterator<Item = &Fault> {
+        self.faults
+            .iter()
+            .filter(|fault| fault.severity == Severity::Error)
+    }
+
+    fn exit(&self) -> Exit {
+        match self.errors().next() {
+            None => Exit::Done,
+            Some(_) if self.unreadable => Exit::Input,
+            Some(_) if self.mesh.is_some() => Exit::Bug,
+            Some(_) => Exit::NothingCut,
+        }
+    }
+
+    fn say(&self, width: usize, args: &CheckArgs, streams: &mut Streams<'_>) -> io::Result<()> {
+        let path = &self.path;
+        let line = match (self.errors().next(), &self.mesh) {
+            (None, Some(mesh)) => format!("{path:width$}  ok    {}", summary(mesh, &self.faults)),
+            (first, _) => {
+                let first = first.map(Fault::line).unwrap_or_default();
+                let more = self.errors().count().saturating_sub(1);
+                let more = if more > 0 {
+                    format!(" and {more} more")
+                } else {
+                    String::new()
+                };
+                format!("{path:width$}  FAIL  {first}{more}")
+            }
+        };
+        writeln!(streams.output, "{line}")?;
+        if args.verbose {
+            // In order with the lines, where both go to one place.
+            streams.output.flush()?;
+            let colored = is_colored(args.color, streams.error_is_terminal);
+            let mut screen = Screen {
+                error: streams.error,
+                colored,
+            };
+            for fault in &self.faults {
+                screen.show(fault)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn json(&self, streams: &mut Streams<'_>) -> io::Result<()> {
+        let line = Line {
+            schema: "tearmesh.check/1",
+            ok: self.exit() == Exit::Done,
+            path: &self.path,
+            mesh: self.mesh.as_ref(),
+            diagnostics: self.faults.iter().map(Entry::new).collect(),
+        };
+        let json = serde_json::to_string(&line).expect("strings and numbers are JSON");
+        writeln!(streams.output, "{json}")
+    }
+}
+
+/// Counts, and the codes of warnings and notes.
+fn summary(mesh: &File, faults: &[Fault]) -> String {
+    let mut parts = vec![
+        count(mesh.vertices, "vertex", "vertices"),
+        count(mesh.faces, "face", "faces"),
+        count(mesh.boundary_loops, "boundary loop", "boundary loops"),
+    ];
+    if mesh.components != 1 {
+        parts.push(count(mesh.components, "component", "components"));
+    }
+    let codes: Vec<&str> = faults.iter().map(|fault| fault.code).collect();
+    if !codes.is_empty() {
+        parts.push(format!("[{}]", codes.join(" ")));
+    }
+    parts.join(" ")
+}
