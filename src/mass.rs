@@ -425,6 +425,21 @@ mod tests {
     }
 
     #[test]
+    fn a_ledger_sees_the_smallest_difference() {
+        let sum = |numbers: &[f64]| ExactSum::from_iter(numbers.iter().copied());
+        let balanced = Ledger {
+            before: sum(&[1.0]),
+            after: sum(&[0.25, 0.75]),
+        };
+        assert!(balanced.is_balanced());
+        let lost = Ledger {
+            before: sum(&[1.0, 5e-324]),
+            after: sum(&[1.0]),
+        };
+        assert!(!lost.is_balanced());
+    }
+
+    #[test]
     fn masses_know_how_many_and_which_edit_comes_next() {
         let (mesh, positions) = shapes::triangle();
         for masses in [
