@@ -10,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use tearmesh::{Edits, Ledger, MassError, Masses, Mesh, Positions};
-use tearmesh_obj::Document;
+use tearmesh_obj::{Document, Repair};
 
 use self::files::Destination;
 use self::words::count;
@@ -93,7 +93,7 @@ impl Cutting<'_> {
             .insert(input.map_err(|fault| Stop::new(Exit::Input, fault))?);
 
         let clock = Clock::start();
-        let document = read(input, &mut self.faults)?;
+        let document = read(input, repair(self.args), &mut self.faults)?;
         let read_ms = clock.milliseconds();
         let clock = Clock::start();
         let mut mesh = build(&input.name, &document)?;
@@ -306,17 +306,29 @@ impl Cutting<'_> {
     }
 }
 
-fn read(input: &Input, faults: &mut Vec<Fault>) -> Result<Document, Stop> {
+/// What may be done to the input.
+fn repair(args: &CutArgs) -> Option<Repair> {
+    match (args.repair, args.separate_fans) {
+        (true, _) => Some(Repair::All),
+        (false, true) => Some(Repair::SeparateFans),
+        (false, false) => None,
+    }
+}
+
+fn read(input: &Input, repair: Option<Repair>, faults: &mut Vec<Fault>) -> Result<Document, Stop> {
     let bytes = input
         .open()
         .map_err(|fault| Stop::new(Exit::Input, fault))?;
-    let document = Document::read(bytes).map_err(|error| {
+    let mut document = Document::read(bytes).map_err(|error| {
         let fault = match error.diagnostic() {
             Some(diagnostic) => Fault::of_file(&input.name, diagnostic),
             None => Fault::error("E-IO-READ", format!("`{}`: {error}", input.name)),
         };
         Stop::new(Exit::Input, fault)
     })?;
+    if let Some(repair) = repair {
+        document = document.repaired(repair);
+    }
     faults.extend(
         document
             .diagnostics()
@@ -339,11 +351,30 @@ fn build(name: &str, document: &Document) -> Result<Mesh, Stop> {
                 count(more, "more defect", "more defects")
             ));
         }
+        if let (Some(option), Some(last)) = (option_that_repairs(document), faults.last_mut())
+            && let Some(help) = &mut last.help
+        {
+            help.push_str(&format!("; or add {option}"));
+        }
         Stop {
             exit: Exit::Input,
             faults,
         }
     })
+}
+
+/// The mildest option with which this document would have a mesh. Tried, not guessed: a
+/// hint must work when it is typed.
+fn option_that_repairs(document: &Document) -> Option<&'static str> {
+    let options = [
+        ("--separate-fans", Repair::SeparateFans),
+        ("--repair", Repair::All),
+    ];
+    let works = |repair| document.clone().repaired(repair).mesh().is_ok();
+    options
+        .into_iter()
+        .find(|&(_, repair)| works(repair))
+        .map(|(option, _)| option)
 }
 
 fn cannot_write(name: &str, error: &io::Error) -> Fault {
