@@ -98,6 +98,16 @@ fn bad_inputs(folder: &Folder) {
         ),
         ("flipped.obj", format!("{square}f 1 2 3\nf 1 4 3\n")),
         ("bowtie.obj", format!("{square}v 2 2 0\nf 1 2 3\nf 3 5 4\n")),
+        (
+            "broken.obj",
+            format!(
+                "{square}v 0 0 1\nv 2 2 0\nv 3 3 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\nf 3 2 1\nf 3 6 7\nf 2 3 1\n"
+            ),
+        ),
+        (
+            "hopeless.obj",
+            format!("{square}v 2 2 0\nf 1 2 3\nf 1 4 3\nf 2 4 5\n"),
+        ),
         ("pillow.obj", format!("{square}f 1 2 3\nf 3 2 1\n")),
         (
             "flat.obj",

@@ -5,6 +5,7 @@ mod corpus;
 mod fuzz;
 mod mesh;
 mod refuse;
+mod repair;
 mod round_trip;
 mod torn;
 mod triangulate;

@@ -74,6 +74,21 @@ pub(crate) struct CutArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) mass: Mass,
 
+    /// Repair the input: also drop duplicate and superfluous faces.
+    ///
+    /// Of faces on the same three vertices the first stays, and of those on an edge the first two
+    /// that run in opposite directions; then fans are separated as by --separate-fans. Each
+    /// repair is a warning with its line. A flipped face is never repaired.
+    #[arg(long)]
+    pub(crate) repair: bool,
+
+    /// Give each fan of an input vertex a vertex of its own.
+    ///
+    /// A fan is a set of faces round the vertex that are joined by shared edges. The
+    /// first keeps the vertex, and the others get new ones at the same place.
+    #[arg(long)]
+    pub(crate) separate_fans: bool,
+
     /// Do everything but write.
     #[arg(long)]
     pub(crate) dry_run: bool,

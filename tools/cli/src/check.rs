@@ -105,9 +105,11 @@ impl Found {
                     violations.map(|broken| Fault::error("E-BUG-INVARIANT", broken.to_string())),
                 );
             }
-            Err(error) => found
-                .faults
-                .extend(defects::faults(&input, &document, &error)),
+            Err(error) => {
+                found
+                    .faults
+                    .extend(defects::faults(&input, &document, &error, "or cut with"))
+            }
         }
         found
     }

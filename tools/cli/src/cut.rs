@@ -10,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use tearmesh::{Edits, Ledger, MassError, Masses, Mesh, Positions};
-use tearmesh_obj::Document;
+use tearmesh_obj::{Document, Repair};
 
 use self::files::Destination;
 use crate::args::{CutArgs, Format, Mass, Method};
@@ -92,7 +92,7 @@ impl Cutting<'_> {
             .insert(input.map_err(|fault| Stop::new(Exit::Input, fault))?);
 
         let clock = Clock::start();
-        let document = read(input, &mut self.faults)?;
+        let document = read(input, repair(self.args), &mut self.faults)?;
         let read_ms = clock.milliseconds();
         let clock = Clock::start();
         let mut mesh = build(input, &document)?;
@@ -307,19 +307,35 @@ impl Cutting<'_> {
     }
 }
 
-fn read(input: &Input, faults: &mut Vec<Fault>) -> Result<Document, Stop> {
+/// What may be done to the input.
+fn repair(args: &CutArgs) -> Option<Repair> {
+    match (args.repair, args.separate_fans) {
+        (true, _) => Some(Repair::All),
+        (false, true) => Some(Repair::SeparateFans),
+        (false, false) => None,
+    }
+}
+
+fn read(input: &Input, repair: Option<Repair>, faults: &mut Vec<Fault>) -> Result<Document, Stop> {
     let document = input
         .document()
         .map_err(|fault| Stop::new(Exit::Input, fault))?;
+    let document = match repair {
+        Some(repair) => document.repaired(repair),
+        None => document,
+    };
     let diagnostics = document.diagnostics().iter();
     faults.extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
     Ok(document)
 }
 
 fn build(input: &Input, document: &Document) -> Result<Mesh, Stop> {
-    document.mesh().map_err(|error| Stop {
-        exit: Exit::Input,
-        faults: defects::faults(input, document, &error),
+    document.mesh().map_err(|error| {
+        let faults = defects::faults(input, document, &error, "or add");
+        Stop {
+            exit: Exit::Input,
+            faults,
+        }
     })
 }
 

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader};
 
 use tearmesh::{Defect, FaceId};
-use tearmesh_obj::{Document, MeshError};
+use tearmesh_obj::{Document, MeshError, Repair};
 
 use crate::input::Input;
-use crate::say::{Excerpt, Fault};
+use crate::say::{Excerpt, Fault, count};
 
 /// How many faces of a defect are shown; its message has the lines of all.
 const SHOWN: usize = 4;
@@ -18,8 +18,14 @@ const SHOWN: usize = 4;
 /// How much of a long line is shown.
 const WIDTH: usize = 160;
 
-/// The first twenty defects; the last one says how many more there are.
-pub(crate) fn faults(input: &Input, document: &Document, error: &MeshError) -> Vec<Fault> {
+/// The first twenty defects; the last one says how many more there are, and which option would
+/// repair them all, if one does: "or add --repair", with `or` in front.
+pub(crate) fn faults(
+    input: &Input,
+    document: &Document,
+    error: &MeshError,
+    or: &str,
+) -> Vec<Fault> {
     let lines_of = |defect: &Defect| {
         let mut lines: Vec<usize> = faces(defect)
             .iter()
@@ -62,12 +68,32 @@ pub(crate) fn faults(input: &Input, document: &Document, error: &MeshError) -> V
         })
         .collect();
     let more = error.defects().len() - faults.len();
-    if let Some(last) = faults.last_mut()
-        && more > 0
-    {
-        last.message.push_str(&format!("; and {more} more defects"));
+    if let Some(last) = faults.last_mut() {
+        if more > 0 {
+            last.message.push_str(&format!(
+                "; and {}",
+                count(more, "more defect", "more defects")
+            ));
+        }
+        if let (Some(option), Some(help)) = (option_that_repairs(document), &mut last.help) {
+            help.push_str(&format!("; {or} {option}"));
+        }
     }
     faults
+}
+
+/// The mildest option with which this document would have a mesh. Tried, not guessed: a
+/// hint must work when it is typed.
+fn option_that_repairs(document: &Document) -> Option<&'static str> {
+    let options = [
+        ("--separate-fans", Repair::SeparateFans),
+        ("--repair", Repair::All),
+    ];
+    let works = |repair| document.clone().repaired(repair).mesh().is_ok();
+    options
+        .into_iter()
+        .find(|&(_, repair)| works(repair))
+        .map(|(option, _)| option)
 }
 
 /// The faces of a defect, ascending.

@@ -3,7 +3,7 @@
 use tearmesh::Point;
 
 use crate::diagnostic::Diagnostic;
-use crate::store::{Column, Layout, Rows};
+use crate::store::{Column, Layout, Rows, push};
 use crate::triangulate::Triangulation;
 
 /// An OBJ file in memory: its numbers bit for bit, its faces as they were and as triangles, and
@@ -237,6 +237,21 @@ impl Polygons {
     pub(crate) fn triangles(&self, polygon: usize) -> std::ops::Range<usize> {
         let corners = self.corners(polygon);
         corners.start - 2 * polygon..corners.end - 2 * (polygon + 1)
+    }
+
+    /// Appends a polygon with these corners.
+    pub(crate) fn add(&mut self, corners: impl Iterator<Item = Corner>) {
+        push(&mut self.starts, self.vertices.len() as u32);
+        for corner in corners {
+            let index = self.vertices.len();
+            push(&mut self.vertices, corner.vertex);
+            if let Some(texture) = corner.texture {
+                self.texture.set(index, texture);
+            }
+            if let Some(normal) = corner.normal {
+                self.normals.set(index, normal);
+            }
+        }
     }
 
     fn of_triangle(&self, triangle: usize) -> usize {

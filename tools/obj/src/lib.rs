@@ -65,6 +65,8 @@
 //! | `W-OBJ-FOREIGN` | there are statements that are kept and not interpreted |
 //! | `W-OBJ-RELATIVE` | (note) negative indices of such statements were made absolute |
 //! | `W-OBJ-BOM` | (note) a byte order mark was dropped |
+//! | `W-OBJ-REPAIR-BOWTIE` | fans of a vertex were given vertices of their own ([`Repair`]) |
+//! | `W-OBJ-REPAIR-DUPLICATE`, `W-OBJ-REPAIR-PILLOW`, `W-OBJ-REPAIR-EDGE` | faces were dropped: on the vertices of another, or superfluous on an edge |
 //!
 //! # Why not obj-rs
 //!
@@ -91,6 +93,7 @@
 //! | `read.rs`, `read/` | bytes to document: lines, tokens, faces, references ahead, what is carried through, faults |
 //! | `triangulate.rs`, `triangulate/flip.rs` | polygons to triangles; diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
+//! | `repair.rs` | defects mended, on request |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, numbers |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
@@ -102,6 +105,7 @@ mod document;
 mod keyword;
 mod mesh;
 mod read;
+mod repair;
 mod store;
 mod triangulate;
 mod write;
@@ -109,4 +113,5 @@ mod write;
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::{Corner, Document};
 pub use mesh::MeshError;
+pub use repair::Repair;
 pub use write::WriteSummary;

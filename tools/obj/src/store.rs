@@ -140,6 +140,13 @@ pub(crate) struct Run {
     polygons_before: u32,
 }
 
+impl Run {
+    /// The line of each statement; the run is none of text.
+    pub(crate) fn lines(self) -> std::ops::Range<u32> {
+        self.line..self.line + self.count
+    }
+}
+
 /// In which order the statements of a file come, and on which lines they stand.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -190,6 +197,32 @@ impl Layout {
                     polygons_before,
                 },
             ),
+        }
+    }
+
+    /// Adds all statements of a run of another layout.
+    pub(crate) fn append(&mut self, run: Run) {
+        match run.kind {
+            Kind::Text => self.append_text(run.count as usize, run),
+            kind => {
+                for line in run.lines() {
+                    self.push(kind, line);
+                }
+            }
+        }
+    }
+
+    /// Adds some bytes of a run of text; none leave no trace.
+    pub(crate) fn append_text(&mut self, bytes: usize, run: Run) {
+        if bytes > 0 {
+            self.push_text(bytes, run.line);
+        }
+    }
+
+    /// Adds a vertex for each of these lines.
+    pub(crate) fn add_vertices(&mut self, lines: &[u32]) {
+        for &line in lines {
+            self.push(Kind::Vertex, line);
         }
     }
 

@@ -17,9 +17,10 @@ mod flip;
 use tearmesh::Point;
 
 use crate::document::Polygons;
+use crate::store::push;
 
 /// The triangles of all polygons, where not all are triangles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Triangulation {
     triangles: Vec<[u32; 3]>,
     /// For each corner of a triangle, which corner of its polygon it is.
@@ -56,6 +57,17 @@ impl Triangulation {
 
     pub(crate) fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// Appends a triangle: its vertices, and which corners of its polygon it has.
+    pub(crate) fn add(&mut self, vertices: [u32; 3], corners: [u16; 3]) {
+        push(&mut self.triangles, vertices);
+        push(&mut self.corners, corners);
+    }
+
+    /// Gives a corner of a triangle another vertex.
+    pub(crate) fn replace(&mut self, triangle: usize, corner: usize, vertex: u32) {
+        self.triangles[triangle][corner] = vertex;
     }
 
     #[inline]
