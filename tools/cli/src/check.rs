@@ -106,9 +106,8 @@ impl Found {
                 );
             }
             Err(error) => {
-                found
-                    .faults
-                    .extend(defects::faults(&input, &document, &error, "or cut with"))
+                let defects = defects::faults(&input, &document, &error, "or cut with");
+                found.faults.extend(defects);
             }
         }
         found
