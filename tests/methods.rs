@@ -201,3 +201,52 @@ fn figure_4_a_waving_flag_is_cut_between_two_picked_points() {
         }
     }
 }
+
+#[test]
+fn the_report_knows_the_worst_face_and_the_mean_edge() {
+    let (mut mesh, mut positions) = delaunay(300, 9);
+    let down = Vector::new(0.0, 0.0, -1.0);
+    let ray = |x: f64, y: f64| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
+    let scissor = Scissor::new(&ray(0.3, -1.0), &ray(0.6, 2.0)).expect("a plane");
+    let (mut angle, mut altitude) = (f64::INFINITY, f64::INFINITY);
+    let mut edges = std::collections::BTreeMap::new();
+    for face in mesh.indices().chunks(3) {
+        let [a, b, c] = [0, 1, 2].map(|i| positions.as_slice()[face[i] as usize]);
+        let sides = [(b - c).norm(), (c - a).norm(), (a - b).norm()];
+        let half = sides.iter().sum::<f64>() / 2.0;
+        let area = sides
+            .iter()
+            .fold(half, |product, side| product * (half - side))
+            .sqrt();
+        for i in 0..3 {
+            let [x, y, z] = [sides[i], sides[(i + 1) % 3], sides[(i + 2) % 3]];
+            angle = angle.min(
+                ((y * y + z * z - x * x) / (2.0 * y * z))
+                    .acos()
+                    .to_degrees(),
+            );
+            altitude = altitude.min(2.0 * area / x);
+            let (v, w) = (face[(i + 1) % 3], face[(i + 2) % 3]);
+            edges.insert((v.min(w), v.max(w)), x);
+        }
+    }
+    let mean_edge = edges.values().sum::<f64>() / edges.len() as f64;
+    let report = scissor
+        .cut(
+            Method::Partition,
+            &mut mesh,
+            &mut positions,
+            &mut Edits::new(),
+        )
+        .expect("in step");
+    assert!(
+        (report.angle_min_deg - angle).abs() < 1e-9,
+        "{angle} {report:?}"
+    );
+    assert!(
+        (report.altitude_min - altitude).abs() < 1e-12,
+        "{altitude} {report:?}"
+    );
+    let ratio = report.seam_deviation_max / report.seam_deviation_max_edges;
+    assert!((ratio - mean_edge).abs() < 1e-12, "{mean_edge} {report:?}");
+}
