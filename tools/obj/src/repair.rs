@@ -76,7 +76,7 @@ impl Document {
                 if dropped.is_empty() {
                     continue;
                 }
-                self.drop_triangles(&dropped);
+                self.drop_triangles(&dropped, error.defects());
                 match self.build() {
                     Ok(_) => return self,
                     Err(left) => error = left,
@@ -94,27 +94,20 @@ impl Document {
     /// All triangles but the first on the same three vertices.
     fn on_the_same_vertices(&self, defects: &[Defect]) -> Vec<Drop> {
         let mut dropped = Vec::new();
-        for defect in defects {
-            let (faces, code, why) = match defect {
-                Defect::DuplicateFaces { faces, .. } => (
-                    &faces[..],
-                    "W-OBJ-REPAIR-DUPLICATE",
-                    "has the same vertices as",
-                ),
-                Defect::Pillow { faces, .. } => {
-                    (&faces[..], "W-OBJ-REPAIR-PILLOW", "lies back to back with")
-                }
+        for (number, defect) in defects.iter().enumerate() {
+            let faces = match defect {
+                Defect::DuplicateFaces { faces, .. } => &faces[..],
+                Defect::Pillow { faces, .. } => &faces[..],
                 _ => continue,
             };
+            dropped.reserve(faces.len() - 1);
             dropped.extend(faces[1..].iter().map(|&face| Drop {
                 face,
-                code,
-                why,
                 kept: faces[0],
-                edge: None,
+                defect: number as u32,
             }));
         }
-        dropped.sort_by_key(|drop| drop.face);
+        dropped.sort_unstable_by_key(|drop| drop.face);
         dropped
     }
 
@@ -139,17 +132,12 @@ impl Document {
                 (ends, usize::from(self.runs_along(face, ends)))
             };
             let earlier = of_face.iter().find_map(|&(_, number)| {
-                let (ends, direction) = place(number);
-                Some((ends, taken[number][direction]?))
+                let (_, direction) = place(number);
+                Some((number, taken[number][direction]?))
             });
-            if let Some((ends, kept)) = earlier {
-                dropped.push(Drop {
-                    face,
-                    code: "W-OBJ-REPAIR-EDGE",
-                    why: "runs the same way as",
-                    kept,
-                    edge: Some(ends),
-                });
+            if let Some((number, kept)) = earlier {
+                let defect = number as u32;
+                dropped.push(Drop { face, kept, defect });
                 continue;
             }
             for &(_, number) in of_face {
@@ -167,8 +155,8 @@ impl Document {
     }
 
     /// Drops triangles, which are in ascending order, and says so.
-    fn drop_triangles(&mut self, dropped: &[Drop]) {
-        self.report_drops(dropped);
+    fn drop_triangles(&mut self, dropped: &[Drop], defects: &[Defect]) {
+        self.report_drops(dropped, defects);
         let mut gone = dropped.iter().map(|drop| drop.face.index()).peekable();
         let mut polygons = Polygons::default();
         let mut triangulation = Triangulation::default();
@@ -212,14 +200,15 @@ impl Document {
         self.layout = layout;
     }
 
-    fn report_drops(&mut self, dropped: &[Drop]) {
-        let mut codes: Vec<_> = dropped.iter().map(|drop| drop.code).collect();
-        codes.sort_unstable();
-        codes.dedup();
-        for code in codes {
-            let of_code = dropped.iter().filter(|drop| drop.code == code);
-            let count = of_code.clone().count();
-            for drop in of_code.clone().take(REPORTED) {
+    fn report_drops(&mut self, dropped: &[Drop], defects: &[Defect]) {
+        for code in [
+            "W-OBJ-REPAIR-DUPLICATE",
+            "W-OBJ-REPAIR-PILLOW",
+            "W-OBJ-REPAIR-EDGE",
+        ] {
+            let because = |drop: &Drop| reason(&defects[drop.defect as usize]);
+            let mut of_code = dropped.iter().filter(|drop| because(drop).0 == code);
+            for drop in of_code.by_ref().take(REPORTED) {
                 let line = self.line_of_triangle(drop.face.index());
                 let polygon = self.polygon_of(drop.face.index());
                 let what = match self.polygons.corners(polygon).len() {
@@ -227,25 +216,14 @@ impl Document {
                     _ => "a triangle of this face",
                 };
                 let kept = self.line_of_triangle(drop.kept.index());
-                let place = drop.edge.map_or_else(String::new, |[a, b]| {
-                    format!(
-                        " along the crowded edge {}-{}",
-                        a.index() + 1,
-                        b.index() + 1
-                    )
-                });
-                let message = format!(
-                    "{what} is dropped: it {} one on line {kept}{place}",
-                    drop.why
-                );
+                let (_, why, place) = because(drop);
+                let message = format!("{what} is dropped: it {why} one on line {kept}{place}");
                 self.diagnostics.push(warning(code, line, message));
             }
-            if let Some(next) = of_code.clone().nth(REPORTED) {
+            if let Some(next) = of_code.next() {
                 let line = self.line_of_triangle(next.face.index());
-                let message = format!(
-                    "and {} more faces are dropped (the first here)",
-                    count - REPORTED
-                );
+                let more = 1 + of_code.count();
+                let message = format!("and {more} more faces are dropped (the first here)");
                 self.diagnostics.push(warning(code, line, message));
             }
         }
@@ -384,12 +362,36 @@ impl Document {
 /// A triangle to drop.
 struct Drop {
     face: FaceId,
-    code: &'static str,
-    /// What it has to do with the one that stays.
-    why: &'static str,
+    /// The one that stays in its place.
     kept: FaceId,
-    /// The edge that is too crowded for it.
-    edge: Option<[VertexId; 2]>,
+    /// Why, among the defects.
+    defect: u32,
+}
+
+/// The code for a face that is dropped on account of a defect, what it has to do with the one
+/// that stays, and where.
+fn reason(defect: &Defect) -> (&'static str, &'static str, String) {
+    match defect {
+        Defect::Pillow { .. } => (
+            "W-OBJ-REPAIR-PILLOW",
+            "lies back to back with",
+            String::new(),
+        ),
+        Defect::CrowdedEdge { ends: [a, b], .. } => (
+            "W-OBJ-REPAIR-EDGE",
+            "runs the same way as",
+            format!(
+                " along the crowded edge {}-{}",
+                a.index() + 1,
+                b.index() + 1
+            ),
+        ),
+        _ => (
+            "W-OBJ-REPAIR-DUPLICATE",
+            "has the same vertices as",
+            String::new(),
+        ),
+    }
 }
 
 fn warning(code: &'static str, line: usize, message: String) -> Diagnostic {

@@ -101,10 +101,12 @@ pub(super) fn locate(line: &Line<'_>, span: &Range<usize>) -> (Location, Excerpt
     let (before, after) = line.bytes.split_at(start);
     let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
     let line_start = before.iter().rposition(is_end).map_or(0, |at| at + 1);
-    let line_end = after
+    // Far behind the span nothing is shown, and a line may be long.
+    let near = after.len().min(span.len() + 4 * WINDOW);
+    let line_end = after[..near]
         .iter()
         .position(is_end)
-        .map_or(line.bytes.len(), |at| start + at);
+        .map_or(start + near, |at| start + at);
     let ends_before = before[..line_start]
         .iter()
         .enumerate()

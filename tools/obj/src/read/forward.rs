@@ -18,11 +18,16 @@ use crate::diagnostic::{Excerpt, Location, ReadError};
 /// The most bytes of text that are kept.
 const TEXT_BUDGET: usize = 1 << 20;
 
+/// Lines with more bytes are kept no excerpt of, and counted through only once.
+const LONG: usize = 64 << 10;
+
 /// The staircase of forward references to one kind of element.
 #[derive(Debug, Default)]
 pub(super) struct Forward {
     steps: VecDeque<Step>,
     text: usize,
+    /// The last place looked up on a long line: the line, the byte, and its place.
+    place: Option<(u32, usize, Location)>,
 }
 
 #[derive(Debug)]
@@ -51,9 +56,39 @@ impl Forward {
         if self.steps.back().is_some_and(|step| step.index >= index) {
             return;
         }
+        if line.bytes.len() > LONG {
+            let location = self.place_on_long_line(line, span.start);
+            return self.push(index, location, None);
+        }
         let (location, excerpt) = locate(line, &span);
         let fits = self.text + excerpt.text.len() <= TEXT_BUDGET;
         self.text += if fits { excerpt.text.len() } else { 0 };
+        self.push(index, location, fits.then(|| Box::new(excerpt)));
+    }
+
+    /// The place of a byte, counted from the last place on the same line: a face may have thousands
+    /// of references ahead on a line of megabytes.
+    fn place_on_long_line(&mut self, line: &Line<'_>, start: usize) -> Location {
+        let (from, known) = match self.place {
+            Some((number, at, known)) if number == line.number && at <= start => (at, known),
+            _ => {
+                let line = line.number as usize;
+                (0, Location { line, column: 1 })
+            }
+        };
+        let rest = Line {
+            bytes: &line.bytes[from..],
+            number: known.line as u32,
+        };
+        let (mut location, _) = locate(&rest, &(start - from..start - from));
+        if location.line == known.line {
+            location.column += known.column - 1;
+        }
+        self.place = Some((line.number, start, location));
+        location
+    }
+
+    fn push(&mut self, index: u32, location: Location, excerpt: Option<Box<Excerpt>>) {
         if self.steps.len() == self.steps.capacity() {
             self.steps.reserve_exact(self.steps.len() / 2 + 16);
         }
@@ -61,7 +96,7 @@ impl Forward {
             index,
             line: location.line as u32,
             column: location.column as u32,
-            excerpt: fits.then(|| Box::new(excerpt)),
+            excerpt,
         });
     }
 
