@@ -3,6 +3,11 @@
 //! Each file is read, and its mesh built, by a process of its own, whose peak of resident
 //! memory the system knows. Linux only: elsewhere the test says that it was skipped.
 
+#![expect(
+    clippy::print_stdout,
+    reason = "the child tells its peak, and the parent a table of them"
+)]
+
 use std::fs::File;
 use std::io::{Write as _, stderr};
 use std::process::Command;
