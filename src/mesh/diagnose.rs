@@ -26,7 +26,7 @@ pub(super) fn diagnose(vertices: usize, triangles: &[[u32; 3]]) -> Vec<Defect> {
     if !defects.is_empty() {
         return defects;
     }
-    let mut sound = Vec::new();
+    let mut sound = Vec::with_capacity(triangles.len());
     for (f, triangle) in triangles.iter().enumerate() {
         let face = FaceId::from_u32(f as u32);
         let known = defects.len();
@@ -100,30 +100,42 @@ fn is_rotation(a: [VertexId; 3], b: [VertexId; 3]) -> bool {
 }
 
 fn crowded_and_flipped_edges(sound: &[Sound], defects: &mut Vec<Defect>) {
+    // Twelve bytes a half-edge: its edge, its face, and whether it runs up.
     let mut uses = Vec::with_capacity(3 * sound.len());
-    for &(face, [a, b, c]) in sound {
-        for [from, to, across] in [[a, b, c], [b, c, a], [c, a, b]] {
-            uses.push(([from.min(to), from.max(to)], face, from < to, across));
+    for (i, &(_, [a, b, c])) in sound.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let key = (i as u32) << 1 | u32::from(from < to);
+            uses.push(([from.min(to), from.max(to)], key));
         }
     }
     uses.sort_unstable();
+    let face = |key: u32| sound[(key >> 1) as usize].0;
+    let across = |ends: [VertexId; 2], key: u32| {
+        let (_, vertices) = sound[(key >> 1) as usize];
+        vertices.into_iter().find(|v| !ends.contains(v))
+    };
     for group in uses.chunk_by(|(a, ..), (b, ..)| a == b) {
-        let (ends, _, _, across) = group[0];
-        if group.iter().all(|&(.., opposite)| opposite == across) {
+        let (ends, first) = group[0];
+        let opposite = across(ends, first);
+        if group.iter().all(|&(_, key)| across(ends, key) == opposite) {
             continue; // One face, or a pillow or duplicates, which are defects of their own.
         }
         match *group {
-            [(_, _, up, _), (_, _, also_up, _)] if up != also_up => {}
-            [(_, f, up, _), (_, g, ..)] => {
-                let [from, to] = if up { ends } else { [ends[1], ends[0]] };
+            [(_, one), (_, other)] if one & 1 != other & 1 => {}
+            [(_, one), (_, other)] => {
+                let [from, to] = if one & 1 == 1 {
+                    ends
+                } else {
+                    [ends[1], ends[0]]
+                };
                 defects.push(Defect::FlippedFace {
                     from,
                     to,
-                    faces: [f, g],
+                    faces: [face(one), face(other)],
                 });
             }
             _ => {
-                let faces = group.iter().map(|&(_, face, ..)| face).collect();
+                let faces = group.iter().map(|&(_, key)| face(key)).collect();
                 defects.push(Defect::CrowdedEdge { ends, faces });
             }
         }

@@ -148,6 +148,13 @@ fn everything_else_is_kept_byte_for_byte() {
 }
 
 #[test]
+fn names_that_are_no_utf_8_are_kept() {
+    let file = b"o caf\xe9\ng \xff\xfe a#b\nmtllib stra\xdfe.mtl\nusemtl \x80 \xc3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(rewritten(file), file);
+    assert_eq!(codes(&read(file)), [""; 0]);
+}
+
+#[test]
 fn comments_behind_statements_become_lines() {
     let file = b"v 0 0 0 # tip\nv 1 0 0# b\r\nv 0 1 0\nf 1 2 3 # f\\\nf 3 2 1#";
     let document = read(&file[..file.len() - 8]);
@@ -294,4 +301,7 @@ fn polygons_are_cut_into_triangles_and_one_warning_says_so() {
 fn a_line_of_twenty_megabytes_is_read() {
     let file = format!("# {}\n{TRIANGLE}", "x".repeat(20 << 20));
     assert_eq!(rewritten(file.as_bytes()), file.as_bytes());
+    let blanks = " ".repeat(20 << 20);
+    let file = format!("v 0 0 0\nv 1 0 0\nv{blanks}0 1 0\nf 1 2{blanks}3");
+    assert_eq!(text(&rewritten(file.as_bytes())), TRIANGLE);
 }

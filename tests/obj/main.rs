@@ -3,6 +3,7 @@
 mod accept;
 mod corpus;
 mod fuzz;
+mod memory;
 mod mesh;
 mod refuse;
 mod repair;

@@ -432,6 +432,26 @@ fn files_that_are_no_obj_files() {
 }
 
 #[test]
+fn twenty_megabytes_on_one_line() {
+    let million = |start: &str| start.to_owned() + &" 1".repeat(10 << 20);
+    let numbers: String = (1..2_500_000).map(|i| format!(" {i}")).collect();
+    check(&[
+        (
+            million("v").as_bytes(),
+            "E-OBJ-COUNT 1:35+1 a vertex has at most 16 numbers",
+        ),
+        (
+            &with_vertices(&format!("f{numbers}")),
+            "E-OBJ-ARITY 4:19376+4 this face has more than 4096",
+        ),
+        (
+            million("v 0 0 0 v").as_bytes(),
+            "E-OBJ-FLOAT 1:9+1 cannot read number `v`",
+        ),
+    ]);
+}
+
+#[test]
 fn a_line_without_end() {
     let mut file = with_vertices("# ");
     file.resize(70 << 20, b'x');

