@@ -10,4 +10,5 @@ mod house;
 mod lockstep;
 mod oracle;
 mod properties;
+mod rays;
 mod scissor;
