@@ -154,12 +154,14 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     let reach = a.origin().coords.amax().max(b.origin().coords.amax());
     let spanned = apart.cross(&along_a);
     let angle = length(along_a.cross(&along_b));
+    // Below, products with a distance vanish, and nothing is known of the plane.
+    let is_normal = reach == 0.0 || reach > 1e-290;
     let scissor = match Scissor::new(a, b) {
         Ok(scissor) => scissor,
         Err(error) => {
             assert_eq!(error, ScissorError::OneLine);
             assert!(
-                length(spanned) <= 256.0 * EPSILON * reach,
+                length(spanned) <= 256.0 * EPSILON * reach || !is_normal,
                 "the origins are apart"
             );
             assert!(angle <= 256.0 * EPSILON, "the directions differ");
@@ -175,8 +177,7 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     } else {
         angle
     };
-    // Where products vanish below the smallest numbers, nothing is known of the plane.
-    let known = (by_origins || by_eye) && (reach == 0.0 || reach > 1e-290);
+    let known = (by_origins || by_eye) && is_normal;
 
     let plane = scissor.plane();
     let normal = plane.normal();
