@@ -39,10 +39,11 @@ impl Case {
         let mut terminal = false;
         let mut args = Vec::new();
         for word in line.split('|').filter(|word| !word.is_empty()).take(24) {
-            if word == "TERMINAL" {
-                terminal = true;
-            } else {
-                args.push(without_path(word));
+            match word {
+                "TERMINAL" => terminal = true,
+                // Options that take a path have it already.
+                "-" => {}
+                word => args.push(without_path(word)),
             }
         }
         Case {
