@@ -35,6 +35,55 @@
 //! assert_eq!(script.to_string().parse(), Ok(script));
 //! # Ok::<(), tearmesh::script::ScriptError>(())
 //! ```
+//!
+//! # Fuzz a follower of your own
+//!
+//! Write the property as a function from bytes: a follower that replays after every step must at
+//! all times hold what a plain count over the whole mesh gives.
+//!
+//! ```
+//! use tearmesh::script::Script;
+//! use tearmesh::{Edit, Follower};
+//!
+//! /// How many faces each vertex has: what you keep beside the mesh.
+//! struct Valences { of: Vec<usize>, next: u64 }
+//!
+//! impl Follower for Valences {
+//!     fn next_edit(&self) -> u64 {
+//!         self.next
+//!     }
+//!     fn follow(&mut self, edit: &Edit<'_>) {
+//!         if let Edit::Split(split) = edit {
+//!             self.of[split.old.index()] -= split.corners.len();
+//!             self.of.push(split.corners.len());
+//!         }
+//!         self.next = edit.number() + 1;
+//!     }
+//! }
+//!
+//! pub fn check_valences(bytes: &[u8]) {
+//!     let script = Script::from_bytes(bytes);
+//!     let mut valences: Option<Valences> = None;
+//!     script.run(|world, step| {
+//!         let count = |v| world.mesh.faces_of(v).count();
+//!         let truth: Vec<usize> = world.mesh.vertices().map(count).collect();
+//!         let valences = valences.get_or_insert_with(|| Valences { of: truth.clone(), next: 0 });
+//!         world.edits.replay(valences);
+//!         assert_eq!(valences.of, truth, "after {step:?} of\n{script}");
+//!     });
+//! }
+//!
+//! // Any bytes will do. In `cargo test`, replay those that a fuzzer kept.
+//! for seed in 0..200_u8 {
+//!     let bytes: Vec<u8> = (0..100).map(|i: u8| seed.wrapping_mul(i).rotate_left(3) ^ i).collect();
+//!     check_valences(&bytes);
+//! }
+//! ```
+//!
+//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. When
+//! it fails, the message ends with the script as text: put that into a regression test, and run it
+//! with `text.parse::<Script>()`. The folder `fuzz` of this library's repository runs its targets
+//! on the stable toolchain (`fuzz/run`), and can be copied.
 
 mod bytes;
 mod shape;

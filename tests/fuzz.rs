@@ -1,10 +1,11 @@
-//! Replays what the fuzz target `script` starts from, and what it found.
+//! Replays what the fuzz targets of the library start from, and what they found.
 
 use std::path::{Path, PathBuf};
 
 use tearmesh::script::Script;
 
 use crate::lockstep;
+use crate::rays::{Case, Outcome};
 
 /// The seeds of the target, as text: one for each shape and each kind of operation. With
 /// `TEARMESH_BLESS` set, the files are written.
@@ -64,16 +65,50 @@ fn the_seeds_are_these_scripts() {
     }
 }
 
+/// The inputs in a folder, which need not be there.
+fn inputs(name: &str) -> Vec<Vec<u8>> {
+    let Ok(folder) = folder(name).read_dir() else {
+        return Vec::new();
+    };
+    let mut paths: Vec<PathBuf> = folder
+        .map(|entry| entry.expect("a readable folder").path())
+        .collect();
+    paths.sort();
+    let read = |path: &PathBuf| {
+        println!("{}", path.display());
+        std::fs::read(path).expect("a readable file")
+    };
+    paths.iter().map(read).collect()
+}
+
 #[test]
 fn what_fuzzing_found_stays_found() {
-    let Ok(folder) = folder("regressions/script").read_dir() else {
-        return; // Nothing was found so far.
-    };
-    for entry in folder {
-        let path = entry.expect("a readable folder").path();
-        let bytes = std::fs::read(&path).expect("a readable file");
+    for bytes in inputs("regressions/script") {
         let script = Script::from_bytes(&bytes);
-        println!("{}:\n{script}", path.display());
+        println!("{script}");
         lockstep::check(&script);
     }
+}
+
+#[test]
+fn rays_of_the_seeds_and_of_what_fuzzing_found_cut_as_they_should() {
+    let mut ends = [0; 4];
+    for folder in ["seeds/scissor_rays", "regressions/scissor_rays"] {
+        for bytes in inputs(folder) {
+            let case = Case::from_bytes(&bytes);
+            let end = case.check();
+            println!("{end:?}");
+            ends[match end {
+                Outcome::NoRay => 0,
+                Outcome::NoPlane => 1,
+                Outcome::Cut(0) => 2,
+                Outcome::Cut(_) => 3,
+            }] += 1;
+        }
+    }
+    let [no_ray, no_plane, missed, cut] = ends;
+    assert!(
+        no_ray >= 1 && no_plane >= 1 && missed >= 1 && cut >= 5,
+        "{ends:?}"
+    );
 }

@@ -12,4 +12,5 @@ mod methods;
 mod oracle;
 mod pieces;
 mod properties;
+mod rays;
 mod scissor;

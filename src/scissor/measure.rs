@@ -43,7 +43,8 @@ pub struct CutReport {
     pub separated: bool,
     /// The length of the seam.
     pub seam_length: f64,
-    /// The length of the seam over that of the slit on the mesh; 0 where there is no slit.
+    /// The length of the seam over that of the slit on the mesh; 0 where there is no slit, or
+    /// one too short to divide by.
     pub seam_length_ratio: f64,
     /// The largest distance of a seam vertex from the plane.
     pub seam_deviation_max: f64,
@@ -233,7 +234,11 @@ impl Survey {
                 }
             }
         }
-        let ratio = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
+        // A slit that only grazes a corner may be so short that the quotient is infinite.
+        let ratio = |a: f64, b: f64| match a / b {
+            ratio if b > 0.0 && ratio.is_finite() => ratio,
+            _ => 0.0,
+        };
         CutReport {
             faces_crossed: self.faces_crossed,
             splits,

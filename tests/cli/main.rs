@@ -4,6 +4,8 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod files;
+mod fuzz;
 mod harness;
+mod in_process;
 mod through;
 mod transcripts;

@@ -3,34 +3,75 @@
 use std::fs;
 use std::path::Path;
 
-use tearmesh_obj::Document;
+use crate::differential::{self, Outcome};
+use crate::{rewritten, same_bytes, text};
 
-use crate::{rewritten, text};
-
-/// Bytes that can be read are written, and read and written again, the same.
-fn survive(bytes: &[u8]) -> bool {
-    let Ok(document) = Document::read(bytes) else {
-        return false;
-    };
-    if document.mesh().is_err() {
-        return false;
+/// The seeds and the regressions of a fuzz target.
+fn inputs(target: &str) -> Vec<Vec<u8>> {
+    let fuzz = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz");
+    let mut inputs = Vec::new();
+    for folder in ["seeds", "regressions"] {
+        let Ok(entries) = fs::read_dir(fuzz.join(folder).join(target)) else {
+            assert_eq!(folder, "regressions", "{target} has seeds");
+            continue;
+        };
+        for entry in entries {
+            let path = entry.expect("an entry").path();
+            println!("{}", path.display());
+            inputs.push(fs::read(path).expect("an input"));
+        }
     }
-    let written = rewritten(bytes);
-    assert_eq!(text(&rewritten(&written)), text(&written));
-    true
+    inputs
+}
+
+fn survive(bytes: &[u8]) -> bool {
+    same_bytes::check_file(bytes, &[])
 }
 
 #[test]
 fn seeds_and_regressions_survive() {
-    let fuzz = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz");
-    let mut survived = 0;
-    for folder in ["seeds/obj_read", "regressions/obj_read"] {
-        for entry in fs::read_dir(fuzz.join(folder)).expect("a folder of inputs") {
-            let path = entry.expect("an entry").path();
-            survived += usize::from(survive(&fs::read(path).expect("an input")));
-        }
+    let inputs = inputs("obj_read");
+    assert!(inputs.iter().filter(|bytes| survive(bytes)).count() >= 5);
+}
+
+#[test]
+fn torn_seeds_and_regressions_survive() {
+    let inputs = inputs("obj_roundtrip");
+    let meshes = inputs.iter().filter(|bytes| same_bytes::check(bytes));
+    assert!(meshes.count() >= 4);
+}
+
+#[test]
+fn obj_rs_reads_the_seeds_as_we_do() {
+    let outcomes: Vec<_> = inputs("obj_differential")
+        .iter()
+        .map(|bytes| differential::check(bytes))
+        .collect();
+    let count = |wanted| outcomes.iter().filter(|&&one| one == wanted).count();
+    assert!(count(Outcome::Same) >= 4, "{outcomes:?}");
+    assert!(count(Outcome::Refused) >= 2, "{outcomes:?}");
+}
+
+#[test]
+fn what_obj_rs_does_not_read_without_loss_is_left_out() {
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (more, outcome) in [
+        ("", Outcome::Same),
+        ("sp\ncurv 1 2\nfo 1 2 3\nnl 1\n", Outcome::Same),
+        ("f 1 2 \\\n 3\n# \\\n", Outcome::Same),
+        ("f 1 1 2\n", Outcome::Refused),
+        ("g a b\n", Outcome::Lossy),
+        ("v 1 2 1e39\n", Outcome::Lossy),
+        ("v 1 2 nan\n", Outcome::Lossy),
+        ("v 1 2 3.#INF\n", Outcome::Lossy),
+        ("v 1 2 \u{a0}3\n", Outcome::Lossy),
+        ("g a \\ \nf 1 2 3\n", Outcome::Lossy),
+        ("g a\rf 1 2 3\n", Outcome::Lossy),
+    ] {
+        let file = format!("{triangle}{more}");
+        assert_eq!(differential::check(file.as_bytes()), outcome, "{more:?}");
     }
-    assert!(survived >= 5);
+    assert_eq!(differential::check(b"v 0 0 0\n"), Outcome::Refused);
 }
 
 #[test]

@@ -1,13 +1,17 @@
 //! Tests of `tearmesh-obj` through its public interface.
 
+#![expect(clippy::print_stdout, reason = "tests say how much they did")]
+
 mod accept;
 mod corpus;
+mod differential;
 mod fuzz;
 mod memory;
 mod mesh;
 mod refuse;
 mod repair;
 mod round_trip;
+mod same_bytes;
 mod torn;
 mod triangulate;
 

@@ -15,6 +15,10 @@ const NAME: &str = "tearmesh-reproducer.obj";
 
 /// Says that an invariant broke, and writes the reproducer into the current folder.
 pub(crate) fn report(args: &[OsString], input: Option<&Input>, broken: &[String]) -> Fault {
+    if cfg!(fuzzing) {
+        // The fuzzer keeps the input: no file is to be written.
+        panic!("{}", broken.join("; "));
+    }
     let written = output::write(Path::new(NAME), |out| reproducer(out, args, input, broken));
     let help = match written {
         Ok(()) => format!("this is a bug in tearmesh: please report it, with the file `{NAME}`"),

@@ -221,12 +221,17 @@ impl<'l> Scan<'l> {
     #[inline]
     pub(super) fn integer(&mut self) -> Option<i64> {
         let negative = self.sign();
+        let start = self.at;
         let mut value = 0;
         let digits = self.digits(&mut value);
         if digits == 0 {
             return None;
         }
-        let value = if digits <= 18 { value as i64 } else { i64::MAX };
+        let is_short = digits <= 18 || {
+            let digits = &self.bytes[start..self.at];
+            digits.iter().skip_while(|&&digit| digit == b'0').count() <= 18
+        };
+        let value = if is_short { value as i64 } else { i64::MAX };
         Some(if negative { -value } else { value })
     }
 }

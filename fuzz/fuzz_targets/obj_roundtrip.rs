@@ -1,0 +1,13 @@
+//! An OBJ file, and behind a zero byte what is split in it: write, read, write gives the same
+//! bytes, and every number is what it was.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+#[path = "../../tests/obj/same_bytes.rs"]
+#[allow(dead_code, reason = "shared with the tests")]
+mod same_bytes;
+
+fuzz_target!(|data: &[u8]| {
+    same_bytes::check(data);
+});
