@@ -65,8 +65,7 @@ pub(crate) struct CutArgs {
     #[arg(long)]
     pub(crate) through: bool,
 
-    /// Where a cut ends: split the vertices, or cut the edges whose midpoint, lies between the
-    /// rays.
+    /// Where a cut ends: at vertices between the rays, or at edges whose midpoint is.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) tips: Tips,
 
