@@ -116,11 +116,13 @@ impl Scissor {
             spanned
         } else {
             // The origin of B lies on the line of A, or is that of A: one eye.
-            cross(along_a, along_b)
+            let from_eye = cross(along_a, along_b);
+            if max_abs(from_eye) <= ROUNDING {
+                return Err(ScissorError::OneLine);
+            }
+            from_eye
         };
-        let normal = scaled(normal)
-            .filter(|_| max_abs(spanned) > ROUNDING * reach || max_abs(normal) > ROUNDING)
-            .ok_or(ScissorError::OneLine)?;
+        let normal = scaled(normal).ok_or(ScissorError::OneLine)?;
         let plane = plane(a.origin(), normal);
         let side_a = cross(normal, along_a);
         let side_b = match cross(along_b, normal) {
