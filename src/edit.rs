@@ -10,8 +10,14 @@
 //! further on. Records are numbered from 0 for ever; a follower remembers the next number it
 //! wants, so nothing is applied twice, and a gap is a panic that names it.
 //!
-//! The log is flat: three vectors, which [`Edits::reserve`] can fill up beforehand, so
-//! that splits do not allocate.
+//! The log is flat: lists of all records lie one after the other in a few vectors, which
+//! [`Edits::reserve`] can make room in beforehand, so that splits do not allocate.
+
+mod record;
+
+pub use record::{
+    Child, Edit, Insert, InsertedPoint, Location, Merge, Renumbered, Source, Split, TornLink,
+};
 
 use crate::id::{HalfEdgeId, VertexId};
 
@@ -35,16 +41,48 @@ pub struct Edits {
     first: u64,
     records: Vec<Record>,
     corners: Vec<HalfEdgeId>,
-    torn: Vec<TornLink>,
+    links: Vec<TornLink>,
+    points: Vec<InsertedPoint>,
+    children: Vec<Child>,
+    /// What few records have: the rest of insertions and merges.
+    inserts: Vec<InsertEnds>,
+    merges: Vec<MergeRest>,
 }
 
-/// Where a record's lists end; they start where those of the record before end.
+/// What was done, and where the record's lists end; they start where those of the record
+/// before end.
 #[derive(Clone, Copy, Debug)]
 struct Record {
-    old: VertexId,
-    new: VertexId,
+    kind: Kind,
     corners_end: usize,
-    torn_end: usize,
+    links_end: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Split {
+        old: VertexId,
+        new: VertexId,
+    },
+    /// An index into `inserts`.
+    Insert(u32),
+    /// An index into `merges`.
+    Merge(u32),
+}
+
+#[derive(Clone, Copy, Debug)]
+struct InsertEnds {
+    points_end: usize,
+    children_end: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct MergeRest {
+    kept: VertexId,
+    gone: VertexId,
+    share: f64,
+    /// The vertex that took the id of `gone`, and where its corners start.
+    renumbered: Option<(VertexId, usize)>,
 }
 
 impl Edits {
@@ -59,7 +97,7 @@ impl Edits {
     pub fn reserve(&mut self, splits: usize, corners: usize, torn: usize) {
         self.records.reserve(splits);
         self.corners.reserve(corners);
-        self.torn.reserve(torn);
+        self.links.reserve(torn);
     }
 
     /// The number of records in the log.
@@ -83,7 +121,7 @@ impl Edits {
     /// The records, oldest first.
     #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Edit<'_>> + DoubleEndedIterator {
-        (0..self.records.len()).map(|i| Edit::Split(self.record(i)))
+        (0..self.records.len()).map(|i| self.record(i))
     }
 
     /// The records from this number on, oldest first.
@@ -102,7 +140,7 @@ impl Edits {
             self.first
         );
         let skipped = (number - self.first).min(self.records.len() as u64) as usize;
-        (skipped..self.records.len()).map(|i| Edit::Split(self.record(i)))
+        (skipped..self.records.len()).map(|i| self.record(i))
     }
 
     /// Brings a follower, or a tuple of them, up to date: each sees every record it has
@@ -127,31 +165,87 @@ impl Edits {
         self.first = self.next_number();
         self.records.clear();
         self.corners.clear();
-        self.torn.clear();
+        self.links.clear();
+        self.points.clear();
+        self.children.clear();
+        self.inserts.clear();
+        self.merges.clear();
     }
 
-    fn record(&self, i: usize) -> Split<'_> {
-        let Record {
-            old,
-            new,
-            corners_end,
-            torn_end,
-        } = self.records[i];
-        let (corners_start, torn_start) = match i.checked_sub(1).map(|before| self.records[before])
-        {
-            Some(before) => (before.corners_end, before.torn_end),
-            None => (0, 0),
-        };
+    fn record(&self, i: usize) -> Edit<'_> {
+        match self.records[i].kind {
+            Kind::Split { old, new } => Edit::Split(self.split(i, old, new)),
+            Kind::Insert(j) => Edit::Insert(self.insert(i, j as usize)),
+            Kind::Merge(j) => Edit::Merge(self.merge(i, j as usize)),
+        }
+    }
+
+    fn split(&self, i: usize, old: VertexId, new: VertexId) -> Split<'_> {
+        let (corners, torn) = self.lists(i);
         Split {
             number: self.first + i as u64,
             old,
             new,
-            corners: &self.corners[corners_start..corners_end],
-            torn: &self.torn[torn_start..torn_end],
+            corners,
+            torn,
         }
     }
 
-    /// Notes a corner of the split that [`Edits::finish_split`] will complete.
+    fn insert(&self, i: usize, j: usize) -> Insert<'_> {
+        let start = j.checked_sub(1).map(|before| self.inserts[before]);
+        let (points_start, children_start) =
+            start.map_or((0, 0), |ends| (ends.points_end, ends.children_end));
+        let ends = self.inserts[j];
+        Insert {
+            number: self.first + i as u64,
+            points: &self.points[points_start..ends.points_end],
+            children: &self.children[children_start..ends.children_end],
+        }
+    }
+
+    fn merge(&self, i: usize, j: usize) -> Merge<'_> {
+        let (corners, sewn) = self.lists(i);
+        let MergeRest {
+            kept,
+            gone,
+            share,
+            renumbered,
+        } = self.merges[j];
+        let start = self.records[i].corners_end - corners.len();
+        let moved = renumbered.map_or(corners.len(), |(_, at)| at - start);
+        let (corners, others) = corners.split_at(moved);
+        Merge {
+            number: self.first + i as u64,
+            kept,
+            gone,
+            share,
+            corners,
+            renumbered: renumbered.map(|(from, _)| Renumbered {
+                from,
+                to: gone,
+                corners: others,
+            }),
+            sewn,
+        }
+    }
+
+    /// The corners and links of a record.
+    fn lists(&self, i: usize) -> (&[HalfEdgeId], &[TornLink]) {
+        let before = i.checked_sub(1).map(|before| self.records[before]);
+        let (corners_start, links_start) =
+            before.map_or((0, 0), |before| (before.corners_end, before.links_end));
+        let Record {
+            corners_end,
+            links_end,
+            ..
+        } = self.records[i];
+        (
+            &self.corners[corners_start..corners_end],
+            &self.links[links_start..links_end],
+        )
+    }
+
+    /// Notes a corner of the split or merge that will be finished next.
     #[inline]
     pub(crate) fn note_corner(&mut self, h: HalfEdgeId) {
         self.corners.push(h);
@@ -176,65 +270,61 @@ impl Edits {
         self.corners[i]
     }
 
-    /// Notes a torn link of the split that [`Edits::finish_split`] will complete.
+    /// Notes a link that the split or merge to be finished next tore or sewed.
     #[inline]
-    pub(crate) fn note_torn(&mut self, link: TornLink) {
-        self.torn.push(link);
+    pub(crate) fn note_link(&mut self, link: TornLink) {
+        self.links.push(link);
     }
 
     /// Makes a record of what was noted since the last one.
     pub(crate) fn finish_split(&mut self, old: VertexId, new: VertexId) -> Split<'_> {
-        self.records.push(Record {
-            old,
-            new,
-            corners_end: self.corners.len(),
-            torn_end: self.torn.len(),
+        self.finish(Kind::Split { old, new });
+        self.split(self.records.len() - 1, old, new)
+    }
+
+    /// Makes a record of an insertion.
+    pub(crate) fn finish_insert(
+        &mut self,
+        points: impl IntoIterator<Item = InsertedPoint>,
+        children: impl IntoIterator<Item = Child>,
+    ) -> Insert<'_> {
+        self.points.extend(points);
+        self.children.extend(children);
+        let j = self.inserts.len();
+        self.inserts.push(InsertEnds {
+            points_end: self.points.len(),
+            children_end: self.children.len(),
         });
-        self.record(self.records.len() - 1)
+        self.finish(Kind::Insert(j as u32));
+        self.insert(self.records.len() - 1, j)
     }
-}
 
-/// One change of a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Edit<'e> {
-    /// A vertex was split.
-    Split(Split<'e>),
-}
-
-impl Edit<'_> {
-    /// The number of the record.
-    #[must_use]
-    pub fn number(&self) -> u64 {
-        match self {
-            Edit::Split(split) => split.number,
-        }
+    /// Makes a record of what was noted since the last one. `renumbered` is the vertex that
+    /// took the id of `gone`; its corners were noted last, from that index on.
+    pub(crate) fn finish_merge(
+        &mut self,
+        [kept, gone]: [VertexId; 2],
+        share: f64,
+        renumbered: Option<(VertexId, usize)>,
+    ) -> Merge<'_> {
+        let j = self.merges.len();
+        self.merges.push(MergeRest {
+            kept,
+            gone,
+            share,
+            renumbered,
+        });
+        self.finish(Kind::Merge(j as u32));
+        self.merge(self.records.len() - 1, j)
     }
-}
 
-/// A vertex was split: some of its corners now belong to a new vertex at the same place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Split<'e> {
-    /// The number of the record.
-    pub number: u64,
-    /// The vertex that was split. It keeps at least one face.
-    pub old: VertexId,
-    /// The new vertex, the last one of the mesh.
-    pub new: VertexId,
-    /// The corners that moved to the new vertex: at least one, in the order of a walk
-    /// round the old vertex.
-    pub corners: &'e [HalfEdgeId],
-    /// The links that this split tore.
-    pub torn: &'e [TornLink],
-}
-
-/// A pair that became a ghost pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct TornLink {
-    /// The half-edge of a face that stayed.
-    pub stayed: HalfEdgeId,
-    /// Its opposite, of a face that moved.
-    pub moved: HalfEdgeId,
+    fn finish(&mut self, kind: Kind) {
+        self.records.push(Record {
+            kind,
+            corners_end: self.corners.len(),
+            links_end: self.links.len(),
+        });
+    }
 }
 
 /// Whoever keeps data beside a mesh and brings it up to date from the log.

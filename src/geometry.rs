@@ -283,6 +283,11 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     )
 }
 
+/// The point at the part `t` of the way from `p` to `q`: `p` itself where both are one point.
+pub(crate) fn between(p: Point, q: Point, t: f64) -> Point {
+    p + (q - p) * t
+}
+
 /// The length.
 pub(crate) fn length(v: Vector) -> f64 {
     dot(v, v).sqrt()

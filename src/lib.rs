@@ -41,7 +41,8 @@
 //!
 //! let (mut mesh, mut positions) = shapes::grid(16, 16);
 //! let mut masses = Masses::area(&mesh, &positions, 0.15)?;
-//! let mut uv = PerCorner::new(mesh.indices().to_vec());
+//! let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
+//! let mut uv = PerCorner::new(uv.map(|p| [p.x, p.y]).collect());
 //! let mut edits = Edits::new();
 //!
 //! let eye = Point::new(0.5, 0.5, 3.0);
@@ -93,6 +94,7 @@ mod exact;
 mod geometry;
 mod id;
 mod mass;
+pub mod mend;
 mod mesh;
 mod place;
 mod scissor;
@@ -100,15 +102,20 @@ mod scissor;
 pub mod script;
 pub mod shapes;
 pub mod split;
+pub mod subdivide;
 
-pub use attribute::{PerCorner, PerVertex};
-pub use edit::{Edit, Edits, Follower, Split, TornLink};
+pub use attribute::{Blend, PerCorner, PerVertex};
+pub use edit::{
+    Child, Edit, Edits, Follower, Insert, InsertedPoint, Location, Merge, Renumbered, Source,
+    Split, TornLink,
+};
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
 pub use id::{FaceId, HalfEdgeId, VertexId};
 pub use mass::{Ledger, MassError, Masses};
 pub use mesh::{
-    BoundaryLoop, BuildError, Components, Corners, Defect, Fan, Invariant, Mesh, Violation,
+    BoundaryLoop, BuildError, Components, Corners, Defect, Fan, Invariant, Mesh, TornError,
+    Violation,
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};

@@ -7,16 +7,19 @@
 //!   `m_old + m_new` would differ from the mass before in a quarter of all splits. So each
 //!   corner's mass is rounded once, when masses are made, to a whole number of *units*: 2^-52 of
 //!   the power of two above the total. Sums of units are exact in any order.
+//!   An insertion shares the units of a face among its children by their areas.
 //! * **half** (Souza et al. 2014 §IV-A): each half weighs half, however many faces it
 //!   has. Halving a float is exact as long as it stays normal. A mass is kept as that of the root
-//!   and the number of halvings, which a merge in another order will need.
+//!   and the parts of it that the vertex has, ½, ¼, …, because merges in another order than
+//!   that of the splits may leave ½ + ¼, and its product with the mass need not be an `f64`.
+//!   This rule knows no insertion: there is no vertex to be halved.
 //!
 //! A follower cannot refuse a split that has happened, so what could go wrong later
 //! is refused when masses are made.
 
 use std::fmt;
 
-use crate::edit::{Edit, Follower};
+use crate::edit::{Child, Edit, Follower, Source};
 use crate::exact::{ExactSum, exponent_above, power_of_two};
 use crate::geometry::area;
 use crate::id::{FaceId, VertexId};
@@ -56,8 +59,61 @@ enum Store {
         corners: Vec<u64>,
         vertices: Vec<u64>,
     },
-    /// The mass of the root, and how often it was halved.
-    Half { vertices: Vec<(f64, u32)> },
+    Half {
+        vertices: Vec<Halves>,
+    },
+}
+
+/// A vertex by the rule of halves.
+#[derive(Clone, Debug)]
+struct Halves {
+    root: VertexId,
+    /// The mass of the root.
+    mass: f64,
+    /// The vertex has the part 2^-exponent, and those of `more`: all different, ascending.
+    exponent: u32,
+    more: Vec<u32>,
+}
+
+impl Halves {
+    /// Takes half of each part, and returns a vertex with the other half.
+    fn halve(&mut self) -> Halves {
+        self.exponent += 1;
+        self.more.iter_mut().for_each(|exponent| *exponent += 1);
+        self.clone()
+    }
+
+    fn exponents(&self) -> impl Iterator<Item = u32> {
+        std::iter::once(self.exponent).chain(self.more.iter().copied())
+    }
+
+    fn add(&mut self, other: &Halves) {
+        debug_assert_eq!(
+            self.root, other.root,
+            "only vertices of one root are merged"
+        );
+        let mut sum = added(self.exponents().chain(other.exponents()));
+        self.exponent = sum.remove(0);
+        self.more = sum;
+    }
+
+    fn mass(&self) -> f64 {
+        self.exponents().map(|e| halved(self.mass, e)).sum()
+    }
+}
+
+/// Adds up parts 2^-e so that no two are equal; ascending by e, so the largest is first.
+fn added(exponents: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut sum: Vec<u32> = Vec::new();
+    for mut exponent in exponents {
+        while let Ok(equal) = sum.binary_search(&exponent) {
+            sum.remove(equal);
+            exponent -= 1;
+        }
+        let place = sum.partition_point(|&other| other < exponent);
+        sum.insert(place, exponent);
+    }
+    sum
 }
 
 impl Masses {
@@ -87,7 +143,8 @@ impl Masses {
         }))
     }
 
-    /// Masses by halves, starting from those of [`Masses::area`].
+    /// Masses by halves, starting from those of [`Masses::area`]. They can follow splits and
+    /// merges, and panic at an insertion.
     ///
     /// # Errors
     ///
@@ -119,7 +176,13 @@ impl Masses {
         if !light.is_empty() {
             return Err(MassError::TooLight { vertices: light });
         }
-        let vertices = mesh.vertices().map(|v| (mass(v), 0)).collect();
+        let whole = |v: VertexId| Halves {
+            root: v,
+            mass: mass(v),
+            exponent: 0,
+            more: Vec::new(),
+        };
+        let vertices = mesh.vertices().map(whole).collect();
         Ok(Masses::opened(Store::Half { vertices }))
     }
 
@@ -159,11 +222,14 @@ impl Masses {
     pub fn at(&self, v: VertexId) -> f64 {
         match &self.store {
             Store::Area { unit, vertices, .. } => vertices[v.index()] as f64 * unit,
-            Store::Half { vertices } => {
-                let (root, halvings) = vertices[v.index()];
-                halved(root, halvings)
-            }
+            Store::Half { vertices } => vertices[v.index()].mass(),
         }
+    }
+
+    /// Whether these masses can follow an insertion: those by area can, those by halves cannot.
+    #[must_use]
+    pub fn knows_insertions(&self) -> bool {
+        matches!(self.store, Store::Area { .. })
     }
 
     /// The number of vertices.
@@ -184,10 +250,12 @@ impl Masses {
     /// The exact sum of all masses.
     #[must_use]
     pub fn total(&self) -> ExactSum {
-        (0..self.len())
-            .filter_map(VertexId::new)
-            .map(|v| self.at(v))
-            .collect()
+        match &self.store {
+            Store::Area { unit, vertices, .. } => {
+                vertices.iter().map(|&units| units as f64 * unit).collect()
+            }
+            Store::Half { vertices } => sum_of_halves(vertices),
+        }
     }
 
     /// What there was when the masses were made, and what there is now.
@@ -198,6 +266,26 @@ impl Masses {
             after: self.total(),
         }
     }
+}
+
+/// The parts of each root add up before its mass is taken: after many splits and merges a part
+/// may be smaller than any `f64`, but not their sum.
+fn sum_of_halves(vertices: &[Halves]) -> ExactSum {
+    let mut sum = ExactSum::new();
+    let mut parts: Vec<(VertexId, u32, f64)> = Vec::new();
+    for halves in vertices {
+        if halves.exponent == 0 {
+            sum.add(halves.mass);
+        } else {
+            parts.extend(halves.exponents().map(|e| (halves.root, e, halves.mass)));
+        }
+    }
+    parts.sort_unstable_by_key(|&(root, exponent, _)| (root, exponent));
+    for of_root in parts.chunk_by(|a, b| a.0 == b.0) {
+        let exponents = added(of_root.iter().map(|&(_, exponent, _)| exponent));
+        sum.extend(exponents.into_iter().map(|e| halved(of_root[0].2, e)));
+    }
+    sum
 }
 
 /// m / 2^halvings, in steps that an `f64` has powers of two for.
@@ -250,31 +338,98 @@ impl Follower for Masses {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        match edit {
-            Edit::Split(split) => {
-                assert_eq!(
-                    split.new.index(),
-                    self.len(),
-                    "masses are in step with the mesh"
-                );
-                match &mut self.store {
-                    Store::Area {
-                        corners, vertices, ..
-                    } => {
-                        let moved = split.corners.iter().map(|h| corners[h.index()]).sum();
-                        vertices[split.old.index()] -= moved;
-                        vertices.push(moved);
-                    }
-                    Store::Half { vertices } => {
-                        let (root, halvings) = &mut vertices[split.old.index()];
-                        *halvings += 1;
-                        let half = (*root, *halvings);
-                        vertices.push(half);
-                    }
+        let count = self.len();
+        let in_step = |new: VertexId| {
+            assert_eq!(new.index(), count, "masses are in step with the mesh");
+        };
+        match (edit, &mut self.store) {
+            (
+                Edit::Split(split),
+                Store::Area {
+                    corners, vertices, ..
+                },
+            ) => {
+                in_step(split.new);
+                let moved = split.corners.iter().map(|h| corners[h.index()]).sum();
+                vertices[split.old.index()] -= moved;
+                vertices.push(moved);
+            }
+            (Edit::Split(split), Store::Half { vertices }) => {
+                in_step(split.new);
+                let half = vertices[split.old.index()].halve();
+                vertices.push(half);
+            }
+            (
+                Edit::Insert(insert),
+                Store::Area {
+                    corners, vertices, ..
+                },
+            ) => {
+                if let Some(first) = insert.points.first() {
+                    in_step(first.vertex);
                 }
+                vertices.resize(count + insert.points.len(), 0);
+                for family in insert.families() {
+                    divide(family, corners, vertices);
+                }
+            }
+            (Edit::Insert(_), Store::Half { .. }) => {
+                panic!("masses by halves know no insertion: use masses by area")
+            }
+            (Edit::Merge(merge), Store::Area { vertices, .. }) => {
+                vertices[merge.kept.index()] += vertices[merge.gone.index()];
+                vertices.swap_remove(merge.gone.index());
+            }
+            (Edit::Merge(merge), Store::Half { vertices }) => {
+                // `gone` is the higher id, so `kept` stays where it is.
+                let gone = vertices.swap_remove(merge.gone.index());
+                vertices[merge.kept.index()].add(&gone);
             }
         }
         self.next_edit = edit.number() + 1;
+    }
+}
+
+/// Shares the units of a divided face among its children, by area and without losing one.
+///
+/// Every corner gets at least one unit where there are enough for all.
+fn divide(family: &[Child], corners: &mut Vec<u64>, vertices: &mut [u64]) {
+    let mut units = 0;
+    for child in family {
+        for (vertex, source) in child.vertices.iter().zip(child.sources) {
+            if let Source::Corner(h) = source {
+                // Several children may have it; what is taken once is gone.
+                let taken = std::mem::take(&mut corners[h.index()]);
+                vertices[vertex.index()] -= taken;
+                units += taken;
+            }
+        }
+    }
+    let least = if units >= 3 * family.len() as u64 {
+        3
+    } else {
+        0
+    };
+    let shared = units - least * family.len() as u64;
+    let (mut given, mut share) = (0, 0.0);
+    for (i, child) in family.iter().enumerate() {
+        share += child.share;
+        let until = if i + 1 == family.len() {
+            shared
+        } else {
+            ((shared as f64 * share).round() as u64).clamp(given, shared)
+        };
+        let own = least + until - given;
+        given = until;
+        let start = 3 * child.face.index();
+        if start == corners.len() {
+            corners.extend([0; 3]);
+        }
+        for (corner, vertex) in child.vertices.into_iter().enumerate() {
+            let part = (own + corner as u64) / 3;
+            corners[start + corner] = part;
+            vertices[vertex.index()] += part;
+        }
     }
 }
 

@@ -1,16 +1,17 @@
 //! The half-edge mesh: which triangles meet where, and nothing else.
 //!
 //! A [`Mesh`] is made of triangles by [`Mesh::build`], which accepts an oriented
-//! 2-manifold with or without boundary and refuses anything else. From then on only
-//! vertex splits change it (`split.rs`). A torn mesh need no longer be a manifold:
+//! 2-manifold with or without boundary and refuses anything else. From then on three
+//! operations change it: the vertex split (`split.rs`), its inverse the merge (`mend.rs`), and
+//! the insertion of vertices (`subdivide.rs`). A torn mesh need no longer be a manifold:
 //! two fans of triangles may share a vertex without sharing an edge (Souza et al. 2014,
 //! Fig. 2). All faces of such a vertex are still found, because a half-edge
 //! that loses its pair keeps it as its *ghost pair* (§IV-B, Fig. 3).
 //!
 //! **The state of a half-edge.** In the paper, `pair` is erased when an edge is
 //! torn, and saved in `ghost pair`. At any time at most one of the two is set, and
-//! their union never changes. So both are one link and one bit here, "both set" cannot
-//! be written down, and a ghost pair cannot be overwritten or lost.
+//! splits and merges never change their union. So both are one link and one bit here, "both
+//! set" cannot be written down, and a ghost pair cannot be overwritten or lost.
 //!
 //! **What is stored.** Half-edge `h` is corner `h % 3` of face `h / 3`, so `face`,
 //! `next` and `prev` are arithmetic. Stored are: the origin of each half-edge (which is
@@ -21,12 +22,14 @@
 mod build;
 mod check;
 mod diagnose;
+mod torn;
 mod walk;
 
 use std::iter::FusedIterator;
 
 pub use build::{BuildError, Defect};
 pub use check::{Invariant, Violation};
+pub use torn::TornError;
 pub use walk::{BoundaryLoop, Components, Corners, Fan};
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -91,8 +94,8 @@ impl Mesh {
     /// a half-edge and a torn mark fit 32 bits.
     pub const MAX_FACES: usize = (1 << 31) / 3;
 
-    /// The most vertices that a mesh can be built with. Splits may add as many
-    /// as there are half-edges, and the sum still fits the id type.
+    /// The most vertices that a mesh can be built with. Beside those without a face there are
+    /// never more than half-edges, and the sum still fits the id type.
     pub const MAX_VERTICES: usize = 1 << 31;
 
     /// The number of vertices, those without a face included.
@@ -102,7 +105,7 @@ impl Mesh {
         self.outgoing.len()
     }
 
-    /// The number of faces. It never changes.
+    /// The number of faces. Only an insertion changes it.
     #[inline]
     #[must_use]
     pub fn face_count(&self) -> usize {
@@ -252,8 +255,8 @@ impl Mesh {
         self.outgoing.reserve(vertices);
     }
 
-    /// Relabels the origin of a corner. For `split.rs` alone: the invariants that
-    /// tie origins to links are its to restore.
+    /// Relabels the origin of a corner. For the three operations alone: the invariants that
+    /// tie origins to links are theirs to restore.
     #[inline]
     pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
         self.origin[h.index()] = v.to_u32();
@@ -275,6 +278,40 @@ impl Mesh {
         self.outgoing.push(h.to_u32());
     }
 
+    /// Notes that a vertex has no corner any more.
+    pub(crate) fn isolate(&mut self, v: VertexId) {
+        self.outgoing[v.index()] = NO_HALF_EDGE;
+    }
+
+    /// Forgets the last vertex, which has no corner any more.
+    pub(crate) fn pop_vertex(&mut self) {
+        self.outgoing.pop();
+    }
+
+    /// The id that [`Mesh::push_face`] will give.
+    pub(crate) fn next_face(&self) -> FaceId {
+        FaceId::from_u32(self.face_count() as u32)
+    }
+
+    /// Appends a face that is linked to nothing yet.
+    pub(crate) fn push_face(&mut self, vertices: [VertexId; 3]) {
+        self.origin.extend(vertices.map(VertexId::to_u32));
+        self.link.extend([Link::BOUNDARY; 3]);
+    }
+
+    /// Takes a half-edge from its opposite, which has to be told.
+    pub(crate) fn unlink(&mut self, h: HalfEdgeId) {
+        self.link[h.index()] = Link::BOUNDARY;
+    }
+
+    /// Links two half-edges, as a pair or as ghost pairs. For `subdivide.rs` alone, which links
+    /// the parts of an edge as the edge was.
+    pub(crate) fn link(&mut self, h: HalfEdgeId, g: HalfEdgeId, torn: bool) {
+        let mark = if torn { Link::TORN } else { 0 };
+        self.link[h.index()] = Link(Link::to(g).0 | mark);
+        self.link[g.index()] = Link(Link::to(h).0 | mark);
+    }
+
     /// Makes a pair a ghost pair, on both of its sides. For `split.rs` alone.
     #[inline]
     pub(crate) fn tear(&mut self, h: HalfEdgeId, opposite: HalfEdgeId) {
@@ -290,6 +327,22 @@ impl Mesh {
         );
         self.link[h.index()].0 |= Link::TORN;
         self.link[opposite.index()].0 |= Link::TORN;
+    }
+
+    /// Makes a ghost pair a pair again, on both of its sides. For `mend.rs` alone.
+    pub(crate) fn sew(&mut self, h: HalfEdgeId, opposite: HalfEdgeId) {
+        debug_assert_eq!(
+            self.ghost_pair(h),
+            Some(opposite),
+            "I4: the link is an involution"
+        );
+        debug_assert_eq!(
+            self.ghost_pair(opposite),
+            Some(h),
+            "I4: the link is an involution"
+        );
+        self.link[h.index()].0 &= !Link::TORN;
+        self.link[opposite.index()].0 &= !Link::TORN;
     }
 }
 

@@ -5,8 +5,8 @@
 
 use std::fmt;
 
-use crate::edit::{Edit, Follower};
-use crate::geometry::{Point, check_point};
+use crate::edit::{Edit, Follower, Location};
+use crate::geometry::{Point, between, check_point};
 use crate::id::VertexId;
 
 /// Where vertices are: read-only, whatever the storage.
@@ -125,8 +125,20 @@ impl Positions {
         &self.points
     }
 
+    /// Where a point that is inserted comes to lie. Weights of sum one, and so also of points
+    /// on an edge, leave a coordinate as small as those they are given.
+    fn inserted(&self, at: &Location) -> Point {
+        match *at {
+            Location::Edge { ends: [a, b], t } => between(self.at(a), self.at(b), t),
+            Location::Face { vertices, weights } => {
+                let [a, b, c] = vertices.map(|v| self.at(v).coords);
+                Point::from(a * weights[0] + b * weights[1] + c * weights[2])
+            }
+        }
+    }
+
     /// The positions from vertex number `start` on, rounded to `f32`: what a vertex
-    /// buffer lacks after splits. `start = 0` gives all of it.
+    /// buffer lacks after splits and insertions. `start = 0` gives all of it.
     ///
     /// # Panics
     ///
@@ -160,6 +172,21 @@ impl Follower for Positions {
                     "positions are in step with the mesh"
                 );
                 self.points.push(self.at(split.old));
+            }
+            Edit::Insert(insert) => {
+                for point in insert.points {
+                    assert_eq!(
+                        point.vertex.index(),
+                        self.len(),
+                        "positions are in step with the mesh"
+                    );
+                    self.points.push(self.inserted(&point.at));
+                }
+            }
+            Edit::Merge(merge) => {
+                let gone = self.points.swap_remove(merge.gone.index());
+                let kept = &mut self.points[merge.kept.index()];
+                *kept = between(*kept, gone, 1.0 - merge.share);
             }
         }
         self.next_edit = edit.number() + 1;

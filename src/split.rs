@@ -152,7 +152,7 @@ fn commit<'e>(mesh: &mut Mesh, v: VertexId, stays: HalfEdgeId, edits: &'e mut Ed
             if mesh.origin(across) != new {
                 debug_assert_eq!(mesh.origin(across), v, "I6: both ends of a pair agree");
                 mesh.tear(moved, stayed);
-                edits.note_torn(TornLink { stayed, moved });
+                edits.note_link(TornLink { stayed, moved });
             }
         }
     }

@@ -208,12 +208,18 @@ impl Model {
         halves_add_up(&world.half, soup, self.unit);
         assert_eq!(
             world.roots.as_slice(),
-            soup.root,
+            soup.root
+                .iter()
+                .map(|&root| f64::from(root))
+                .collect::<Vec<_>>(),
             "data of a vertex is copied"
         );
         let corners = world.corners.as_slice();
         assert!(
-            corners.iter().copied().eq(0..corners.len() as u32),
+            corners
+                .iter()
+                .copied()
+                .eq((0..corners.len() as u32).map(f64::from)),
             "data of a corner stays"
         );
     }

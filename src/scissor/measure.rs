@@ -215,6 +215,7 @@ impl Survey {
         let (angle_min_deg, altitude_min) = quality(mesh, positions);
         let mut splits = 0;
         let mut ghost_pairs = 0;
+        let mut vertices_inserted = 0;
         let mut seam_length = 0.0;
         let mut seam_deviation_max = 0.0f64;
         for edit in edits.since(first_edit) {
@@ -232,6 +233,8 @@ impl Survey {
                         }
                     }
                 }
+                Edit::Insert(insert) => vertices_inserted += insert.points.len(),
+                Edit::Merge(_) => {}
             }
         }
         // A slit that only grazes a corner may be so short that the quotient is infinite.
@@ -254,7 +257,7 @@ impl Survey {
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,
             seam_deviation_max_edges: ratio(seam_deviation_max, self.mean_edge),
-            vertices_inserted: 0,
+            vertices_inserted,
             angle_min_deg,
             altitude_min,
             missed: !self.in_slit.contains(&true),

@@ -25,11 +25,11 @@ pub struct World {
     /// Masses by halves with density 1, which have seen every edit.
     pub half: Masses,
     /// For each vertex the one that it was at first. Has seen every edit.
-    pub roots: PerVertex<u32>,
+    pub roots: PerVertex<f64>,
     /// The same, but replayed only just before the log is cleared: by many edits at once.
-    pub late_roots: PerVertex<u32>,
+    pub late_roots: PerVertex<f64>,
     /// For each corner its half-edge. Has seen every edit.
-    pub corners: PerCorner<u32>,
+    pub corners: PerCorner<f64>,
 }
 
 /// What was done to a [`World`]. Edits are named by their numbers.
@@ -94,13 +94,13 @@ impl World {
     pub fn new(shape: &Shape) -> World {
         let (mesh, positions) = shape.make();
         let masses = "a mesh with an area has masses";
-        let roots = PerVertex::new((0..mesh.vertex_count() as u32).collect());
+        let roots = PerVertex::new((0..mesh.vertex_count() as u32).map(f64::from).collect());
         World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
             half: Masses::half(&mesh, &positions, 1.0).expect(masses),
             late_roots: roots.clone(),
             roots,
-            corners: PerCorner::new((0..mesh.half_edge_count() as u32).collect()),
+            corners: PerCorner::new((0..mesh.half_edge_count() as u32).map(f64::from).collect()),
             edits: Edits::new(),
             mesh,
             positions,

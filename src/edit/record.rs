@@ -1,0 +1,175 @@
+//! The records of the log: what a split, an insertion and a merge did.
+
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+
+/// One change of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Edit<'e> {
+    /// A vertex was split.
+    Split(Split<'e>),
+    /// Vertices were inserted on edges and in faces.
+    Insert(Insert<'e>),
+    /// Two vertices became one again.
+    Merge(Merge<'e>),
+}
+
+impl Edit<'_> {
+    /// The number of the record.
+    #[must_use]
+    pub fn number(&self) -> u64 {
+        match self {
+            Edit::Split(split) => split.number,
+            Edit::Insert(insert) => insert.number,
+            Edit::Merge(merge) => merge.number,
+        }
+    }
+}
+
+/// A vertex was split: some of its corners now belong to a new vertex at the same place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Split<'e> {
+    /// The number of the record.
+    pub number: u64,
+    /// The vertex that was split. It keeps at least one face.
+    pub old: VertexId,
+    /// The new vertex, the last one of the mesh.
+    pub new: VertexId,
+    /// The corners that moved to the new vertex: at least one, in the order of a walk
+    /// round the old vertex.
+    pub corners: &'e [HalfEdgeId],
+    /// The links that this split tore.
+    pub torn: &'e [TornLink],
+}
+
+/// A link between a face that stays with a vertex and one that has, or had, a copy of it.
+///
+/// A split makes it a ghost pair, and a merge makes it a pair again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TornLink {
+    /// The half-edge of a face that stayed.
+    pub stayed: HalfEdgeId,
+    /// Its opposite, of a face that moved.
+    pub moved: HalfEdgeId,
+}
+
+/// Vertices were inserted, and each face that got one was divided into *children*.
+///
+/// The record is complete: from it alone a follower can compute what a new vertex or corner
+/// should have. Weights refer to what was there before the insertion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Insert<'e> {
+    /// The number of the record.
+    pub number: u64,
+    /// The new vertices, ascending: the last ones of the mesh, without a gap. On a torn edge
+    /// there are two for each point, one after the other.
+    pub points: &'e [InsertedPoint],
+    /// The faces that took the place of others, those of one parent together.
+    pub children: &'e [Child],
+}
+
+impl<'e> Insert<'e> {
+    /// The children of each divided face in turn. The first of them has the id of its
+    /// parent; all others are new faces, ascending without a gap.
+    pub fn families(&self) -> impl Iterator<Item = &'e [Child]> + use<'e> {
+        self.children
+            .chunk_by(|one, next| one.parent == next.parent)
+    }
+}
+
+/// A new vertex and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InsertedPoint {
+    /// The new vertex.
+    pub vertex: VertexId,
+    /// Where it is, between vertices that were there before.
+    pub at: Location,
+}
+
+/// A place on an edge or in a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Location {
+    /// At `ends[0] + t (ends[1] − ends[0])`.
+    Edge {
+        /// The ends of the edge.
+        ends: [VertexId; 2],
+        /// The parameter, strictly between 0 and 1.
+        t: f64,
+    },
+    /// At the weighted mean of the corners of a face.
+    Face {
+        /// The corners.
+        vertices: [VertexId; 3],
+        /// Their weights: positive, of sum one up to rounding.
+        weights: [f64; 3],
+    },
+}
+
+/// A face that took the place of (a part of) another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Child {
+    /// The face that was divided.
+    pub parent: FaceId,
+    /// This child; the first of a family has the id of the parent.
+    pub face: FaceId,
+    /// The vertices of the child.
+    pub vertices: [VertexId; 3],
+    /// Where each of its corners lies in the parent.
+    pub sources: [Source; 3],
+    /// The part of the parent's area that the child covers. Those of a family add up to one, up
+    /// to rounding.
+    pub share: f64,
+}
+
+/// Where a corner of a child lies in its parent: half-edges are corners of the parent, as
+/// they were before the insertion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// At a corner.
+    Corner(HalfEdgeId),
+    /// On an edge, at `ends[0] + t (ends[1] − ends[0])`. Both faces of the edge have the same
+    /// `t` and the same direction.
+    Edge {
+        /// The corners at the ends of the edge.
+        ends: [HalfEdgeId; 2],
+        /// The parameter, strictly between 0 and 1.
+        t: f64,
+    },
+    /// Inside.
+    Face {
+        /// The weights of the corners of the parent, in their order.
+        weights: [f64; 3],
+    },
+}
+
+/// Two vertices of one root became one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Merge<'e> {
+    /// The number of the record.
+    pub number: u64,
+    /// The vertex that has all corners now: the one with the lower id.
+    pub kept: VertexId,
+    /// The vertex that is no more.
+    pub gone: VertexId,
+    /// The weight of `kept` in what the two become: values are joined at
+    /// `kept + (1 − share) (gone − kept)`, so equal ones stay as they are.
+    pub share: f64,
+    /// The corners that went from `gone` to `kept`: at least one, in the order of a walk.
+    pub corners: &'e [HalfEdgeId],
+    /// The vertex that took the freed id, unless `gone` was the last one.
+    pub renumbered: Option<Renumbered<'e>>,
+    /// The links that are pairs again: `stayed` in a face of `kept`, `moved` in one that
+    /// came from `gone`.
+    pub sewn: &'e [TornLink],
+}
+
+/// The last vertex of a mesh got the id of a vertex that is no more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Renumbered<'e> {
+    /// The id it had.
+    pub from: VertexId,
+    /// The id it has.
+    pub to: VertexId,
+    /// Its corners.
+    pub corners: &'e [HalfEdgeId],
+}

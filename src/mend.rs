@@ -1,0 +1,385 @@
+//! The merge, inverse of the split, and the sewing of seams.
+//!
+//! Two vertices that were split from the same one become one again, and ghost pairs whose ends
+//! agree again become pairs. This is the only code that sews a link. Undoing splits in
+//! reverse order gives back the mesh as it was, bit for bit; in any other order the last
+//! vertex takes the id that became free, and the record says so. Any two vertices of one
+//! root may be merged, so part of a seam may be mended: what is left is a torn mesh like any
+//! other (the corners of a vertex still lie in one orbit, I8).
+//!
+//! Souza et al. 2014 has no merge. That a split only relabels corners makes it simple.
+
+use std::fmt;
+
+use crate::edit::{Edits, Merge, TornLink};
+use crate::geometry::length;
+use crate::id::VertexId;
+use crate::mesh::Mesh;
+use crate::place::Place;
+
+/// Merges two vertices of one root: the one with the lower id gets the corners of the other.
+///
+/// Positions that moved apart, velocities and the like are joined at the mean with these
+/// weights, which belong to `one` and `other` and are masses as a rule. Where both weights are
+/// zero they count as equal.
+///
+/// Cost: linear in the faces that the vertex had before it was first split, and
+/// nothing is allocated where the log has room.
+///
+/// # Errors
+///
+/// [`Refusal`] says why nothing was changed.
+///
+/// # Panics
+///
+/// If a vertex is none of this mesh.
+///
+/// ```
+/// use tearmesh::{mend, shapes, split, Edits, FaceId, VertexId};
+///
+/// let (mut mesh, _) = shapes::grid(1, 1);
+/// let uncut = mesh.clone();
+/// let mut edits = Edits::new();
+/// let v = VertexId::new(0).unwrap();
+/// let new = split::faces(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?.new;
+/// let merge = mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits)?;
+/// assert_eq!((merge.kept, merge.sewn.len()), (v, 1));
+/// assert_eq!(mesh, uncut);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn merge<'e>(
+    mesh: &mut Mesh,
+    one: VertexId,
+    other: VertexId,
+    weights: [f64; 2],
+    edits: &'e mut Edits,
+) -> Result<Merge<'e>, Refusal> {
+    let share = share_of_first(weights).ok_or(Refusal::Weights { given: weights })?;
+    if one == other {
+        return Err(Refusal::Same { vertex: one });
+    }
+    let (kept, gone, share) = if one < other {
+        (one, other, share)
+    } else {
+        (other, one, 1.0 - share)
+    };
+    let corners = [kept, gone].map(|v| mesh.half_edge_of(v));
+    let [Some(_), Some(first)] = corners else {
+        return Err(Refusal::Roots { one, other });
+    };
+    let mut of_kept = false;
+    for h in mesh.orbit(first) {
+        match mesh.origin(h) {
+            v if v == gone => edits.note_corner(h),
+            v => of_kept |= v == kept,
+        }
+    }
+    if !of_kept {
+        edits.discard_noted();
+        return Err(Refusal::Roots { one, other });
+    }
+    Ok(commit(mesh, kept, gone, share, edits))
+}
+
+/// The part of the first of two weights in their sum.
+fn share_of_first([one, other]: [f64; 2]) -> Option<f64> {
+    let sum = one + other;
+    if !(one >= 0.0 && other >= 0.0 && sum.is_finite()) {
+        return None;
+    }
+    Some(if sum > 0.0 { one / sum } else { 0.5 })
+}
+
+/// Carries out the merge whose corners were noted.
+fn commit<'e>(
+    mesh: &mut Mesh,
+    kept: VertexId,
+    gone: VertexId,
+    share: f64,
+    edits: &'e mut Edits,
+) -> Merge<'e> {
+    let noted = edits.noted();
+    for i in noted.clone() {
+        mesh.set_origin(edits.corner(i), kept);
+    }
+    let first = [kept, gone].map(|v| mesh.half_edge_of(v));
+    if let [Some(one), Some(other)] = first {
+        mesh.set_half_edge_of(kept, one.min(other));
+    }
+    for i in noted {
+        let corner = edits.corner(i);
+        for moved in [corner.prev(), corner] {
+            let Some(stayed) = mesh.ghost_pair(moved) else {
+                continue;
+            };
+            let agree = mesh.origin(moved) == mesh.target(stayed)
+                && mesh.target(moved) == mesh.origin(stayed);
+            if agree {
+                mesh.sew(moved, stayed);
+                edits.note_link(TornLink { stayed, moved });
+            }
+        }
+    }
+    let renumbered = free(mesh, gone, edits);
+    edits.finish_merge([kept, gone], share, renumbered)
+}
+
+/// Takes a vertex without corners off the mesh: the last vertex gets its id. Notes the corners
+/// of that one, and returns it and where they start.
+fn free(mesh: &mut Mesh, gone: VertexId, edits: &mut Edits) -> Option<(VertexId, usize)> {
+    let last = VertexId::from_u32(mesh.next_vertex().to_u32() - 1);
+    let start = edits.noted().end;
+    if gone != last {
+        if let Some(first) = mesh.half_edge_of(last) {
+            mesh.set_half_edge_of(gone, first);
+            for h in mesh.corners_of(last) {
+                edits.note_corner(h);
+            }
+            for i in start..edits.noted().end {
+                mesh.set_origin(edits.corner(i), gone);
+            }
+        } else {
+            mesh.isolate(gone);
+        }
+    }
+    mesh.pop_vertex();
+    (gone != last).then_some((last, start))
+}
+
+/// Two vertices of one root that are to become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Stitch {
+    /// The vertex that goes: the higher id.
+    gone: VertexId,
+    /// The vertex that stays.
+    kept: VertexId,
+}
+
+impl Stitch {
+    /// The stitch that joins two different vertices; `None` for one vertex.
+    #[must_use]
+    pub fn new(one: VertexId, other: VertexId) -> Option<Stitch> {
+        (one != other).then(|| Stitch {
+            gone: one.max(other),
+            kept: one.min(other),
+        })
+    }
+
+    /// The vertex that goes.
+    #[must_use]
+    pub fn gone(&self) -> VertexId {
+        self.gone
+    }
+
+    /// The vertex that stays.
+    #[must_use]
+    pub fn kept(&self) -> VertexId {
+        self.kept
+    }
+}
+
+/// The stitches that sew together all vertices of one root that are `chosen`: each to the lowest
+/// of them. Linear in the mesh.
+///
+/// ```
+/// use tearmesh::{mend, shapes, split, Edits};
+///
+/// let (mut mesh, mut positions) = shapes::grid(4, 4);
+/// let uncut = mesh.clone();
+/// let mut edits = Edits::new();
+/// for v in uncut.vertices().skip(6).take(9) {
+///     let first = mesh.faces_of(v).next().unwrap();
+///     split::faces(&mut mesh, v, &[first], &mut edits)?;
+/// }
+/// edits.replay(&mut positions);
+///
+/// let stitches = mend::stitches(&mesh, |_| true);
+/// mend::sew(&mut mesh, &positions, &stitches, |_| 1.0, f64::INFINITY, &mut edits)?;
+/// assert_eq!(mesh, uncut);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
+    let mut lowest = vec![None; mesh.vertex_count()];
+    let mut stitches = Vec::new();
+    for v in mesh.vertices().filter(|&v| chosen(v)) {
+        match &mut lowest[mesh.root(v).index()] {
+            Some(kept) => stitches.extend(Stitch::new(*kept, v)),
+            none => *none = Some(v),
+        }
+    }
+    stitches
+}
+
+/// Merges the vertices of many stitches, those with the highest ids first, and returns the
+/// number of merges. Where a vertex goes in two stitches, all three become one.
+///
+/// `place` is read before anything is changed. `weight` is the mass of each vertex, as for
+/// [`merge`]. Undoing the splits of a mesh pops them one by one, so
+/// ids come out as they were before.
+///
+/// # Errors
+///
+/// [`SewError`], and nothing has changed: two vertices are not of one root, have no weight that
+/// can be used, or are farther apart than `max_distance`. All of them are listed.
+///
+/// # Panics
+///
+/// If a vertex is none of this mesh, or unknown to `place`.
+pub fn sew(
+    mesh: &mut Mesh,
+    place: &(impl Place + ?Sized),
+    stitches: &[Stitch],
+    weight: impl Fn(VertexId) -> f64,
+    max_distance: f64,
+    edits: &mut Edits,
+) -> Result<usize, SewError> {
+    let mut refused = Vec::new();
+    for &stitch in stitches {
+        let Stitch { gone, kept } = stitch;
+        let distance = length(place.at(gone) - place.at(kept));
+        if mesh.root(gone) != mesh.root(kept) {
+            refused.push((stitch, StitchError::Roots));
+        } else if share_of_first([weight(gone), weight(kept)]).is_none() {
+            refused.push((stitch, StitchError::Weights));
+        } else if distance.is_nan() || distance > max_distance {
+            refused.push((stitch, StitchError::Distance { distance }));
+        }
+    }
+    if !refused.is_empty() {
+        return Err(SewError { refused });
+    }
+    // Highest first: what is renumbered on the way is above all that is still to go, and so
+    // is in no stitch.
+    let mut order = stitches.to_vec();
+    order.sort_unstable_by(|a, b| b.cmp(a));
+    let mut weights: Vec<f64> = mesh.vertices().map(weight).collect();
+    let mut merges = 0;
+    let mut rest = &mut order[..];
+    while let Some((&mut Stitch { gone, kept }, tail)) = rest.split_first_mut() {
+        let both = [weights[kept.index()], weights[gone.index()]];
+        merge(mesh, kept, gone, both, edits).expect("stitches were checked");
+        weights[kept.index()] += weights[gone.index()];
+        weights.swap_remove(gone.index());
+        merges += 1;
+        rest = join_the_rest(gone, kept, tail);
+    }
+    Ok(merges)
+}
+
+/// `gone` is now `kept`: stitches that name it too are those of `kept`. Returns what is
+/// left to be done, highest first.
+fn join_the_rest(gone: VertexId, kept: VertexId, rest: &mut [Stitch]) -> &mut [Stitch] {
+    let same = rest.iter().take_while(|stitch| stitch.gone == gone).count();
+    if same == 0 {
+        return rest;
+    }
+    for stitch in &mut rest[..same] {
+        // A stitch of `kept` with itself goes below all others, and is dropped there.
+        *stitch = Stitch::new(stitch.kept, kept).unwrap_or(Stitch { gone: kept, kept });
+    }
+    rest.sort_unstable_by(|a, b| b.cmp(a));
+    let mut left = 0;
+    for i in 0..rest.len() {
+        if rest[i].gone != rest[i].kept {
+            rest[left] = rest[i];
+            left += 1;
+        }
+    }
+    &mut rest[..left]
+}
+
+/// Why a merge was refused. Nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    /// Both vertices are one already.
+    Same {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// The vertices were never one.
+    Roots {
+        /// The first vertex.
+        one: VertexId,
+        /// The second vertex.
+        other: VertexId,
+    },
+    /// A weight is negative or not finite.
+    Weights {
+        /// The weights as given.
+        given: [f64; 2],
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Same { vertex } => write!(f, "{vertex} was not merged with itself"),
+            Refusal::Roots { one, other } => {
+                write!(
+                    f,
+                    "{one} and {other} were not merged: they were never one vertex"
+                )
+            }
+            Refusal::Weights {
+                given: [one, other],
+            } => {
+                write!(
+                    f,
+                    "nothing was merged: the weights {one} and {other} are no masses"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// Why a seam was not sewn. Nothing has changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SewError {
+    refused: Vec<(Stitch, StitchError)>,
+}
+
+impl SewError {
+    /// Every stitch that cannot be made, and why; never empty.
+    #[must_use]
+    pub fn refused(&self) -> &[(Stitch, StitchError)] {
+        &self.refused
+    }
+}
+
+/// Why a stitch cannot be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StitchError {
+    /// The vertices were never one.
+    Roots,
+    /// A weight is negative or not finite.
+    Weights,
+    /// The vertices are too far apart.
+    Distance {
+        /// How far.
+        distance: f64,
+    },
+}
+
+impl fmt::Display for SewError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some((Stitch { gone, kept }, why)) = self.refused.first() else {
+            return f.write_str("nothing was refused");
+        };
+        write!(f, "{kept} and {gone} cannot be sewn: ")?;
+        match why {
+            StitchError::Roots => f.write_str("they were never one vertex")?,
+            StitchError::Weights => f.write_str("their weights are no masses")?,
+            StitchError::Distance { distance } => write!(f, "they are {distance} apart")?,
+        }
+        match self.refused.len() {
+            1 => Ok(()),
+            more => write!(f, " (and {} more)", more - 1),
+        }
+    }
+}
+
+impl std::error::Error for SewError {}

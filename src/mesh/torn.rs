@@ -1,0 +1,129 @@
+//! Triangles and roots to a torn mesh.
+//!
+//! A torn mesh is a manifold whose corners were relabelled (`invariants.md`), so its triangles
+//! and the root of each vertex are all there is to know: the triangles with each vertex
+//! replaced by its root build that manifold, and a link is torn where its ends differ.
+//! This is how a torn mesh comes back from a file.
+
+use std::fmt;
+
+use super::{BuildError, Link, Mesh, NO_HALF_EDGE};
+use crate::id::{HalfEdgeId, VertexId};
+
+impl Mesh {
+    /// Builds the torn mesh of these triangles over `roots.len()` vertices. `roots` has for
+    /// each vertex what [`Mesh::root`] is to give: the smallest vertex of those
+    /// that were split from the same one, so itself for a vertex that never was.
+    ///
+    /// With each vertex its own root this is [`Mesh::build`].
+    ///
+    /// # Errors
+    ///
+    /// [`TornError`], where the roots contradict each other or the mesh with roots for vertices
+    /// is no oriented 2-manifold.
+    ///
+    /// ```
+    /// use tearmesh::{Mesh, VertexId};
+    ///
+    /// // Two triangles that shared the edge 1-2 until vertex 1 was split.
+    /// let mesh = Mesh::build_torn(&[[0, 1, 2], [2, 4, 3]], &[0, 1, 2, 3, 1])?;
+    /// let v = VertexId::new(4).unwrap();
+    /// assert_eq!(mesh.root(v), VertexId::new(1).unwrap());
+    /// assert_eq!(mesh.corners_of(VertexId::new(2).unwrap()).count(), 2);
+    /// # Ok::<(), tearmesh::TornError>(())
+    /// ```
+    pub fn build_torn(triangles: &[[u32; 3]], roots: &[u32]) -> Result<Mesh, TornError> {
+        let vertices = roots.len();
+        if let Some(&index) = triangles
+            .as_flattened()
+            .iter()
+            .find(|&&v| v as usize >= vertices)
+        {
+            return Err(TornError::Index { index, vertices });
+        }
+        let wrong = |&(v, &root): &(usize, &u32)| {
+            root as usize > v || roots.get(root as usize).is_none_or(|&of| of != root)
+        };
+        if let Some((v, &root)) = roots.iter().enumerate().find(wrong) {
+            let vertex = VertexId::from_u32(v as u32);
+            return Err(TornError::Root { vertex, root });
+        }
+        let whole: Vec<[u32; 3]> = triangles
+            .iter()
+            .map(|triangle| triangle.map(|v| roots[v as usize]))
+            .collect();
+        let mut mesh = Mesh::build(vertices, &whole).map_err(TornError::Build)?;
+        mesh.origin.copy_from_slice(triangles.as_flattened());
+        mesh.outgoing.fill(NO_HALF_EDGE);
+        for (h, &v) in mesh.origin.iter().enumerate().rev() {
+            mesh.outgoing[v as usize] = h as u32; // The last one written is the smallest.
+        }
+        for h in 0..mesh.half_edge_count() as u32 {
+            mesh.tear_if_apart(HalfEdgeId::from_u32(h));
+        }
+        let lost = |&(v, &root): &(usize, &u32)| {
+            let has_corner = |v: usize| mesh.outgoing[v] != NO_HALF_EDGE;
+            v != root as usize && !(has_corner(v) && has_corner(root as usize))
+        };
+        match roots.iter().enumerate().find(lost) {
+            None => Ok(mesh),
+            Some((v, &root)) => Err(TornError::Root {
+                vertex: VertexId::from_u32(v as u32),
+                root,
+            }),
+        }
+    }
+
+    fn tear_if_apart(&mut self, h: HalfEdgeId) {
+        let Some(g) = self.pair(h) else { return };
+        if self.origin(h) != self.target(g) || self.target(h) != self.origin(g) {
+            self.link[h.index()].0 |= Link::TORN;
+            self.link[g.index()].0 |= Link::TORN;
+        }
+    }
+
+    /// The root of every vertex, as [`Mesh::build_torn`] takes them. Linear.
+    #[must_use]
+    pub fn roots(&self) -> Vec<u32> {
+        self.vertices().map(|v| self.root(v).to_u32()).collect()
+    }
+}
+
+/// Why triangles and roots were refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TornError {
+    /// A triangle names a vertex that does not exist.
+    Index {
+        /// The vertex index given.
+        index: u32,
+        /// The number of vertices.
+        vertices: usize,
+    },
+    /// A root is not the smallest vertex of those that have it, or a vertex without a face
+    /// has another vertex for root, or is one.
+    Root {
+        /// The vertex.
+        vertex: VertexId,
+        /// The root that was given for it.
+        root: u32,
+    },
+    /// With roots for vertices the triangles are no oriented 2-manifold.
+    Build(BuildError),
+}
+
+impl fmt::Display for TornError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TornError::Index { index, vertices } => {
+                write!(f, "a triangle names vertex {index} of {vertices}")
+            }
+            TornError::Root { vertex, root } => {
+                write!(f, "vertex {root} cannot be the root of {vertex}")
+            }
+            TornError::Build(error) => write!(f, "the mesh before it was torn is {error}"),
+        }
+    }
+}
+
+impl std::error::Error for TornError {}

@@ -1,0 +1,543 @@
+//! Inserting vertices on edges and in faces.
+//!
+//! A cut that runs straight needs vertices where there are none. All points of a cut are
+//! inserted at once ([`Plan`], [`Plan::apply`]), and each face that gets one is
+//! retriangulated once; edge by edge, the order of insertion would decide the diagonals.
+//! The surface stays what it was, and so does every tear: an edge that was a pair is a chain of
+//! pairs, and a torn edge a chain of ghost pairs. A point on a torn edge is inserted on *both*
+//! sides of the ghost link, as two vertices of one root; with a point on one side
+//! alone, the walk round a vertex could not cross the link any more. No mark is made or
+//! lost here: only `split.rs` tears, and only `mend.rs` sews.
+//!
+//! The rule of retriangulation (`subdivide/face.rs`) needs no coordinates: it compares areas
+//! as parts of the divided face, which no affine map changes.
+//!
+//! Ids: new vertices are the last ones, in the order of the plan. The first child of a divided
+//! face has its id, the others are the last faces. Cost: linear in what is
+//! inserted and in the faces round the corners of divided faces, besides sorting the plan.
+
+mod face;
+
+use std::fmt;
+
+use crate::edit::{Child, Edits, Insert, InsertedPoint, Location};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use face::{Fault, Retriangulation};
+
+/// What to insert, all at once.
+///
+/// ```
+/// use tearmesh::{shapes, subdivide::Plan, Edits, FaceId, HalfEdgeId};
+///
+/// let (mut mesh, mut positions) = shapes::grid(1, 1);
+/// let diagonal = mesh.half_edges().find(|&h| mesh.pair(h).is_some()).unwrap();
+/// let mut plan = Plan::new();
+/// plan.on_edge(diagonal, 0.5);
+/// let mut edits = Edits::new();
+/// let insert = plan.apply(&mut mesh, &mut edits)?;
+/// assert_eq!((insert.points.len(), insert.children.len()), (1, 4));
+/// edits.replay(&mut positions);
+/// assert_eq!((mesh.vertex_count(), mesh.face_count()), (5, 4));
+/// assert_eq!(positions.as_slice()[4], [0.5, 0.5, 0.0].into());
+/// assert!(mesh.check().is_empty());
+/// # Ok::<(), tearmesh::subdivide::Refusal>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    points: Vec<Point>,
+    chords: Vec<Chord>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Point {
+    Edge { h: HalfEdgeId, t: f64 },
+    Face { f: FaceId, weights: [f64; 3] },
+}
+
+/// The number of a point in its plan, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PointId(u32);
+
+impl PointId {
+    /// The index, for use with slices.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// An end of a chord: a corner of the face, or a point on one of its edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChordEnd {
+    /// A corner of the face.
+    Corner(HalfEdgeId),
+    /// A point of the plan.
+    Point(PointId),
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Chord {
+    f: FaceId,
+    ends: [ChordEnd; 2],
+}
+
+impl Plan {
+    /// An empty plan.
+    #[must_use]
+    pub fn new() -> Plan {
+        Plan::default()
+    }
+
+    /// Forgets all points and keeps the memory.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.chords.clear();
+    }
+
+    /// The number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether nothing is to be inserted.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Adds a point on an edge, at the part `t` of the way from the origin of `h` to its target;
+    /// on a torn edge also on the other side, at the same `t`.
+    pub fn on_edge(&mut self, h: HalfEdgeId, t: f64) -> PointId {
+        self.push(Point::Edge { h, t })
+    }
+
+    /// Adds a point in a face, at the weighted mean of its corners in their order. The
+    /// weights are divided by their sum.
+    ///
+    /// The first point of a face is joined to all its corners and all points on its edges;
+    /// any other to the corners of the triangle in which it then lies.
+    pub fn in_face(&mut self, f: FaceId, weights: [f64; 3]) -> PointId {
+        self.push(Point::Face { f, weights })
+    }
+
+    fn push(&mut self, point: Point) -> PointId {
+        self.points.push(point);
+        PointId(self.points.len() as u32 - 1)
+    }
+
+    /// Demands that an edge of the result run straight across a face, which must not
+    /// have points inside. Needed only where a face has more than two points on its edges: two
+    /// on different edges are joined anyway, and so is a single one to the corner opposite.
+    pub fn chord(&mut self, f: FaceId, ends: [ChordEnd; 2]) {
+        self.chords.push(Chord { f, ends });
+    }
+
+    /// Inserts the points.
+    ///
+    /// The new vertices are in the order of the plan. A point on a torn edge has two: first that
+    /// on the side of the half-edge that was given, then that on the other.
+    ///
+    /// # Errors
+    ///
+    /// [`Refusal`] says why nothing was changed.
+    ///
+    /// # Panics
+    ///
+    /// If an id is none of this mesh or of this plan.
+    pub fn apply<'e>(&self, mesh: &mut Mesh, edits: &'e mut Edits) -> Result<Insert<'e>, Refusal> {
+        let work = Work::new(self, mesh)?;
+        work.carry_out(mesh);
+        let Work {
+            placed, children, ..
+        } = work;
+        Ok(edits.finish_insert(placed, children))
+    }
+}
+
+/// A point on an edge, as both faces of the edge see it.
+#[derive(Clone, Copy, Debug)]
+struct OnEdge {
+    /// The smaller half-edge of the edge, and how far along it the point is.
+    edge: HalfEdgeId,
+    along: f64,
+    /// The half-edge that was given, and how far along that.
+    given: HalfEdgeId,
+    t: f64,
+    /// The vertex on the side of the given half-edge, and that on the other.
+    vertices: [VertexId; 2],
+    point: PointId,
+}
+
+/// All that is to be done, worked out before anything is changed.
+struct Work {
+    placed: Vec<InsertedPoint>,
+    children: Vec<Child>,
+    touched: Vec<Touched>,
+    /// The half-edges along the edges of touched faces, after the insertion: edge by
+    /// edge, each in the direction of the face.
+    segments: Vec<HalfEdgeId>,
+    /// Half-edges of children of one parent that become pairs.
+    inner: Vec<[HalfEdgeId; 2]>,
+}
+
+/// A face that is divided.
+#[derive(Clone, Copy)]
+struct Touched {
+    face: FaceId,
+    /// What each of its half-edges was linked to, and whether the link is torn.
+    links: [Option<(HalfEdgeId, bool)>; 3],
+    /// Where the segments of each edge begin, and the end of the last.
+    segments: [usize; 4],
+}
+
+impl Work {
+    fn new(plan: &Plan, mesh: &Mesh) -> Result<Work, Refusal> {
+        let mut work = Work {
+            placed: Vec::with_capacity(plan.points.len()),
+            children: Vec::new(),
+            touched: Vec::new(),
+            segments: Vec::new(),
+            inner: Vec::new(),
+        };
+        let (on_edges, in_faces) = work.place(plan, mesh)?;
+        let mut faces: Vec<FaceId> = in_faces.iter().map(|&(f, ..)| f).collect();
+        for on in &on_edges {
+            faces.push(on.edge.face());
+            faces.extend(mesh.pair_or_ghost(on.edge).map(HalfEdgeId::face));
+        }
+        faces.sort_unstable();
+        faces.dedup();
+        let mut chords: Vec<&Chord> = plan.chords.iter().collect();
+        chords.sort_by_key(|chord| chord.f);
+        let mut next_face = mesh.face_count();
+        let mut face = Retriangulation::default();
+        for f in faces {
+            face.clear();
+            outline(mesh, f, &on_edges, &mut face);
+            let here = in_faces.partition_point(|&(g, ..)| g < f);
+            for &(_, vertex, weights) in in_faces[here..].iter().take_while(|&&(g, ..)| g == f) {
+                face.inside(vertex, weights);
+            }
+            let here = chords.partition_point(|chord| chord.f < f);
+            for chord in chords[here..].iter().take_while(|chord| chord.f == f) {
+                let ends = chord.ends.map(|end| end_of(end, f, &face));
+                let [Some(one), Some(other)] = ends else {
+                    return Err(Refusal::Chord { face: f });
+                };
+                face.chord(one, other);
+            }
+            face.run().map_err(|fault| match fault {
+                Fault::Chord => Refusal::Chord { face: f },
+                Fault::Crowded => Refusal::Crowded { face: f },
+            })?;
+            work.divide(mesh, f, &face, &mut next_face);
+        }
+        if next_face > Mesh::MAX_FACES {
+            return Err(Refusal::Full { faces: next_face });
+        }
+        Ok(work)
+    }
+
+    /// Checks the points and gives them vertices. Returns those on edges by edge and along it,
+    /// and those in faces by face.
+    #[expect(clippy::type_complexity, reason = "two lists for one caller")]
+    fn place(
+        &mut self,
+        plan: &Plan,
+        mesh: &Mesh,
+    ) -> Result<(Vec<OnEdge>, Vec<(FaceId, VertexId, [f64; 3])>), Refusal> {
+        let mut next = mesh.next_vertex().to_u32();
+        let mut new_vertex = || {
+            next += 1;
+            VertexId::from_u32(next - 1)
+        };
+        let (mut on_edges, mut in_faces) = (Vec::new(), Vec::new());
+        for (i, &point) in plan.points.iter().enumerate() {
+            match point {
+                Point::Edge { h, t } => {
+                    if !(t > 0.0 && t < 1.0) {
+                        return Err(Refusal::Parameter { half_edge: h, t });
+                    }
+                    let ends = [mesh.origin(h), mesh.target(h)];
+                    let vertex = new_vertex();
+                    let at = Location::Edge { ends, t };
+                    self.placed.push(InsertedPoint { vertex, at });
+                    let mut vertices = [vertex; 2];
+                    if let Some(ghost) = mesh.ghost_pair(h) {
+                        let vertex = new_vertex();
+                        vertices[1] = vertex;
+                        let ends = [mesh.target(ghost), mesh.origin(ghost)];
+                        let at = Location::Edge { ends, t };
+                        self.placed.push(InsertedPoint { vertex, at });
+                    }
+                    let edge = mesh.pair_or_ghost(h).map_or(h, |g| g.min(h));
+                    on_edges.push(OnEdge {
+                        edge,
+                        along: if edge == h { t } else { 1.0 - t },
+                        given: h,
+                        t,
+                        vertices,
+                        point: PointId(i as u32),
+                    });
+                }
+                Point::Face { f, weights } => {
+                    let [a, b, c] = weights;
+                    let sum = a + b + c;
+                    if !(a > 0.0 && b > 0.0 && c > 0.0 && sum.is_finite()) {
+                        return Err(Refusal::Weights { face: f, weights });
+                    }
+                    let weights = weights.map(|w| w / sum);
+                    let vertices = mesh.corners(f);
+                    let vertex = new_vertex();
+                    let at = Location::Face { vertices, weights };
+                    self.placed.push(InsertedPoint { vertex, at });
+                    in_faces.push((f, vertex, weights));
+                }
+            }
+        }
+        on_edges.sort_by(|a, b| {
+            (a.edge, a.along)
+                .partial_cmp(&(b.edge, b.along))
+                .expect("0 < t < 1")
+        });
+        for two in on_edges.windows(2) {
+            if two[0].edge == two[1].edge && two[0].along == two[1].along {
+                let OnEdge { given, t, .. } = two[1];
+                return Err(Refusal::Repeated {
+                    half_edge: given,
+                    t,
+                });
+            }
+        }
+        in_faces.sort_by_key(|&(f, vertex, _)| (f, vertex));
+        Ok((on_edges, in_faces))
+    }
+
+    /// Notes the children of a face, the half-edges that they have in common, and those along
+    /// its edges.
+    fn divide(&mut self, mesh: &Mesh, f: FaceId, face: &Retriangulation, next_face: &mut usize) {
+        let first = self.segments.len();
+        let ring = face.ring().len();
+        self.segments.resize(first + ring, HalfEdgeId::from_u32(0));
+        let mut open: Vec<([usize; 2], HalfEdgeId)> =
+            Vec::with_capacity(3 * face.triangles().len());
+        for (i, &triangle) in face.triangles().iter().enumerate() {
+            let id = if i == 0 {
+                f
+            } else {
+                *next_face += 1;
+                FaceId::from_u32((*next_face - 1) as u32)
+            };
+            let nodes = triangle.map(|n| face.node(n));
+            self.children.push(Child {
+                parent: f,
+                face: id,
+                vertices: nodes.map(|node| node.vertex),
+                sources: nodes.map(|node| node.source),
+                share: face.share(triangle),
+            });
+            for (corner, h) in id.half_edges().into_iter().enumerate() {
+                let (from, to) = (triangle[corner], triangle[(corner + 1) % 3]);
+                if from < ring && to == (from + 1) % ring {
+                    self.segments[first + from] = h;
+                } else if let Some(i) = open.iter().position(|&(ends, _)| ends == [to, from]) {
+                    self.inner.push([open.swap_remove(i).1, h]);
+                } else {
+                    open.push(([from, to], h));
+                }
+            }
+        }
+        debug_assert!(
+            open.is_empty(),
+            "the children of a face cover it without a gap"
+        );
+        let [a, b, c] = face.corners();
+        debug_assert_eq!(a, 0);
+        self.touched.push(Touched {
+            face: f,
+            links: f.half_edges().map(|h| {
+                let g = mesh.pair_or_ghost(h)?;
+                Some((g, mesh.ghost_pair(h).is_some()))
+            }),
+            segments: [first, first + b, first + c, first + ring],
+        });
+    }
+
+    fn carry_out(&self, mesh: &mut Mesh) {
+        for child in &self.children {
+            if child.face == child.parent {
+                for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
+                    mesh.set_origin(h, v);
+                    mesh.unlink(h);
+                }
+            } else {
+                debug_assert_eq!(child.face, mesh.next_face());
+                mesh.push_face(child.vertices);
+            }
+        }
+        for &[h, g] in &self.inner {
+            mesh.link(h, g, false);
+        }
+        for touched in &self.touched {
+            for corner in 0..3 {
+                self.link_edge(mesh, touched, corner);
+            }
+        }
+        self.find_half_edges(mesh);
+    }
+
+    /// Links what became of an edge of a divided face to what became of its other side.
+    fn link_edge(&self, mesh: &mut Mesh, touched: &Touched, corner: usize) {
+        let Some((opposite, torn)) = touched.links[corner] else {
+            return;
+        };
+        let segments = &self.segments[touched.segments[corner]..touched.segments[corner + 1]];
+        let across = self
+            .touched
+            .binary_search_by_key(&opposite.face(), |other| other.face);
+        match across {
+            Ok(other) => {
+                let other = &self.touched[other];
+                let at = opposite.corner();
+                let others = &self.segments[other.segments[at]..other.segments[at + 1]];
+                debug_assert_eq!(segments.len(), others.len(), "both sides have all points");
+                for (&h, &g) in segments.iter().zip(others.iter().rev()) {
+                    mesh.link(h, g, torn);
+                }
+            }
+            Err(_) => {
+                debug_assert_eq!(segments.len(), 1, "a point divides both faces of its edge");
+                mesh.link(segments[0], opposite, torn);
+            }
+        }
+    }
+
+    /// Gives every vertex of a divided face, and every new one, its smallest half-edge (I9).
+    fn find_half_edges(&self, mesh: &mut Mesh) {
+        let corner_of = |child: &Child| {
+            let half_edges = child.face.half_edges();
+            child.vertices.into_iter().zip(half_edges)
+        };
+        let mut starts: Vec<(VertexId, HalfEdgeId)> =
+            self.children.iter().flat_map(corner_of).collect();
+        starts.sort_unstable();
+        starts.dedup_by_key(|&mut (v, _)| v);
+        for (v, h) in starts {
+            let smallest = mesh.orbit(h).filter(|&g| mesh.origin(g) == v).min();
+            let smallest = smallest.expect("the walk starts at a corner of the vertex");
+            if v == mesh.next_vertex() {
+                mesh.push_vertex(smallest);
+            } else {
+                mesh.set_half_edge_of(v, smallest);
+            }
+        }
+    }
+}
+
+/// The corners of a face, and between them the points on its edges.
+fn outline(mesh: &Mesh, f: FaceId, on_edges: &[OnEdge], face: &mut Retriangulation) {
+    for h in f.half_edges() {
+        face.corner(mesh.origin(h), h);
+        let edge = mesh.pair_or_ghost(h).map_or(h, |g| g.min(h));
+        let start = on_edges.partition_point(|on| on.edge < edge);
+        let count = on_edges[start..]
+            .iter()
+            .take_while(|on| on.edge == edge)
+            .count();
+        let mut add = |on: &OnEdge| {
+            let given = on.given == h;
+            let vertex = on.vertices[usize::from(!given)];
+            face.on_edge(vertex, on.point, h, on.t, given);
+        };
+        let here = &on_edges[start..start + count];
+        if edge == h {
+            here.iter().for_each(&mut add);
+        } else {
+            here.iter().rev().for_each(&mut add);
+        }
+    }
+}
+
+/// The node at the end of a chord; `None` where it is not on the outline of the face.
+fn end_of(end: ChordEnd, f: FaceId, face: &Retriangulation) -> Option<usize> {
+    match end {
+        ChordEnd::Corner(h) => (h.face() == f).then(|| face.corners()[h.corner()]),
+        ChordEnd::Point(point) => face
+            .ring()
+            .iter()
+            .position(|node| node.point == Some(point)),
+    }
+}
+
+/// Why nothing was inserted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// A parameter on an edge is not strictly between 0 and 1.
+    Parameter {
+        /// The half-edge.
+        half_edge: HalfEdgeId,
+        /// The parameter.
+        t: f64,
+    },
+    /// A weight in a face is not positive, or the sum of the weights is not finite.
+    Weights {
+        /// The face.
+        face: FaceId,
+        /// The weights.
+        weights: [f64; 3],
+    },
+    /// Two points are at the same place of an edge.
+    Repeated {
+        /// The half-edge, as the second point has it.
+        half_edge: HalfEdgeId,
+        /// The parameter, as the second point has it.
+        t: f64,
+    },
+    /// A chord does not run between two places on the outline of its face with something to
+    /// divide on both sides, crosses another, or passes points inside.
+    Chord {
+        /// The face.
+        face: FaceId,
+    },
+    /// Points in a face are at the same place, or on its outline, up to rounding.
+    Crowded {
+        /// The face.
+        face: FaceId,
+    },
+    /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
+    Full {
+        /// The number of faces it would have.
+        faces: usize,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("nothing was inserted: ")?;
+        match self {
+            Refusal::Parameter { half_edge, t } => {
+                write!(f, "the parameter {t} on {half_edge} is not between 0 and 1")
+            }
+            Refusal::Weights {
+                face,
+                weights: [a, b, c],
+            } => write!(
+                f,
+                "the weights {a}, {b}, {c} are not those of a point in {face}"
+            ),
+            Refusal::Repeated { half_edge, t } => {
+                write!(f, "two points are on {half_edge} at {t}")
+            }
+            Refusal::Chord { face } => write!(f, "a chord does not cross {face}"),
+            Refusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
+            Refusal::Full { faces } => {
+                write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
