@@ -12,5 +12,8 @@ mod methods;
 mod oracle;
 mod pieces;
 mod properties;
+#[path = "data/random.rs"]
+mod random;
 mod rays;
 mod scissor;
+mod straight;

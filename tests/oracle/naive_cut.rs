@@ -1,0 +1,160 @@
+//! A second implementation of the straight cut: naive, slow and for generic cuts only. It
+//! shows that the oracle accepts what it should, and gives it something to refuse.
+//!
+//! It never asks what hangs together. A point where the slit crosses an edge becomes two vertices
+//! at once, one for each side of the plane, and each triangle takes the one of its own side.
+
+use std::collections::BTreeMap;
+
+use super::straight::{Cut, Surface, on_the_way};
+
+/// Cuts a surface. The cut has to be generic.
+pub(crate) fn cut(before: &Surface, cut: &Cut) -> Surface {
+    let mut knife = Knife {
+        cut,
+        after: Surface {
+            points: before.points.clone(),
+            faces: Vec::new(),
+        },
+        on_edge: BTreeMap::new(),
+    };
+    for &face in &before.faces {
+        knife.cut_face(face);
+    }
+    knife.after
+}
+
+/// A point of the slit: the vertices before and behind the plane. At a tip they are one.
+#[derive(Clone, Copy)]
+struct Double {
+    place: [f64; 3],
+    before: u32,
+    behind: u32,
+}
+
+struct Knife<'a> {
+    cut: &'a Cut,
+    after: Surface,
+    on_edge: BTreeMap<(u32, u32), Double>,
+}
+
+impl Knife<'_> {
+    fn cut_face(&mut self, [a, b, c]: [u32; 3]) {
+        let front = [a, b, c].map(|v| self.is_before(v));
+        // The corner that is alone on its side comes first.
+        let [a, b, c] = match front {
+            [x, y, z] if x == y && y == z => return self.after.faces.push([a, b, c]),
+            [x, y, z] if x != y && x != z => [a, b, c],
+            [x, y, _] if x != y => [b, c, a],
+            _ => [c, a, b],
+        };
+        let [p, q] = [(a, b), (a, c)].map(|(v, w)| self.crossing(v, w));
+        let Some([from, to]) = self.between_the_sides(p, q) else {
+            return self.after.faces.push([a, b, c]);
+        };
+        match (from > 0.0, to < 1.0) {
+            (false, false) => {
+                let (p, q) = (self.edge_point(a, b, p), self.edge_point(a, c, q));
+                self.emit(&[a], &[p, q], [0, 1, 2]);
+                self.emit(&[b, c], &[p], [2, 0, 1]);
+                self.emit(&[c], &[p, q], [1, 0, 2]);
+            }
+            (false, true) => {
+                let (tip, p) = (self.tip(on_the_way(p, q, to)), self.edge_point(a, b, p));
+                self.emit(&[a], &[p, tip], [0, 1, 2]);
+                self.emit(&[b], &[p, tip], [1, 0, 2]);
+                self.emit(&[b, c], &[tip], [0, 1, 2]);
+                self.emit(&[c, a], &[tip], [0, 1, 2]);
+            }
+            (true, false) => {
+                let (tip, q) = (self.tip(on_the_way(p, q, from)), self.edge_point(a, c, q));
+                self.emit(&[a, b], &[tip], [0, 1, 2]);
+                self.emit(&[b, c], &[tip], [0, 1, 2]);
+                self.emit(&[c], &[q, tip], [0, 1, 2]);
+                self.emit(&[a], &[q, tip], [1, 0, 2]);
+            }
+            (true, true) => {
+                let near = self.tip(on_the_way(p, q, from));
+                let middle = self.double(on_the_way(p, q, (from + to) / 2.0));
+                let far = self.tip(on_the_way(p, q, to));
+                self.emit(&[a, b], &[near], [0, 1, 2]);
+                self.emit(&[a], &[near, middle], [0, 1, 2]);
+                self.emit(&[a], &[middle, far], [0, 1, 2]);
+                self.emit(&[c, a], &[far], [0, 1, 2]);
+                self.emit(&[b], &[middle, near], [0, 1, 2]);
+                self.emit(&[b, c], &[middle], [0, 1, 2]);
+                self.emit(&[c], &[far, middle], [0, 1, 2]);
+            }
+        }
+    }
+
+    /// The part of a segment that lies between the side planes, found by trying the middles of all
+    /// parts into which they divide it.
+    fn between_the_sides(&self, p: [f64; 3], q: [f64; 3]) -> Option<[f64; 2]> {
+        let mut marks = vec![0.0, 1.0];
+        for side in &self.cut.sides {
+            let (s, t) = (side.distance(p), side.distance(q));
+            if s * t < 0.0 {
+                marks.push(s.abs() / (s.abs() + t.abs()));
+            }
+        }
+        marks.sort_by(f64::total_cmp);
+        let inside = |part: &&[f64]| {
+            let middle = on_the_way(p, q, (part[0] + part[1]) / 2.0);
+            self.cut.depth(middle) > 0.0
+        };
+        let inside: Vec<_> = marks.windows(2).filter(inside).collect();
+        Some([inside.first()?[0], inside.last()?[1]])
+    }
+
+    /// Adds the triangle of old vertices and slit points, in the order given by `turn`. Its old
+    /// vertices lie on one side of the plane, or all its slit points are tips.
+    fn emit(&mut self, old: &[u32], slit: &[Double], turn: [usize; 3]) {
+        let side = self.is_before(old[0]);
+        let mut corners = old.to_vec();
+        for point in slit {
+            corners.push(if side { point.before } else { point.behind });
+        }
+        self.after.faces.push(turn.map(|i| corners[i]));
+    }
+
+    fn is_before(&self, v: u32) -> bool {
+        self.cut.plane.distance(self.after.points[v as usize]) > 0.0
+    }
+
+    /// Where the plane crosses an edge; the same for both of its faces, and for both copies of an
+    /// edge that is torn.
+    fn crossing(&self, v: u32, w: u32) -> [f64; 3] {
+        let [p, q] = [v, w].map(|v| self.after.points[v as usize]);
+        let (p, q) = if p < q { (p, q) } else { (q, p) };
+        let [d, e] = [p, q].map(|p| self.cut.plane.distance(p).abs());
+        on_the_way(p, q, d / (d + e))
+    }
+
+    fn edge_point(&mut self, v: u32, w: u32, place: [f64; 3]) -> Double {
+        let edge = (v.min(w), v.max(w));
+        let known = self.on_edge.get(&edge).copied();
+        let point = known.unwrap_or_else(|| self.double(place));
+        assert_eq!(point.place, place, "both faces find one point");
+        self.on_edge.insert(edge, point);
+        point
+    }
+
+    fn double(&mut self, place: [f64; 3]) -> Double {
+        Double {
+            before: self.tip(place).before,
+            behind: self.tip(place).behind,
+            place,
+        }
+    }
+
+    fn tip(&mut self, place: [f64; 3]) -> Double {
+        self.after.points.push(place);
+        let v = self.after.points.len() as u32 - 1;
+        Double {
+            place,
+            before: v,
+            behind: v,
+        }
+    }
+}
