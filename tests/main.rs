@@ -17,3 +17,4 @@ mod random;
 mod rays;
 mod scissor;
 mod straight;
+mod straight_polylines;

@@ -16,7 +16,7 @@ use crate::random::{self, Random};
 /// Generic cuts that each surface gets.
 const CUTS: usize = 30;
 
-fn surface((mesh, positions): &(Mesh, Positions)) -> Surface {
+pub(crate) fn surface((mesh, positions): &(Mesh, Positions)) -> Surface {
     Surface {
         points: positions.as_slice().iter().map(|&p| p.into()).collect(),
         faces: mesh
@@ -27,7 +27,7 @@ fn surface((mesh, positions): &(Mesh, Positions)) -> Surface {
     }
 }
 
-fn jittered(n: u32, random: &mut Random) -> Surface {
+pub(crate) fn jittered(n: u32, random: &mut Random) -> Surface {
     let mut sheet = surface(&shapes::grid_with_diagonals(n, n, |x, y| (x * y) % 3 == 1));
     let by = 0.48 / f64::from(n);
     for [x, y, z] in &mut sheet.points {
@@ -40,7 +40,7 @@ fn jittered(n: u32, random: &mut Random) -> Surface {
     sheet
 }
 
-fn delaunay(count: usize, random: &mut Random) -> Surface {
+pub(crate) fn delaunay(count: usize, random: &mut Random) -> Surface {
     let points = random::points(count, 9, 0.6 / (count as f64).sqrt(), random);
     let faces = random::delaunay(&points).into_iter();
     Surface {
@@ -93,7 +93,7 @@ fn surfaces() -> Vec<(&'static str, Surface)> {
 }
 
 /// A ray down on a point of the plane z = 0.
-fn down([x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+pub(crate) fn down([x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
     ([x, y, 5.0], [0.0, 0.0, -1.0])
 }
 
@@ -163,7 +163,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-fn said(faults: &[Fault]) -> String {
+pub(crate) fn said(faults: &[Fault]) -> String {
     let faults: Vec<_> = faults.iter().take(5).map(Fault::to_string).collect();
     faults.join("; ")
 }

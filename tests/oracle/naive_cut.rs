@@ -10,6 +10,17 @@ use super::straight::{Cut, Surface, on_the_way};
 
 /// Cuts a surface. The cut has to be generic.
 pub(crate) fn cut(before: &Surface, cut: &Cut) -> Surface {
+    cut_on(before, cut, None)
+}
+
+/// Cuts a surface from a vertex on, through which the plane and one side plane go: the joint,
+/// at which an earlier cut ended. Otherwise the cut has to be generic, and it has to leave the faces
+/// of the joint.
+pub(crate) fn cut_from(before: &Surface, cut: &Cut, joint: u32) -> Surface {
+    cut_on(before, cut, Some(joint))
+}
+
+fn cut_on(before: &Surface, cut: &Cut, joint: Option<u32>) -> Surface {
     let mut knife = Knife {
         cut,
         after: Surface {
@@ -19,7 +30,13 @@ pub(crate) fn cut(before: &Surface, cut: &Cut) -> Surface {
         on_edge: BTreeMap::new(),
     };
     for &face in &before.faces {
-        knife.cut_face(face);
+        match joint.and_then(|joint| face.iter().position(|&v| v == joint)) {
+            Some(i) => knife.cut_face_of_joint([face[i], face[(i + 1) % 3], face[(i + 2) % 3]]),
+            None => knife.cut_face(face),
+        }
+    }
+    if let Some(joint) = joint {
+        knife.part(joint);
     }
     knife.after
 }
@@ -84,6 +101,51 @@ impl Knife<'_> {
                 self.emit(&[b], &[middle, near], [0, 1, 2]);
                 self.emit(&[b, c], &[middle], [0, 1, 2]);
                 self.emit(&[c], &[far, middle], [0, 1, 2]);
+            }
+        }
+    }
+
+    /// Cuts a face from its first corner, the joint, to the opposite side, if that is where the
+    /// slit goes.
+    fn cut_face_of_joint(&mut self, [joint, b, c]: [u32; 3]) {
+        if self.is_before(b) == self.is_before(c) || self.cut.depth(self.crossing(b, c)) < 0.0 {
+            return self.after.faces.push([joint, b, c]);
+        }
+        let q = self.crossing(b, c);
+        let q = self.edge_point(b, c, q);
+        let joint = Double {
+            place: self.after.points[joint as usize],
+            before: joint,
+            behind: joint,
+        };
+        self.emit(&[b], &[q, joint], [2, 0, 1]);
+        self.emit(&[c], &[q, joint], [2, 1, 0]);
+    }
+
+    /// Gives every face of a vertex that no edges join with its first face a vertex of their own.
+    fn part(&mut self, v: u32) {
+        let faces = &mut self.after.faces;
+        let has = |face: &[u32; 3], v| face.contains(&v);
+        let first = faces.iter().position(|face| has(face, v));
+        let mut fan = vec![first.expect("the joint has faces")];
+        let mut seen = 0;
+        while seen < fan.len() {
+            let rim = faces[fan[seen]];
+            for f in 0..faces.len() {
+                let common = faces[f].iter().filter(|&&w| w != v && has(&rim, w));
+                if has(&faces[f], v) && !fan.contains(&f) && common.count() > 0 {
+                    fan.push(f);
+                }
+            }
+            seen += 1;
+        }
+        let new = self.after.points.len() as u32;
+        self.after.points.push(self.after.points[v as usize]);
+        for (f, face) in faces.iter_mut().enumerate() {
+            for corner in face.iter_mut().filter(|corner| **corner == v) {
+                if !fan.contains(&f) {
+                    *corner = new;
+                }
             }
         }
     }

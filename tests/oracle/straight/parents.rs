@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Bench, Check, OFF_MAX, Surface, cross, dot, length, minus, twice_area};
+use super::surface::{Surface, twice_area};
+use super::{Bench, Check, OFF_MAX, cross, dot, length, minus};
 
 impl Bench<'_> {
     /// The parent of each face. `children` is the number of faces that each face is cut into,
