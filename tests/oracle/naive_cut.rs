@@ -131,9 +131,9 @@ impl Knife<'_> {
         let mut seen = 0;
         while seen < fan.len() {
             let rim = faces[fan[seen]];
-            for f in 0..faces.len() {
-                let common = faces[f].iter().filter(|&&w| w != v && has(&rim, w));
-                if has(&faces[f], v) && !fan.contains(&f) && common.count() > 0 {
+            for (f, face) in faces.iter().enumerate() {
+                let common = face.iter().filter(|&&w| w != v && has(&rim, w));
+                if has(face, v) && !fan.contains(&f) && common.count() > 0 {
                     fan.push(f);
                 }
             }
