@@ -64,7 +64,7 @@ pub struct Scissor {
     through: bool,
     tips: Tips,
     snap: f64,
-    /// Where this cut goes on from another: vertices on the plane and on the second side plane.
+    /// Where this cut goes on from another: vertices on the plane and on the first side plane.
     joints: Vec<VertexId>,
 }
 
@@ -211,8 +211,11 @@ impl Scissor {
             Some(&v) => {
                 let at_joint = Ray::new(positions.at(v), from.direction());
                 let at_joint = at_joint.expect("a position and a direction that were accepted");
+                // The plane holds all of the first ray given, and the origin of the second.
                 let joined = Scissor::new(to, &at_joint)?;
+                let [at_end, at_joint] = joined.sides;
                 Scissor {
+                    sides: [at_joint, at_end],
                     joints: joints.to_vec(),
                     ..joined
                 }

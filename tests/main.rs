@@ -17,4 +17,6 @@ mod properties;
 mod random;
 mod rays;
 mod scissor;
+mod straight;
+mod straight_polylines;
 mod subdivide;

@@ -315,7 +315,7 @@ impl Tracer<'_> {
             Err(_) => self.depths(self.positions.at(v)),
         };
         if self.scissor.joints.contains(&v) {
-            depths[1] = 0.0;
+            depths[0] = 0.0;
         }
         Node {
             site: Site::Vertex(v),
