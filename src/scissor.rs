@@ -172,13 +172,17 @@ impl Scissor {
     pub const SNAP: f64 = 0.05;
 
     /// How near an end of its edge, as a part of it, a crossing may be before the method `exact`
-    /// takes the end for the crossing. Clamped to 0 … 0.49; NaN counts as 0.
+    /// takes the end for the crossing. Brought into 0 … 0.49; NaN counts as 0.
     ///
     /// With 0 the seam is straight to the last digits, and thin faces are what they are. With
     /// r, no new face has an altitude below r (1 − r) of that of the face it was part of.
     #[must_use]
     pub fn snap(self, snap: f64) -> Scissor {
-        let snap = snap.max(0.0).min(0.49);
+        let snap = if snap.is_nan() {
+            0.0
+        } else {
+            snap.clamp(0.0, 0.49)
+        };
         Scissor { snap, ..self }
     }
 
@@ -194,6 +198,10 @@ impl Scissor {
     /// # Errors
     ///
     /// [`ScissorError::OneLine`] if both rays lie on one line, up to rounding.
+    ///
+    /// # Panics
+    ///
+    /// If the report is of another mesh than the positions.
     pub fn continued(
         &self,
         report: &CutReport,
