@@ -8,7 +8,7 @@ use tearmesh::{
 
 use crate::oracle::straight::{Cut, Surface, judge, judge_polyline};
 use crate::random::Random;
-use crate::straight::{built, cases, random_generic_rays, said, surface, surfaces};
+use crate::straight::{Rays, built, cases, random_generic_rays, said, surface, surfaces};
 use crate::straight_polylines::{random_corners, sheets};
 
 /// A mesh and all that follows it, in a cut.
@@ -134,7 +134,7 @@ fn cuts_across_cuts_satisfy_the_oracle_and_can_be_mended() {
     assert!(cuts >= 300 && torn_edges_crossed >= 150);
 }
 
-fn scissor([a, b]: [([f64; 3], [f64; 3]); 2]) -> Scissor {
+fn scissor([a, b]: Rays) -> Scissor {
     Scissor::new(&ray(a), &ray(b)).expect("a plane")
 }
 
