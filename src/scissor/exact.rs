@@ -55,7 +55,7 @@ pub(super) fn cut(
     };
     edits.replay(positions);
     let labels = if label {
-        labels(scissor, mesh, positions, &trace, &slit)
+        labels(scissor, mesh, positions, offsets, &trace, &slit)
     } else {
         Vec::new()
     };
@@ -78,11 +78,16 @@ fn labels(
     scissor: &Scissor,
     mesh: &Mesh,
     positions: &Positions,
+    offsets: &Offsets,
     trace: &Trace,
     slit: &Slit,
 ) -> Vec<Option<Side>> {
-    let is_on = |v: VertexId| trace.is_on(v) || slit.nodes.binary_search(&v).is_ok();
-    let offset = |v: VertexId| scissor.plane.offset(positions.at(v));
+    let is_on = |v: VertexId| trace.is_snapped(v) || slit.nodes.binary_search(&v).is_ok();
+    // Only the passive twin of a crossing is new and not on the plane.
+    let offset = |v: VertexId| match v.index() < offsets.len() {
+        true => offsets.of(v),
+        false => scissor.plane.offset(positions.at(v)),
+    };
     let sign = |v: VertexId| if is_on(v) { 0.0 } else { offset(v) };
     let goes_on = |f: FaceId| {
         let corners = mesh.corners(f);
