@@ -11,7 +11,7 @@
 
 use tearmesh::{COORDINATE_MAX, Mesh, Point};
 
-use super::decimal::{digits, few_digits, leading_digits, nearest};
+use super::decimal::{digits, nearest};
 use super::face::repeated;
 use super::{NUMBERS_MAX, Reader};
 use crate::document::Polygons;
@@ -197,12 +197,23 @@ fn corner(bytes: &[u8], existing: [usize; 3]) -> Option<([u32; 3], Form, &[u8])>
     Some(([vertex, texture, normal], form, rest))
 }
 
-/// Reads an index of at most eight digits, of which there are `existing`, and counts it from 0.
+/// Reads an index of at most nine digits, where `existing` elements are there, and counts it from
+/// 0. The loop of known length is fast: each digit has a branch of its own, which is foreseen.
 #[inline]
 fn index(bytes: &[u8], existing: usize) -> Option<(u32, &[u8])> {
-    let (given, digits) = leading_digits(u64::from_le_bytes(*bytes.first_chunk()?));
+    let window: &[u8; 9] = bytes.first_chunk()?;
+    let mut given = 0_u64;
+    let mut count = 0;
+    for &byte in window {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            break;
+        }
+        given = 10 * given + u64::from(digit);
+        count += 1;
+    }
     let index = given.checked_sub(1)?;
-    (given <= existing as u64).then_some((index as u32, &bytes[digits..]))
+    (given <= existing as u64).then_some((index as u32, &bytes[count..]))
 }
 
 /// Reads one to three numbers and the end of the line: the numbers, how many they are, and what
@@ -229,7 +240,7 @@ fn number(bytes: &[u8]) -> Option<(f64, &[u8])> {
         _ => (false, bytes),
     };
     let mut mantissa = 0;
-    let whole = few_digits(bytes, &mut mantissa);
+    let whole = digits(bytes, &mut mantissa);
     let significant = if mantissa == 0 { 0 } else { whole };
     let mut rest = &bytes[whole..];
     let mut places = 0;
