@@ -111,7 +111,7 @@ const READERS: [Contestant<'_, Sheet>; 7] = [
     },
     Contestant {
         name: "wobj",
-        note: "f32",
+        note: "f32, a list for each face",
         run: &|sheet| {
             read(sheet, rivals::wobj, |obj| {
                 (
