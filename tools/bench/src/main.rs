@@ -18,8 +18,9 @@
 //! | `--record` | also writes the table to `record/<CPU>/<subcommand>.txt` |
 //!
 //! Everything runs on one thread. In each round every contestant runs once, so a slow spell of the
-//! machine falls on all of them: trust the ratios, not the MB/s. A record names the commit, the
-//! compiler and the CPU.
+//! machine falls on all of them: trust the ratios, not the MB/s. They share one allocator, too, and
+//! what one leaves behind, the next starts from; so ratios differ by some tenths with other
+//! company (`--only`). A record names the commit, the compiler and the CPU.
 
 mod measure;
 mod options;
