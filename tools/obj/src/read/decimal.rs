@@ -67,10 +67,10 @@ fn nearest_quotient(mantissa: u64, exponent: i32) -> Option<f64> {
     let shift = 1075_u32.checked_sub((bits >> 52) as u32)?;
     // Above a power of two the units are twice as large as below, and numbers of 2^53 and more
     // would have to be shifted the other way: both are rare.
-    if exponent > 0 || bits & FRACTION == 0 || shift > 73 {
+    if exponent > 0 || bits & FRACTION == 0 {
         return None;
     }
-    // Both products are below 2^53 · 10^22 < 2^127, for they are nearly the same.
+    // Both products are about units · power, which is below 2^53 · 10^22 < 2^127.
     let power = LARGE_POWERS[places as usize];
     let excess = (i128::from(mantissa) << shift) - i128::from(units) * power;
     let (bits, excess) = match () {
