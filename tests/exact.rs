@@ -264,6 +264,57 @@ fn a_snap_keeps_faces_from_getting_thin() {
     }
 }
 
+/// Moving the snapped vertices makes the seam straight and leaves faces well shaped; texture
+/// coordinates go with them.
+#[test]
+fn a_snap_that_moves_makes_the_seam_straight() {
+    let mut random = Random(53);
+    let (mut deviations, mut moved) = (Vec::new(), 0);
+    for sheet in sheets() {
+        for _ in 0..40 {
+            let (rays, _) = random_generic_rays(&sheet, &mut random);
+            let mut cutting = Cutting::new(&sheet);
+            let areas = |cutting: &Cutting| {
+                let of = |f| {
+                    let [a, b, c] = cutting.mesh.corners(f).map(|v| cutting.positions.at(v));
+                    (b - a).cross(&(c - a)).norm() / 2.0
+                };
+                cutting.mesh.faces().map(of).sum::<f64>()
+            };
+            let (before, altitude) = (
+                areas(&cutting),
+                altitudes(&cutting.mesh, &cutting.positions),
+            );
+            let scissor = scissor(rays).through(true).snap_move(true);
+            let report = cutting.cut(&scissor);
+            moved += cutting
+                .edits
+                .iter()
+                .filter(|edit| matches!(edit, tearmesh::Edit::Slide(_)))
+                .count();
+            deviations.push(report.seam_deviation_max_edges);
+            assert!((areas(&cutting) / before - 1.0).abs() < 1e-3);
+            let after = altitudes(&cutting.mesh, &cutting.positions);
+            let parents = parents(&cutting.edits, altitude.len());
+            for (child, after) in after.iter().enumerate() {
+                assert!(after / altitude[parents[child]] > 0.3 * 0.05 * 0.95);
+            }
+            // A corner that is less than the snap is touched and not cut off.
+            assert!(report.crumbs == 0 && report.lost <= 1, "{report:?}");
+        }
+    }
+    deviations.sort_by(f64::total_cmp);
+    let straight = deviations
+        .iter()
+        .filter(|deviation| **deviation < 1e-12)
+        .count();
+    println!(
+        "{moved} vertices moved, {straight} of {} seams straight",
+        deviations.len()
+    );
+    assert!(deviations[deviations.len() / 2] < 1e-12 && moved > 300);
+}
+
 /// The smallest altitude of each face.
 fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
     let of = |f| {
