@@ -20,13 +20,14 @@
 
 mod build;
 mod check;
+mod defect;
 mod diagnose;
 mod walk;
 
 use std::iter::FusedIterator;
 
-pub use build::{BuildError, Defect};
 pub use check::{Invariant, Violation};
+pub use defect::{BuildError, Defect, Faces, Fans};
 pub use walk::{BoundaryLoop, Components, Corners, Fan};
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
