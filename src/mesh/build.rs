@@ -25,7 +25,7 @@ impl Mesh {
     /// # Errors
     ///
     /// [`BuildError`] lists every [`Defect`](super::Defect), each with the ids concerned. To
-    /// name them takes O(n log n), and some ten bytes a face beside the error itself.
+    /// name them takes O(n log n), and up to twelve bytes a face beside the error itself.
     ///
     /// ```
     /// use tearmesh::{Defect, Mesh};

@@ -2,9 +2,10 @@
 //!
 //! A few bytes of input can make many defects with long lists of faces: in copies of one polygon
 //! of n corners each face is listed some three times. So a defect is stored as a record
-//! without a list of its own. The lists stand in one array of bytes: how many, then the first
+//! without a list of its own. The lists stand in blocks of bytes: how many, then the first
 //! number, then the steps from each to the next, in groups of seven bits, the lowest first. Lists
 //! ascend, and long ones have small steps: a byte a face. [`Defect`] is a view that reads them.
+//! (Blocks, since one array would be there twice whenever it grows.)
 //!
 //! A `Vec` a list was rejected: 24 bytes and an allocation for the two or three faces that most
 //! have, and four bytes a face where the lists are long.
@@ -20,7 +21,7 @@ use crate::id::{FaceId, VertexId};
 pub struct BuildError {
     /// Ascending.
     records: Vec<Record>,
-    lists: Vec<u8>,
+    lists: Vec<Vec<u8>>,
     /// The number of vertices, for the words.
     vertices: usize,
 }
@@ -47,7 +48,10 @@ impl BuildError {
     }
 
     fn view(&self, record: Record) -> Defect<'_> {
-        let bytes = |at: u64| &self.lists[at as usize..];
+        let bytes = |At(at): At| {
+            let block = &self.lists[(at >> At::OFFSET_BITS) as usize];
+            &block[(at & ((1 << At::OFFSET_BITS) - 1)) as usize..]
+        };
         match record {
             Record::TooManyVertices => Defect::TooManyVertices {
                 given: self.vertices,
@@ -261,7 +265,7 @@ enum Record {
     },
     DuplicateFaces {
         vertices: [VertexId; 3],
-        at: u64,
+        at: At,
     },
     Pillow {
         vertices: [VertexId; 3],
@@ -269,7 +273,7 @@ enum Record {
     },
     CrowdedEdge {
         ends: [VertexId; 2],
-        at: u64,
+        at: At,
     },
     FlippedFace {
         from: VertexId,
@@ -278,8 +282,17 @@ enum Record {
     },
     BowTie {
         vertex: VertexId,
-        at: u64,
+        at: At,
     },
+}
+
+/// Where a list begins: the block, and in the lower bits the byte of the block.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct At(u64);
+
+impl At {
+    /// A block has at most five bytes for each of 2^31 half-edges, and two numbers for each vertex.
+    const OFFSET_BITS: u32 = 40;
 }
 
 /// Collects defects, in any order.
@@ -289,7 +302,7 @@ impl Found {
     pub(super) fn new(vertices: usize) -> Found {
         Found(BuildError {
             records: Vec::new(),
-            lists: Vec::new(),
+            lists: vec![Vec::new()],
             vertices,
         })
     }
@@ -299,6 +312,23 @@ impl Found {
         let mut error = self.0;
         error.records.sort_unstable();
         (!error.records.is_empty()).then_some(error)
+    }
+
+    /// Puts the lists to come into a block of their own, unless the last one is empty.
+    pub(super) fn begin_block(&mut self) {
+        let lists = &mut self.0.lists;
+        let last = lists.last_mut().expect("there is always a block");
+        if !last.is_empty() {
+            last.shrink_to_fit();
+            lists.push(Vec::new());
+        }
+    }
+
+    fn block(&mut self) -> (&mut Vec<u8>, At) {
+        let number = self.0.lists.len() - 1;
+        let block = &mut self.0.lists[number];
+        let at = (number as u64) << At::OFFSET_BITS | block.len() as u64;
+        (block, At(at))
     }
 
     pub(super) fn count(&self) -> usize {
@@ -360,8 +390,8 @@ impl Found {
         fan_count: u32,
         fans: impl Iterator<Item = F>,
     ) {
-        let at = self.0.lists.len() as u64;
-        put(&mut self.0.lists, fan_count);
+        let (block, at) = self.block();
+        put(block, fan_count);
         for fan in fans {
             self.list(fan);
         }
@@ -369,13 +399,12 @@ impl Found {
     }
 
     /// Appends a list of ascending numbers; where it begins.
-    fn list(&mut self, faces: impl ExactSizeIterator<Item = u32>) -> u64 {
-        let lists = &mut self.0.lists;
-        let at = lists.len() as u64;
-        put(lists, faces.len() as u32);
+    fn list(&mut self, faces: impl ExactSizeIterator<Item = u32>) -> At {
+        let (block, at) = self.block();
+        put(block, faces.len() as u32);
         let mut last = 0;
         for face in faces {
-            put(lists, face - last);
+            put(block, face - last);
             last = face;
         }
         at

@@ -4,9 +4,9 @@
 //! rest of the mesh when one part of it is broken. O(n log n).
 //!
 //! Lean, since whoever is told must not run out of memory instead: what is sorted are bare
-//! numbers, whose keys are looked up in the triangles, and edges and vertices are gone through in
-//! batches. So beside the triangles and the list of defects there are four bytes a face, or
-//! about twice that where most faces meet at one edge or vertex.
+//! numbers, whose keys are looked up in the triangles, and a batch of them at a time. So beside
+//! the triangles and the list of defects there is a byte a face, or up to twelve
+//! where all faces meet at one vertex.
 
 use std::collections::BTreeMap;
 
@@ -106,19 +106,24 @@ impl Soup<'_> {
             vertices.sort_unstable();
             vertices
         };
-        let mut faces: Vec<u32> = Vec::with_capacity(self.triangles.len());
-        faces.extend(self.sound_faces());
-        faces.sort_unstable_by_key(|&f| (vertices(f), f));
-        for group in faces.chunk_by(|&f, &g| vertices(f) == vertices(g)) {
-            let shared = vertices(group[0]).map(VertexId::from_u32);
-            match *group {
-                [_] => {}
-                [f, g] if !self.is_rotation(f, g) => {
-                    found.pillow(shared, [f, g].map(FaceId::from_u32));
+        let bin_of = |f: u32| {
+            let [a, b, c] = vertices(f).map(u64::from);
+            bin((a << 42) ^ (b << 21) ^ c)
+        };
+        in_batches(self.sound_faces(), bin_of, |faces| {
+            found.begin_block();
+            faces.sort_unstable_by_key(|&f| (vertices(f), f));
+            for group in faces.chunk_by(|&f, &g| vertices(f) == vertices(g)) {
+                let shared = vertices(group[0]).map(VertexId::from_u32);
+                match *group {
+                    [_] => {}
+                    [f, g] if !self.is_rotation(f, g) => {
+                        found.pillow(shared, [f, g].map(FaceId::from_u32));
+                    }
+                    _ => found.duplicate_faces(shared, group.iter().copied()),
                 }
-                _ => found.duplicate_faces(shared, group.iter().copied()),
             }
-        }
+        });
     }
 
     fn is_rotation(self, f: u32, g: u32) -> bool {
@@ -127,11 +132,12 @@ impl Soup<'_> {
     }
 
     fn crowded_and_flipped_edges(self, found: &mut Found) {
-        let batch_of = |h: u32| {
+        let bin_of = |h: u32| {
             let [a, b] = self.ends(h).map(u64::from);
-            batch(a << 32 | b)
+            bin(a << 32 | b)
         };
-        self.in_batches(batch_of, |half_edges| {
+        in_batches(self.sound_half_edges(), bin_of, |half_edges| {
+            found.begin_block();
             half_edges.sort_unstable_by_key(|&h| (self.ends(h), h));
             for group in half_edges.chunk_by(|&h, &g| self.ends(h) == self.ends(g)) {
                 self.look_at_edge(group, found);
@@ -158,15 +164,14 @@ impl Soup<'_> {
 
     fn bow_ties(self, found: &mut Found) {
         let mut links = Links::default();
-        self.in_batches(
-            |h| batch(u64::from(self.origin(h))),
-            |corners| {
-                corners.sort_unstable_by_key(|&h| (self.origin(h), h));
-                for around in corners.chunk_by(|&h, &g| self.origin(h) == self.origin(g)) {
-                    self.look_at_vertex(around, &mut links, found);
-                }
-            },
-        );
+        let bin_of = |h: u32| bin(u64::from(self.origin(h)));
+        in_batches(self.sound_half_edges(), bin_of, |corners| {
+            found.begin_block();
+            corners.sort_unstable_by_key(|&h| (self.origin(h), h));
+            for around in corners.chunk_by(|&h, &g| self.origin(h) == self.origin(g)) {
+                self.look_at_vertex(around, &mut links, found);
+            }
+        });
     }
 
     /// Looks at the corners at one vertex. Faces round it belong to one fan if they share an edge
@@ -190,33 +195,50 @@ impl Soup<'_> {
         let fans = fans.map(|fan| fan.iter().map(|&(_, f)| f));
         found.bow_tie(vertex, fan_count, fans);
     }
-
-    /// Hands out all half-edges of sound faces, those of a batch together.
-    fn in_batches(self, batch_of: impl Fn(u32) -> usize, mut look: impl FnMut(&mut Vec<u32>)) {
-        let mut sizes = [0; BATCHES];
-        for h in self.sound_half_edges() {
-            sizes[batch_of(h)] += 1;
-        }
-        let most = sizes.iter().max().copied().unwrap_or(0);
-        let mut half_edges = Vec::with_capacity(most);
-        for (number, &size) in sizes.iter().enumerate() {
-            if size > 0 {
-                half_edges.clear();
-                half_edges.extend(self.sound_half_edges().filter(|&h| batch_of(h) == number));
-                look(&mut half_edges);
-            }
-        }
-    }
 }
 
-/// Each batch is a pass over the triangles, and takes a sixteenth of the memory
-/// (or what one edge or one vertex takes).
+/// Numbers are handed out in about so many batches, each of which is a pass over the triangles.
 const BATCHES: usize = 16;
 
-/// The batch of an edge or a vertex: the highest bits of a product with 2^64 over the golden ratio,
-/// which differ for neighbouring numbers.
-fn batch(key: u64) -> usize {
-    (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 60) as usize
+const BINS: usize = 1024;
+
+/// The bin of a face, an edge or a vertex: the highest bits of a product with 2^64 over the
+/// golden ratio, which differ for neighbours.
+fn bin(key: u64) -> usize {
+    (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 54) as usize
+}
+
+/// Hands out all numbers, those of a bin together. A batch is as many bins as have a sixteenth of
+/// the numbers, or one that has more.
+fn in_batches(
+    numbers: impl Iterator<Item = u32> + Clone,
+    bin_of: impl Fn(u32) -> usize,
+    mut look: impl FnMut(&mut [u32]),
+) {
+    let mut sizes = [0; BINS];
+    for number in numbers.clone() {
+        sizes[bin_of(number)] += 1;
+    }
+    let most = sizes.iter().max().copied().unwrap_or(0);
+    let limit = most.max(sizes.iter().sum::<usize>() / BATCHES);
+    let mut batch = Vec::with_capacity(limit);
+    let mut start = 0;
+    while start < BINS {
+        let mut end = start;
+        let mut size = 0;
+        while end < BINS && size + sizes[end] <= limit {
+            size += sizes[end];
+            end += 1;
+        }
+        batch.clear();
+        batch.extend(
+            numbers
+                .clone()
+                .filter(|&number| (start..end).contains(&bin_of(number))),
+        );
+        look(&mut batch);
+        start = end;
+    }
 }
 
 /// The link of a vertex: which neighbours faces join. A union-find forest.

@@ -43,9 +43,9 @@
 //!   kept byte for byte and in order. What is kept without being understood is reported, by line.
 //! * Every refusal has a code, line, column, the text, and what was expected. A mesh error names
 //!   the lines of its faces.
-//! * No input makes it panic, or reading it take more memory than the larger of 64 MiB and twelve
-//!   times the file. (Naming what is wrong with a mesh may take more: a million copies of one
-//!   face, twenty times.) Lines have at most 64 MiB, and polygons at most 4096 corners.
+//! * No input makes it panic, or take more memory than the larger of 64 MiB and twelve times the
+//!   file, to name and repair all that is wrong with its mesh included. Lines have at most
+//!   64 MiB, and polygons at most 4096 corners.
 //!
 //! # Codes
 //!

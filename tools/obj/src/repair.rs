@@ -95,7 +95,7 @@ impl Document {
 
     /// All triangles but the first on the same three vertices.
     fn on_the_same_vertices(&self, error: &BuildError) -> Dropped {
-        let mut dropped = Dropped::default();
+        let mut dropped = Dropped::none(self.triangles().len());
         for defect in error.defects() {
             match defect {
                 Defect::DuplicateFaces { faces, .. } => {
@@ -119,7 +119,6 @@ impl Document {
                 _ => {}
             }
         }
-        dropped.faces.sort_unstable();
         dropped
     }
 
@@ -132,7 +131,7 @@ impl Document {
                 push(&mut edges, (ends.map(u32::from), [None::<FaceId>; 2]));
             }
         }
-        let mut dropped = Dropped::default();
+        let mut dropped = Dropped::none(self.triangles().len());
         if edges.is_empty() {
             return dropped;
         }
@@ -167,7 +166,7 @@ impl Document {
     /// Drops triangles, and says so.
     fn drop_triangles(&mut self, dropped: Dropped) {
         self.report_drops(&dropped);
-        let mut gone = dropped.faces.into_iter().map(FaceId::index).peekable();
+        let gone = dropped.gone;
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
@@ -186,7 +185,7 @@ impl Document {
             for line in run.lines() {
                 let triangles = self.polygons.triangles(polygon);
                 let corners = self.polygons.corners(polygon);
-                if gone.peek().is_none_or(|&first| first >= triangles.end) {
+                if !gone[triangles.clone()].contains(&true) {
                     polygons.add(corners.map(|corner| self.polygons.corner(corner)));
                     for triangle in triangles {
                         keep(triangle, kept, false);
@@ -194,10 +193,7 @@ impl Document {
                     }
                     layout.push(Kind::Polygon, line);
                 } else {
-                    for triangle in triangles {
-                        if gone.next_if_eq(&triangle).is_some() {
-                            continue;
-                        }
+                    for triangle in triangles.filter(|&triangle| !gone[triangle]) {
                         let of_polygon = keep(triangle, kept, true);
                         kept += 1;
                         let corner =
@@ -373,9 +369,9 @@ impl Document {
 }
 
 /// Triangles to drop.
-#[derive(Default)]
 struct Dropped {
-    faces: Vec<FaceId>,
+    /// A mark for each triangle.
+    gone: Vec<bool>,
     /// Those that are reported, by reason.
     named: [Named; 3],
 }
@@ -406,13 +402,20 @@ enum Reason {
 }
 
 impl Dropped {
+    fn none(triangles: usize) -> Dropped {
+        Dropped {
+            gone: vec![false; triangles],
+            named: Default::default(),
+        }
+    }
+
     fn is_empty(&self) -> bool {
-        self.faces.is_empty()
+        self.named.iter().all(|named| named.count == 0)
     }
 
     /// Adds a triangle; they may come in any order.
     fn add(&mut self, drop: Drop) {
-        push(&mut self.faces, drop.face);
+        self.gone[drop.face.index()] = true;
         let named = match drop.reason {
             Reason::Duplicate => &mut self.named[0],
             Reason::Pillow => &mut self.named[1],
