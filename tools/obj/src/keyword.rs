@@ -1,6 +1,6 @@
 //! The keywords of the OBJ format, as far as statements are told apart by them.
 
-/// What kind of statement a keyword begins, apart from `v`, `vt`, `vn` and `f`.
+/// What kind of statement a keyword begins, apart from `v`, `vt`, `vn`, and `f` or `fo`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
     /// Structure that a cut leaves in place: nothing to warn of.

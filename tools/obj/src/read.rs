@@ -113,7 +113,9 @@ impl Reader {
         scan.at += keyword.len();
         match keyword {
             b"v" => self.vertex(line, &mut scan)?,
-            b"f" => self.face(line, &mut scan)?,
+            // `fo` (face outline) is older than version 2.11, of which the format says that it is
+            // still read, gives the same results as `f`, and is written as `f`.
+            b"f" | b"fo" => self.face(line, &mut scan)?,
             b"vt" => self.texture(line, &mut scan)?,
             b"vn" => self.normal(line, &mut scan)?,
             _ => return self.carry(line, &mut Scan { at: start, ..scan }),

@@ -122,7 +122,7 @@ pub(crate) enum Kind {
     Texture,
     /// `vn`
     Normal,
-    /// `f`
+    /// `f`, or `fo` as it was called once
     Polygon,
     /// Anything else, kept as bytes: whole lines, each with `\n` at its end.
     Text,

@@ -120,7 +120,7 @@ impl Counted {
 }
 
 impl Reader {
-    /// Carries a line through that begins with none of `v`, `vt`, `vn` and `f`; the cursor
+    /// Carries a line through that begins with none of `v`, `vt`, `vn`, `f` and `fo`; the cursor
     /// stands at its keyword, if it has one.
     pub(super) fn carry(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
         let start = scan.at;
