@@ -189,6 +189,7 @@ impl<'e> Faces<'e> {
     }
 
     /// Each of them.
+    #[must_use]
     pub fn iter(self) -> impl ExactSizeIterator<Item = FaceId> + Clone + use<'e> {
         let Faces { count, mut bytes } = self;
         let mut face = 0;
@@ -233,6 +234,7 @@ impl<'e> Fans<'e> {
     }
 
     /// The faces of each of them.
+    #[must_use]
     pub fn iter(self) -> impl ExactSizeIterator<Item = Faces<'e>> + Clone {
         let Fans { count, mut bytes } = self;
         (0..count).map(move |_| {

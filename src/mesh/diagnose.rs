@@ -110,7 +110,7 @@ impl Soup<'_> {
             let [a, b, c] = vertices(f).map(u64::from);
             bin((a << 42) ^ (b << 21) ^ c)
         };
-        in_batches(self.sound_faces(), bin_of, |faces| {
+        in_batches(&self.sound_faces(), bin_of, |faces| {
             found.begin_block();
             faces.sort_unstable_by_key(|&f| (vertices(f), f));
             for group in faces.chunk_by(|&f, &g| vertices(f) == vertices(g)) {
@@ -136,7 +136,7 @@ impl Soup<'_> {
             let [a, b] = self.ends(h).map(u64::from);
             bin(a << 32 | b)
         };
-        in_batches(self.sound_half_edges(), bin_of, |half_edges| {
+        in_batches(&self.sound_half_edges(), bin_of, |half_edges| {
             found.begin_block();
             half_edges.sort_unstable_by_key(|&h| (self.ends(h), h));
             for group in half_edges.chunk_by(|&h, &g| self.ends(h) == self.ends(g)) {
@@ -165,7 +165,7 @@ impl Soup<'_> {
     fn bow_ties(self, found: &mut Found) {
         let mut links = Links::default();
         let bin_of = |h: u32| bin(u64::from(self.origin(h)));
-        in_batches(self.sound_half_edges(), bin_of, |corners| {
+        in_batches(&self.sound_half_edges(), bin_of, |corners| {
             found.begin_block();
             corners.sort_unstable_by_key(|&h| (self.origin(h), h));
             for around in corners.chunk_by(|&h, &g| self.origin(h) == self.origin(g)) {
@@ -211,7 +211,7 @@ fn bin(key: u64) -> usize {
 /// Hands out all numbers, those of a bin together. A batch is as many bins as have a sixteenth of
 /// the numbers, or one that has more.
 fn in_batches(
-    numbers: impl Iterator<Item = u32> + Clone,
+    numbers: &(impl Iterator<Item = u32> + Clone),
     bin_of: impl Fn(u32) -> usize,
     mut look: impl FnMut(&mut [u32]),
 ) {

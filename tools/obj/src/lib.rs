@@ -71,8 +71,9 @@
 //!
 //! # Why not obj-rs
 //!
-//! obj-rs 0.7.4 is a fine reader of what a renderer needs, and our tests hold what we write against
-//! it. For a file that has to survive a cut it would not do:
+//! obj-rs 0.7.4 is a fine reader of what a renderer needs. Our tests hold what we read and write
+//! against it, and with the feature `obj-rs` a `RawObj` that a program already holds becomes a
+//! [`Document`] by `TryFrom`. For a file that has to survive a cut it would not do:
 //!
 //! * It keeps coordinates as `f32`: 11,755 of the 11,898 of a real gown would change. Comments are
 //!   gone, of several `o` only the last is left, and the order of groups with them, for they
@@ -94,6 +95,7 @@
 //! | `read.rs`, `read/` | bytes to document: lines, tokens, faces, references ahead, what is carried through, faults |
 //! | `triangulate.rs`, `triangulate/flip.rs` | polygons to triangles; diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
+//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, numbers |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
@@ -105,6 +107,8 @@ mod diagnostic;
 mod document;
 mod keyword;
 mod mesh;
+#[cfg(feature = "obj-rs")]
+mod raw;
 mod read;
 mod repair;
 mod store;
@@ -114,5 +118,7 @@ mod write;
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::{Corner, Document};
 pub use mesh::MeshError;
+#[cfg(feature = "obj-rs")]
+pub use raw::{Item, RawObjError};
 pub use repair::Repair;
 pub use write::WriteSummary;

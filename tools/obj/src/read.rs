@@ -14,6 +14,8 @@ mod forward;
 mod lines;
 mod scan;
 
+#[cfg(feature = "obj-rs")]
+pub(crate) use self::face::ARITY_MAX;
 pub(crate) use self::foreign::attached_length;
 
 use std::io::Read;
@@ -228,7 +230,8 @@ impl Reader {
 }
 
 impl Document {
-    fn shrink(&mut self) {
+    /// Gives back memory that was reserved and is not needed.
+    pub(crate) fn shrink(&mut self) {
         let Polygons {
             vertices,
             texture,
@@ -247,7 +250,8 @@ impl Document {
         self.text.shrink_to_fit();
     }
 
-    fn triangulate(&mut self) {
+    /// Cuts polygons into triangles, and says so.
+    pub(crate) fn triangulate(&mut self) {
         if self.polygons.all_triangles() {
             return;
         }
