@@ -28,6 +28,11 @@ impl Class {
     }
 }
 
+/// Whether a foreign statement belongs to the last `v` before it, as `ARCSim` reads it.
+pub(crate) fn is_said_of_vertex(keyword: &[u8]) -> bool {
+    matches!(keyword, b"nl" | b"ny" | b"nv" | b"vv")
+}
+
 /// How many tokens come before the indices of an uninterpreted statement whose indices count
 /// the vertices `v`; `None` if it has none.
 pub(crate) fn tokens_before_indices(keyword: &[u8]) -> Option<usize> {

@@ -41,6 +41,7 @@
 //!   coordinate or a normal; each corner keeps those it had.
 //! * Objects, groups, materials, smoothing groups, comments, and statements nobody has heard of are
 //!   kept byte for byte and in order. What is kept without being understood is reported, by line.
+//!   What `ARCSim` says of a vertex (`nl`, `ny`, `nv`, `vv`) is said of its copies, too.
 //! * Every refusal has a code, line, column, the text, and what was expected. A mesh error names
 //!   the lines of its faces.
 //! * No input makes it panic, or take more memory than the larger of 64 MiB and twelve times the
@@ -97,6 +98,7 @@
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
+//! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, numbers |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
@@ -111,6 +113,7 @@ mod mesh;
 mod raw;
 mod read;
 mod repair;
+mod said;
 mod store;
 mod triangulate;
 mod write;

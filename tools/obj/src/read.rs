@@ -16,7 +16,7 @@ mod scan;
 
 #[cfg(feature = "obj-rs")]
 pub(crate) use self::face::ARITY_MAX;
-pub(crate) use self::foreign::attached_length;
+pub(crate) use self::foreign::{attached_length, statements};
 
 use std::io::Read;
 

@@ -26,7 +26,8 @@ use tearmesh::{BuildError, Defect, FaceId, Fans, Mesh, VertexId};
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::{Document, Polygons};
 use crate::read::attached_length;
-use crate::store::{Kind, Layout, push};
+use crate::said::Said;
+use crate::store::{Kind, Layout, Run, extend, push};
 
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
@@ -251,6 +252,8 @@ impl Document {
             return; // Too many vertices for a mesh: it stays refused.
         }
         self.report_fans(&bow_ties);
+        let vertices: Vec<usize> = bow_ties.iter().map(|(vertex, _)| vertex.index()).collect();
+        let said = Said::in_document(self, &vertices);
         let lines = self.lines_of(bow_ties.iter().map(|(vertex, _)| vertex.index()));
         let mut added = Vec::with_capacity(copies);
         for (&(vertex, fans), &line) in bow_ties.iter().zip(&lines) {
@@ -264,10 +267,10 @@ impl Document {
                 for face in fan.iter() {
                     self.move_corner(face.index(), vertex.index() as u32, copy as u32);
                 }
-                added.push(line);
+                added.push((line, vertex.index()));
             }
         }
-        self.lay_out_vertices(&added);
+        self.lay_out_vertices(&added, &said);
     }
 
     /// Puts another vertex in the place of one of a triangle's.
@@ -298,37 +301,54 @@ impl Document {
             .collect()
     }
 
-    /// Makes room in the layout for new vertices, each on the line of the one it copies: behind
-    /// the last vertex and the foreign statements attached to it, where a split's would be.
-    fn lay_out_vertices(&mut self, added: &[u32]) {
+    /// Makes room in the layout for new vertices, each given by the line and the number of the one
+    /// it copies, and copies what is said of that: behind the last vertex and what is
+    /// attached to it, where a split's would be.
+    fn lay_out_vertices(&mut self, added: &[(u32, usize)], said: &Said) {
         let runs = self.layout.runs();
         let last = runs
             .iter()
             .rposition(|run| run.kind == Kind::Vertex)
             .expect("a bow-tie is a vertex");
+        // Whole runs before the new vertices, and a part of the text behind them.
+        let before = said.late.map_or(last + 1, |late| late + 1);
+        let length = |runs: &[Run]| -> usize {
+            let text = runs.iter().filter(|run| run.kind == Kind::Text);
+            text.map(|run| run.count as usize).sum()
+        };
+        let mut text_before = length(&runs[..before]);
         let mut layout = Layout::default();
-        let mut text = &self.text[..];
-        for &run in &runs[..=last] {
+        for &run in &runs[..before] {
             layout.append(run);
-            if run.kind == Kind::Text {
-                text = &text[run.count as usize..];
+        }
+        let mut rest = &runs[before..];
+        let mut behind = None;
+        if let [run, more @ ..] = rest
+            && run.kind == Kind::Text
+            && said.late.is_none()
+        {
+            let attached = attached_length(&self.text[text_before..][..run.count as usize]);
+            layout.append_text(attached, *run);
+            text_before += attached;
+            behind = Some((run.count as usize - attached, *run));
+            rest = more;
+        }
+        let mut copies = Vec::new();
+        for &(line, vertex) in added {
+            layout.push(Kind::Vertex, line);
+            let statements = said.of(vertex);
+            if !statements.is_empty() {
+                extend(&mut copies, statements);
+                layout.push_text(statements.len(), line);
             }
         }
-        let mut rest = &runs[last + 1..];
-        if let [run, behind @ ..] = rest
-            && run.kind == Kind::Text
-        {
-            let attached = attached_length(&text[..run.count as usize]);
-            layout.append_text(attached, *run);
-            layout.add_vertices(added);
-            layout.append_text(run.count as usize - attached, *run);
-            rest = behind;
-        } else {
-            layout.add_vertices(added);
+        if let Some((bytes, run)) = behind {
+            layout.append_text(bytes, run);
         }
         for &run in rest {
             layout.append(run);
         }
+        self.text.splice(text_before..text_before, copies);
         self.layout = layout;
     }
 

@@ -219,13 +219,6 @@ impl Layout {
         }
     }
 
-    /// Adds a vertex for each of these lines.
-    pub(crate) fn add_vertices(&mut self, lines: &[u32]) {
-        for &line in lines {
-            self.push(Kind::Vertex, line);
-        }
-    }
-
     pub(crate) fn runs(&self) -> &[Run] {
         &self.runs
     }
