@@ -115,8 +115,8 @@ pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side
 pub use id::{FaceId, HalfEdgeId, VertexId};
 pub use mass::{Ledger, MassError, Masses};
 pub use mesh::{
-    BoundaryLoop, BuildError, Components, Corners, Defect, Fan, Invariant, Mesh, TornError,
-    Violation,
+    BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
+    TornError, Violation,
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
