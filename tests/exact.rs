@@ -341,3 +341,21 @@ fn parents(edits: &Edits, faces: usize) -> Vec<usize> {
     }
     parents
 }
+
+#[test]
+fn random_cuts_of_all_methods_can_be_mended() {
+    let mut random = Random(59);
+    let mut done = crate::cut_mend::Done::default();
+    for _ in 0..4000 {
+        let bytes: Vec<u8> = (0..120).map(|_| (random.next() * 256.0) as u8).collect();
+        let result = std::panic::catch_unwind(|| crate::cut_mend::Case::from_bytes(&bytes).check());
+        let Ok(one) = result else {
+            panic!("{bytes:?}: {:?}", crate::cut_mend::Case::from_bytes(&bytes));
+        };
+        done.cuts += one.cuts;
+        done.inserted += one.inserted;
+        done.splits += one.splits;
+        done.merges += one.merges;
+    }
+    println!("{done:?}");
+}
