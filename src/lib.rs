@@ -65,7 +65,7 @@
 //! | 0 | `id` (ids), `geometry` (planes, rays, the tie rule), `exact` (sums without rounding) |
 //! | 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) |
 //! | 2 | [`split`], [`mend`] (merges), [`subdivide`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] |
-//! | 3 | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) |
+//! | 3 | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods), [`tear`] (the rule for an overstretched edge) |
 //! | 4 | `script` (drives all of it from bytes or text; behind a feature) |
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
@@ -104,6 +104,7 @@ pub mod shapes;
 pub mod slide;
 pub mod split;
 pub mod subdivide;
+pub mod tear;
 
 pub use attribute::{Blend, PerCorner, PerVertex};
 pub use edit::{

@@ -1,6 +1,7 @@
 //! The method `exact` against the oracle of straight cuts, which shares no code with it.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use tearmesh::{
     CutReport, Edits, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector, mend,
@@ -79,6 +80,66 @@ fn straight_cuts_satisfy_the_oracle() {
     }
     println!("{cuts} cuts");
     assert!(cuts >= 400, "only {cuts} cuts");
+}
+
+/// The triangles of a file, read in the plainest way: `v x y z` and `f a/… b/… c/…`, counted from 1.
+fn file(path: &Path) -> Surface {
+    let text = std::fs::read_to_string(path).expect("a file");
+    let mut surface = Surface {
+        points: Vec::new(),
+        faces: Vec::new(),
+    };
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        let keyword = words.next();
+        if keyword == Some("v") {
+            let numbers: Vec<f64> = words.map(|word| word.parse().expect("a number")).collect();
+            surface.points.push([numbers[0], numbers[1], numbers[2]]);
+        } else if keyword == Some("f") {
+            let index = |word: &str| word.split('/').next()?.parse::<u32>().ok();
+            let corners: Vec<u32> = words
+                .map(|word| index(word).expect("an index") - 1)
+                .collect();
+            for two in corners[1..].windows(2) {
+                surface.faces.push([corners[0], two[0], two[1]]);
+            }
+        }
+    }
+    surface
+}
+
+/// Flags, sleeves and, where `TEARMESH_CORPUS` names their folder, garments.
+#[test]
+fn straight_cuts_of_garments_satisfy_the_oracle() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let mut files = vec![
+        data.join("flag.obj"),
+        data.join("sleeve.obj"),
+        data.join("sheet.obj"),
+    ];
+    if let Some(corpus) = std::env::var_os("TEARMESH_CORPUS") {
+        let names = [
+            "arcsim_tshirt",
+            "arcsim_dress3",
+            "snug_tshirt",
+            "snug_tank",
+            "assistive_hospitalgown",
+        ];
+        files.extend(names.map(|name| Path::new(&corpus).join(name).with_extension("obj")));
+    }
+    let mut random = Random(61);
+    for path in files {
+        let before = file(&path);
+        for _ in 0..12 {
+            let (rays, cut) = random_generic_rays(&before, &mut random);
+            let mut cutting = Cutting::new(&before);
+            cutting.cut(&scissor(rays).through(cut.sides.is_empty()).snap(0.0));
+            if let Err(faults) = judge(&before, &cut, &cutting.surface()) {
+                panic!("{}: {}", path.display(), said(&faults));
+            }
+        }
+        println!("{}: 12 cuts", path.display());
+    }
 }
 
 /// Cuts across older cuts, whose ghost links the second one has to cross, satisfy the oracle too,

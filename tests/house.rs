@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// The floor of each module of the library; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 16] = [
+const FLOORS: [(&str, u32); 17] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
@@ -22,6 +22,7 @@ const FLOORS: [(&str, u32); 16] = [
     ("mass", 2),
     ("shapes", 2),
     ("scissor", 3),
+    ("tear", 3),
     ("script", 4),
 ];
 

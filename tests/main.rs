@@ -21,3 +21,4 @@ mod scissor;
 mod straight;
 mod straight_polylines;
 mod subdivide;
+mod tear;
