@@ -116,11 +116,13 @@
 mod bytes;
 mod shape;
 mod text;
+mod triangles;
 mod world;
 
 pub use shape::{GROWN_MAX, Shape};
 pub use text::ScriptError;
-pub use world::{Asked, AskedEnd, Step, Triangles, World};
+pub use triangles::Triangles;
+pub use world::{Asked, AskedEnd, Step, World};
 
 use crate::scissor::Tips;
 

@@ -201,7 +201,8 @@ impl State {
         let class = &self.model.soup().class;
         for one in 0..class.len() {
             for other in one + 1..class.len() {
-                if class[one] == class[other] {
+                // One pair of strangers for each vertex, which must be refused.
+                if class[one] == class[other] || other == one + 1 {
                     let [one, other] =
                         [one, other].map(|v| VertexId::new(v).expect("a small number"));
                     self.then(Kinds::All, depth, count, |world, observe| {
