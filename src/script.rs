@@ -79,7 +79,7 @@
 //!                 }
 //!                 self.divided.clear();
 //!             }
-//!             _ => unreachable!("there are three operations"),
+//!             _ => {} // A slide moves a vertex, and no corner.
 //!         }
 //!         self.next = edit.number() + 1;
 //!     }

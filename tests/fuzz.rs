@@ -117,6 +117,17 @@ fn what_fuzzing_found_stays_found() {
 }
 
 #[test]
+fn cuts_of_the_seeds_and_of_what_fuzzing_found_can_be_mended() {
+    let mut cuts = 0;
+    for folder in ["seeds/cut_mend", "regressions/cut_mend"] {
+        for bytes in inputs(folder) {
+            cuts += crate::cut_mend::Case::from_bytes(&bytes).check().cuts;
+        }
+    }
+    assert!(cuts >= 20, "only {cuts} cuts");
+}
+
+#[test]
 fn rays_of_the_seeds_and_of_what_fuzzing_found_cut_as_they_should() {
     let mut ends = [0; 4];
     for folder in ["seeds/scissor_rays", "regressions/scissor_rays"] {

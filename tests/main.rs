@@ -3,6 +3,8 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod cut_mend;
+mod exact;
 mod exhaustive;
 mod figures;
 mod fuzz;
@@ -16,4 +18,6 @@ mod properties;
 mod random;
 mod rays;
 mod scissor;
+mod straight;
+mod straight_polylines;
 mod subdivide;

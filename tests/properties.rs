@@ -5,7 +5,7 @@ use std::cell::Cell;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestError, TestRunner};
 use tearmesh::script::Script;
-use tearmesh::{Defect, Mesh};
+use tearmesh::{Defect, Faces, Mesh};
 
 use crate::lockstep::{self, Done};
 use crate::oracle::{Fault, faults, is_strict};
@@ -113,7 +113,7 @@ fn building_agrees_with_the_oracle(vertices: usize, triangles: &[[u32; 3]]) {
             assert_eq!(mesh.check(), []);
         }
         Err(error) => {
-            let mut named: Vec<Fault> = error.defects().iter().map(plain).collect();
+            let mut named: Vec<Fault> = error.defects().map(plain).collect();
             named.sort();
             assert_eq!(named, known, "what is wrong");
         }
@@ -121,35 +121,35 @@ fn building_agrees_with_the_oracle(vertices: usize, triangles: &[[u32; 3]]) {
 }
 
 /// A defect, in the words of the oracle.
-fn plain(defect: &Defect) -> Fault {
-    let numbers = |faces: &[tearmesh::FaceId]| faces.iter().map(|f| f.index()).collect();
+fn plain(defect: Defect<'_>) -> Fault {
+    let numbers = |faces: Faces<'_>| faces.iter().map(|f| f.index()).collect();
     match defect {
         Defect::IndexOutOfRange { face, corner, .. } => Fault::OutOfRange {
             face: face.index(),
-            corner: *corner,
+            corner,
         },
         Defect::RepeatedVertex { face, vertex } => Fault::Repeated {
             face: face.index(),
-            vertex: (*vertex).into(),
+            vertex: vertex.into(),
         },
         Defect::DuplicateFaces { faces, .. } => Fault::Duplicate {
             faces: numbers(faces),
         },
         Defect::Pillow { faces, .. } => Fault::Pillow {
-            faces: numbers(faces),
+            faces: faces.map(|f| f.index()).to_vec(),
         },
         Defect::CrowdedEdge { ends, faces } => Fault::Crowded {
             ends: ends.map(u32::from),
             faces: numbers(faces),
         },
         Defect::FlippedFace { from, to, faces } => Fault::Flipped {
-            from: (*from).into(),
-            to: (*to).into(),
-            faces: numbers(faces),
+            from: from.into(),
+            to: to.into(),
+            faces: faces.map(|f| f.index()).to_vec(),
         },
         Defect::BowTie { vertex, fans } => Fault::BowTie {
-            vertex: (*vertex).into(),
-            fans: fans.iter().map(|fan| numbers(fan)).collect(),
+            vertex: vertex.into(),
+            fans: fans.iter().map(numbers).collect(),
         },
         other => panic!("no small mesh has {other}"),
     }

@@ -59,6 +59,7 @@ impl Follower for Triangles {
                     self.relabel(renumbered.corners, renumbered.to);
                 }
             }
+            Edit::Slide(_) => {}
         }
         self.next_edit = edit.number() + 1;
     }

@@ -7,6 +7,9 @@
 //! Masses are integers.
 
 mod insert;
+pub(crate) mod naive_cut;
+pub(crate) mod spoil;
+pub(crate) mod straight;
 mod strict;
 
 pub(crate) use insert::{Child, End, Place, Spot, Unfit};
