@@ -380,3 +380,10 @@ fn regression_a_midpoint_cut_reads_only_positions_that_there_are() {
         ",
     );
 }
+
+/// A chord across a face without a point was passed over in silence.
+#[test]
+fn regression_a_chord_of_a_face_without_points_is_refused() {
+    regression("grid 1 1 0\ninsert 0 chord 0 0\ninsert 0 edge 3 32 face 0 1 1 1 chord 0 3");
+    regression("grid 2 2 0\ninsert 0 edge 0 32 edge 9 32 chord 2 4");
+}

@@ -1,13 +1,13 @@
 //! Properties of random scripts and of random triangle lists.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::cell::Cell;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestError, TestRunner};
 use tearmesh::script::Script;
 use tearmesh::{Defect, Faces, Mesh};
 
-use crate::lockstep;
+use crate::lockstep::{self, Done};
 use crate::oracle::{Fault, faults, is_strict};
 
 /// How many random cases each property gets, unless `TEARMESH_CASES` says otherwise.
@@ -47,7 +47,7 @@ fn scripts() -> impl Strategy<Value = Script> {
     (shape, operations).prop_map(|(shape, operations)| {
         let first = |bytes: [u8; 16]| {
             let saddle_first = [&[2], &bytes[..]].concat();
-            Script::from_bytes(&saddle_first).operations[0]
+            Script::from_bytes(&saddle_first).operations.swap_remove(0)
         };
         Script {
             shape: Script::from_bytes(&shape).shape,
@@ -58,11 +58,21 @@ fn scripts() -> impl Strategy<Value = Script> {
 
 #[test]
 fn every_step_agrees_with_the_oracle() {
-    let splits = AtomicUsize::new(0);
+    let sum = Cell::new(Done::default());
     let cases = for_all(&scripts(), |script| {
-        splits.fetch_add(lockstep::check(&script), Ordering::Relaxed);
+        let (done, more) = (sum.get(), lockstep::check(&script));
+        sum.set(Done {
+            splits: done.splits + more.splits,
+            insertions: done.insertions + more.insertions,
+            merges: done.merges + more.merges,
+            refused: done.refused + more.refused,
+        });
     });
-    println!("{cases} scripts with {} splits", splits.into_inner());
+    let done = sum.get();
+    println!("{cases} scripts: {done:?}");
+    let least = cases as usize / 10;
+    assert!(done.splits > 10 * least && done.insertions > 10 * least && done.merges > 10 * least);
+    assert!(done.refused > 10 * least);
 }
 
 #[test]
