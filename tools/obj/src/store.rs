@@ -62,6 +62,15 @@ impl Rows {
         &self.values[start as usize..end as usize]
     }
 
+    /// Drops all rows from this one on.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        if rows < self.ends.len() {
+            self.ends.truncate(rows);
+            let end = self.ends.last().map_or(0, |&end| end as usize);
+            self.values.truncate(end);
+        }
+    }
+
     /// The number of rows, up to the last that was set.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()
@@ -224,6 +233,21 @@ impl Layout {
         for &line in lines {
             self.push(Kind::Vertex, line);
         }
+    }
+
+    /// Drops the last vertices.
+    pub(crate) fn drop_last_vertices(&mut self, mut count: usize) {
+        if count == 0 {
+            return;
+        }
+        for run in self.runs.iter_mut().rev() {
+            if run.kind == Kind::Vertex {
+                let dropped = count.min(run.count as usize);
+                run.count -= dropped as u32;
+                count -= dropped;
+            }
+        }
+        self.runs.retain(|run| run.count > 0);
     }
 
     pub(crate) fn runs(&self) -> &[Run] {
