@@ -17,9 +17,12 @@
 //! Methods differ in what they split: see [`Method`]. Each returns a [`CutReport`] that says
 //! what was done and what was not.
 
+mod exact;
 mod measure;
+mod offsets;
 mod paper;
 mod partition;
+mod unshare;
 
 use std::fmt;
 
@@ -27,9 +30,11 @@ pub use measure::CutReport;
 
 use crate::edit::{Edits, Follower};
 use crate::geometry::{Plane, Point, Ray, Side, Vector, cross, dot, max_abs, scaled};
+use crate::id::VertexId;
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use measure::Survey;
+use offsets::Offsets;
 use paper::Form;
 
 /// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
@@ -50,24 +55,33 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
 /// assert_eq!((report.splits, report.pieces, report.separated), (9, 2, true));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scissor {
     plane: Plane,
     sides: [Plane; 2],
+    rays: [Ray; 2],
     skew: f64,
     through: bool,
     tips: Tips,
+    snap: f64,
+    snap_move: bool,
+    /// Where this cut goes on from another: vertices on the plane and on the first side plane.
+    joints: Vec<VertexId>,
 }
 
 /// How a cut is made. All methods share the rays, the report and the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Method {
+    /// Insert vertices where the plane crosses edges, so that the seam is straight. Adds faces,
+    /// always divides; with a snap ([`Scissor::snap`]) no face gets thin, and the seam is as far
+    /// from the plane as that allows.
+    #[default]
+    Exact,
     /// Label every face by its side of the plane, smooth the labels, and give
     /// each side its own vertices along the seam. Adds no face, always divides, and the seam
     /// runs along edges: on irregular meshes 1.04 to 1.15 times as long as the plane's line,
     /// and up to 0.9 edges away from it.
-    #[default]
     Partition,
     /// The paper's first form (Souza et al. 2014 §V): split the vertices on the positive side by
     /// the normal of the plane. Irregular meshes stay in one piece.
@@ -80,11 +94,17 @@ pub enum Method {
 
 /// What a method has to tell for the report.
 struct Outcome {
-    /// The side on which the method meant each face to be.
-    labels: Vec<Side>,
+    /// The side on which the method meant each face to be; `None` for one that may lie on both,
+    /// beyond a tip.
+    labels: Vec<Option<Side>>,
     /// The splits that were tried in vain.
     refused: usize,
+    ends: Ends,
 }
+
+/// The vertices at which each side plane ended a cut of the method `exact`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Ends([Vec<VertexId>; 2]);
 
 /// Where a finite cut ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -140,9 +160,95 @@ impl Scissor {
         Ok(Scissor {
             plane,
             sides,
+            rays: [*a, *b],
             skew,
             through: false,
             tips: Tips::default(),
+            snap: Scissor::SNAP,
+            snap_move: false,
+            joints: Vec::new(),
+        })
+    }
+
+    /// The default of [`Scissor::snap`].
+    pub const SNAP: f64 = 0.05;
+
+    /// How near an end of its edge, as a part of it, a crossing may be before the method `exact`
+    /// takes the end for the crossing. Brought into 0 … 0.49; NaN counts as 0.
+    ///
+    /// With 0 the seam is straight to the last digits, and thin faces are what they are. With
+    /// r, no new face has an altitude below r (1 − r) of that of the face it was part of.
+    #[must_use]
+    pub fn snap(self, snap: f64) -> Scissor {
+        let snap = if snap.is_nan() {
+            0.0
+        } else {
+            snap.clamp(0.0, 0.49)
+        };
+        Scissor { snap, ..self }
+    }
+
+    /// Whether the method `exact` moves a vertex that was taken for a crossing onto the plane,
+    /// along the edge of that crossing: the seam is straight then, and faces do not get thin
+    /// either, but the surface changes a little where it is curved.
+    ///
+    /// A vertex stays where it is if a face would turn over or lose 70 % of its altitude, if it
+    /// is torn already, or if it is on the boundary and the edge is not.
+    #[must_use]
+    pub fn snap_move(self, snap_move: bool) -> Scissor {
+        Scissor { snap_move, ..self }
+    }
+
+    /// The scissor that goes on from where a cut by this one ended, at its second ray, to
+    /// another ray.
+    ///
+    /// After a cut by the method `exact` the two cuts meet in one vertex (on each sheet of
+    /// the mesh that both rays meet): the new plane passes through its actual position, and the
+    /// vertex counts as lying on it. After another method, and where the cut had no end at the
+    /// second ray, this is the scissor of the two rays. Whether it cuts through, its tips and
+    /// its snap are those of this one.
+    ///
+    /// # Errors
+    ///
+    /// [`ScissorError::OneLine`] if both rays lie on one line, up to rounding.
+    ///
+    /// # Panics
+    ///
+    /// If the report is of another mesh than the positions.
+    pub fn continued(
+        &self,
+        report: &CutReport,
+        positions: &Positions,
+        to: &Ray,
+    ) -> Result<Scissor, ScissorError> {
+        let [_, from] = &self.rays;
+        let joints = report.ends_at_second_ray();
+        let distance = |&&v: &&VertexId| max_abs(positions.at(v) - from.origin());
+        let nearest = joints
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let scissor = match nearest {
+            None => Scissor::new(from, to)?,
+            Some(&v) => {
+                let at_joint = Ray::new(positions.at(v), from.direction());
+                let at_joint = at_joint.expect("a position and a direction that were accepted");
+                // The plane holds all of the first ray given, and the origin of the second.
+                let joined = Scissor::new(to, &at_joint)?;
+                let [at_end, at_joint] = joined.sides;
+                Scissor {
+                    sides: [at_joint, at_end],
+                    joints: joints.to_vec(),
+                    ..joined
+                }
+            }
+        };
+        Ok(Scissor {
+            rays: [*from, *to],
+            through: self.through,
+            tips: self.tips,
+            snap: self.snap,
+            snap_move: self.snap_move,
+            ..scissor
         })
     }
 
@@ -198,26 +304,63 @@ impl Scissor {
         positions: &mut Positions,
         edits: &mut Edits,
     ) -> Result<CutReport, CutError> {
-        if positions.next_edit() != edits.next_number() {
-            let (seen, made) = (positions.next_edit(), edits.next_number());
-            return Err(CutError::Unreplayed { seen, made });
-        }
-        if positions.len() != mesh.vertex_count() {
-            let (vertices, positions) = (mesh.vertex_count(), positions.len());
-            return Err(CutError::Positions {
-                vertices,
-                positions,
-            });
-        }
-        let survey = Survey::new(self, mesh, positions);
+        in_step(mesh, positions, edits)?;
+        let offsets = self.offsets(method, positions);
+        let survey = Survey::new(self, mesh, positions, &offsets);
         let first_edit = edits.next_number();
+        let outcome = self.make(method, mesh, positions, &offsets, true, edits);
+        Ok(survey.report(self, mesh, positions, outcome, edits, first_edit))
+    }
+
+    /// Cuts a mesh like [`Scissor::cut`], and measures nothing: what takes most of the time there
+    /// is to look at the whole mesh before and after. The log tells what was done.
+    ///
+    /// # Errors
+    ///
+    /// [`CutError`]; then nothing has changed.
+    ///
+    /// # Panics
+    ///
+    /// If `edits` was cleared before `positions` replayed it.
+    pub fn cut_only(
+        &self,
+        method: Method,
+        mesh: &mut Mesh,
+        positions: &mut Positions,
+        edits: &mut Edits,
+    ) -> Result<(), CutError> {
+        in_step(mesh, positions, edits)?;
+        let offsets = self.offsets(method, positions);
+        self.make(method, mesh, positions, &offsets, false, edits);
+        Ok(())
+    }
+
+    fn offsets(&self, method: Method, positions: &Positions) -> Offsets {
+        let offsets = Offsets::new(&self.plane, positions);
+        match method {
+            Method::Exact => offsets.rounded(),
+            _ => offsets,
+        }
+    }
+
+    /// Cuts. `label` asks for the side of every face.
+    fn make(
+        &self,
+        method: Method,
+        mesh: &mut Mesh,
+        positions: &mut Positions,
+        offsets: &Offsets,
+        label: bool,
+        edits: &mut Edits,
+    ) -> Outcome {
         let outcome = match method {
-            Method::Partition => partition::cut(self, mesh, positions, &survey, edits),
+            Method::Exact => exact::cut(self, mesh, positions, offsets, label, edits),
+            Method::Partition => partition::cut(self, mesh, positions, offsets, edits),
             Method::Uniform => paper::cut(self, Form::Uniform, mesh, positions, edits),
             Method::Alternating => paper::cut(self, Form::Alternating, mesh, positions, edits),
         };
         edits.replay(positions);
-        Ok(survey.report(self, mesh, positions, &outcome, edits, first_edit))
+        outcome
     }
 
     /// How far inside the nearer side plane a point lies; negative outside, and
@@ -249,6 +392,22 @@ impl Scissor {
         }
         (from <= to).then_some((from, to))
     }
+}
+
+/// Whether positions have seen every edit, and are those of this mesh.
+fn in_step(mesh: &Mesh, positions: &Positions, edits: &Edits) -> Result<(), CutError> {
+    if positions.next_edit() != edits.next_number() {
+        let (seen, made) = (positions.next_edit(), edits.next_number());
+        return Err(CutError::Unreplayed { seen, made });
+    }
+    if positions.len() != mesh.vertex_count() {
+        let (vertices, positions) = (mesh.vertex_count(), positions.len());
+        return Err(CutError::Positions {
+            vertices,
+            positions,
+        });
+    }
+    Ok(())
 }
 
 /// The direction of a ray, scaled to about length one.

@@ -51,8 +51,16 @@ pub struct Plan {
 
 #[derive(Clone, Copy, Debug)]
 enum Point {
-    Edge { h: HalfEdgeId, t: f64 },
-    Face { f: FaceId, weights: [f64; 3] },
+    /// At `t` from the origin of the half-edge, or if not `forward`, from its target.
+    Edge {
+        h: HalfEdgeId,
+        t: f64,
+        forward: bool,
+    },
+    Face {
+        f: FaceId,
+        weights: [f64; 3],
+    },
 }
 
 /// The number of a point in its plan, from 0.
@@ -110,7 +118,21 @@ impl Plan {
     /// Adds a point on an edge, at the part `t` of the way from the origin of `h` to its target;
     /// on a torn edge also on the other side, at the same `t`.
     pub fn on_edge(&mut self, h: HalfEdgeId, t: f64) -> PointId {
-        self.push(Point::Edge { h, t })
+        self.push(Point::Edge {
+            h,
+            t,
+            forward: true,
+        })
+    }
+
+    /// The same, at the part `t` of the way from the target of `h` to its origin. That is not
+    /// the same bits as `1 − t` the other way.
+    pub fn on_edge_backward(&mut self, h: HalfEdgeId, t: f64) -> PointId {
+        self.push(Point::Edge {
+            h,
+            t,
+            forward: false,
+        })
     }
 
     /// Adds a point in a face, at the weighted mean of its corners in their order. The
@@ -162,8 +184,10 @@ struct OnEdge {
     /// The smaller half-edge of the edge, and how far along it the point is.
     edge: HalfEdgeId,
     along: f64,
-    /// The half-edge that was given, and how far along that.
+    /// The half-edge that was given, and how far along that, or if not `forward`, from its
+    /// target.
     given: HalfEdgeId,
+    forward: bool,
     t: f64,
     /// The vertex on the side of the given half-edge, and that on the other.
     vertices: [VertexId; 2],
@@ -256,27 +280,30 @@ impl Work {
         let (mut on_edges, mut in_faces) = (Vec::new(), Vec::new());
         for (i, &point) in plan.points.iter().enumerate() {
             match point {
-                Point::Edge { h, t } => {
+                Point::Edge { h, t, forward } => {
                     if !(t > 0.0 && t < 1.0) {
                         return Err(Refusal::Parameter { half_edge: h, t });
                     }
-                    let ends = [mesh.origin(h), mesh.target(h)];
+                    let at = |from: VertexId, to: VertexId| Location::Edge {
+                        ends: if forward { [from, to] } else { [to, from] },
+                        t,
+                    };
                     let vertex = new_vertex();
-                    let at = Location::Edge { ends, t };
-                    self.placed.push(InsertedPoint { vertex, at });
+                    let here = at(mesh.origin(h), mesh.target(h));
+                    self.placed.push(InsertedPoint { vertex, at: here });
                     let mut vertices = [vertex; 2];
                     if let Some(ghost) = mesh.ghost_pair(h) {
                         let vertex = new_vertex();
                         vertices[1] = vertex;
-                        let ends = [mesh.target(ghost), mesh.origin(ghost)];
-                        let at = Location::Edge { ends, t };
-                        self.placed.push(InsertedPoint { vertex, at });
+                        let there = at(mesh.target(ghost), mesh.origin(ghost));
+                        self.placed.push(InsertedPoint { vertex, at: there });
                     }
                     let edge = mesh.pair_or_ghost(h).map_or(h, |g| g.min(h));
                     on_edges.push(OnEdge {
                         edge,
-                        along: if edge == h { t } else { 1.0 - t },
+                        along: if (edge == h) == forward { t } else { 1.0 - t },
                         given: h,
+                        forward,
                         t,
                         vertices,
                         point: PointId(i as u32),
@@ -449,7 +476,7 @@ fn outline(mesh: &Mesh, f: FaceId, on_edges: &[OnEdge], face: &mut Retriangulati
         let mut add = |on: &OnEdge| {
             let given = on.given == h;
             let vertex = on.vertices[usize::from(!given)];
-            face.on_edge(vertex, on.point, h, on.t, given);
+            face.on_edge(vertex, on.point, h, on.t, given == on.forward);
         };
         let here = &on_edges[start..start + count];
         if edge == h {

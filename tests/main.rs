@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod exact;
 mod exhaustive;
 mod figures;
 mod fuzz;
@@ -16,4 +17,6 @@ mod properties;
 mod random;
 mod rays;
 mod scissor;
+mod straight;
+mod straight_polylines;
 mod subdivide;

@@ -5,10 +5,10 @@
 //! al. 2014 §V). Both sentences are held here as measurements, so that nobody makes the
 //! paper's methods kinder than they are.
 
-use crate::random::{self, Random};
 use tearmesh::{CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, Vector, shapes};
 
 use crate::pieces::pieces_by_vertices;
+use crate::random::{self, Random};
 
 const METHODS: [Method; 3] = [Method::Uniform, Method::Alternating, Method::Partition];
 

@@ -241,7 +241,7 @@ fn midpoint_tips_cut_fewer_edges() {
     let ghost_pairs = |slit: Scissor| {
         [Tips::Vertex, Tips::Midpoint].map(|tips| {
             let (mut mesh, mut positions) = shapes::grid(10, 10);
-            cut(&slit.tips(tips), &mut mesh, &mut positions).ghost_pairs
+            cut(&slit.clone().tips(tips), &mut mesh, &mut positions).ghost_pairs
         })
     };
     // Edges 0.2–0.3 to 0.7–0.8 of the seam; the outer two have midpoints at 0.25 and 0.75.

@@ -82,6 +82,12 @@ impl Mesh {
             .unwrap_or(v)
     }
 
+    /// The vertices that were split from the same one as `v`, and `v` itself, each as often as it
+    /// has faces.
+    pub(crate) fn copies(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        Orbit::new(self, self.half_edge_of(v)).map(|h| self.origin(h))
+    }
+
     /// The corners of all vertices that were split from the vertex of `h`, and its own.
     pub(crate) fn orbit(&self, h: HalfEdgeId) -> Orbit<'_> {
         Orbit::new(self, Some(h))

@@ -6,7 +6,8 @@
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
-use super::{Outcome, Scissor};
+use super::offsets::Offsets;
+use super::{Ends, Outcome, Scissor};
 use crate::edit::{Edit, Edits};
 use crate::geometry::{Point, Side, angle, area, cross, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -61,11 +62,24 @@ pub struct CutReport {
     /// How far the vertex nearest to the slit is from it: the distance from the plane and
     /// that by which it lies outside the side planes, as the sides of a right angle.
     pub nearest_vertex: f64,
+    /// How far each tip of the seam lies beyond the nearer side plane; negative for one that
+    /// falls short. Ascending by vertex. A tip is an end of the seam inside the mesh.
+    pub tip_overshoots: Vec<f64>,
+    ends: Ends,
+}
+
+impl CutReport {
+    /// The vertices at which the second side plane ended a cut of the method `exact`: there
+    /// the next cut of a polyline goes on.
+    #[must_use]
+    pub fn ends_at_second_ray(&self) -> &[VertexId] {
+        &self.ends.0[1]
+    }
 }
 
 /// The mesh before a cut, as the slit sees it.
-pub(super) struct Survey {
-    offsets: Vec<f64>,
+pub(super) struct Survey<'o> {
+    offsets: &'o Offsets,
     /// Whether the slit meets each face.
     in_slit: Vec<bool>,
     faces_crossed: usize,
@@ -76,13 +90,13 @@ pub(super) struct Survey {
     nearest_vertex: f64,
 }
 
-impl Survey {
-    pub(super) fn new(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> Survey {
-        let offsets: Vec<f64> = positions
-            .as_slice()
-            .iter()
-            .map(|&p| scissor.plane.offset(p))
-            .collect();
+impl<'o> Survey<'o> {
+    pub(super) fn new(
+        scissor: &Scissor,
+        mesh: &Mesh,
+        positions: &Positions,
+        offsets: &'o Offsets,
+    ) -> Survey<'o> {
         let mut survey = Survey {
             offsets,
             in_slit: vec![false; mesh.face_count()],
@@ -95,17 +109,6 @@ impl Survey {
         };
         survey.follow_slit(scissor, mesh, positions);
         survey
-    }
-
-    /// A number with the sign of the signed distance of a vertex from the plane.
-    pub(super) fn offset(&self, v: VertexId) -> f64 {
-        self.offsets[v.index()]
-    }
-
-    /// Whether a face has vertices strictly on both sides of the plane.
-    pub(super) fn is_crossed(&self, mesh: &Mesh, f: FaceId) -> bool {
-        let offsets = mesh.corners(f).map(|v| self.offset(v));
-        offsets.iter().any(|&d| d < 0.0) && offsets.iter().any(|&d| d > 0.0)
     }
 
     /// Counts the pieces of an ideal cut, and measures the slit on the way.
@@ -133,7 +136,7 @@ impl Survey {
             let Some(pair) = mesh.pair(h) else { continue };
             let (f, g) = (h.face(), pair.face());
             let ends = [mesh.origin(h), mesh.target(h)];
-            let offsets = ends.map(|v| self.offset(v));
+            let offsets = ends.map(|v| self.offsets.of(v));
             if offsets == [0.0; 2] {
                 // The edge lies on the plane, so it is slit itself if the faces differ.
                 let sides = [(f, self.lone_side(mesh, f)), (g, self.lone_side(mesh, g))];
@@ -157,25 +160,25 @@ impl Survey {
             }
         }
         self.pieces_expected =
-            parts.count(|f, side| self.is_crossed(mesh, f) || side == self.lone_side(mesh, f));
+            parts.count(|f, side| self.offsets.cross(mesh, f) || side == self.lone_side(mesh, f));
     }
 
     /// The side of a face that is not crossed; one that lies on the plane is in front.
     fn lone_side(&self, mesh: &Mesh, f: FaceId) -> Side {
-        let offsets = mesh.corners(f).map(|v| self.offset(v));
+        let offsets = mesh.corners(f).map(|v| self.offsets.of(v));
         Side::of(offsets.into_iter().fold(0.0, f64::min))
     }
 
     /// Where the plane enters and leaves a crossed face: at a vertex, or on an edge.
     fn crossing(&self, mesh: &Mesh, positions: &Positions, f: FaceId) -> Option<[Point; 2]> {
-        if !self.is_crossed(mesh, f) {
+        if !self.offsets.cross(mesh, f) {
             return None;
         }
         let mut ends = [Point::origin(); 2];
         let mut found = 0;
         for h in f.half_edges() {
             let (a, b) = (mesh.origin(h), mesh.target(h));
-            let (da, db) = (self.offset(a), self.offset(b));
+            let (da, db) = (self.offsets.of(a), self.offsets.of(b));
             let point = if da == 0.0 {
                 positions.at(a)
             } else if (da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0) {
@@ -207,10 +210,12 @@ impl Survey {
         scissor: &Scissor,
         mesh: &Mesh,
         positions: &Positions,
-        outcome: &Outcome,
+        outcome: Outcome,
         edits: &Edits,
         first_edit: u64,
     ) -> CutReport {
+        let mut in_slit = self.in_slit.clone();
+        let mut tips = Tips::default();
         let pieces = mesh.components().count();
         let (angle_min_deg, altitude_min) = quality(mesh, positions);
         let mut splits = 0;
@@ -231,10 +236,18 @@ impl Survey {
                             let deviation = scissor.plane.distance(end).abs();
                             seam_deviation_max = seam_deviation_max.max(deviation);
                         }
+                        tips.add([mesh.origin(h), mesh.target(h)].map(|v| mesh.root(v)));
                     }
                 }
-                Edit::Insert(insert) => vertices_inserted += insert.points.len(),
-                Edit::Merge(_) => {}
+                Edit::Insert(insert) => {
+                    vertices_inserted += insert.points.len();
+                    // A child is where its parent was.
+                    let children = insert.children.iter();
+                    for child in children.filter(|child| child.face != child.parent) {
+                        in_slit.push(in_slit[child.parent.index()]);
+                    }
+                }
+                Edit::Merge(_) | Edit::Slide(_) => {}
             }
         }
         // A slit that only grazes a corner may be so short that the quotient is infinite.
@@ -252,7 +265,7 @@ impl Survey {
             pieces_expected: self.pieces_expected,
             crumbs: pieces.saturating_sub(self.pieces_expected),
             lost: self.pieces_expected.saturating_sub(pieces),
-            separated: self.separated(scissor, mesh, positions, &outcome.labels),
+            separated: separated(scissor, mesh, positions, &in_slit, &outcome),
             seam_length,
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,
@@ -262,40 +275,83 @@ impl Survey {
             altitude_min,
             missed: !self.in_slit.contains(&true),
             nearest_vertex: self.nearest_vertex,
+            tip_overshoots: tips.overshoots(scissor, mesh, positions),
+            ends: outcome.ends,
         }
     }
+}
 
-    fn separated(
-        &self,
-        scissor: &Scissor,
-        mesh: &Mesh,
-        positions: &Positions,
-        labels: &[Side],
-    ) -> bool {
-        let in_slit = |h: HalfEdgeId| self.in_slit[h.face().index()];
-        let label = |h: HalfEdgeId| labels[h.face().index()];
-        let shared_vertex = |v: VertexId| {
-            let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == side);
-            mesh.corners_of(v).any(in_slit)
-                && scissor.depth(positions.at(v)) > 0.0
-                && has(Side::Front)
-                && has(Side::Back)
-        };
-        let shared_edge = |h: HalfEdgeId| {
-            let Some(pair) = mesh.pair(h) else {
-                return false;
-            };
-            let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
-            let inside = |(from, to): (f64, f64)| {
-                let middle = (from + to) / 2.0;
-                from < to && scissor.depth(p + (q - p) * middle) > 0.0
-            };
-            label(h) != label(pair)
-                && (in_slit(h) || in_slit(pair))
-                && scissor.clip(p, q).is_some_and(inside)
-        };
-        !mesh.vertices().any(shared_vertex) && !mesh.edges().any(shared_edge)
+/// The ends of a seam.
+#[derive(Default)]
+struct Tips {
+    /// The roots of the ends of each edge of the seam.
+    ends: Vec<VertexId>,
+}
+
+impl Tips {
+    fn add(&mut self, roots: [VertexId; 2]) {
+        self.ends.extend(roots);
     }
+
+    /// Of each vertex with one edge of the seam that has not been split: how far beyond the
+    /// nearer side plane it is.
+    fn overshoots(mut self, scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> Vec<f64> {
+        if scissor.through {
+            return Vec::new();
+        }
+        self.ends.sort_unstable();
+        let ends = self.ends.chunk_by(|a, b| a == b);
+        let tips = ends
+            .filter(|of_root| of_root.len() == 1)
+            .map(|of_root| of_root[0]);
+        let joined = |&root: &VertexId| mesh.copies(root).all(|v| v == root);
+        let depth = |root: VertexId| {
+            let depths = scissor.sides.map(|side| side.distance(positions.at(root)));
+            depths[0].min(depths[1])
+        };
+        tips.filter(joined).map(|root| -depth(root)).collect()
+    }
+}
+
+fn separated(
+    scissor: &Scissor,
+    mesh: &Mesh,
+    positions: &Positions,
+    in_slit: &[bool],
+    outcome: &Outcome,
+) -> bool {
+    let Outcome { labels, ends, .. } = outcome;
+    // `tip_overshoots` tells of tips.
+    let is_tip = |v: VertexId| ends.0.iter().any(|of_side| of_side.contains(&v));
+    let in_slit = |h: HalfEdgeId| in_slit[h.face().index()];
+    let label = |h: HalfEdgeId| labels[h.face().index()];
+    let shared_vertex = |v: VertexId| {
+        let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == Some(side));
+        mesh.corners_of(v).any(in_slit)
+            && !is_tip(v)
+            && scissor.depth(positions.at(v)) > 0.0
+            && has(Side::Front)
+            && has(Side::Back)
+    };
+    let shared_edge = |h: HalfEdgeId| {
+        let Some(pair) = mesh.pair(h) else {
+            return false;
+        };
+        let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+        let inside = |(from, to): (f64, f64)| {
+            let middle = (from + to) / 2.0;
+            from < to && scissor.depth(p + (q - p) * middle) > 0.0
+        };
+        let differ = label(h)
+            .zip(label(pair))
+            .is_some_and(|(one, other)| one != other);
+        differ
+            && !is_tip(mesh.origin(h))
+            && !is_tip(mesh.target(h))
+            && (in_slit(h) || in_slit(pair))
+            && scissor.clip(p, q).is_some_and(inside)
+    };
+    !mesh.vertices().any(shared_vertex) && !mesh.edges().any(shared_edge)
 }
 
 /// A union-find forest over the two parts of each face.

@@ -16,7 +16,7 @@
 //! longer seam, because it may split the same vertex several times. They are here to be
 //! compared with: [`Method::Partition`](super::Method::Partition) is the one to use.
 
-use super::{Outcome, Scissor};
+use super::{Ends, Outcome, Scissor};
 use crate::edit::Edits;
 use crate::geometry::{Plane, Side, Vector, cross};
 use crate::id::{FaceId, HalfEdgeId};
@@ -51,11 +51,11 @@ pub(super) fn cut(
     let labels = mesh
         .faces()
         .map(|f| {
-            if positive(mesh, positions, f) == 3 {
+            Some(if positive(mesh, positions, f) == 3 {
                 Side::Front
             } else {
                 Side::Back
-            }
+            })
         })
         .collect();
     let crossed: Vec<FaceId> = mesh
@@ -90,7 +90,11 @@ pub(super) fn cut(
             }
         }
     }
-    Outcome { labels, refused }
+    Outcome {
+        labels,
+        refused,
+        ends: Ends::default(),
+    }
 }
 
 /// `N_tri × (D − C)` for the half-edge from C to D: in the plane of the face, pointing away from

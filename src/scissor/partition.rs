@@ -9,52 +9,44 @@
 //!    edge from the seam, so it ends. Raw labels leave crumbs of one face and a longer seam.
 //!    Without the rule for corners 70 of 20,000 random cuts of random sheets had a crumb;
 //!    with it, none.
-//! 3. **Unshare by fan.** At each vertex of the seam, faces that are joined through edges
-//!    that are not seam stay together. The fan with the smallest half-edge keeps
-//!    the vertex, every other one gets a vertex of its own. So both sides share no vertex
-//!    there, which is why the method always divides.
-//!
-//! The order of the splits does not change the fans: a split tears seam edges only,
-//! and those separate fans before and after.
+//! 3. **Unshare by fan** (`unshare.rs`), which is why the method always divides.
 
 use std::collections::VecDeque;
 
-use super::measure::Survey;
-use super::{Outcome, Scissor, Tips};
+use super::offsets::Offsets;
+use super::{Ends, Outcome, Scissor, Tips, unshare};
 use crate::classify;
 use crate::edit::Edits;
 use crate::geometry::{Point, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::split;
 
 pub(super) fn cut(
     scissor: &Scissor,
     mesh: &mut Mesh,
     positions: &Positions,
-    survey: &Survey,
+    offsets: &Offsets,
     edits: &mut Edits,
 ) -> Outcome {
     let mut labels: Vec<Side> = mesh
         .faces()
-        .map(|f| classify::side(mesh, f, |v| survey.offset(v)))
+        .map(|f| classify::side(mesh, f, |v| offsets.of(v)))
         .collect();
-    smooth(mesh, survey, &mut labels);
+    smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
     let seam = Seam::new(scissor, mesh, positions, &labels);
-    let mut fans = Fans::default();
-    for v in seam.vertices(scissor, mesh, positions) {
-        fans.find(mesh, v, |h| seam.cuts(h));
-        for faces in fans.leaving() {
-            split::faces(mesh, v, faces, edits).expect("a fan is some of a vertex's faces");
-        }
+    let vertices = seam.vertices(scissor, mesh, positions);
+    unshare::by_fan(mesh, &vertices, |h| seam.cuts(h), edits);
+    Outcome {
+        labels: labels.into_iter().map(Some).collect(),
+        refused: 0,
+        ends: Ends::default(),
     }
-    Outcome { labels, refused: 0 }
 }
 
-fn smooth(mesh: &Mesh, survey: &Survey, labels: &mut [Side]) {
-    let crossed = |f: FaceId| survey.is_crossed(mesh, f);
+fn smooth(mesh: &Mesh, offsets: &Offsets, labels: &mut [Side]) {
+    let crossed = |f: FaceId| offsets.cross(mesh, f);
     let mut queue: VecDeque<FaceId> = mesh.faces().filter(|&f| crossed(f)).collect();
     let mut queued = vec![false; mesh.face_count()];
     for f in &queue {
@@ -68,7 +60,7 @@ fn smooth(mesh: &Mesh, survey: &Survey, labels: &mut [Side]) {
             .filter(|g| labels[g.index()] != label)
             .count();
         let moves = match mesh.neighbours(f).count() {
-            1 => others == 1 && is_crumb(mesh, survey, labels, f),
+            1 => others == 1 && is_crumb(mesh, offsets, labels, f),
             neighbours => others >= 2 && 2 * others > neighbours,
         };
         if !moves {
@@ -91,11 +83,11 @@ fn smooth(mesh: &Mesh, survey: &Survey, labels: &mut [Side]) {
 /// Whether a face in a corner of the mesh, whose one neighbour has the other label, would be a
 /// crumb: the plane does not cut it off, because its own side of the plane goes on
 /// through its neighbours and reaches another face with its label.
-fn is_crumb(mesh: &Mesh, survey: &Survey, labels: &[Side], f: FaceId) -> bool {
+fn is_crumb(mesh: &Mesh, offsets: &Offsets, labels: &[Side], f: FaceId) -> bool {
     let label = labels[f.index()];
     let on_side = |v: VertexId| match label {
-        Side::Front => survey.offset(v) > 0.0,
-        Side::Back => survey.offset(v) < 0.0,
+        Side::Front => offsets.of(v) > 0.0,
+        Side::Back => offsets.of(v) < 0.0,
     };
     let mut reached = vec![f];
     let mut next = 0;
@@ -159,43 +151,5 @@ impl Seam {
                 && (scissor.tips == Tips::Midpoint || scissor.depth(positions.at(v)) >= 0.0)
         };
         mesh.vertices().filter(unshared).collect()
-    }
-}
-
-/// The faces of a vertex, grouped by fan. Reused from vertex to vertex.
-#[derive(Default)]
-struct Fans {
-    faces: Vec<FaceId>,
-    /// The smallest half-edge of each fan, and where its faces end.
-    fans: Vec<(HalfEdgeId, usize, usize)>,
-}
-
-impl Fans {
-    /// Groups the faces of `v` by the edges at `v` that join them: those with a pair for
-    /// which `cuts` does not hold.
-    fn find(&mut self, mesh: &Mesh, v: VertexId, cuts: impl Fn(HalfEdgeId) -> bool) {
-        self.faces.clear();
-        self.fans.clear();
-        let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !cuts(h));
-        for first in mesh.corners_of(v).filter(|&h| joined(h).is_none()) {
-            let start = self.faces.len();
-            let mut smallest = first;
-            let mut at = Some(first);
-            while let Some(h) = at {
-                self.faces.push(h.face());
-                smallest = smallest.min(h);
-                at = joined(h.prev());
-            }
-            self.fans.push((smallest, start, self.faces.len()));
-        }
-        self.fans.sort();
-    }
-
-    /// The faces of each fan that does not keep the vertex.
-    fn leaving(&self) -> impl Iterator<Item = &[FaceId]> {
-        self.fans
-            .iter()
-            .skip(1)
-            .map(|&(_, start, end)| &self.faces[start..end])
     }
 }

@@ -5,6 +5,9 @@
 //! edges are torn and which faces hang together is worked out anew from the triangles
 //! and the root of each vertex. Masses are integers.
 
+pub(crate) mod naive_cut;
+pub(crate) mod spoil;
+pub(crate) mod straight;
 mod strict;
 
 pub(crate) use strict::{Fault, faults, is_strict};

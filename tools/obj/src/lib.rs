@@ -127,14 +127,14 @@
 //!   byte order mark, a byte that is no UTF-8 even in a comment, CR line ends, a face before
 //!   its vertices.
 //! * It takes nan, infinity, `f 1 1 2` and a face of a million corners without a word.
-//! * It reads 60 MB/s where numbers and indices alone can be read at 290.
+//! * It takes three to five times as long to read the same file (`tools/bench/record/`).
 //!
 //! # Map
 //!
 //! | file | subject |
 //! |---|---|
 //! | `document.rs`, `store.rs` | the document, and the compact lists it is made of |
-//! | `read.rs`, `read/` | bytes to document: lines, tokens, faces, references ahead, what is carried through, faults |
+//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, references ahead, what is carried through, faults |
 //! | `triangulate.rs`, `triangulate/flip.rs` | polygons to triangles; diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `repair.rs` | defects mended, on request |

@@ -7,6 +7,7 @@
 //! One pass over the input in chunks of 64 KiB; nothing is allocated for a line. Several hundred
 //! megabytes a second.
 
+mod decimal;
 mod face;
 mod fault;
 mod foreign;
@@ -14,6 +15,7 @@ mod forward;
 mod lines;
 mod record;
 mod scan;
+mod usual;
 
 pub(crate) use self::foreign::attached_length;
 
@@ -54,7 +56,10 @@ impl Document {
         let mut lines = Lines::new(input);
         let mut reader = Reader::default();
         reader.start(&mut lines)?;
-        while let Some(line) = lines.next()? {
+        loop {
+            let (count, bytes) = reader.usual_lines(lines.buffered(), lines.number());
+            lines.skip_lines(count, bytes);
+            let Some(line) = lines.next()? else { break };
             reader
                 .statement(&line)
                 .map_err(|fault| textual(fault, &line).at(&line))?;

@@ -15,6 +15,7 @@ pub(crate) fn push<T>(list: &mut Vec<T>, value: T) {
 }
 
 /// Appends values, growing as [`push`] does.
+#[inline]
 pub(crate) fn extend<T: Copy>(list: &mut Vec<T>, values: &[T]) {
     if list.capacity() - list.len() < values.len() {
         grow(list, values.len());
@@ -103,10 +104,16 @@ impl Column {
     /// Gives the corner `index`, which comes after all that have one, an index.
     #[inline]
     pub(crate) fn set(&mut self, index: usize, value: u32) {
-        while self.values.len() < index {
+        self.set_all(index, &[value]);
+    }
+
+    /// Gives the corners from `first` on, which come after all that have one, an index each.
+    #[inline]
+    pub(crate) fn set_all(&mut self, first: usize, values: &[u32]) {
+        while self.values.len() < first {
             push(&mut self.values, Self::NONE);
         }
-        push(&mut self.values, value);
+        extend(&mut self.values, values);
     }
 
     #[inline]

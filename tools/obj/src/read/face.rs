@@ -188,7 +188,7 @@ pub(super) fn absolute(
 
 /// The first corner whose vertex an earlier corner has, after that one.
 #[inline]
-fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
+pub(super) fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
     match *corners {
         [a, b, c] if a != b && b != c && c != a => None,
         [a, b, c, d] if a != b && a != c && a != d && b != c && b != d && c != d => None,

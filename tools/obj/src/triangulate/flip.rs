@@ -163,13 +163,18 @@ fn for_each_diagonal(
 ) {
     for polygon in 0..polygons.len() {
         let vertices = &polygons.vertices[polygons.corners(polygon)];
-        if vertices.len() > 3 {
-            let corners = &triangulation.corners[polygons.triangles(polygon)];
-            for [i, j] in diagonals(corners, vertices.len()) {
-                visit(
-                    ends(vertices[usize::from(i)], vertices[usize::from(j)]),
-                    polygon,
-                );
+        if vertices.len() == 3 {
+            continue;
+        }
+        let corners = &triangulation.corners[polygons.triangles(polygon)];
+        match (vertices, corners) {
+            // Nearly all polygons are convex quads.
+            (&[a, _, c, _], [[0, 1, 2], [0, 2, 3]]) => visit(ends(a, c), polygon),
+            _ => {
+                for [i, j] in diagonals(corners, vertices.len()) {
+                    let [a, b] = [i, j].map(|corner| vertices[usize::from(corner)]);
+                    visit(ends(a, b), polygon);
+                }
             }
         }
     }

@@ -1,0 +1,343 @@
+//! The method `exact` against the oracle of straight cuts, which shares no code with it.
+
+use std::collections::BTreeMap;
+
+use tearmesh::{
+    CutReport, Edits, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector, mend,
+};
+
+use crate::oracle::straight::{Cut, Surface, judge, judge_polyline};
+use crate::random::Random;
+use crate::straight::{Rays, built, cases, random_generic_rays, said, surface, surfaces};
+use crate::straight_polylines::{random_corners, sheets};
+
+/// A mesh and all that follows it, in a cut.
+struct Cutting {
+    mesh: Mesh,
+    positions: Positions,
+    masses: Masses,
+    /// For each corner where it is: linear data, which has to stay so.
+    corners: PerCorner<[f64; 3]>,
+    edits: Edits,
+}
+
+impl Cutting {
+    fn new(surface: &Surface) -> Cutting {
+        let (mesh, positions) = built(surface);
+        let corners = mesh
+            .half_edges()
+            .map(|h| positions.at(mesh.origin(h)).into());
+        Cutting {
+            masses: Masses::area(&mesh, &positions, 1.0).expect("it has an area"),
+            corners: PerCorner::new(corners.collect()),
+            mesh,
+            positions,
+            edits: Edits::new(),
+        }
+    }
+
+    /// Cuts, and checks what holds of every cut.
+    fn cut(&mut self, scissor: &Scissor) -> CutReport {
+        let (mesh, positions) = (&mut self.mesh, &mut self.positions);
+        let report = scissor.cut(Method::Exact, mesh, positions, &mut self.edits);
+        let report = report.expect("positions are in step");
+        self.edits
+            .replay(&mut (&mut self.masses, &mut self.corners));
+        assert_eq!(self.mesh.check(), []);
+        assert!(self.masses.ledger().is_balanced());
+        for (h, corner) in self.mesh.half_edges().zip(self.corners.as_slice()) {
+            let apart = self.positions.at(self.mesh.origin(h)) - Point::from(*corner);
+            assert!(apart.norm() < 1e-12, "the data of {h} is {apart} off");
+        }
+        report
+    }
+
+    fn surface(&self) -> Surface {
+        surface(&(self.mesh.clone(), self.positions.clone()))
+    }
+}
+
+#[test]
+fn straight_cuts_satisfy_the_oracle() {
+    let mut cuts = 0;
+    for case in cases(52) {
+        let mut cutting = Cutting::new(&case.before);
+        let report = cutting.cut(&case.scissor().snap(0.0));
+        match judge(&case.before, &case.cut, &cutting.surface()) {
+            Ok(facts) => {
+                assert_eq!(report.pieces, facts.pieces, "{}", case.name);
+                let straight = (report.seam_length_ratio - 1.0).abs() < 1e-9;
+                assert!(straight || report.missed, "{report:?}");
+                let over = report.tip_overshoots.iter().any(|over| over.abs() > 1e-12);
+                assert!(!over && report.seam_deviation_max < 1e-12, "{report:?}");
+            }
+            Err(faults) => panic!("{}: {}", case.name, said(&faults)),
+        }
+        assert_eq!((report.lost, report.crumbs), (0, 0), "{}", case.name);
+        assert!(report.separated, "{}: {report:?}", case.name);
+        cuts += 1;
+    }
+    println!("{cuts} cuts");
+    assert!(cuts >= 400, "only {cuts} cuts");
+}
+
+/// Cuts across older cuts, whose ghost links the second one has to cross, satisfy the oracle too,
+/// and mending everything leaves the surface whole.
+#[test]
+fn cuts_across_cuts_satisfy_the_oracle_and_can_be_mended() {
+    let mut random = Random(37);
+    let (mut cuts, mut torn_edges_crossed) = (0, 0);
+    for (name, before) in surfaces() {
+        for _ in 0..13 {
+            let mut cutting = Cutting::new(&before);
+            for _ in 0..3 {
+                let before = cutting.surface();
+                let (rays, cut) = random_generic_rays(&before, &mut random);
+                let ghosts = cutting
+                    .mesh
+                    .half_edges()
+                    .filter(|&h| cutting.mesh.ghost_pair(h).is_some())
+                    .count();
+                cutting.cut(&scissor(rays).through(cut.sides.is_empty()).snap(0.0));
+                torn_edges_crossed += usize::from(ghosts > 0);
+                if let Err(faults) = judge(&before, &cut, &cutting.surface()) {
+                    panic!("{name}: {}", said(&faults));
+                }
+                cuts += 1;
+            }
+            let Cutting {
+                mut mesh,
+                positions,
+                mut masses,
+                mut edits,
+                ..
+            } = cutting;
+            let pieces = built(&before).0.components().count();
+            let stitches = mend::stitches(&mesh, |_| true);
+            mend::sew(
+                &mut mesh,
+                &positions,
+                &stitches,
+                |v| masses.at(v),
+                0.0,
+                &mut edits,
+            )
+            .expect("nothing moved");
+            edits.replay(&mut masses);
+            assert_eq!(mesh.check(), []);
+            assert!(masses.ledger().is_balanced());
+            assert!(mesh.half_edges().all(|h| mesh.ghost_pair(h).is_none()));
+            assert_eq!(mesh.components().count(), pieces, "{name}");
+        }
+    }
+    println!("{cuts} cuts, {torn_edges_crossed} of torn meshes");
+    assert!(cuts >= 300 && torn_edges_crossed >= 150);
+}
+
+fn scissor([a, b]: Rays) -> Scissor {
+    Scissor::new(&ray(a), &ray(b)).expect("a plane")
+}
+
+fn ray((origin, along): ([f64; 3], [f64; 3])) -> Ray {
+    Ray::new(Point::from(origin), Vector::from(along)).expect("a ray")
+}
+
+/// Cuts along a polyline of points of the plane z = 0, seen from above.
+fn along_polyline(cutting: &mut Cutting, corners: &[[f64; 2]], snap: f64) -> Vec<CutReport> {
+    let mut reports: Vec<CutReport> = Vec::new();
+    let mut last: Option<Scissor> = None;
+    for two in corners.windows(2) {
+        let [from, to] = [two[0], two[1]].map(crate::straight::down);
+        let scissor = match (&last, reports.last()) {
+            (Some(last), Some(report)) => last
+                .continued(report, &cutting.positions, &ray(to))
+                .expect("a plane"),
+            _ => scissor([from, to]).snap(snap),
+        };
+        reports.push(cutting.cut(&scissor));
+        last = Some(scissor);
+    }
+    reports
+}
+
+#[test]
+fn every_polyline_is_one_slit() {
+    let mut random = Random(41);
+    for snap in [0.0, Scissor::SNAP] {
+        let (mut polylines, mut joints, mut joined) = (0, 0, 0);
+        for sheet in sheets() {
+            let mut done = 0;
+            while done < 80 {
+                let corners = random_corners(&mut random);
+                let inside = |p: &[f64; 2]| p.iter().all(|x| *x > 0.03 && *x < 0.97);
+                if !corners.iter().all(inside) {
+                    continue;
+                }
+                done += 1;
+                let mut cutting = Cutting::new(&sheet);
+                let reports = along_polyline(&mut cutting, &corners, snap);
+                joints += corners.len() - 2;
+                // One slit inside a sheet is one more boundary loop.
+                let loops = cutting.mesh.boundary_loops().len();
+                let tips = reports.iter().map(|report| report.splits).sum::<usize>();
+                assert!(tips > 0);
+                if loops == 2 {
+                    joined += corners.len() - 2;
+                } else {
+                    println!("snap {snap}: {loops} loops on {corners:?}");
+                }
+            }
+            polylines += done;
+        }
+        println!("snap {snap}: {polylines} polylines, {joined} of {joints} joints");
+        assert_eq!(joined, joints, "snap {snap}");
+    }
+}
+
+#[test]
+fn polylines_satisfy_the_oracle() {
+    let mut random = Random(43);
+    let mut judged = 0;
+    for sheet in sheets() {
+        let mut done = 0;
+        while done < 40 {
+            let corners = random_corners(&mut random);
+            let cuts: Vec<Cut> = corners
+                .windows(2)
+                .map(|two| Cut::between([two[0], two[1]].map(crate::straight::down)))
+                .collect();
+            if !cuts
+                .iter()
+                .all(|cut| crate::oracle::straight::is_generic(&sheet, cut))
+            {
+                continue;
+            }
+            done += 1;
+            let mut cutting = Cutting::new(&sheet);
+            along_polyline(&mut cutting, &corners, 0.0);
+            if let Err(faults) = judge_polyline(&sheet, &cuts, &cutting.surface()) {
+                panic!("{corners:?}: {}", said(&faults));
+            }
+        }
+        judged += done;
+    }
+    assert_eq!(judged, 120);
+}
+
+/// The table of snap against quality: through cuts of a random sheet.
+#[test]
+fn a_snap_keeps_faces_from_getting_thin() {
+    let mut random = Random(47);
+    let mut table = BTreeMap::new();
+    for sheet in sheets() {
+        for _ in 0..40 {
+            let (rays, _) = random_generic_rays(&sheet, &mut random);
+            for (i, snap) in [0.0, 0.02, 0.05, 0.1, 0.2].into_iter().enumerate() {
+                let mut cutting = Cutting::new(&sheet);
+                let before = altitudes(&cutting.mesh, &cutting.positions);
+                let report = cutting.cut(&scissor(rays).through(true).snap(snap));
+                let after = altitudes(&cutting.mesh, &cutting.positions);
+                let parents = parents(&cutting.edits, before.len());
+                let ratio = |(child, altitude): (usize, &f64)| altitude / before[parents[child]];
+                let ratios: Vec<f64> = after.iter().enumerate().map(ratio).collect();
+                let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+                let bound = snap * (1.0 - snap);
+                assert!(
+                    least >= bound * (1.0 - 1e-9),
+                    "snap {snap}: {least} of {bound}"
+                );
+                let slivers = ratios.iter().filter(|ratio| **ratio < 0.02).count();
+                let row: &mut Vec<_> = table.entry(i).or_insert_with(Vec::new);
+                row.push((report.seam_deviation_max_edges, least, slivers));
+            }
+        }
+    }
+    for (i, mut row) in table {
+        row.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let least = row.iter().map(|one| one.1).fold(f64::INFINITY, f64::min);
+        let slivers = row.iter().map(|one| one.2).sum::<usize>() as f64 / row.len() as f64;
+        let median = row[row.len() / 2].0;
+        println!(
+            "snap {i}: deviation {median:.1e} edges, altitude ratio {least:.1e}, {slivers:.2} slivers a cut"
+        );
+        assert!(i < 2 || slivers == 0.0);
+    }
+}
+
+/// Moving the snapped vertices makes the seam straight and leaves faces well shaped; texture
+/// coordinates go with them.
+#[test]
+fn a_snap_that_moves_makes_the_seam_straight() {
+    let mut random = Random(53);
+    let (mut deviations, mut moved) = (Vec::new(), 0);
+    for sheet in sheets() {
+        for _ in 0..40 {
+            let (rays, _) = random_generic_rays(&sheet, &mut random);
+            let mut cutting = Cutting::new(&sheet);
+            let areas = |cutting: &Cutting| {
+                let of = |f| {
+                    let [a, b, c] = cutting.mesh.corners(f).map(|v| cutting.positions.at(v));
+                    (b - a).cross(&(c - a)).norm() / 2.0
+                };
+                cutting.mesh.faces().map(of).sum::<f64>()
+            };
+            let (before, altitude) = (
+                areas(&cutting),
+                altitudes(&cutting.mesh, &cutting.positions),
+            );
+            let scissor = scissor(rays).through(true).snap_move(true);
+            let report = cutting.cut(&scissor);
+            moved += cutting
+                .edits
+                .iter()
+                .filter(|edit| matches!(edit, tearmesh::Edit::Slide(_)))
+                .count();
+            deviations.push(report.seam_deviation_max_edges);
+            assert!((areas(&cutting) / before - 1.0).abs() < 1e-3);
+            let after = altitudes(&cutting.mesh, &cutting.positions);
+            let parents = parents(&cutting.edits, altitude.len());
+            for (child, after) in after.iter().enumerate() {
+                assert!(after / altitude[parents[child]] > 0.3 * 0.05 * 0.95);
+            }
+            // A corner that is less than the snap is touched and not cut off.
+            assert!(report.crumbs == 0 && report.lost <= 1, "{report:?}");
+        }
+    }
+    deviations.sort_by(f64::total_cmp);
+    let straight = deviations
+        .iter()
+        .filter(|deviation| **deviation < 1e-12)
+        .count();
+    println!(
+        "{moved} vertices moved, {straight} of {} seams straight",
+        deviations.len()
+    );
+    assert!(deviations[deviations.len() / 2] < 1e-12 && moved > 300);
+}
+
+/// The smallest altitude of each face.
+fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
+    let of = |f| {
+        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let longest = [(a, b), (b, c), (c, a)].map(|(p, q)| (q - p).norm());
+        (b - a).cross(&(c - a)).norm() / longest.into_iter().fold(0.0, f64::max)
+    };
+    mesh.faces().map(of).collect()
+}
+
+/// The face of the mesh before the edits that each face now is a part of.
+fn parents(edits: &Edits, faces: usize) -> Vec<usize> {
+    let mut parents: Vec<usize> = (0..faces).collect();
+    for edit in edits.iter() {
+        if let tearmesh::Edit::Insert(insert) = edit {
+            for child in insert
+                .children
+                .iter()
+                .filter(|child| child.face != child.parent)
+            {
+                parents.push(parents[child.parent.index()]);
+            }
+        }
+    }
+    parents
+}
