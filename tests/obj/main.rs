@@ -16,6 +16,7 @@ mod repair;
 mod round_trip;
 mod same_bytes;
 mod torn;
+mod torn_damage;
 mod torn_record;
 mod triangulate;
 

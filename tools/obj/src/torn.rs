@@ -15,8 +15,8 @@ pub(crate) use self::simplify::Removal;
 use std::io::{self, Write};
 
 use tearmesh::{
-    Blend, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, VertexId,
-    mend::Stitch,
+    Blend, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
+    VertexId, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
@@ -42,6 +42,8 @@ use crate::write::{Prepared, WriteSummary, write};
 /// * A corner has a texture coordinate or normal only if all its sources have one.
 /// * The new vertex of a split has the extra numbers of the old one; of two that are merged,
 ///   those of the one that is kept stay.
+/// * Where a vertex slides along an edge, its corners there take theirs with them, and so do all
+///   others that have the same index.
 ///
 /// ```
 /// use tearmesh::{Edits, HalfEdgeId, Positions, subdivide::Plan};
@@ -268,7 +270,9 @@ impl<'d> TornDocument<'d> {
     }
 
     fn insert(&mut self, insert: &Insert<'_>) {
-        let first = self.ancestry.len();
+        if insert.points.is_empty() {
+            return;
+        }
         let mut before: Option<&InsertedPoint> = None;
         for point in insert.points {
             match before.and_then(|twin| self.apart_as_twins(twin, point)) {
@@ -288,20 +292,35 @@ impl<'d> TornDocument<'d> {
             }
             if !self.extras.is_empty() {
                 let row = self.interpolated(&point.at);
-                let index = self.new_extras.len();
-                self.new_extras.set(index, &row);
-                self.extras
-                    .push((self.document.positions.len() + index) as u32);
+                let row = self.new_row(&row);
+                self.extras.push(row);
             }
         }
         let (document, ancestry) = (self.document, &self.ancestry);
         let corners = self.corners.get_or_insert_with(|| Corners::new(document));
         corners.insert(insert, |v| ancestry.class(v.index()));
-        debug_assert!(
-            first < self.ancestry.len(),
-            "an insertion inserts something"
-        );
         self.cut_is_used = true;
+    }
+
+    fn slide(&mut self, slide: &Slide<'_>) {
+        if !self.extras.is_empty() {
+            let ends = [slide.vertex, slide.toward];
+            let row = self.interpolated(&Location::Edge { ends, t: slide.t });
+            if !row.is_empty() {
+                self.extras[slide.vertex.index()] = self.new_row(&row);
+            }
+        }
+        let document = self.document;
+        if document.texture.len() + document.normals.len() > 0 {
+            let corners = self.corners.get_or_insert_with(|| Corners::new(document));
+            corners.slide(slide);
+        }
+    }
+
+    fn new_row(&mut self, row: &[f64]) -> u32 {
+        let index = self.new_extras.len();
+        self.new_extras.set(index, row);
+        (self.document.positions.len() + index) as u32
     }
 
     /// The cut since which the two sides of a torn edge are apart, if these two points are on
@@ -394,6 +413,7 @@ impl Follower for TornDocument<'_> {
                     self.extras.swap_remove(merge.gone.index());
                 }
             }
+            Edit::Slide(slide) => self.slide(slide),
             _ => panic!(
                 "edit {} is of a kind that no document follows",
                 edit.number()

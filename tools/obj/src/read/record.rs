@@ -95,6 +95,7 @@ impl RecordReader {
         if let (None, ReadError::Refused(diagnostic)) = (&self.warning, fault.at(line)) {
             self.warning = Some(Diagnostic {
                 level: Level::Warning,
+                code: CODE, // A number that cannot be read has another.
                 help: Some(diagnostic.help.unwrap_or_else(|| HELP.to_owned())),
                 ..*diagnostic
             });

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::{Blend, Child, Insert, Source, VertexId};
+use tearmesh::{Blend, Child, HalfEdgeId, Insert, Slide, Source, VertexId};
 
 use super::Slots;
 use crate::document::Document;
@@ -113,6 +113,36 @@ impl<'d> Corners<'d> {
                         let made = &mut made[which];
                         self.index(source, before, class, which, made)
                     });
+                }
+            }
+        }
+    }
+
+    /// Follows a vertex that slides: the corners in the faces of the edge get an index between
+    /// those at its ends, and corners that had the same index as these get it with them.
+    pub(super) fn slide(&mut self, slide: &Slide<'_>) {
+        for which in 0..2 {
+            let mut changes: Vec<(HalfEdgeId, [u32; 2], u32)> = Vec::new();
+            for [corner, toward] in slide.along.into_iter().flatten() {
+                let ends @ [from, to] = [corner, toward].map(|h| self.corners[h.index()][which]);
+                if from == to || from == NONE || to == NONE {
+                    continue;
+                }
+                let made = changes.iter().find(|(_, of, _)| *of == ends);
+                let (between, weights) = ([from, to, to], [1.0 - slide.t, slide.t, 0.0]);
+                let index = match made {
+                    Some(&(.., index)) => index,
+                    None if which == 0 => self.new_texture_between(between, weights, true),
+                    None => self.new_normal_between(between, weights, true),
+                };
+                changes.push((corner, ends, index));
+            }
+            for &h in slide.corners {
+                let index = &mut self.corners[h.index()][which];
+                let own = changes.iter().find(|(corner, ..)| *corner == h);
+                let same = || changes.iter().find(|(_, [from, _], _)| from == index);
+                if let Some(&(.., after)) = own.or_else(same) {
+                    *index = after;
                 }
             }
         }

@@ -209,6 +209,9 @@ impl Going {
         }
         let class_at = |h: usize| classes[mesh.indices()[h] as usize];
         let parents = torn.parents();
+        for &class in parents.iter().flat_map(|parent| &parent.corners) {
+            goes[class as usize] = false; // Of a parent that no honest record has.
+        }
         // What a parent has inside stands and falls with it.
         let mut within: Vec<(u32, u32)> = Vec::new();
         let mut candidates: Vec<Option<Restored>> = Vec::with_capacity(parents.len());
@@ -275,9 +278,6 @@ impl Going {
             if staying.is_empty() {
                 break;
             }
-        }
-        for candidate in candidates.iter().flatten() {
-            debug_assert!(candidate.parent.first < candidate.parent.end);
         }
         Going {
             goes,
