@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use tearmesh::subdivide::Plan;
-use tearmesh::{Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, VertexId, mend, split};
+use tearmesh::{
+    Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId,
+    mend, split,
+};
 use tearmesh_obj::{Document, TornDocument};
 
 use super::random::Random;
@@ -389,4 +392,67 @@ vt 6 6\nvn 1 0 0\nvn 0 1 0\nf 1/1/1 2/2/1 3/3/2\nf 3/3/2 2/2/1 4/4/2\nf 3/5/2 4/
         }
         assert_eq!(users[&6], 5, "2 corners of one face and 3 of the other");
     }
+}
+
+/// Straight cuts through, into and across each other, on real sheets: undone one by one in another
+/// session, and simplified.
+#[test]
+fn straight_cuts_are_undone_to_the_byte() {
+    let ray = |x, y| Ray::new(Point::new(x, y, 50.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray");
+    for (name, bytes) in files().into_iter().filter(|(name, _)| name != "late") {
+        let document = read(&bytes);
+        let points = document.positions();
+        let of = |axis: usize, part: f64| {
+            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            for point in points {
+                least = least.min(point[axis]);
+                most = most.max(point[axis]);
+            }
+            least + part * (most - least)
+        };
+        let mut work = Work::on(&document);
+        let mut inserted = 0;
+        for ends in [[[0.31, 1.5], [0.37, 0.4]], [[0.1, 0.63], [0.8, 0.71]]] {
+            let [a, b] = ends.map(|[x, y]| ray(of(0, x), of(1, y)));
+            let scissor = Scissor::new(&a, &b).expect("a plane");
+            let before = work.mesh.face_count();
+            scissor
+                .cut(
+                    Method::Exact,
+                    &mut work.mesh,
+                    &mut work.positions,
+                    &mut work.edits,
+                )
+                .expect("positions in step");
+            work.follow();
+            work.torn.next_cut();
+            inserted += work.mesh.face_count() - before;
+        }
+        assert!(inserted > 20, "{name}: {inserted} faces");
+        assert_eq!(work.torn.cuts(), [1, 2], "{name}");
+        let file = survives(&work, &name);
+        let again = read(&file);
+        let mut work = Work::on(&again);
+        for left in [1, 0] {
+            work.sew(&work.torn.stitches_of_last(1));
+            assert_eq!(work.torn.cuts().len(), left, "{name}");
+        }
+        let simple = work.torn.simplified(&work.mesh, &work.positions);
+        let simple = simple
+            .expect("positions are as they were")
+            .expect("it was cut");
+        if name != "quilt" {
+            let bytes = Work::on(&simple).written();
+            assert_eq!(text(&bytes), text(&rewritten(&source(&name))));
+        }
+        assert_eq!(simple.triangles(), document.triangles(), "{name}");
+        assert_eq!(simple.positions(), document.positions(), "{name}");
+        assert_eq!(simple.texture_count(), document.texture_count(), "{name}");
+    }
+}
+
+fn source(name: &str) -> Vec<u8> {
+    let all = files().into_iter();
+    let mut of_name = all.filter(|(other, _)| other == name);
+    of_name.next().expect("a fixture").1
 }

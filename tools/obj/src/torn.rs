@@ -221,10 +221,8 @@ impl<'d> TornDocument<'d> {
     #[must_use]
     pub fn faces_in_order(&self) -> Vec<FaceId> {
         let slots = self.slots();
-        let faces = slots.faces.iter().map(|&f| FaceId::new(f as usize));
-        faces
-            .map(|f| f.expect("the mesh has as many faces"))
-            .collect()
+        let faces = slots.faces.iter();
+        faces.filter_map(|&f| FaceId::new(f as usize)).collect()
     }
 
     /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it

@@ -110,7 +110,7 @@ impl RecordReader {
             let fault = Fault::new(CODE, start..scan.at, message, "begins here");
             return Err(fault.help("files that are joined have to be written anew"));
         }
-        let version = scan.find_token().then(|| scan.at);
+        let version = scan.find_token().then_some(scan.at);
         if let Some(at) = version
             && scan.integer().is_some_and(|version| version > VERSION)
             && scan.at_token_end()
