@@ -71,6 +71,37 @@ fn filled(start: &str, mib: usize, mut line: impl FnMut(usize) -> String) -> Vec
     file
 }
 
+/// A triangle, and the first line of a record.
+const RECORD: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
+    #tearmesh record 1 v 2000000000 f 2000000000 vt 0 0 vn 0 0 faces 0123456789abcdef\n";
+
+/// Triangles that have only one vertex in common, which a record that fits says of its copies.
+fn fans_joined(count: usize) -> Vec<u8> {
+    let (mut file, mut faces, mut items) =
+        (String::from("v 0 0 0\n"), String::new(), String::new());
+    let first = 2 * count + 2;
+    let mut corners = vec![(3 * count) as u64];
+    file += &"v 1 0 0\nv 0 1 0\n".repeat(count);
+    for i in 0..count {
+        let apex = if i == 0 { 1 } else { first + i - 1 };
+        let [a, b] = [2 * i + 2, 2 * i + 3];
+        faces += &format!("f {apex} {a} {b}\n");
+        corners.extend([apex, a, b].map(|v| v as u64 - 1));
+        if i > 0 {
+            file += "v 0 0 0\n";
+            items += &format!("#~ fan {apex} 1\n");
+        }
+    }
+    let hash = super::torn_damage::hash_of_faces(&corners);
+    let items_hash = super::torn_damage::hash(items.as_bytes());
+    let (vertices, copies) = (3 * count, count - 1);
+    file += &format!(
+        "{faces}#tearmesh record 1 v {vertices} f {count} vt 0 0 vn 0 0 faces {hash:016x}\n\
+         {items}#tearmesh end {copies} {items_hash:016x}\n"
+    );
+    file.into_bytes()
+}
+
 #[test]
 fn reading_takes_no_more_memory_than_promised() {
     if !cfg!(target_os = "linux") {
@@ -170,6 +201,23 @@ fn reading_takes_no_more_memory_than_promised() {
                 )
             }),
         ),
+        (
+            "splits on record",
+            filled(RECORD, 12, |i| format!("#~ split {} 1 1\n", i + 2)),
+        ),
+        (
+            "fans on record",
+            filled(RECORD, 12, |i| format!("#~ fan {} 1\n", i + 2)),
+        ),
+        (
+            "edges on record",
+            filled(RECORD, 12, |i| format!("#~ edge {} 1 1 2 .5\n", i + 3)),
+        ),
+        (
+            "parents on record",
+            filled(RECORD, 12, |i| format!("#~ parent {0} {0} 1 2 3\n", i + 1)),
+        ),
+        ("fans joined", fans_joined(300_000)),
         (
             "bow-ties",
             filled("v 0 0 0\n", 12, |i| {

@@ -5,16 +5,19 @@
 
 use std::fmt;
 
-use tearmesh::{BuildError, Defect, FaceId, Faces, Fans, Mesh, VertexId};
+use tearmesh::{BuildError, Defect, FaceId, Faces, Fans, Mesh, TornError, VertexId};
 
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
+use crate::record::Record;
 
 /// How many defects are put into words, and how many lines one of them lists.
 const SHOWN: usize = 20;
 
 impl Document {
-    /// Builds the mesh of the triangles.
+    /// Builds the mesh of the triangles; of a file with a record of tears, the torn mesh
+    /// that was written, with every vertex, pair and ghost pair, and its faces in the order of
+    /// the file.
     ///
     /// # Errors
     ///
@@ -29,13 +32,25 @@ impl Document {
     /// # Ok::<(), tearmesh_obj::ReadError>(())
     /// ```
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
-        Mesh::build(self.positions.len(), self.triangles()).map_err(|error| {
+        let built = match &self.record {
+            None => Mesh::build(self.positions.len(), self.triangles()),
+            Some(record) => self.torn_mesh(record),
+        };
+        built.map_err(|error| {
             let shown = error
                 .defects()
                 .take(SHOWN)
                 .map(|defect| self.describe(defect))
                 .collect();
             MeshError { error, shown }
+        })
+    }
+
+    fn torn_mesh(&self, record: &Record) -> Result<Mesh, BuildError> {
+        let roots = record.roots(self.positions.len());
+        Mesh::build_torn(self.triangles(), &roots).map_err(|error| match error {
+            TornError::Build(error) => error,
+            _ => unreachable!("the reader has checked the roots of a record: {error}"),
         })
     }
 

@@ -13,6 +13,7 @@ mod fault;
 mod foreign;
 mod forward;
 mod lines;
+mod record;
 mod scan;
 mod usual;
 
@@ -29,6 +30,7 @@ use self::fault::{Fault, Parsed, quoted, refuse};
 use self::foreign::{Tally, binary};
 use self::forward::{Forward, beyond};
 use self::lines::{Line, Lines};
+use self::record::RecordReader;
 use self::scan::Scan;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::{Document, Polygons};
@@ -75,6 +77,7 @@ struct Reader {
     document: Document,
     forward: [Forward; 3],
     tally: Tally,
+    record: RecordReader,
 }
 
 impl Reader {
@@ -200,6 +203,7 @@ impl Reader {
         if self.document.polygons.len() == 0 {
             return Err(self.no_face(last_line));
         }
+        self.record.finish(&mut self.document);
         self.document.shrink();
         self.document.triangulate();
         self.tally.report(&mut self.document.diagnostics);

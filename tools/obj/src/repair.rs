@@ -52,6 +52,7 @@ impl Document {
     /// Vertices, texture coordinates and normals keep their numbers, so that elements and foreign
     /// statements stay right; a copy of a vertex has its position and extra numbers.
     ///
+    /// A file with a record of tears is not repaired.
     /// What is beyond repair, such as a flipped face, is left for [`Document::mesh`] to refuse.
     ///
     /// ```
@@ -69,6 +70,9 @@ impl Document {
     /// ```
     #[must_use]
     pub fn repaired(mut self, repair: Repair) -> Document {
+        if self.record.is_some() {
+            return self; // What would be a bow-tie without its record is none.
+        }
         let Err(mut error) = self.build() else {
             return self;
         };

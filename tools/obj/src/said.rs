@@ -67,3 +67,10 @@ impl Said {
             .map_or(&[], |statements| &statements[..])
     }
 }
+
+/// Lines behind a vertex that is dropped, without those that say something of it.
+pub(crate) fn left_without_vertex(lines: &[u8]) -> Vec<u8> {
+    let others = statements(lines).filter(|&(keyword, _)| !is_said_of_vertex(keyword));
+    let others = others.flat_map(|(_, statement)| statement);
+    others.copied().collect()
+}

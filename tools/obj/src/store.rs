@@ -63,6 +63,15 @@ impl Rows {
         &self.values[start as usize..end as usize]
     }
 
+    /// Drops all rows from this one on.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        if rows < self.ends.len() {
+            self.ends.truncate(rows);
+            let end = self.ends.last().map_or(0, |&end| end as usize);
+            self.values.truncate(end);
+        }
+    }
+
     /// The number of rows, up to the last that was set.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()
@@ -224,6 +233,49 @@ impl Layout {
         if bytes > 0 {
             self.push_text(bytes, run.line);
         }
+    }
+
+    /// Drops the last vertices, and for each text run behind one the statements in it that do
+    /// not pass: what was said of a vertex goes with it.
+    pub(crate) fn drop_last_vertices(
+        &mut self,
+        count: usize,
+        text: &mut Vec<u8>,
+        passes: impl Fn(&[u8]) -> Vec<u8>,
+    ) {
+        if count == 0 {
+            return;
+        }
+        let vertices = |run: &Run| match run.kind {
+            Kind::Vertex => run.count as usize,
+            _ => 0,
+        };
+        let stay = self.runs.iter().map(vertices).sum::<usize>() - count;
+        let (mut seen, mut at) = (0, 0);
+        let mut kept = Vec::with_capacity(text.len());
+        for run in &mut self.runs {
+            match run.kind {
+                Kind::Vertex => {
+                    let left = stay.saturating_sub(seen).min(run.count as usize);
+                    seen += run.count as usize;
+                    run.count = left as u32;
+                }
+                Kind::Text => {
+                    let lines = &text[at..at + run.count as usize];
+                    at += lines.len();
+                    let before = kept.len();
+                    if seen > stay {
+                        kept.extend(passes(lines));
+                    } else {
+                        kept.extend_from_slice(lines);
+                    }
+                    run.count = (kept.len() - before) as u32;
+                }
+                _ => {}
+            }
+        }
+        *text = kept;
+        self.runs.retain(|run| run.count > 0);
     }
 
     pub(crate) fn runs(&self) -> &[Run] {

@@ -135,6 +135,9 @@ impl Reader {
         if let Some(control) = keyword.iter().position(|byte| byte.is_ascii_control()) {
             return Err(binary(start + control, keyword[control]));
         }
+        if keyword.is_empty() && self.record.takes(line, start) {
+            return Ok(());
+        }
         let class = Class::of(keyword);
         if !keyword.is_empty() && class != Class::Structure {
             if class == Class::Foreign && self.tally.first.is_none() {
@@ -198,6 +201,7 @@ impl Reader {
     pub(super) fn carry_comment(&mut self, line: &Line<'_>, scan: &Scan<'_>) -> Parsed<()> {
         match line.bytes.get(scan.at..) {
             None | Some([]) => Ok(()),
+            Some(_) if self.record.takes(line, scan.at) => Ok(()),
             Some(comment) => self
                 .push_text(comment, line.number)
                 .map_err(|fault| fault.after(scan.at)),
