@@ -8,6 +8,7 @@ mod differential;
 mod fuzz;
 mod memory;
 mod mesh;
+mod raw;
 mod refuse;
 mod repair;
 mod round_trip;

@@ -75,6 +75,24 @@ fn new_vertices_of_a_later_object_leave_the_earlier_one_in_place() {
     );
 }
 
+/// `ARCSim` reads these into the last `v` before them; a copy without them would be free of its pin
+/// and stand still. What is not about a vertex, such as an edge, is not copied.
+#[test]
+fn what_arcsim_says_of_a_vertex_is_said_of_its_copies() {
+    check(
+        "v 0 0 0\nv 1 0 0\nnl 2 # pinned\nvt 0\nnv 1 \\\n2 3\ne 1 2\nv 0 1 0\nv 1 1 0\nnl 4\nea 5\nf 1 2 3\nf 3 2 4\n",
+        &[(1, &[1])],
+        "v 0 0 0\nv 1 0 0\nnl 2 # pinned\nvt 0\nnv 1 \\\n2 3\ne 1 2\nv 0 1 0\nv 1 1 0\nnl 4\nea 5\n\
+         v 1 0 0\nnl 2 # pinned\nnv 1 \\\n2 3\nv 0 1 0\nf 1 2 3\nf 6 5 4\n",
+    );
+    // What is said of the last vertex stays said of it, though a `vt` or a comment stands between.
+    check(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0\nvv 1 2 3\n# end\nf 1 2 3\nf 3 2 4\n",
+        &[(1, &[1])],
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0\nvv 1 2 3\n# end\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n",
+    );
+}
+
 #[test]
 fn a_vertex_with_several_fans_is_written_as_several() {
     // Six faces round vertex 7. Two opposite ones move to vertex 8: each is a fan there, and

@@ -87,10 +87,12 @@ struct Span {
 
 /// A vertex that counts as on the plane because a crossing is near it.
 #[derive(Clone, Copy)]
-struct Snapped {
-    vertex: VertexId,
+pub(super) struct Snapped {
+    pub(super) vertex: VertexId,
     /// How near the crossing is, as a part of its edge.
-    t: f64,
+    pub(super) t: f64,
+    /// The other end of that edge.
+    pub(super) toward: VertexId,
     /// The depths of the crossing.
     depths: [f64; 2],
 }
@@ -103,7 +105,7 @@ pub(super) struct Trace {
     /// Nodes at which a side plane ends the slit, though no piece ends there in the face beyond.
     pub(super) lone_tips: Vec<(usize, Site)>,
     /// The vertices that count as on the plane because a crossing is near, ascending.
-    snapped: Vec<VertexId>,
+    pub(super) snapped: Vec<Snapped>,
     /// Crossings nearer than this part of their edge are one.
     near: f64,
 }
@@ -135,7 +137,8 @@ impl Trace {
 
     /// Whether a vertex of the mesh before the cut was put on the plane.
     pub(super) fn is_snapped(&self, v: VertexId) -> bool {
-        self.snapped.binary_search(&v).is_ok()
+        let at = self.snapped.binary_search_by_key(&v, |one| one.vertex);
+        at.is_ok()
     }
 
     fn crossing(&self, h: HalfEdgeId) -> Option<&Crossing> {
@@ -395,11 +398,13 @@ impl Tracer<'_> {
                 let Site::Edge(h) = node.site else { continue };
                 let crossing = self.crossing(h);
                 let near = [crossing.t, 1.0 - crossing.t];
-                for (vertex, t) in self.ends(&crossing).into_iter().zip(near) {
+                let [a, b] = self.ends(&crossing);
+                for ([vertex, toward], t) in [[a, b], [b, a]].into_iter().zip(near) {
                     if met && t < self.scissor.snap {
                         snapped.push(Snapped {
                             vertex,
                             t,
+                            toward,
                             depths: node.depths,
                         });
                     }
@@ -470,7 +475,7 @@ impl Tracer<'_> {
             pieces,
             crossings,
             lone_tips,
-            snapped: self.snapped.iter().map(|one| one.vertex).collect(),
+            snapped: self.snapped.clone(),
             near: self.near,
         };
         trace.finish(self.mesh);

@@ -95,7 +95,7 @@ impl Cutting<'_> {
         let document = read(input, repair(self.args), &mut self.faults)?;
         let read_ms = clock.milliseconds();
         let clock = Clock::start();
-        let mut mesh = build(input, &document)?;
+        let (document, mut mesh) = build(input, document)?;
         let build_ms = clock.milliseconds();
         self.report.input = Some(report::File::of(Some(input.name.clone()), &mesh));
         let vertices_before = mesh.vertex_count();
@@ -329,14 +329,14 @@ fn read(input: &Input, repair: Option<Repair>, faults: &mut Vec<Fault>) -> Resul
     Ok(document)
 }
 
-fn build(input: &Input, document: &Document) -> Result<Mesh, Stop> {
-    document.mesh().map_err(|error| {
-        let faults = defects::faults(input, document, &error, "or add");
-        Stop {
+fn build(input: &Input, document: Document) -> Result<(Document, Mesh), Stop> {
+    match document.mesh() {
+        Ok(mesh) => Ok((document, mesh)),
+        Err(error) => Err(Stop {
             exit: Exit::Input,
-            faults,
-        }
-    })
+            faults: defects::faults(input, document, error, "or add"),
+        }),
+    }
 }
 
 fn cannot_write(name: &str, error: &io::Error) -> Fault {

@@ -41,11 +41,12 @@
 //!   coordinate or a normal; each corner keeps those it had.
 //! * Objects, groups, materials, smoothing groups, comments, and statements nobody has heard of are
 //!   kept byte for byte and in order. What is kept without being understood is reported, by line.
+//!   What `ARCSim` says of a vertex (`nl`, `ny`, `nv`, `vv`) is said of its copies, too.
 //! * Every refusal has a code, line, column, the text, and what was expected. A mesh error names
 //!   the lines of its faces.
-//! * No input makes it panic, or reading it take more memory than the larger of 64 MiB and twelve
-//!   times the file. (Naming what is wrong with a mesh may take more: a million copies of one
-//!   face, twenty times.) Lines have at most 64 MiB, and polygons at most 4096 corners.
+//! * No input makes it panic, or take more memory than the larger of 64 MiB and twelve times the
+//!   file, to name and repair all that is wrong with its mesh included. Lines have at most
+//!   64 MiB, and polygons at most 4096 corners.
 //!
 //! # Codes
 //!
@@ -71,8 +72,9 @@
 //!
 //! # Why not obj-rs
 //!
-//! obj-rs 0.7.4 is a fine reader of what a renderer needs, and our tests hold what we write against
-//! it. For a file that has to survive a cut it would not do:
+//! obj-rs 0.7.4 is a fine reader of what a renderer needs. Our tests hold what we read and write
+//! against it, and with the feature `obj-rs` a `RawObj` that a program already holds becomes a
+//! [`Document`] by `TryFrom`. For a file that has to survive a cut it would not do:
 //!
 //! * It keeps coordinates as `f32`: 11,755 of the 11,898 of a real gown would change. Comments are
 //!   gone, of several `o` only the last is left, and the order of groups with them, for they
@@ -94,7 +96,9 @@
 //! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, references ahead, what is carried through, faults |
 //! | `triangulate.rs`, `triangulate/flip.rs` | polygons to triangles; diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
+//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
+//! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, numbers |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
@@ -105,8 +109,11 @@ mod diagnostic;
 mod document;
 mod keyword;
 mod mesh;
+#[cfg(feature = "obj-rs")]
+mod raw;
 mod read;
 mod repair;
+mod said;
 mod store;
 mod triangulate;
 mod write;
@@ -114,5 +121,7 @@ mod write;
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::{Corner, Document};
 pub use mesh::MeshError;
+#[cfg(feature = "obj-rs")]
+pub use raw::{Item, RawObjError};
 pub use repair::Repair;
 pub use write::WriteSummary;

@@ -16,7 +16,9 @@ mod lines;
 mod scan;
 mod usual;
 
-pub(crate) use self::foreign::attached_length;
+#[cfg(feature = "obj-rs")]
+pub(crate) use self::face::ARITY_MAX;
+pub(crate) use self::foreign::{attached_length, statements};
 
 use std::io::Read;
 
@@ -118,7 +120,9 @@ impl Reader {
         scan.at += keyword.len();
         match keyword {
             b"v" => self.vertex(line, &mut scan)?,
-            b"f" => self.face(line, &mut scan)?,
+            // `fo` (face outline) is older than version 2.11, of which the format says that it is
+            // still read, gives the same results as `f`, and is written as `f`.
+            b"f" | b"fo" => self.face(line, &mut scan)?,
             b"vt" => self.texture(line, &mut scan)?,
             b"vn" => self.normal(line, &mut scan)?,
             _ => return self.carry(line, &mut Scan { at: start, ..scan }),
@@ -231,7 +235,8 @@ impl Reader {
 }
 
 impl Document {
-    fn shrink(&mut self) {
+    /// Gives back memory that was reserved and is not needed.
+    pub(crate) fn shrink(&mut self) {
         let Polygons {
             vertices,
             texture,
@@ -250,7 +255,8 @@ impl Document {
         self.text.shrink_to_fit();
     }
 
-    fn triangulate(&mut self) {
+    /// Cuts polygons into triangles, and says so.
+    pub(crate) fn triangulate(&mut self) {
         if self.polygons.all_triangles() {
             return;
         }

@@ -129,7 +129,7 @@ pub(crate) enum Kind {
     Texture,
     /// `vn`
     Normal,
-    /// `f`
+    /// `f`, or `fo` as it was called once
     Polygon,
     /// Anything else, kept as bytes: whole lines, each with `\n` at its end.
     Text,
@@ -223,13 +223,6 @@ impl Layout {
     pub(crate) fn append_text(&mut self, bytes: usize, run: Run) {
         if bytes > 0 {
             self.push_text(bytes, run.line);
-        }
-    }
-
-    /// Adds a vertex for each of these lines.
-    pub(crate) fn add_vertices(&mut self, lines: &[u32]) {
-        for &line in lines {
-            self.push(Kind::Vertex, line);
         }
     }
 

@@ -17,7 +17,6 @@ mod flip;
 use tearmesh::Point;
 
 use crate::document::Polygons;
-use crate::store::push;
 
 /// The triangles of all polygons, where not all are triangles.
 #[derive(Clone, Debug, Default)]
@@ -66,10 +65,19 @@ impl Triangulation {
         &self.triangles
     }
 
-    /// Appends a triangle: its vertices, and which corners of its polygon it has.
-    pub(crate) fn add(&mut self, vertices: [u32; 3], corners: [u16; 3]) {
-        push(&mut self.triangles, vertices);
-        push(&mut self.corners, corners);
+    /// Moves a triangle to an earlier place, as a polygon of its own if it stands `alone`; the
+    /// corners of its polygon that it had.
+    pub(crate) fn keep(&mut self, triangle: usize, place: usize, alone: bool) -> [u16; 3] {
+        let corners = self.corners[triangle];
+        self.triangles[place] = self.triangles[triangle];
+        self.corners[place] = if alone { [0, 1, 2] } else { corners };
+        corners
+    }
+
+    /// Drops all triangles from a place on.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        self.triangles.truncate(count);
+        self.corners.truncate(count);
     }
 
     /// Gives a corner of a triangle another vertex.

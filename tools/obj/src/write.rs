@@ -2,7 +2,8 @@
 //!
 //! **Order.** Statements come in the order of the document, and polygons as their triangles.
 //! The vertices of the mesh keep their numbers: the document's own come first, then those that
-//! splits added. The new ones follow the last `v` of the document. Where a face needs a vertex
+//! splits added. The new ones follow the last `v` of the document and what is said of it, each with
+//! a copy of what `ARCSim` says of the vertex that it was split from (`said.rs`). Where a face needs a vertex
 //! before that (a file of several objects has `v` after `f`), the statements it needs are moved
 //! up to just before it, each with the foreign statements attached to it (`nv` of `ARCSim`). So no face
 //! precedes its vertices, and no number changes.
@@ -27,6 +28,7 @@ use self::number::{write_integer, write_number};
 use self::separate::Separated;
 use crate::document::Document;
 use crate::read::attached_length;
+use crate::said::Said;
 use crate::store::{Kind, Run};
 
 /// How many bytes are handed to the output at once.
@@ -78,6 +80,13 @@ impl Document {
             "every vertex has a position"
         );
         let separated = Separated::new(mesh);
+        let copied = (self.positions.len()..mesh.vertex_count())
+            .map(|vertex| VertexId::new(vertex).expect("I1: every vertex has an id"));
+        let copied = copied.chain(separated.copies.iter().copied());
+        let mut copied: Vec<usize> = copied.map(|vertex| mesh.root(vertex).index()).collect();
+        copied.sort_unstable();
+        copied.dedup();
+        let said = Said::in_document(self, &copied);
         let summary = WriteSummary {
             vertices: mesh.vertex_count() + separated.copies.len(),
             faces: mesh.face_count(),
@@ -88,6 +97,7 @@ impl Document {
             mesh,
             positions,
             separated,
+            said,
             vertices: Stream::new(Kind::Vertex),
             texture: Stream::new(Kind::Texture),
             normals: Stream::new(Kind::Normal),
@@ -107,6 +117,7 @@ struct Writer<'d, W> {
     mesh: &'d Mesh,
     positions: &'d Positions,
     separated: Separated<'d>,
+    said: Said,
     vertices: Stream,
     texture: Stream,
     normals: Stream,
@@ -197,6 +208,9 @@ impl<W: Write> Writer<'_, W> {
                         .map_or(0, |before| attached_to(runs[before], lines));
                     self.out.text(&lines[written..])?;
                     text = rest;
+                    if self.said.late == Some(i) {
+                        self.write_added()?;
+                    }
                 }
             }
         }
@@ -216,15 +230,25 @@ impl<W: Write> Writer<'_, W> {
                 self.write_attached(self.vertices)?;
             }
         }
-        if self.vertices.written == document.positions.len() && !self.added {
-            self.added = true;
-            for vertex in document.positions.len()..self.mesh.vertex_count() {
-                self.write_vertex(vertex)?;
-            }
-            for copy in 0..self.separated.copies.len() {
-                let vertex = self.separated.copies[copy].index();
-                self.write_vertex(vertex)?;
-            }
+        if self.said.late.is_none() {
+            self.write_added()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the vertices that the document has not, if all that it has are written.
+    fn write_added(&mut self) -> io::Result<()> {
+        let of_document = self.document.positions.len();
+        if self.vertices.written < of_document || self.added {
+            return Ok(());
+        }
+        self.added = true;
+        for vertex in of_document..self.mesh.vertex_count() {
+            self.write_copy(vertex)?;
+        }
+        for copy in 0..self.separated.copies.len() {
+            let vertex = self.separated.copies[copy].index();
+            self.write_copy(vertex)?;
         }
         Ok(())
     }
@@ -293,6 +317,9 @@ impl<W: Write> Writer<'_, W> {
             for corner in 3 * triangle..3 * triangle + 3 {
                 let needed = self.separated.indices[corner] as usize + 1;
                 self.write_vertices(needed.min(document.positions.len()))?;
+                if needed > document.positions.len() {
+                    self.write_added()?;
+                }
             }
         }
         for triangle in document.polygons.triangles(polygon) {
@@ -325,13 +352,25 @@ impl<W: Write> Writer<'_, W> {
         self.out.flush_if_full()
     }
 
+    /// Writes a vertex that the document has not, with what is said of the one it was split from.
+    fn write_copy(&mut self, vertex: usize) -> io::Result<()> {
+        self.write_vertex(vertex)?;
+        let root = self.root(vertex);
+        self.out.text(self.said.of(root))
+    }
+
+    /// The vertex of the document that a vertex was split from.
+    fn root(&self, vertex: usize) -> usize {
+        let id = VertexId::new(vertex).expect("I1: every vertex has an id");
+        self.mesh.root(id).index()
+    }
+
     /// Writes a vertex of the mesh with the extra numbers of the one it was split from.
     fn write_vertex(&mut self, vertex: usize) -> io::Result<()> {
         let of_document = if vertex < self.document.positions.len() {
             vertex
         } else {
-            let id = VertexId::new(vertex).expect("I1: every vertex has an id");
-            self.mesh.root(id).index()
+            self.root(vertex)
         };
         let at = self.positions.as_slice()[vertex];
         self.out.statement(

@@ -47,7 +47,7 @@ impl Element {
 }
 
 impl Reader {
-    /// Reads what follows the keyword `f`.
+    /// Reads what follows the keyword `f` or `fo`.
     pub(super) fn face(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
         let keyword = *scan;
         let first = self.document.polygons.vertices.len();
