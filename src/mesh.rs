@@ -256,6 +256,13 @@ impl Mesh {
         self.outgoing.reserve(vertices);
     }
 
+    /// Makes room for `faces` more faces, so that as many can be inserted without moving what is
+    /// there: on a large mesh that takes longer than a cut.
+    pub fn reserve_faces(&mut self, faces: usize) {
+        self.origin.reserve(3 * faces);
+        self.link.reserve(3 * faces);
+    }
+
     /// Relabels the origin of a corner. For the three operations alone: the invariants that
     /// tie origins to links are theirs to restore.
     #[inline]

@@ -166,6 +166,21 @@ fn random_edits_keep_every_invariant_and_the_surface() {
     );
 }
 
+#[test]
+fn with_room_for_faces_an_insertion_leaves_the_index_buffer_in_place() {
+    let (built, _) = shapes::grid(4, 4);
+    let mut mesh = built.clone();
+    mesh.reserve_faces(2);
+    assert_eq!(mesh, built);
+    let diagonal = mesh.half_edges().find(|&h| mesh.pair(h).is_some());
+    let mut plan = Plan::new();
+    plan.on_edge(diagonal.expect("a grid has inner edges"), 0.5);
+    let place = mesh.indices().as_ptr();
+    plan.apply(&mut mesh, &mut Edits::new()).expect("a point");
+    assert_eq!(mesh.face_count(), built.face_count() + 2);
+    assert_eq!(mesh.indices().as_ptr(), place);
+}
+
 /// The half-edges of the one edge that two triangles share.
 fn shared_edge(mesh: &Mesh) -> [HalfEdgeId; 2] {
     let mut shared = mesh

@@ -3,31 +3,44 @@
 //! ```console
 //! $ cargo run --release --manifest-path tools/bench/Cargo.toml -- read
 //! $ cargo run --release --manifest-path tools/bench/Cargo.toml -- write --rounds 9 --record
+//! $ taskset -c 1 cargo run --release --manifest-path tools/bench/Cargo.toml -- cut --python PATH
 //! ```
 //!
 //! | subcommand | measures |
 //! |---|---|
 //! | `read` | OBJ bytes in memory to a document in memory, beside five crates and a plain loop |
 //! | `write` | a document to OBJ bytes in memory, beside `{}` and shortest digits |
+//! | `cut` | a plane through a sheet, both sides kept, beside three Python packages |
 //!
 //! | option | meaning |
 //! |---|---|
-//! | `--faces N` | about how many faces each file has (1,000,000) |
+//! | `--faces N` | about how many faces each file or sheet has (1,000,000) |
 //! | `--rounds N` | how often everything is measured (7); the table has medians |
 //! | `--only WORD` | only contestants and files whose name holds the word, for a profiler |
+//! | `--python PATH` | for `cut`: the Python that has the rivals (`python3`) |
 //! | `--record` | also writes the table to `record/<CPU>/<subcommand>.txt` |
 //!
 //! Everything runs on one thread. In each round every contestant runs once, so a slow spell of the
 //! machine falls on all of them: trust the ratios, not the MB/s. They share one allocator, too, and
 //! what one leaves behind, the next starts from; so ratios differ by some tenths with other
 //! company (`--only`). A record names the commit, the compiler and the CPU.
+//!
+//! `cut` has rivals in Python: `python3 -m venv DIR`, `DIR/bin/pip install numpy meshlib trimesh
+//! networkx scipy vtk`, and `--python DIR/bin/python`. One that is missing is said to be. Each is
+//! a process of its own (`rivals/cut.py`) that gets the sheet as a file, once, and cuts once a
+//! round; what it measures is the cutting call alone. `cut` counts CPU time, all threads of a
+//! process together, and confines the rivals to one core; `taskset` gives ours the same one. Its
+//! other tables (snap against quality, methods) are of ours alone, on a smaller sheet.
 
+mod cut;
+mod irregular;
 mod measure;
 mod options;
 mod read;
 mod record;
 mod rivals;
 mod sheet;
+mod table;
 mod write;
 
 use std::process::ExitCode;
@@ -38,10 +51,11 @@ fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let subcommand = arguments.next().unwrap_or_default();
     let run: fn(&Options) -> String = match &*subcommand {
+        "cut" => cut::run,
         "read" => read::run,
         "write" => write::run,
         _ => {
-            eprintln!("expected a subcommand: read or write (see the top of main.rs)");
+            eprintln!("expected a subcommand: cut, read or write (see the top of main.rs)");
             return ExitCode::FAILURE;
         }
     };

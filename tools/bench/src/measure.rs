@@ -22,6 +22,14 @@ pub(crate) fn timed<T>(job: impl FnOnce() -> T) -> (T, Duration) {
     (result, time)
 }
 
+/// How much time the CPU spends on a job, which other programs on the machine disturb less.
+pub(crate) fn timed_on_cpu<T>(job: impl FnOnce() -> T) -> (T, Duration) {
+    let start = cpu_time::ProcessTime::now();
+    let result = job();
+    let time = start.elapsed();
+    (result, time)
+}
+
 /// Lets all contestants do a job of some bytes, each once a round, and tabulates the medians
 /// beside those of the `references`.
 pub(crate) fn contest<J>(
@@ -31,21 +39,10 @@ pub(crate) fn contest<J>(
     references: &[&str],
     options: &Options,
 ) -> String {
-    let names: Vec<&str> = contestants.iter().map(|c| c.name).collect();
-    let contestants: Vec<_> = contestants
-        .iter()
-        .filter(|contestant| options.picks(contestant.name, &names))
-        .collect();
-    let mut times = vec![Vec::new(); contestants.len()];
-    for _ in 0..options.rounds {
-        for (contestant, times) in contestants.iter().zip(&mut times) {
-            times.extend((contestant.run)(job));
-        }
-    }
-    let medians: Vec<Option<f64>> = times.into_iter().map(median_seconds).collect();
+    let results = rounds(job, contestants, options);
     let reference = |name: &str| {
-        let at = contestants.iter().position(|c| c.name == name)?;
-        medians[at]
+        let (_, times) = results.iter().find(|(c, _)| c.name == name)?;
+        median_seconds(times)
     };
 
     let mut table = format!("  {:14}{:>8}{:>8}", "", "MB/s", "ms");
@@ -53,8 +50,10 @@ pub(crate) fn contest<J>(
         write!(table, "{:>10}", format!("x {name}")).expect("a string takes all");
     }
     table.push('\n');
-    for (contestant, median) in contestants.iter().zip(&medians) {
-        let Some(seconds) = median else { continue };
+    for (contestant, times) in &results {
+        let Some(seconds) = median_seconds(times) else {
+            continue;
+        };
         let rate = bytes as f64 / 1e6 / seconds;
         let row = format!("  {:14}{rate:8.0}{:8.0}", contestant.name, seconds * 1e3);
         table.push_str(&row);
@@ -69,7 +68,29 @@ pub(crate) fn contest<J>(
     table
 }
 
-fn median_seconds(mut times: Vec<Duration>) -> Option<f64> {
-    times.sort_unstable();
+/// Lets all contestants that are picked do a job, each once a round. Their times are sorted.
+pub(crate) fn rounds<'c, 'j, J>(
+    job: &J,
+    contestants: &'c [Contestant<'j, J>],
+    options: &Options,
+) -> Vec<(&'c Contestant<'j, J>, Vec<Duration>)> {
+    let names: Vec<&str> = contestants.iter().map(|c| c.name).collect();
+    let picked = contestants
+        .iter()
+        .filter(|contestant| options.picks(contestant.name, &names));
+    let mut results: Vec<_> = picked.map(|contestant| (contestant, Vec::new())).collect();
+    for _ in 0..options.rounds {
+        for (contestant, times) in &mut results {
+            times.extend((contestant.run)(job));
+        }
+    }
+    for (_, times) in &mut results {
+        times.sort_unstable();
+    }
+    results
+}
+
+/// The median of sorted times.
+pub(crate) fn median_seconds(times: &[Duration]) -> Option<f64> {
     Some(times.get(times.len() / 2)?.as_secs_f64())
 }

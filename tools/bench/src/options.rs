@@ -7,6 +7,7 @@ pub(crate) struct Options {
     pub(crate) rounds: usize,
     pub(crate) only: Vec<String>,
     pub(crate) record: bool,
+    pub(crate) python: String,
 }
 
 impl Options {
@@ -16,6 +17,7 @@ impl Options {
             rounds: 7,
             only: Vec::new(),
             record: false,
+            python: "python3".to_owned(),
         };
         while let Some(name) = arguments.next() {
             let mut value = || arguments.next().ok_or(format!("{name} needs a value"));
@@ -23,6 +25,7 @@ impl Options {
                 "--faces" => options.faces = positive(&value()?)?,
                 "--rounds" => options.rounds = positive(&value()?)?,
                 "--only" => options.only.push(value()?),
+                "--python" => options.python = value()?,
                 "--record" => options.record = true,
                 _ => return Err(format!("unknown option {name}")),
             }

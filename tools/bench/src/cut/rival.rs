@@ -1,0 +1,133 @@
+//! Rivals that cut in Python, each in a process of its own: `rivals/cut.py`.
+
+use std::cell::RefCell;
+use std::fs;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::Duration;
+
+use tearmesh::{Mesh, Plane, Positions};
+
+/// A mesh and a plane as files, which are removed in the end.
+pub(super) struct Handover {
+    folder: PathBuf,
+}
+
+impl Handover {
+    pub(super) fn new(mesh: &Mesh, positions: &Positions, plane: &Plane) -> io::Result<Handover> {
+        let folder = std::env::temp_dir().join(format!("tearmesh-bench-{}", std::process::id()));
+        fs::create_dir_all(&folder)?;
+        let floats = |points: &mut dyn Iterator<Item = [f64; 3]>| -> Vec<u8> {
+            points.flatten().flat_map(f64::to_le_bytes).collect()
+        };
+        let points = floats(&mut positions.as_slice().iter().map(|p| [p.x, p.y, p.z]));
+        fs::write(folder.join("points"), points)?;
+        let corners = mesh.indices().iter().flat_map(|v| v.to_le_bytes());
+        fs::write(folder.join("triangles"), corners.collect::<Vec<u8>>())?;
+        let normal = plane.normal() / plane.normal().norm();
+        let plane = [plane.point().coords, normal];
+        let plane = floats(&mut plane.iter().map(|v| [v.x, v.y, v.z]));
+        fs::write(folder.join("plane"), plane)?;
+        Ok(Handover { folder })
+    }
+}
+
+impl Drop for Handover {
+    fn drop(&mut self) {
+        // What cannot be removed is the system's to clear away.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// A rival that is ready to cut.
+pub(super) struct Rival {
+    pub(super) version: String,
+    process: RefCell<Process>,
+}
+
+struct Process {
+    child: Child,
+    asked: ChildStdin,
+    said: BufReader<ChildStdout>,
+}
+
+/// What a rival's result is like.
+pub(super) struct Facts {
+    pub(super) faces: usize,
+    /// Edges of the seam, on one side.
+    pub(super) seam: usize,
+    /// Edges of the seam of one side without a partner of the same bits on the other.
+    pub(super) cracks: usize,
+    /// The largest distance of a vertex of the seam from the plane.
+    pub(super) deviation: f64,
+    /// By how much the area changed, as a part of it.
+    pub(super) area: f64,
+}
+
+impl Rival {
+    /// Starts a rival; `None` if it is not installed.
+    pub(super) fn start(name: &str, python: &str, handover: &Handover) -> Option<Rival> {
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("rivals/cut.py");
+        let mut command = Command::new(python);
+        command.arg(script).arg(name).arg(&handover.folder);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().ok()?;
+        let asked = child.stdin.take().expect("it is piped");
+        let said = BufReader::new(child.stdout.take().expect("it is piped"));
+        let mut process = Process { child, asked, said };
+        let version = process.line()?.strip_prefix("ready ")?.to_owned();
+        Some(Rival {
+            version,
+            process: RefCell::new(process),
+        })
+    }
+
+    /// How long the rival takes for a cut.
+    pub(super) fn cut(&self) -> Duration {
+        let seconds = self.ask("cut").parse().expect("a number of seconds");
+        Duration::from_secs_f64(seconds)
+    }
+
+    pub(super) fn check(&self) -> Facts {
+        let answer = self.ask("check");
+        let number = |key: &str| -> f64 {
+            let mut words = answer.split_ascii_whitespace();
+            let value = words.find_map(|word| word.strip_prefix(key)?.strip_prefix('='));
+            let value = value.expect("every fact is told");
+            value.parse().expect("facts are numbers")
+        };
+        Facts {
+            faces: number("faces") as usize,
+            seam: number("seam") as usize,
+            cracks: number("cracks") as usize,
+            deviation: number("deviation"),
+            area: number("area"),
+        }
+    }
+
+    fn ask(&self, what: &str) -> String {
+        let mut process = self.process.borrow_mut();
+        writeln!(process.asked, "{what}").expect("a rival that is ready listens");
+        process.line().expect("a rival answers every line")
+    }
+}
+
+impl Process {
+    /// The next line of the answer; `None` if the process has ended.
+    fn line(&mut self) -> Option<String> {
+        let mut line = String::new();
+        match self.said.read_line(&mut line) {
+            Ok(0) | Err(_) => None,
+            Ok(_) => Some(line.trim_end().to_owned()),
+        }
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        // It would end by itself with its input; a mesh of its memory need not wait for that.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
