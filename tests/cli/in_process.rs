@@ -133,7 +133,8 @@ impl Case {
     fn the_mesh_is_whole(&self, written: &[u8]) {
         let before = Document::read(&self.input[..]).expect("it was read");
         let after = Document::read(written).expect("what was written can be read");
-        assert_eq!(after.triangles().len(), before.triangles().len(), "faces");
+        let [before, after_faces] = [&before, &after].map(|document| document.triangles().len());
+        assert!(after_faces >= before, "{after_faces} faces of {before}");
         let mesh = after.mesh().expect("what was written is a mesh");
         assert_eq!(mesh.check(), []);
     }
@@ -182,9 +183,10 @@ fn the_report_agrees(report: &Value, exit: Exit) {
         assert_eq!(report["invariants"]["checked"], true);
         assert_eq!(report["mass"]["before"], report["mass"]["after"]);
         let cuts = report["cuts"].as_array().expect("a list");
-        let splits: u64 = cuts.iter().filter_map(|cut| cut["splits"].as_u64()).sum();
+        let count = |name: &str| -> u64 { cuts.iter().filter_map(|cut| cut[name].as_u64()).sum() };
+        let new = count("splits") + count("vertices_inserted");
         let [before, after] = ["input", "output"].map(|file| report[file]["vertices"].as_u64());
-        assert_eq!(before.map(|count| count + splits), after);
+        assert_eq!(before.map(|count| count + new), after);
         let numbers = cuts.iter().flat_map(|cut| cut.as_object().expect("a cut"));
         for (name, number) in numbers {
             assert!(!number.is_null(), "{name} is no number");

@@ -87,6 +87,41 @@ fn pieces(mesh: &Naive) -> Vec<usize> {
     }
 }
 
+/// Cuts a file straight, mends the cut, and takes out what it inserted: the faces are again those of
+/// the file, corner by corner.
+fn check_undone(input: &Path, rays: [&str; 2]) {
+    let folder = Folder::new();
+    let run = |args: &[&str]| {
+        let output = folder
+            .command()
+            .args(args)
+            .output()
+            .expect("the command runs");
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{error}");
+    };
+    let input_name = input.display().to_string();
+    let [a, b] = rays;
+    run(&["cut", &input_name, "--rays", a, b, "-q", "-o", "torn.obj"]);
+    run(&["mend", "torn.obj", "--simplify", "-q", "-o", "whole.obj"]);
+    let [before, torn, after] = [
+        std::fs::read_to_string(input).expect("an input"),
+        folder.read("torn.obj"),
+        folder.read("whole.obj"),
+    ]
+    .map(|text| naive(&text));
+    assert!(torn.faces.len() > before.faces.len());
+    assert_eq!(after.faces.len(), before.faces.len());
+    assert_eq!(after.vertices.len(), before.vertices.len());
+    for (old, new) in before.faces.iter().zip(&after.faces) {
+        for ((v, vt), (w, wt)) in old.iter().zip(new) {
+            let bits = [before.vertices[*v], after.vertices[*w]].map(|p| p.map(f64::to_bits));
+            assert_eq!((bits[0], vt), (bits[1], wt));
+        }
+    }
+    println!("{}: cut straight, mended, and as it was", input.display());
+}
+
 /// Cuts a file through and checks everything that the cut promises.
 fn check(input: &Path, rays: [&str; 2], pieces_after: usize) {
     let folder = Folder::new();
@@ -99,6 +134,8 @@ fn check(input: &Path, rays: [&str; 2], pieces_after: usize) {
             rays[0],
             rays[1],
             "--through",
+            "--method",
+            "partition",
             "--format",
             "json",
             "-o",
@@ -204,6 +241,7 @@ fn check(input: &Path, rays: [&str; 2], pieces_after: usize) {
     let mass = report["mass"]["after"].as_f64().expect("a number");
     assert!((area - mass).abs() <= 1e-12 * area, "{area} {mass}");
     assert_eq!(report["invariants"]["violations"], serde_json::json!([]));
+    check_undone(input, rays);
 }
 
 #[test]

@@ -51,6 +51,15 @@ fn play(path: &Path, folder: &Folder, plain: bool) -> usize {
         let Some(typed) = line.strip_prefix("$ ").filter(|_| in_block) else {
             continue;
         };
+        if let Some(names) = typed.strip_prefix("cmp ") {
+            let files: Vec<_> = names.split(' ').map(|name| folder.read(name)).collect();
+            assert!(
+                files[0] == files[1],
+                "{names} differ, in {}",
+                path.display()
+            );
+            continue;
+        }
         if !typed.starts_with("tearmesh ") && !typed.starts_with("cargo run ") {
             continue; // A command of the shell, which is not ours to test.
         }
@@ -112,6 +121,14 @@ fn bad_inputs(folder: &Folder) {
         (
             "flat.obj",
             "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n".to_owned(),
+        ),
+        (
+            // Torn at both ends of the diagonal, and moved apart by another program.
+            "apart.obj",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1.5 0 0\nv 0 1.5 0\nvt 0.5\nf 1/1 2/1 3/1\n\
+             f 6 5 4\n#tearmesh record 1 v 6 f 2 vt 1 1 vn 0 0 faces 7008e53ea9bc7ad2\n\
+             #~ split 5 2 1\n#~ split 6 3 1\n#tearmesh end 2 10c8189a8b417315\n"
+                .to_owned(),
         ),
         (
             "rays.txt",

@@ -1,9 +1,11 @@
 //! What can be typed.
 
 use std::ffi::{OsStr, OsString};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use tearmesh::Point;
 
 /// Cuts triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
@@ -16,7 +18,50 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Cut(Box<CutArgs>),
+    Mend(MendArgs),
     Check(CheckArgs),
+}
+
+/// Where a verb reads and writes, and how it says what it did.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FileArgs {
+    /// The OBJ file to read; `-` is standard input.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the mesh; `-` is standard output.
+    ///
+    /// Without it the mesh goes to standard output if that is a pipe or a file.
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Allow the output to replace the input.
+    #[arg(long)]
+    pub(crate) in_place: bool,
+
+    /// Do everything but write.
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+
+    /// Print words, or the report as JSON.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+
+    /// Write the JSON report to a file as well.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Leave times out of the report, so that it is the same on every run.
+    #[arg(long)]
+    pub(crate) no_timing: bool,
+
+    /// When to use colours.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
 }
 
 const EXAMPLES: &str = "\
@@ -30,16 +75,16 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct CutArgs {
-    /// The OBJ file to cut; `-` is standard input.
-    #[arg(value_name = "IN")]
-    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
 
     /// Two rays, as origin:direction or origin@target; may be given repeatedly.
     ///
     /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
     /// `ox,oy,oz@tx,ty,tz` (origin and a point that it is aimed at). The cut
     /// follows the plane through both rays, and ends at the rays unless --through is given.
-    /// Several pairs are cuts one after another.
+    /// Several pairs are cuts one after another; where one begins with the ray with which the one
+    /// before ended, both are parts of one polyline.
     #[arg(long, value_name = "A B")]
     pub(crate) rays: Vec<String>,
 
@@ -47,19 +92,21 @@ pub(crate) struct CutArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) rays_file: Option<PathBuf>,
 
-    /// Where to write the torn mesh; `-` is standard output.
-    ///
-    /// Without it the mesh goes to standard output if that is a pipe or a file.
-    #[arg(short, long, value_name = "OUT")]
-    pub(crate) output: Option<PathBuf>,
-
-    /// Allow the output to replace the input.
-    #[arg(long)]
-    pub(crate) in_place: bool,
-
     /// How to cut.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: Method,
+
+    /// How near an end of its edge, as a part of it, a crossing is taken for the end.
+    ///
+    /// 0 gives a seam straight to the last digit and may give thin faces; with R, the altitude of
+    /// no new face is below R(1-R) of that of the face it was part of. Up to 0.49; for the
+    /// method exact.
+    #[arg(long, value_name = "R", allow_negative_numbers = true, default_value_t = tearmesh::Scissor::SNAP)]
+    pub(crate) snap: f64,
+
+    /// Move a vertex that was taken for a crossing onto the plane, along the edge.
+    #[arg(long)]
+    pub(crate) snap_move: bool,
 
     /// Cut wherever the plane goes, not only between the rays.
     #[arg(long)]
@@ -88,33 +135,64 @@ pub(crate) struct CutArgs {
     #[arg(long)]
     pub(crate) separate_fans: bool,
 
-    /// Do everything but write.
-    #[arg(long)]
-    pub(crate) dry_run: bool,
-
     /// Succeed, and write the mesh, even if nothing was cut.
     #[arg(long)]
     pub(crate) allow_miss: bool,
+}
 
-    /// Print words, or the report as JSON.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: Format,
+const MEND_EXAMPLES: &str = "\
+Examples:
+  tearmesh mend torn.obj -o whole.obj
+      sews everything that was torn
+  tearmesh mend torn.obj --last 1 --simplify -o before.obj
+      undoes the last cut, and takes out the vertices that it inserted";
 
-    /// Write the JSON report to a file as well.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) report: Option<PathBuf>,
+/// Sew what was torn, from the record that the file has of it.
+#[derive(Debug, Parser)]
+#[command(after_long_help = MEND_EXAMPLES)]
+pub(crate) struct MendArgs {
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
 
-    /// Leave times out of the report, so that it is the same on every run.
+    /// Undo only the last N cuts.
+    #[arg(long, value_name = "N", conflicts_with = "near")]
+    pub(crate) last: Option<NonZeroUsize>,
+
+    /// Sew only what lies near this point: within --radius of it.
+    #[arg(long, value_name = "X,Y,Z", requires = "radius", allow_hyphen_values = true, value_parser = point)]
+    pub(crate) near: Option<Point>,
+
+    /// How near.
+    #[arg(
+        long,
+        value_name = "R",
+        requires = "near",
+        allow_negative_numbers = true
+    )]
+    pub(crate) radius: Option<f64>,
+
+    /// Sew nothing if two vertices that belong together are farther apart than this.
+    ///
+    /// What moved apart is otherwise joined at the mean, by mass.
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    pub(crate) max_distance: Option<f64>,
+
+    /// Take out the vertices that cuts inserted and that keep nothing apart any more.
     #[arg(long)]
-    pub(crate) no_timing: bool,
+    pub(crate) simplify: bool,
+}
 
-    /// When to use colours.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) color: Color,
-
-    /// Print no summary.
-    #[arg(short, long)]
-    pub(crate) quiet: bool,
+/// Reads a point.
+fn point(text: &str) -> Result<Point, String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|number| number.trim().parse().ok().filter(|x: &f64| x.is_finite()))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    match numbers[..] {
+        [x, y, z] => Ok(Point::new(x, y, z)),
+        _ => Err("expected three numbers with commas between them, as in 0,1.5,0".to_owned()),
+    }
 }
 
 const CHECK_EXAMPLES: &str = "\
@@ -151,8 +229,10 @@ pub(crate) struct CheckArgs {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Method {
-    /// Label the faces by side and unshare the seam; adds no face.
+    /// Insert vertices where the plane crosses edges: a straight seam.
     #[default]
+    Exact,
+    /// Label the faces by side and unshare the seam; adds no face.
     Partition,
     /// The paper's first form: leaves irregular meshes undivided.
     Uniform,
@@ -171,6 +251,7 @@ impl Method {
     /// As it is typed, and as it stands in the report.
     pub(crate) fn name(self) -> &'static str {
         match self {
+            Method::Exact => "exact",
             Method::Partition => "partition",
             Method::Uniform => "uniform",
             Method::Alternating => "alternating",

@@ -2,20 +2,24 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `cut` and `check` carry out
-//! the verbs, `report` is their JSON, `defects` shows what is wrong with a mesh, `say` puts diagnostics on a screen, `output` writes files whole or not
-//! at all, `bug` writes a reproducer when an invariant broke.
+//! Map: `args` says what can be typed, `rays` reads rays, `cut`, `mend` and `check` carry out the
+//! verbs, `session` is what the first two have in common, `report` is their JSON, `defects` shows
+//! what is wrong with a mesh, `say` puts diagnostics on a screen, `output` writes files whole or not
+//! at all, `files` says where, `bug` writes a reproducer when an invariant broke.
 
 mod args;
 mod bug;
 mod check;
 mod cut;
 mod defects;
+mod files;
 mod input;
+mod mend;
 mod output;
 mod rays;
 mod report;
 mod say;
+mod session;
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
@@ -52,7 +56,7 @@ impl std::fmt::Debug for Streams<'_> {
 pub enum Exit {
     /// Done.
     Done = 0,
-    /// Nothing was cut; for `check`, some file failed.
+    /// Nothing was cut or mended; for `check`, some file failed.
     NothingCut = 1,
     /// The arguments make no sense.
     Usage = 2,
@@ -79,6 +83,9 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Args {
             verb: Verb::Cut(cut),
         }) => cut::run(&cut, &args, &mut streams),
+        Ok(Args {
+            verb: Verb::Mend(mend),
+        }) => mend::run(&mend, &args, &mut streams),
         Ok(Args {
             verb: Verb::Check(check),
         }) => check::run(&check, &mut streams),

@@ -18,6 +18,8 @@ pub(crate) struct Report {
     pub(crate) output: Option<File>,
     pub(crate) cuts: Vec<Cut>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) mend: Option<Mend>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mass: Option<Mass>,
     pub(crate) invariants: Invariants,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -36,6 +38,7 @@ impl Report {
             input: None,
             output: None,
             cuts: Vec::new(),
+            mend: None,
             mass: None,
             invariants: Invariants::default(),
             timing_ms: Some(Timing::default()),
@@ -73,6 +76,10 @@ pub(crate) struct Cut {
     method: &'static str,
     through: bool,
     tips: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    snap: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    snap_move: Option<bool>,
     plane: PlaneEntry,
     faces_crossed: usize,
     splits: usize,
@@ -91,24 +98,44 @@ pub(crate) struct Cut {
     vertices_inserted: usize,
     angle_min_deg: f64,
     altitude_min: f64,
+    tip_overshoots: Vec<f64>,
+}
+
+/// How a cut was made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct How {
+    pub(crate) method: &'static str,
+    pub(crate) through: bool,
+    pub(crate) tips: &'static str,
+    pub(crate) snap: Option<f64>,
+    pub(crate) snap_move: Option<bool>,
+}
+
+/// What was mended.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Mend {
+    pub(crate) merged: usize,
+    /// The cuts that still keep something apart.
+    pub(crate) cuts_left: usize,
+    pub(crate) vertices_removed: usize,
+    pub(crate) faces_removed: usize,
+    pub(crate) pieces_before: usize,
+    pub(crate) pieces: usize,
 }
 
 impl Cut {
-    pub(crate) fn new(
-        rays: &[Ray; 2],
-        scissor: &Scissor,
-        (method, through, tips): (&'static str, bool, &'static str),
-        report: &CutReport,
-    ) -> Cut {
+    pub(crate) fn new(rays: &[Ray; 2], scissor: &Scissor, how: How, report: &CutReport) -> Cut {
         let plane = scissor.plane();
         Cut {
             rays: rays.map(|ray| RayEntry {
                 origin: numbers(ray.origin().coords),
                 direction: numbers(ray.direction()),
             }),
-            method,
-            through,
-            tips,
+            method: how.method,
+            through: how.through,
+            tips: how.tips,
+            snap: how.snap,
+            snap_move: how.snap_move,
             plane: PlaneEntry {
                 point: point(plane.point()),
                 normal: numbers(plane.normal()),
@@ -130,6 +157,7 @@ impl Cut {
             vertices_inserted: report.vertices_inserted,
             angle_min_deg: report.angle_min_deg,
             altitude_min: report.altitude_min,
+            tip_overshoots: report.tip_overshoots.clone(),
         }
     }
 }

@@ -205,3 +205,35 @@ pub(crate) fn is_colored(color: Color, is_terminal: bool) -> bool {
 pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
+
+/// A number for people: six digits.
+pub(crate) fn short(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}")
+        .parse()
+        .expect("a number that was just printed");
+    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_for_people_have_six_digits() {
+        for (x, text) in [
+            (1.0, "1"),
+            (0.0, "0"),
+            (4.123_456_789, "4.12346"),
+            (0.1 + 0.2, "0.3"),
+            (1e-12, "1e-12"),
+            (123_456_789.0, "123457000"),
+            (1e300, "1e300"),
+        ] {
+            assert_eq!(short(x), text);
+        }
+    }
+}

@@ -2,21 +2,17 @@
 
 use std::io::Read as _;
 
-use tearmesh::Scissor;
+use tearmesh::{Scissor, ScissorError};
 
-use super::{Stop, words};
-use crate::args::{CutArgs, Tips};
+use crate::args::CutArgs;
 use crate::input::{Input, cannot_read};
 use crate::rays::{self, Pair};
-use crate::say::Fault;
+use crate::say::{Fault, short};
+use crate::session::Stop;
 use crate::{Exit, Streams};
 
-/// The rays that were given, with the scissor that each pair spans.
-pub(super) fn scissors(
-    args: &CutArgs,
-    streams: &mut Streams<'_>,
-    faults: &mut Vec<Fault>,
-) -> Result<Vec<(Pair, Scissor)>, Stop> {
+/// The rays that were given, two for each cut.
+pub(super) fn pairs(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Pair>, Stop> {
     let refused = |fault: Fault| {
         let exit = if fault.code == "E-RAY-ZERO" {
             Exit::NoPlane
@@ -45,36 +41,33 @@ pub(super) fn scissors(
             ..Fault::default()
         }));
     }
-    let mut cuts = Vec::new();
-    for pair in pairs {
-        let scissor = Scissor::new(&pair[0], &pair[1]).map_err(|error| {
-            let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
-            let (left, right) = (x - 1.0, x + 1.0);
-            let eye = format!("{x},{y},{z}");
-            let help = format!(
-                "move one origin, or aim at two points: {eye}@{left},{y},0 {eye}@{right},{y},0"
-            );
-            let fault = Fault {
-                code: "E-RAY-ONE-LINE",
-                message: error.to_string(),
-                help: Some(help),
-                ..Fault::default()
-            };
-            Stop::new(Exit::NoPlane, fault)
-        })?;
-        if scissor.skew() > 0.0 {
-            let leaves = words::short(scissor.skew());
-            let message = format!(
-                "the rays are skew: the second leaves the cutting plane by {leaves} for each \
-                 unit of its length"
-            );
-            faults.push(Fault::warning("W-RAY-SKEW", message));
-        }
-        let tips = match args.tips {
-            Tips::Vertex => tearmesh::Tips::Vertex,
-            Tips::Midpoint => tearmesh::Tips::Midpoint,
-        };
-        cuts.push((pair, scissor.through(args.through).tips(tips)));
+    Ok(pairs)
+}
+
+/// Says that two rays span no plane, and what would.
+pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {
+    let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
+    let (left, right) = (x - 1.0, x + 1.0);
+    let eye = format!("{x},{y},{z}");
+    let help =
+        format!("move one origin, or aim at two points: {eye}@{left},{y},0 {eye}@{right},{y},0");
+    let fault = Fault {
+        code: "E-RAY-ONE-LINE",
+        message: error.to_string(),
+        help: Some(help),
+        ..Fault::default()
+    };
+    Stop::new(Exit::NoPlane, fault)
+}
+
+/// Says how far the second ray leaves the plane, if it does.
+pub(super) fn warn_of_skew(scissor: &Scissor, faults: &mut Vec<Fault>) {
+    if scissor.skew() > 0.0 {
+        let leaves = short(scissor.skew());
+        let message = format!(
+            "the rays are skew: the second leaves the cutting plane by {leaves} for each unit of \
+             its length"
+        );
+        faults.push(Fault::warning("W-RAY-SKEW", message));
     }
-    Ok(cuts)
 }

@@ -1,15 +1,18 @@
 //! What is said of a cut.
 
-use tearmesh::{CutReport, Ledger, Mesh};
+use tearmesh::CutReport;
 
-use super::files::Destination;
-use crate::say::{Fault, count};
+use crate::say::{Fault, count, short};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
 pub(super) fn cut(number: Option<usize>, cut: &CutReport) -> String {
     let name = number.map_or_else(|| "cut".to_owned(), |number| format!("cut {number}"));
+    let inserted = match cut.vertices_inserted {
+        0 => String::new(),
+        inserted => count(inserted, "vertex", "vertices") + " inserted, ",
+    };
     format!(
-        "{name}: {} crossed, {} split ({} refused), {} -> {}",
+        "{name}: {} crossed, {inserted}{} split ({} refused), {} -> {}",
         count(cut.faces_crossed, "face", "faces"),
         count(cut.splits, "vertex", "vertices"),
         cut.refused,
@@ -19,7 +22,11 @@ pub(super) fn cut(number: Option<usize>, cut: &CutReport) -> String {
 }
 
 /// What a cut fell short of.
-pub(super) fn warnings(number: Option<usize>, through: bool, cut: &CutReport) -> Vec<Fault> {
+pub(super) fn warnings(
+    number: Option<usize>,
+    (through, is_exact): (bool, bool),
+    cut: &CutReport,
+) -> Vec<Fault> {
     let mut warnings = Vec::new();
     let mut warn = |code, message: String| {
         let of = number
@@ -40,10 +47,12 @@ pub(super) fn warnings(number: Option<usize>, through: bool, cut: &CutReport) ->
         );
     } else if cut.splits == 0 {
         let faces = count(cut.faces_crossed, "face", "faces");
-        warn(
-            "W-CUT-NONE",
-            format!("the cut crosses {faces}, but no vertex could be split"),
-        );
+        let why = if is_exact {
+            "is shorter than the snap: --snap 0 makes it"
+        } else {
+            "no vertex could be split"
+        };
+        warn("W-CUT-NONE", format!("the cut crosses {faces}, but {why}"));
     } else {
         if cut.crumbs > 0 {
             let crumbs = count(cut.crumbs, "piece", "pieces");
@@ -54,9 +63,12 @@ pub(super) fn warnings(number: Option<usize>, through: bool, cut: &CutReport) ->
         }
         if cut.lost > 0 {
             let lost = count(cut.lost, "piece", "pieces");
-            let message =
-                format!("{lost} stayed joined: the mesh has no edges for the cut to follow");
-            warn("W-CUT-LOST", message);
+            let why = if is_exact {
+                "what the plane cuts off is less than the snap"
+            } else {
+                "the mesh has no edges for the cut to follow"
+            };
+            warn("W-CUT-LOST", format!("{lost} stayed joined: {why}"));
         }
         if !cut.separated {
             warn(
@@ -66,57 +78,4 @@ pub(super) fn warnings(number: Option<usize>, through: bool, cut: &CutReport) ->
         }
     }
     warnings
-}
-
-/// The last line of the summary.
-pub(super) fn ending(
-    vertices_before: usize,
-    mesh: &Mesh,
-    ledger: &Ledger,
-    destination: &Destination,
-) -> String {
-    let ending = match destination {
-        Destination::Nowhere { why } => (*why).to_owned(),
-        Destination::Output => "wrote standard output".to_owned(),
-        Destination::File(path) => format!("wrote {}", path.display()),
-    };
-    format!(
-        "mass {} -> {} · vertices {vertices_before} -> {} · faces {} · invariants hold · {ending}",
-        short(ledger.before.to_f64()),
-        short(ledger.after.to_f64()),
-        mesh.vertex_count(),
-        mesh.face_count(),
-    )
-}
-
-/// A number for people: six digits.
-pub(super) fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}")
-        .parse()
-        .expect("a number that was just printed");
-    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_for_people_have_six_digits() {
-        for (x, text) in [
-            (1.0, "1"),
-            (0.0, "0"),
-            (4.123_456_789, "4.12346"),
-            (0.1 + 0.2, "0.3"),
-            (1e-12, "1e-12"),
-            (123_456_789.0, "123457000"),
-            (1e300, "1e300"),
-        ] {
-            assert_eq!(short(x), text);
-        }
-    }
 }

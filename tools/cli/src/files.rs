@@ -1,21 +1,23 @@
-//! Where a cut reads and writes, and what it refuses to write over.
+//! Where a verb reads and writes, and what it refuses to write over.
 
 use std::path::{Path, PathBuf};
 
-use super::Stop;
-use crate::args::{CutArgs, Format, Method, Tips};
-use crate::say::Fault;
+use tearmesh::{Ledger, Mesh};
+
+use crate::args::{FileArgs, Format};
+use crate::say::{Fault, short};
+use crate::session::Stop;
 use crate::{Exit, output};
 
 /// Where the mesh goes.
-pub(super) enum Destination {
+pub(crate) enum Destination {
     Nowhere { why: &'static str },
     Output,
     File(PathBuf),
 }
 
 impl Destination {
-    pub(super) fn of(args: &CutArgs, output_is_terminal: bool) -> Destination {
+    pub(crate) fn of(args: &FileArgs, output_is_terminal: bool) -> Destination {
         match &args.output {
             _ if args.dry_run => Destination::Nowhere {
                 why: "dry run, nothing written",
@@ -32,7 +34,7 @@ impl Destination {
         }
     }
 
-    pub(super) fn name(&self) -> Option<String> {
+    pub(crate) fn name(&self) -> Option<String> {
         match self {
             Destination::Nowhere { .. } => None,
             Destination::Output => Some("-".to_owned()),
@@ -41,48 +43,30 @@ impl Destination {
     }
 }
 
-/// Refuses streams and files that are wanted twice, and options that do not go together.
-pub(super) fn check(args: &CutArgs) -> Result<(), Stop> {
+/// Refuses streams and files that are wanted twice.
+pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
     let usage = |message: String, help: &str| {
         Err(Stop::new(
             Exit::Usage,
             Fault::error("E-USAGE", message).help(help),
         ))
     };
-    let CutArgs {
-        input,
-        output,
-        report,
-        format,
-        rays_file,
-        ..
-    } = args;
-    let (input, output, report) = (Some(input), output.as_ref(), report.as_ref());
+    let (input, output, report) = (
+        Some(&args.input),
+        args.output.as_ref(),
+        args.report.as_ref(),
+    );
     let is_stream = |path: &PathBuf| path == Path::new("-");
-    if *format == Format::Json && output.is_some_and(is_stream) {
+    if args.format == Format::Json && output.is_some_and(is_stream) {
         let message = "`-o -` and `--format json` both want standard output".to_owned();
         return usage(
             message,
             "write the mesh to a file, or the report with --report FILE",
         );
     }
-    if input.is_some_and(is_stream) && rays_file.as_ref().is_some_and(is_stream) {
-        let message = "the mesh and the rays both come from standard input".to_owned();
-        return usage(message, "name a file for one of them");
-    }
     if report.is_some_and(is_stream) {
         let message = "`--report` takes the name of a file".to_owned();
         return usage(message, "print the report with --format json");
-    }
-    if args.tips == Tips::Midpoint && args.method != Method::Partition {
-        let message = format!(
-            "`--tips midpoint` is for the method partition, not {}",
-            args.method.name()
-        );
-        return usage(
-            message,
-            "leave it out: the paper's methods split vertices between the rays",
-        );
     }
     let same = |a: Option<&PathBuf>, b: Option<&PathBuf>| {
         matches!((a, b), (Some(a), Some(b))
@@ -100,4 +84,25 @@ pub(super) fn check(args: &CutArgs) -> Result<(), Stop> {
         return usage(message, "write the report to a file of its own");
     }
     Ok(())
+}
+
+/// The last line of the summary.
+pub(crate) fn ending(
+    vertices_before: usize,
+    mesh: &Mesh,
+    ledger: &Ledger,
+    destination: &Destination,
+) -> String {
+    let ending = match destination {
+        Destination::Nowhere { why } => (*why).to_owned(),
+        Destination::Output => "wrote standard output".to_owned(),
+        Destination::File(path) => format!("wrote {}", path.display()),
+    };
+    format!(
+        "mass {} -> {} · vertices {vertices_before} -> {} · faces {} · invariants hold · {ending}",
+        short(ledger.before.to_f64()),
+        short(ledger.after.to_f64()),
+        mesh.vertex_count(),
+        mesh.face_count(),
+    )
 }

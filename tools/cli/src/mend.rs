@@ -1,0 +1,178 @@
+//! The verb `mend`.
+
+use std::ffi::OsString;
+use std::io::Write;
+
+use tearmesh::mend::{self, SewError, Stitch, StitchError};
+use tearmesh::{Edits, Masses, Mesh, Positions};
+use tearmesh_obj::{Document, TornDocument};
+
+use crate::args::MendArgs;
+use crate::say::{Fault, count};
+use crate::session::{self, Clock, Opened, Session, Stop};
+use crate::{Exit, Streams, files, report};
+
+/// Mends, says what was done, and gives the exit status. `typed` is for the reproducer.
+pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
+    Session::run("mend", &args.files, typed, streams, |session, streams| {
+        work(args, session, streams)
+    })
+}
+
+fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
+    check(args)?;
+    let Opened {
+        document,
+        mut mesh,
+        mut positions,
+    } = session.open(None, streams)?;
+    let (vertices_before, pieces_before) = (mesh.vertex_count(), mesh.components().count());
+    let mut masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
+    let mut torn = TornDocument::new(&document);
+
+    let clock = Clock::start();
+    let stitches = stitches(args, &mesh, &positions, &torn);
+    let apart = |stitch: &Stitch| positions.at(stitch.kept()) != positions.at(stitch.gone());
+    let moves = stitches.iter().any(apart);
+    let mut edits = Edits::new();
+    let (weight, farthest) = (|v| masses.at(v), args.max_distance.unwrap_or(f64::INFINITY));
+    let merged = mend::sew(
+        &mut mesh, &positions, &stitches, weight, farthest, &mut edits,
+    )
+    .map_err(|error| too_far(&error))?;
+    edits.replay(&mut (&mut positions, &mut masses, &mut torn));
+    session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
+
+    let clock = Clock::start();
+    let ledger = masses.ledger();
+    let broken = if moves {
+        None
+    } else {
+        session::moved(&document, &mesh, &positions)
+    };
+    session.verify(&mesh, &ledger, broken)?;
+    session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
+
+    let simplified = if args.simplify {
+        simplified(&torn, &mesh, &positions)
+    } else {
+        None
+    };
+    if merged == 0 && simplified.is_none() {
+        let place = if args.near.is_some() { " there" } else { "" };
+        let message = format!("nothing is torn{place}");
+        session.faults.push(Fault::warning("W-MEND-NONE", message));
+        return Err(session.nothing_done());
+    }
+    let cuts_left = torn.cuts().len();
+    let faces_before = mesh.face_count();
+    let vertices_mended = mesh.vertex_count();
+    match &simplified {
+        Some(document) => {
+            mesh = document.mesh().expect("what was written can be read");
+            let torn = TornDocument::new(document);
+            let points = document.positions().iter().copied();
+            positions = Positions::new(points).expect("they were usable");
+            let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
+            session.write(&mesh, fill, streams)?;
+        }
+        None => {
+            let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
+            session.write(&mesh, fill, streams)?;
+        }
+    }
+    let taken_out = vertices_mended - mesh.vertex_count();
+    let pieces = mesh.components().count();
+    session.report.mend = Some(report::Mend {
+        merged,
+        cuts_left,
+        vertices_removed: taken_out,
+        faces_removed: faces_before - mesh.face_count(),
+        pieces_before,
+        pieces,
+    });
+    let mut words = format!(
+        "mend: {} sewn, {} -> {}",
+        count(merged, "vertex", "vertices"),
+        count(pieces_before, "piece", "pieces"),
+        count(pieces, "piece", "pieces"),
+    );
+    if taken_out > 0 {
+        let taken_out = count(taken_out, "inserted vertex", "inserted vertices");
+        words += &format!(", {taken_out} taken out");
+    }
+    if cuts_left > 0 {
+        words += &format!(", {} left", count(cuts_left, "cut", "cuts"));
+    }
+    session.words.push(words);
+    let ending = files::ending(vertices_before, &mesh, &ledger, &session.destination);
+    session.words.push(ending);
+    Ok(())
+}
+
+/// What is to be sewn.
+fn stitches(
+    args: &MendArgs,
+    mesh: &Mesh,
+    positions: &Positions,
+    torn: &TornDocument<'_>,
+) -> Vec<Stitch> {
+    match (args.last, args.near.zip(args.radius)) {
+        (Some(last), _) => torn.stitches_of_last(last.get()),
+        (None, Some((centre, radius))) => {
+            mend::stitches(mesh, |v| (positions.at(v) - centre).norm() <= radius)
+        }
+        (None, None) => mend::stitches(mesh, |_| true),
+    }
+}
+
+/// The document without what cuts inserted, if anything can go.
+fn simplified(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions) -> Option<Document> {
+    torn.simplified(mesh, positions)
+        .expect("what we wrote can be read")
+}
+
+/// Refuses numbers that make no sense.
+fn check(args: &MendArgs) -> Result<(), Stop> {
+    for (name, number) in [
+        ("--radius", args.radius),
+        ("--max-distance", args.max_distance),
+    ] {
+        if let Some(number) = number.filter(|number| number.is_nan() || *number < 0.0) {
+            let message = format!("`{name} {number}` is not a distance");
+            let fault = Fault::error("E-USAGE", message).help("write a number from 0 on");
+            return Err(Stop::new(Exit::Usage, fault));
+        }
+    }
+    Ok(())
+}
+
+/// Says which vertices are too far apart; vertices are counted from 1, as in files.
+fn too_far(error: &SewError) -> Stop {
+    let mut faults: Vec<Fault> = Vec::new();
+    for (stitch, why) in error.refused().iter().take(SHOWN) {
+        let StitchError::Distance { distance } = why else {
+            panic!("stitches are of one root, and masses are weights: {error}")
+        };
+        let message = format!(
+            "the vertices {} and {} are {distance} apart",
+            stitch.kept().index() + 1,
+            stitch.gone().index() + 1
+        );
+        faults.push(Fault::error("E-MEND-DISTANCE", message));
+    }
+    let more = error.refused().len().saturating_sub(SHOWN);
+    if let Some(last) = faults.last_mut() {
+        if more > 0 {
+            last.message += &format!(", and {} more", count(more, "pair is", "pairs are"));
+        }
+        last.help = Some("nothing was mended: allow more with --max-distance".to_owned());
+    }
+    Stop {
+        exit: Exit::NothingCut,
+        faults,
+    }
+}
+
+/// How many pairs of vertices are named.
+const SHOWN: usize = 5;

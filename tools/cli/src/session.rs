@@ -1,0 +1,315 @@
+//! What the verbs that change a mesh have in common: an input, an output, a report, and the
+//! promise that nothing is written that breaks an invariant.
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+
+use tearmesh::{Ledger, MassError, Masses, Mesh, Point, Positions};
+use tearmesh_obj::{Document, Repair, WriteSummary};
+
+use crate::args::{FileArgs, Format};
+use crate::files::Destination;
+use crate::input::Input;
+use crate::report::{self, Entry, Report};
+use crate::say::{Fault, Screen, Severity, count, is_colored};
+use crate::{Exit, Streams, bug, defects, files, output};
+
+/// A run that ended early, and what has to be said about it.
+pub(crate) struct Stop {
+    pub(crate) exit: Exit,
+    pub(crate) faults: Vec<Fault>,
+}
+
+impl Stop {
+    pub(crate) fn new(exit: Exit, fault: Fault) -> Stop {
+        Stop {
+            exit,
+            faults: vec![fault],
+        }
+    }
+}
+
+/// A run in progress, and all that will be said about it.
+pub(crate) struct Session<'a> {
+    files: &'a FileArgs,
+    pub(crate) destination: Destination,
+    pub(crate) report: Report,
+    pub(crate) faults: Vec<Fault>,
+    input: Option<Input>,
+    /// The summary.
+    pub(crate) words: Vec<String>,
+}
+
+/// What was read.
+pub(crate) struct Opened {
+    pub(crate) document: Document,
+    pub(crate) mesh: Mesh,
+    pub(crate) positions: Positions,
+}
+
+impl<'a> Session<'a> {
+    /// Runs a verb, says what was done, and gives the exit status. `typed` is for the reproducer.
+    pub(crate) fn run(
+        verb: &'static str,
+        files: &'a FileArgs,
+        typed: &[OsString],
+        streams: &mut Streams<'_>,
+        work: impl FnOnce(&mut Session<'a>, &mut Streams<'_>) -> Result<(), Stop>,
+    ) -> Exit {
+        let mut session = Session {
+            files,
+            destination: Destination::of(files, streams.output_is_terminal),
+            report: Report::new(verb),
+            faults: Vec::new(),
+            input: None,
+            words: Vec::new(),
+        };
+        // A panic is a broken invariant too, and deserves a reproducer as much.
+        let ended = catch_unwind(AssertUnwindSafe(|| {
+            files::check(files)?;
+            work(&mut session, streams)
+        }));
+        let exit = match ended {
+            Ok(Ok(())) => Exit::Done,
+            Ok(Err(Stop { exit, faults })) => {
+                session.faults.extend(faults);
+                exit
+            }
+            Err(panic) => {
+                let text = panic.downcast_ref::<String>().map(String::as_str);
+                let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+                let broken = [text.unwrap_or("a panic without words").to_owned()];
+                let fault = bug::report(typed, session.input.as_ref(), &broken);
+                session.faults.push(fault);
+                Exit::Bug
+            }
+        };
+        if exit == Exit::Bug && !session.report.invariants.violations.is_empty() {
+            let broken = &session.report.invariants.violations;
+            let fault = bug::report(typed, session.input.as_ref(), broken);
+            session.faults.push(fault);
+        }
+        session.tell(exit, streams)
+    }
+
+    /// Reads the input and builds its mesh.
+    pub(crate) fn open(
+        &mut self,
+        repair: Option<Repair>,
+        streams: &mut Streams<'_>,
+    ) -> Result<Opened, Stop> {
+        let refused = |fault| Stop::new(Exit::Input, fault);
+        let input = Input::find(&self.files.input, streams.input).map_err(refused)?;
+        let input = &*self.input.insert(input);
+        let clock = Clock::start();
+        let mut document = input.document().map_err(refused)?;
+        if let Some(repair) = repair {
+            document = document.repaired(repair);
+        }
+        let diagnostics = document.diagnostics().iter();
+        let faults = diagnostics.map(|one| Fault::of_file(&input.name, one));
+        self.faults.extend(faults);
+        let timing = self.report.timing_ms.get_or_insert_default();
+        timing.read = clock.milliseconds();
+        let clock = Clock::start();
+        let mesh = match document.mesh() {
+            Ok(mesh) => mesh,
+            Err(error) => {
+                return Err(Stop {
+                    exit: Exit::Input,
+                    faults: defects::faults(input, document, error, "or add"),
+                });
+            }
+        };
+        timing.build = clock.milliseconds();
+        self.report.input = Some(report::File::of(Some(input.name.clone()), &mesh));
+        let positions = Positions::new(document.positions().iter().copied())
+            .expect("the reader accepts no coordinate that positions refuse");
+        Ok(Opened {
+            document,
+            mesh,
+            positions,
+        })
+    }
+
+    /// Checks every invariant and the ledger of masses. `broken` is what is wrong besides.
+    pub(crate) fn verify(
+        &mut self,
+        mesh: &Mesh,
+        ledger: &Ledger,
+        broken: Option<String>,
+    ) -> Result<(), Stop> {
+        let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
+        self.report.mass = Some(report::Mass { before, after });
+        self.report.invariants.checked = true;
+        let violations = &mut self.report.invariants.violations;
+        violations.extend(mesh.check().iter().map(ToString::to_string));
+        violations.extend(broken);
+        if !ledger.is_balanced() {
+            violations.push(format!("I20 (mass): {before:e} became {after:e}"));
+        }
+        if violations.is_empty() {
+            Ok(())
+        } else {
+            Err(Stop {
+                exit: Exit::Bug,
+                faults: Vec::new(),
+            })
+        }
+    }
+
+    /// Says that there was nothing to do, and so nothing was written; warnings have said why.
+    pub(crate) fn nothing_done(&mut self) -> Stop {
+        if let (Some(name), Some(last)) = (self.destination.name(), self.faults.last_mut())
+            && name != "-"
+        {
+            last.message.push_str(&format!(". {name} not written"));
+        }
+        self.words.clear();
+        Stop {
+            exit: Exit::NothingCut,
+            faults: Vec::new(),
+        }
+    }
+
+    /// Writes the mesh, as a whole or not at all.
+    pub(crate) fn write(
+        &mut self,
+        mesh: &Mesh,
+        fill: impl Fn(&mut dyn Write) -> io::Result<WriteSummary>,
+        streams: &mut Streams<'_>,
+    ) -> Result<(), Stop> {
+        let clock = Clock::start();
+        let written = match &self.destination {
+            Destination::Nowhere { .. } => None,
+            Destination::File(path) => Some(output::write(path, fill)),
+            Destination::Output => match fill(streams.output) {
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => None,
+                written => Some(written),
+            },
+        };
+        let written = written.transpose().map_err(|error| {
+            let name = self.destination.name().unwrap_or_default();
+            Stop::new(Exit::Output, cannot_write(&name, &error))
+        })?;
+        self.report.timing_ms.get_or_insert_default().write = clock.milliseconds();
+        self.report.output = Some(report::File::of(self.destination.name(), mesh));
+        if let Some(separated) = written.map(|one| one.separated).filter(|&fans| fans > 0) {
+            let copies = count(separated, "more vertex", "more vertices");
+            self.faults.push(Fault {
+                severity: Severity::Note,
+                code: "W-OBJ-FANS",
+                message: format!(
+                    "the file has {copies} than the mesh: a vertex whose faces share no edge is \
+                     written once for each fan"
+                ),
+                ..Fault::default()
+            });
+        }
+        Ok(())
+    }
+
+    /// Says everything there is to say, in words or as JSON.
+    fn tell(mut self, exit: Exit, streams: &mut Streams<'_>) -> Exit {
+        self.report.ok = exit == Exit::Done;
+        self.report.exit = exit as u8;
+        self.report.diagnostics = self.faults.iter().map(Entry::new).collect();
+        if self.files.no_timing || exit != Exit::Done {
+            self.report.timing_ms = None;
+        }
+        let mut json = serde_json::to_string_pretty(&self.report)
+            .expect("a report of strings and finite numbers is JSON");
+        json.push('\n');
+        let mut exit = exit;
+        if let Some(path) = &self.files.report
+            && exit != Exit::Usage
+            && let Err(error) = output::write(path, |out| out.write_all(json.as_bytes()))
+        {
+            let name = path.display().to_string();
+            self.faults.push(cannot_write(&name, &error));
+            exit = Exit::Output;
+        }
+        if self.files.format == Format::Json {
+            let printed = output::ignore_closed_pipe(streams.output.write_all(json.as_bytes()));
+            return if printed == Exit::Done { exit } else { printed };
+        }
+        let colored = is_colored(self.files.color, streams.error_is_terminal);
+        let mut screen = Screen {
+            error: streams.error,
+            colored,
+        };
+        for fault in &self.faults {
+            if screen.show(fault).is_err() {
+                break; // Standard error is closed: nowhere is left to complain.
+            }
+        }
+        if self.files.quiet || exit != Exit::Done {
+            return exit;
+        }
+        let words = self.words.join("\n") + "\n";
+        let said = match self.destination {
+            Destination::Output => streams.error.write_all(words.as_bytes()),
+            _ => streams.output.write_all(words.as_bytes()),
+        };
+        let printed = output::ignore_closed_pipe(said);
+        if printed == Exit::Done { exit } else { printed }
+    }
+}
+
+/// What is not where it was, in words: a corner, or where faces were divided, a vertex of the
+/// document, or the area.
+pub(crate) fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> Option<String> {
+    let bits = |point: Point| [point.x, point.y, point.z].map(f64::to_bits);
+    let was = document.positions();
+    if mesh.face_count() == document.triangles().len() {
+        let corners = document.triangles().as_flattened().iter();
+        let mut corners = corners.map(|&v| was[v as usize]).zip(mesh.half_edges());
+        let (was, h) = corners.find(|&(was, h)| bits(positions.at(mesh.origin(h))) != bits(was))?;
+        let is = positions.at(mesh.origin(h));
+        return Some(format!("I20 (positions): {h} was at {was}, and is at {is}"));
+    }
+    let mut vertices = mesh.vertices().zip(was);
+    if let Some((v, was)) = vertices.find(|&(v, &was)| bits(positions.at(v)) != bits(was)) {
+        let is = positions.at(v);
+        return Some(format!("I20 (positions): {v} was at {was}, and is at {is}"));
+    }
+    let area = |[a, b, c]: [Point; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
+    let triangles = document.triangles().iter();
+    let before: f64 = triangles.map(|t| area(t.map(|v| was[v as usize]))).sum();
+    let faces = mesh.faces().map(|f| mesh.corners(f));
+    let after: f64 = faces.map(|t| area(t.map(|v| positions.at(v)))).sum();
+    // Each area and each sum is rounded; what is lost or twice there would be far more.
+    let bound = 1e-9 * before;
+    ((after - before).abs() > bound).then(|| format!("I20 (area): {before:e} became {after:e}"))
+}
+
+/// Masses, or why there are none.
+pub(crate) fn masses(made: Result<Masses, MassError>) -> Result<Masses, Stop> {
+    made.map_err(|error| {
+        let fault = Fault::error("E-MASS", error.to_string());
+        let fault = match error {
+            MassError::TooLight { .. } => fault.help("use --mass area"),
+            _ => fault,
+        };
+        Stop::new(Exit::Input, fault)
+    })
+}
+
+fn cannot_write(name: &str, error: &io::Error) -> Fault {
+    Fault::error("E-IO-WRITE", format!("cannot write `{name}`: {error}"))
+}
+
+pub(crate) struct Clock(Instant);
+
+impl Clock {
+    pub(crate) fn start() -> Clock {
+        Clock(Instant::now())
+    }
+
+    /// The time since, to a microsecond.
+    pub(crate) fn milliseconds(&self) -> f64 {
+        self.0.elapsed().as_micros() as f64 / 1000.0
+    }
+}
