@@ -520,3 +520,91 @@ fn what_is_said_of_copies_comes_and_goes_with_them() {
         file
     );
 }
+
+/// A hundred meshes: cut straight or along edges, written, read, cut again across the first cut,
+/// written, read, mended, simplified: the bytes of the mesh that was never cut.
+#[test]
+fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
+    let shapes = [
+        tearmesh::shapes::grid(8, 7),
+        tearmesh::shapes::fan(9, true),
+        tearmesh::shapes::tube(9, 6),
+        tearmesh::shapes::torus(11, 8),
+        tearmesh::shapes::octahedron(),
+    ];
+    let (mut compared, mut torn_twice) = (0, 0);
+    for (mesh, at) in &shapes {
+        let mut file = String::from("vt 0.25 0.5\nvt 1 0\nvt 0 1\n");
+        for p in at.as_slice() {
+            file += &format!("v {} {} {}\n", p.x, p.y, p.z);
+        }
+        for f in mesh.faces() {
+            let [a, b, c] = mesh.corners(f).map(|v| v.index() + 1);
+            file += &format!("f {a}/1 {b}/2 {c}/3\n");
+        }
+        let file = rewritten(file.as_bytes());
+        for seed in 0..21 {
+            let mut random = Random(seed);
+            let mut bytes = file.clone();
+            let mut cuts = 0;
+            for i in 0..2 {
+                let document = Document::read(&bytes[..]).expect("a file");
+                let mut mesh = document.mesh().expect("a mesh");
+                let mut at = positions(&document);
+                let mut torn = TornDocument::new(&document);
+                let mut edits = Edits::new();
+                let mut near = || {
+                    let [x, y, z] = [(); 3].map(|()| random.next() - 0.5);
+                    let middle = at.as_slice()[below(&mut random, at.len())];
+                    middle + Vector::new(x, y, z) * 0.9
+                };
+                let [eye, p, q] = [near() + Vector::new(0.0, 0.0, 3.0), near(), near()];
+                let rays = [p, q].map(|p| Ray::new(eye, p - eye).expect("a ray"));
+                let scissor = Scissor::new(&rays[0], &rays[1]).expect("a plane");
+                let method = if (seed + i) % 3 == 0 {
+                    Method::Partition
+                } else {
+                    Method::Exact
+                };
+                let through = seed % 2 == 0;
+                let report = scissor
+                    .through(through)
+                    .cut(method, &mut mesh, &mut at, &mut edits)
+                    .expect("positions are in step");
+                edits.replay(&mut torn);
+                cuts += usize::from(report.splits > 0);
+                bytes.clear();
+                torn.write(&mesh, &at, &mut bytes).expect("memory");
+            }
+            let document = Document::read(&bytes[..]).expect("what we wrote");
+            let mut mesh = document.mesh().expect("what we wrote");
+            let mut at = positions(&document);
+            let mut torn = TornDocument::new(&document);
+            let mut edits = Edits::new();
+            let stitches = mend::stitches(&mesh, |_| true);
+            mend::sew(&mut mesh, &at, &stitches, |_| 1.0, 0.0, &mut edits).expect("one place");
+            edits.replay(&mut (&mut at, &mut torn));
+            let mut whole = Vec::new();
+            match torn.simplified(&mesh, &at).expect("what we wrote") {
+                Some(simple) => {
+                    let mesh = simple.mesh().expect("a mesh");
+                    simple
+                        .write(&mesh, &positions(&simple), &mut whole)
+                        .expect("memory");
+                }
+                None => torn
+                    .write(&mesh, &at, &mut whole)
+                    .map(|_| ())
+                    .expect("memory"),
+            }
+            assert!(whole == file, "seed {seed}: {}", text(&whole));
+            compared += 1;
+            torn_twice += usize::from(cuts == 2);
+        }
+    }
+    println!("{compared} meshes, {torn_twice} of them cut twice");
+    assert!(
+        compared >= 100 && torn_twice >= 60,
+        "{compared} {torn_twice}"
+    );
+}
