@@ -75,9 +75,6 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct CutArgs {
-    #[command(flatten)]
-    pub(crate) files: FileArgs,
-
     /// Two rays, as origin:direction or origin@target; may be given repeatedly.
     ///
     /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
@@ -138,6 +135,9 @@ pub(crate) struct CutArgs {
     /// Succeed, and write the mesh, even if nothing was cut.
     #[arg(long)]
     pub(crate) allow_miss: bool,
+
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
 }
 
 const MEND_EXAMPLES: &str = "\
@@ -151,9 +151,6 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(after_long_help = MEND_EXAMPLES)]
 pub(crate) struct MendArgs {
-    #[command(flatten)]
-    pub(crate) files: FileArgs,
-
     /// Undo only the last N cuts.
     #[arg(long, value_name = "N", conflicts_with = "near")]
     pub(crate) last: Option<NonZeroUsize>,
@@ -180,6 +177,9 @@ pub(crate) struct MendArgs {
     /// Take out the vertices that cuts inserted and that keep nothing apart any more.
     #[arg(long)]
     pub(crate) simplify: bool,
+
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
 }
 
 /// Reads a point.
