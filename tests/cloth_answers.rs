@@ -25,13 +25,7 @@ pub(crate) fn gravity(drag_per_s: f64) -> Loads {
 }
 
 /// Springs in a row along `direction`, the particles `apart` from each other.
-pub(crate) fn row(
-    springs: usize,
-    mass: f64,
-    stiffness: f64,
-    rest: f64,
-    apart: Vector,
-) -> System {
+pub(crate) fn row(springs: usize, mass: f64, stiffness: f64, rest: f64, apart: Vector) -> System {
     let points = (0..=springs).map(|i| Point::origin() + apart * i as f64);
     let mut row = System::new(points, vec![mass; springs + 1]).expect("particles with mass");
     for i in 0..springs {
@@ -66,7 +60,11 @@ fn r1_an_oscillator_has_the_discrete_frequency_of_its_method() {
     let omega = (40.0_f64 / 0.01).sqrt();
     near(omega, 63.245_553_203_367_6, 1e-12);
     let mut system = oscillator();
-    near(system.measure_frequency(1e-12, 100).omega_rad_per_s, omega, 1e-12);
+    near(
+        system.measure_frequency(1e-12, 100).omega_rad_per_s,
+        omega,
+        1e-12,
+    );
     near(system.frequency_bound(), omega, 1e-12);
     near(2.0 / omega, 0.031_622_776_601_683_8, 1e-16);
 
@@ -196,9 +194,7 @@ fn r3_modes_of_a_chain() {
 #[test]
 fn r4_transverse_modes_of_a_string() {
     let (m, k, a, rest) = (0.02, 1000.0, 1.0 / 32.0_f64, 0.03);
-    let mode = |j: f64| {
-        2.0 * f64::sqrt(k * (a - rest) / (a * m)) * (j * PI / 64.0).sin()
-    };
+    let mode = |j: f64| 2.0 * f64::sqrt(k * (a - rest) / (a * m)) * (j * PI / 64.0).sin();
     near(mode(1.0), 4.388_746_211_757_1, 1e-12);
     near(mode(2.0), 8.766_919_549_481_3, 1e-12);
     for j in [1.0, 2.0] {
@@ -218,7 +214,11 @@ fn r4_transverse_modes_of_a_string() {
         }
         let dt = 0.002;
         run(&mut string, Rk4::new(), dt, 500);
-        near(string.positions()[5].z / 1e-7, shape[5].z * mode(j).cos(), 1e-6);
+        near(
+            string.positions()[5].z / 1e-7,
+            shape[5].z * mode(j).cos(),
+            1e-6,
+        );
     }
 }
 
@@ -257,9 +257,21 @@ fn r5_a_pendulum_keeps_its_period() {
         let soft = measured(&mut Verlet::new(), 1e5, 5e-5, angle);
         let stiff = measured(&mut Verlet::new(), 2e5, 5e-5, angle);
         near(2.0 * stiff - soft, period(angle), 2e-6);
-        near(measured(&mut Rk4::new(), 2e5, 1e-3, angle), period(angle), 4e-4);
-        near(measured(&mut Pbd::new(1), 1.0, 1e-4, angle), period(angle), 4e-3);
-        near(measured(&mut Xpbd::new(1, 1), 1e6, 1e-4, angle), period(angle), 4e-3);
+        near(
+            measured(&mut Rk4::new(), 2e5, 1e-3, angle),
+            period(angle),
+            4e-4,
+        );
+        near(
+            measured(&mut Pbd::new(1), 1.0, 1e-4, angle),
+            period(angle),
+            4e-3,
+        );
+        near(
+            measured(&mut Xpbd::new(1, 1), 1e6, 1e-4, angle),
+            period(angle),
+            4e-3,
+        );
     }
 }
 
@@ -308,7 +320,10 @@ fn catenary(n: usize, mass: f64, stiffness: f64, rest: f64, drag: f64) -> System
 #[test]
 fn r6_a_chain_between_two_nails_hangs_in_a_catenary() {
     // R6a: 2 a sinh(1 / 2a) is the length, a (cosh(1 / 2a) − 1) the sag.
-    for (length, answer) in [(1.5, 0.502_633_261_648_315_2), (1.2, 0.292_343_797_600_928_8)] {
+    for (length, answer) in [
+        (1.5, 0.502_633_261_648_315_2),
+        (1.2, 0.292_343_797_600_928_8),
+    ] {
         let a = 1.0 / bisect(1e-3, 20.0, |b| 2.0 / b * (b / 2.0).sinh() - length);
         near(a * ((0.5 / a).cosh() - 1.0), answer, 1e-13);
     }
@@ -324,7 +339,10 @@ fn r6_a_chain_between_two_nails_hangs_in_a_catenary() {
         (-net.positions()[8].z - 0.503_908_189_207_115_7).abs()
     });
     println!("PBD at 60, 240 and 960 Hz: off by {errors:?} m");
-    assert!(errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2], "{errors:?}");
+    assert!(
+        errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2],
+        "{errors:?}"
+    );
     assert!(errors[2] < 2e-6, "{errors:?}");
 
     // R6c: elastic links, by every method with a physical stiffness.
@@ -351,7 +369,10 @@ fn r6_a_chain_between_two_nails_hangs_in_a_catenary() {
         (-net.positions()[8].z - sag).abs()
     });
     println!("XPBD, 4, 16 and 64 substeps: off by {errors:?} m");
-    assert!(errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2], "{errors:?}");
+    assert!(
+        errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2],
+        "{errors:?}"
+    );
     assert!(errors[2] < 2e-6, "{errors:?}");
 }
 
@@ -367,8 +388,14 @@ fn r7_the_top_link_reaches_its_threshold_first_and_at_the_right_force() {
         let points = (0..11).map(|i| Point::new(0.0, 0.0, -0.1 * f64::from(i)));
         let mut chain = System::new(points, masses).expect("particles");
         for i in 0..10 {
-            let stiffness = if answer == 1.519 { 50.0 } else { k(i as f64 + 1.0) };
-            chain.stretch([i, i + 1], rest, stiffness).expect("a spring");
+            let stiffness = if answer == 1.519 {
+                50.0
+            } else {
+                k(i as f64 + 1.0)
+            };
+            chain
+                .stretch([i, i + 1], rest, stiffness)
+                .expect("a spring");
         }
         chain.hold(0);
         chain.set_loads(gravity(3.0)).expect("loads");
@@ -495,21 +522,29 @@ fn r10_a_rotating_pair_keeps_its_radius_and_energy() {
 pub(crate) fn framed(n: usize, stiffness: f64, drag: f64) -> System {
     let at = |i: usize, j: usize| j * (n + 1) + i;
     let apart = 1.0 / n as f64;
-    let points = (0..(n + 1) * (n + 1))
-        .map(|v| Point::new((v % (n + 1)) as f64 * apart, (v / (n + 1)) as f64 * apart, 0.0));
+    let points = (0..(n + 1) * (n + 1)).map(|v| {
+        Point::new(
+            (v % (n + 1)) as f64 * apart,
+            (v / (n + 1)) as f64 * apart,
+            0.0,
+        )
+    });
     let mut net = System::new(points, vec![0.01; (n + 1) * (n + 1)]).expect("particles");
     let rest = apart / 1.02;
     for j in 0..=n {
         for i in 0..=n {
             if i < n {
-                net.stretch([at(i, j), at(i + 1, j)], rest, stiffness).expect("warp");
+                net.stretch([at(i, j), at(i + 1, j)], rest, stiffness)
+                    .expect("warp");
             }
             if j < n {
-                net.stretch([at(i, j), at(i, j + 1)], rest, stiffness).expect("weft");
+                net.stretch([at(i, j), at(i, j + 1)], rest, stiffness)
+                    .expect("weft");
             }
             if i < n && j < n {
                 let diagonal = [at(i, j), at(i + 1, j + 1)];
-                net.stretch(diagonal, rest * 2.0_f64.sqrt(), stiffness).expect("a diagonal");
+                net.stretch(diagonal, rest * 2.0_f64.sqrt(), stiffness)
+                    .expect("a diagonal");
             }
             if i == 0 || j == 0 || i == n || j == n {
                 net.hold(at(i, j));
@@ -557,7 +592,10 @@ fn r11_a_static_drape_is_the_same_by_independent_methods() {
     let rk4 = drape(&mut Rk4::new(), 0.01);
     let relaxed = relaxed(&framed(6, 100.0, 8.0));
     for (a, (b, c)) in verlet.iter().zip(relaxed.iter().zip(&rk4)) {
-        assert!((a - b).norm() < 1e-9 && (a - c).norm() < 1e-9, "{a} {b} {c}");
+        assert!(
+            (a - b).norm() < 1e-9 && (a - c).norm() < 1e-9,
+            "{a} {b} {c}"
+        );
     }
     // XPBD gets there with small steps alone.
     let off = |xpbd: Vec<Point>| {
@@ -566,7 +604,10 @@ fn r11_a_static_drape_is_the_same_by_independent_methods() {
     };
     let errors = [1, 4, 16].map(|substeps| off(drape(&mut Xpbd::new(substeps, 20), 0.02)));
     println!("XPBD, 1, 4 and 16 substeps: off by {errors:?} m");
-    assert!(errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2], "{errors:?}");
+    assert!(
+        errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2],
+        "{errors:?}"
+    );
     assert!(errors[2] < 1e-4, "{errors:?}");
     assert!(verlet[24].z < -0.005, "it sags: {}", verlet[24]);
 }

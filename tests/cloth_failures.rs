@@ -58,7 +58,11 @@ fn class(mut system: System, solver: &mut dyn Solver, part: f64, unstable: Unsta
             Err(other) => panic!("{other}"),
         }
     }
-    if most > 400.0 * push { Class::Grown } else { Class::Stable }
+    if most > 400.0 * push {
+        Class::Grown
+    } else {
+        Class::Stable
+    }
 }
 
 /// Rows F1, F2 and F4: every cell of step × stiffness × scene × method.
@@ -77,7 +81,11 @@ fn the_blow_up_map() {
                 };
                 let cells = [0.9, 0.99, 1.01, 1.1].map(|part| at(part, Unstable::Allow));
                 println!("{method} {name} {stiffness:e}: {cells:?}");
-                assert_eq!(cells[..2], [Class::Stable; 2], "{method} {name} {stiffness}");
+                assert_eq!(
+                    cells[..2],
+                    [Class::Stable; 2],
+                    "{method} {name} {stiffness}"
+                );
                 for cell in &cells[2..] {
                     assert!(
                         matches!(cell, Class::Grown | Class::BlownUp),
@@ -133,7 +141,9 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
     let Some(StepError::BlowUp { at, .. }) = error else {
         panic!("{error:?}");
     };
-    assert!(matches!(at, Culprit::Constraint { ends: [0, 1], stretch_ratio } if stretch_ratio > 100.0));
+    assert!(
+        matches!(at, Culprit::Constraint { ends: [0, 1], stretch_ratio } if stretch_ratio > 100.0)
+    );
 }
 
 #[test]
@@ -144,7 +154,10 @@ fn f4_the_bound_is_cheap_and_holds_and_power_iteration_is_better() {
         println!("bound {bound}, measured {omega}, ratio {}", omega / bound);
         assert!(omega < bound && omega > 0.5 * bound);
         let exact = net.measure_frequency(1e-6, 20_000).omega_rad_per_s;
-        assert!(omega <= exact * (1.0 + 1e-12) && omega > 0.97 * exact, "{omega} {exact}");
+        assert!(
+            omega <= exact * (1.0 + 1e-12) && omega > 0.97 * exact,
+            "{omega} {exact}"
+        );
         // Known until something changes.
         let counted = net.counters().matrix_products;
         net.frequency();
@@ -154,7 +167,9 @@ fn f4_the_bound_is_cheap_and_holds_and_power_iteration_is_better() {
         let stiffer = net.frequency();
         assert!(stiffer.omega_rad_per_s > 1.2 * omega);
         assert_eq!(
-            stiffer.ends.map(|ends| net.stretches().between(ends[0], ends[1])),
+            stiffer
+                .ends
+                .map(|ends| net.stretches().between(ends[0], ends[1])),
             Some(Some(id))
         );
         assert!(net.counters().matrix_products > counted);
@@ -201,7 +216,10 @@ fn f5_the_limiter_needs_the_velocity_rewrite_and_says_what_it_did() {
     run(&mut chain, &mut provot, 0.005, 400);
     let report = provot.report();
     assert!(report.passes > 1 && !report.is_infeasible, "{report:?}");
-    assert!(report.stretch_ratio_before > 1.1 && report.excess < 0.1, "{report:?}");
+    assert!(
+        report.stretch_ratio_before > 1.1 && report.excess < 0.1,
+        "{report:?}"
+    );
 
     // Nails 1.3 m apart, for links of one metre in all.
     let mut taut = row(10, 0.02, 50.0, 0.1, Vector::new(0.13, 0.0, 0.0));
@@ -221,14 +239,22 @@ fn f6_f7_pbd_depends_on_iterations_and_has_no_limit() {
     };
     let lengths = [1, 5, 20, 200].map(|sweeps| hang(sweeps, 1.0 / 60.0, 20.0));
     println!("PBD hangs at 60 Hz: {lengths:?}");
-    assert!(lengths.windows(2).all(|pair| pair[0] > pair[1] && pair[1] > 1.0));
+    assert!(
+        lengths
+            .windows(2)
+            .all(|pair| pair[0] > pair[1] && pair[1] > 1.0)
+    );
     assert!(lengths[0] > 1.05 && lengths[1] < 1.05 && lengths[3] < 1.001);
 
     // However soft, it gets stiff as the step falls: x = g Δt² (1 − k) / (k (1 + c Δt)).
     for dt in [1.0 / 60.0, 1.0 / 240.0, 1.0 / 960.0] {
         let mut weight = row(1, 0.01, 1.0, 1.0, Vector::new(0.0, 0.0, -1.0));
         weight.set_loads(gravity(5.0)).expect("loads");
-        let soft = Pbd { sweeps: 4, stiffness: 0.01, ..Pbd::default() };
+        let soft = Pbd {
+            sweeps: 4,
+            stiffness: 0.01,
+            ..Pbd::default()
+        };
         run(&mut weight, soft, dt, (20.0 / dt) as usize);
         let extension = 9.81 * dt * dt * 99.0 / (1.0 + 5.0 * dt);
         near(-weight.positions()[1].z - 1.0, extension, 1e-12);
@@ -268,7 +294,10 @@ fn f14_a_light_particle_shortens_the_step() {
     }
     light.hold(0);
     let after = light.stable_step_s(2.0);
-    println!("a hundredth of the mass: the step {} times shorter", before / after);
+    println!(
+        "a hundredth of the mass: the step {} times shorter",
+        before / after
+    );
     assert!(before / after > 6.0);
     assert!(light.frequency().ends.is_some_and(|ends| ends.contains(&1)));
 }
@@ -283,9 +312,18 @@ fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
     );
     let nan = points().chain([Point::new(0.0, f64::NAN, 0.0)]);
     let error = System::new(nan, vec![1.0; 4]).expect_err("no number");
-    assert_eq!(error.to_string(), "particle 3 is at (0, NaN, 0), which is not usable");
+    assert_eq!(
+        error.to_string(),
+        "particle 3 is at (0, NaN, 0), which is not usable"
+    );
     let error = System::new(points(), vec![1.0]).expect_err("too few");
-    assert_eq!(error, SystemError::Counts { points: 3, masses: 1 });
+    assert_eq!(
+        error,
+        SystemError::Counts {
+            points: 3,
+            masses: 1
+        }
+    );
     let mut system = System::new(points(), vec![1.0; 3]).expect("particles");
     for (ends, rest, stiffness) in [
         ([0, 1], 0.0, 1.0),
@@ -295,21 +333,38 @@ fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
         ([0, 0], 1.0, 1.0),
         ([0, 3], 1.0, 1.0),
     ] {
-        let error = system.stretch(ends, rest, stiffness).expect_err("no spring");
-        let given = Constraint { ends, rest_length_m: rest, stiffness_n_per_m: stiffness };
-        assert_eq!(format!("{error:?}"), format!("{:?}", SystemError::Constraint { given }));
+        let error = system
+            .stretch(ends, rest, stiffness)
+            .expect_err("no spring");
+        let given = Constraint {
+            ends,
+            rest_length_m: rest,
+            stiffness_n_per_m: stiffness,
+        };
+        assert_eq!(
+            format!("{error:?}"),
+            format!("{:?}", SystemError::Constraint { given })
+        );
         assert!(system.bend(ends, rest, stiffness).is_err());
     }
     assert!(system.stretches().is_empty());
-    let wind = Wind { velocity_m_per_s: Vector::x(), coefficient: f64::NAN };
-    let loads = Loads { wind: Some(wind), ..Loads::default() };
+    let wind = Wind {
+        velocity_m_per_s: Vector::x(),
+        coefficient: f64::NAN,
+    };
+    let loads = Loads {
+        wind: Some(wind),
+        ..Loads::default()
+    };
     assert_eq!(system.set_loads(loads), Err(SystemError::Loads));
     for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = system.step(&mut Verlet::new(), dt).expect_err("no step");
         assert!(matches!(error, StepError::Step { .. }), "{error}");
     }
     system.state_mut().1[2].y = f64::NAN;
-    let error = system.step(&mut Xpbd::default(), 0.1).expect_err("no number");
+    let error = system
+        .step(&mut Xpbd::default(), 0.1)
+        .expect_err("no number");
     assert_eq!(
         error.to_string(),
         "the system blew up after 0 s: particle 2 is not finite; the last good state is kept"
@@ -326,7 +381,10 @@ fn loads_do_what_they_say() {
             -0.3,
         ),
         (
-            Collider::Sphere { centre: Point::new(0.0, 0.0, -1.0), radius_m: 0.75 },
+            Collider::Sphere {
+                centre: Point::new(0.0, 0.0, -1.0),
+                radius_m: 0.75,
+            },
             -0.25,
         ),
     ] {
@@ -339,7 +397,10 @@ fn loads_do_what_they_say() {
         ];
         for method in methods {
             let mut weight = System::new([Point::origin()], vec![1.0]).expect("a particle");
-            let loads = Loads { colliders: vec![collider], ..gravity(0.0) };
+            let loads = Loads {
+                colliders: vec![collider],
+                ..gravity(0.0)
+            };
             weight.set_loads(loads).expect("loads");
             run(&mut weight, method, 0.01, 200);
             near(weight.positions()[0].z, height, 1e-12);
@@ -349,9 +410,16 @@ fn loads_do_what_they_say() {
     }
     // A grabbed particle is where its path is, whatever the method.
     let to = Point::new(0.0, 1.0, 0.0);
-    for method in [&mut Verlet::new() as &mut dyn Solver, &mut Rk4::new(), &mut Xpbd::default()] {
+    for method in [
+        &mut Verlet::new() as &mut dyn Solver,
+        &mut Rk4::new(),
+        &mut Xpbd::default(),
+    ] {
         let mut pair = row(1, 1.0, 10.0, 1.0, Vector::new(1.0, 0.0, 0.0));
-        pair.grab(0, Path::new([(0.5, Point::origin()), (1.5, to)]).expect("a path"));
+        pair.grab(
+            0,
+            Path::new([(0.5, Point::origin()), (1.5, to)]).expect("a path"),
+        );
         for _ in 0..200 {
             pair.step(&mut *method, 0.01).expect("a step");
             let y = (pair.elapsed_s() - 0.5).clamp(0.0, 1.0);

@@ -51,7 +51,11 @@ impl Cloth {
     fn split(&mut self, split: &Split<'_>, edit: &Edit<'_>) {
         let (old, new) = (split.old.index(), split.new.index());
         let system = &mut self.system;
-        assert_eq!(new, system.positions.len(), "a cloth is in step with its mesh");
+        assert_eq!(
+            new,
+            system.positions.len(),
+            "a cloth is in step with its mesh"
+        );
         let (x, v) = (system.positions[old], system.velocities[old]);
         system.push_particle(x, v, Some(old));
         self.masses.follow(edit);
@@ -131,9 +135,13 @@ impl Cloth {
                 family.repoint(id, gone, kept);
             }
         }
+        // Across a seam: between particles that are neither of the two.
+        let mut across = 0.0;
         if !self.bend_of.is_empty() {
             for link in merge.sewn {
-                self.bend_across([link.stayed, link.moved]);
+                if let Some(id) = self.bend_across([link.stayed, link.moved]) {
+                    across += energy(&self.system.model.bend.get(id), &self.system.positions);
+                }
             }
         }
         self.system.join_particles(kept, gone, merge.share);
@@ -145,7 +153,7 @@ impl Cloth {
         self.masses.follow(edit);
         self.rest.follow(edit);
         self.reweigh(kept);
-        self.ledger.merge_elastic_j += self.elastic_at(kept) - elastic;
+        self.ledger.merge_elastic_j += self.elastic_at(kept) + across - elastic;
         self.ledger.merge_kinetic_j += self.system.kinetic_j(kept) - kinetic;
     }
 
@@ -187,8 +195,12 @@ impl Cloth {
             let pieces = (0..3).map(|corner| self.piece(child, corner));
             room.pieces.extend(pieces);
         }
-        room.pieces.sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
-        let half_edges = insert.children.iter().map(|child| 3 * child.face.index() + 3);
+        room.pieces
+            .sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
+        let half_edges = insert
+            .children
+            .iter()
+            .map(|child| 3 * child.face.index() + 3);
         let half_edges = half_edges.fold(self.stretch_of.len(), usize::max);
         self.stretch_of.resize(half_edges, NO_BEND);
         self.system.model.faces.resize(half_edges, 0);
@@ -206,7 +218,12 @@ impl Cloth {
         }
         // First what goes, then what comes: an id may be given again.
         room.ids.clear();
-        room.ids.extend(room.pieces.iter().filter(|piece| piece.divided).map(|piece| piece.stretch));
+        room.ids.extend(
+            room.pieces
+                .iter()
+                .filter(|piece| piece.divided)
+                .map(|piece| piece.stretch),
+        );
         room.ids.sort_unstable();
         room.ids.dedup();
         for &id in &room.ids {
@@ -214,7 +231,10 @@ impl Cloth {
             gained -= energy(&gone, &self.system.positions);
         }
         room.ids.clear();
-        let divided = room.pieces.iter().filter(|piece| piece.divided && piece.bend != NO_BEND);
+        let divided = room
+            .pieces
+            .iter()
+            .filter(|piece| piece.divided && piece.bend != NO_BEND);
         room.ids.extend(divided.map(|piece| piece.bend));
         room.ids.sort_unstable();
         room.ids.dedup();
@@ -306,7 +326,9 @@ impl Cloth {
         let [a, b, apex] = [0, 1, 2].map(|i| child.vertices[(corner + i) % 3].index());
         let sources = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
         let parent = child.parent.half_edges();
-        let on = parent.into_iter().find(|&h| sources.into_iter().all(|source| lies_on(source, h)));
+        let on = parent
+            .into_iter()
+            .find(|&h| sources.into_iter().all(|source| lies_on(source, h)));
         let is_corner = |source: &Source| matches!(source, Source::Corner(_));
         let by_length = |h: HalfEdgeId| {
             let constraint = self.system.model.stretch.get(self.stretch(h));
@@ -346,7 +368,9 @@ impl Cloth {
     fn elastic_at(&self, particle: usize) -> f64 {
         let model = &self.system.model;
         let of = |family: &Constraints| -> f64 {
-            let energies = family.of(particle).map(|id| energy(&family.get(id), &self.system.positions));
+            let energies = family
+                .of(particle)
+                .map(|id| energy(&family.get(id), &self.system.positions));
             energies.sum()
         };
         of(&model.stretch) + of(&model.bend)
@@ -405,7 +429,9 @@ impl System {
         let model = &mut self.model;
         model.masses.push(0.0);
         model.inverse_masses.push(0.0);
-        model.held.push(like.is_some_and(|particle| model.held[particle]));
+        model
+            .held
+            .push(like.is_some_and(|particle| model.held[particle]));
         model.stretch.push_particle();
         model.bend.push_particle();
         let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;

@@ -134,9 +134,7 @@ impl System {
         self.start_vector();
         let (model, x) = (&self.model, &self.positions);
         let Spectrum {
-            vector: u,
-            product,
-            ..
+            vector: u, product, ..
         } = &mut self.spectrum;
         let mut frequency = Frequency {
             omega_rad_per_s: 0.0,
