@@ -209,8 +209,8 @@ fn r4_transverse_modes_of_a_string() {
         near((energy / mass).sqrt(), mode(j), 1e-10);
 
         // In motion, with an amplitude that leaves the tension as it is.
-        for i in 1..32 {
-            string.state_mut().0[i].z = 1e-7 * shape[i].z;
+        for (p, u) in string.state_mut().0.iter_mut().zip(&shape).take(32) {
+            p.z = 1e-7 * u.z;
         }
         let dt = 0.002;
         run(&mut string, Rk4::new(), dt, 500);
@@ -226,7 +226,7 @@ fn r4_transverse_modes_of_a_string() {
 fn period(angle: f64) -> f64 {
     let (mut a, mut b) = (1.0, (angle / 2.0).cos());
     for _ in 0..10 {
-        (a, b) = (0.5 * (a + b), (a * b as f64).sqrt());
+        (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
     }
     2.0 * PI / (G.sqrt() * a)
 }
@@ -412,8 +412,8 @@ fn r7_the_top_link_reaches_its_threshold_first_and_at_the_right_force() {
     }
 }
 
-/// The stiffness of a net in the plane: C_xx, C_yy, C_xy, C_ss and C_xs in N/m, from
-/// uᵀ K u of the affine displacements of a cell's springs.
+/// The stiffness of a net in the plane, in N/m: xx, yy, xy, shear, and x with shear, from uᵀ K u
+/// of the affine displacements of a cell's springs.
 fn modulus(cell_area: f64, springs: &[[f64; 2]], k: f64) -> [f64; 5] {
     let energy = |f: &dyn Fn([f64; 2]) -> [f64; 2]| -> f64 {
         let of = |&spring: &[f64; 2]| {

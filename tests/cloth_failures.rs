@@ -65,10 +65,13 @@ fn class(mut system: System, solver: &mut dyn Solver, part: f64, unstable: Unsta
     }
 }
 
+/// A method by name.
+type Method = (&'static str, fn() -> Box<dyn Solver>);
+
 /// Rows F1, F2 and F4: every cell of step × stiffness × scene × method.
 #[test]
 fn the_blow_up_map() {
-    let methods: [(&str, fn() -> Box<dyn Solver>); 3] = [
+    let methods: [Method; 3] = [
         ("Verlet", || Box::new(Verlet::new())),
         ("Provot", || Box::new(Provot::unlimited())),
         ("RK4", || Box::new(Rk4::new())),

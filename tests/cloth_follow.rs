@@ -64,7 +64,9 @@ fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
             lengths.sort_unstable();
         }
     };
-    [&mut edges, &mut across, &mut have, &mut have_across].map(close);
+    [&mut edges, &mut across, &mut have, &mut have_across]
+        .into_iter()
+        .for_each(close);
     assert_eq!(have, edges, "stretch constraints");
     if bends {
         assert_eq!(have_across, across, "bend constraints");

@@ -4,7 +4,7 @@
 //!
 //! * **A bound** that holds in every configuration: a spring is at most as stiff as k in each
 //!   direction, so by Gershgorin's rows of √k Bᵀ M⁻¹ B √k every ω² is at most
-//!   √k (w_a S_a + w_b S_b) of some spring between a and b, where w is an inverse mass and S the
+//!   √k (w S + w′ S′) of some spring, where w and w′ are the inverse masses of its ends, and S the
 //!   sum of √k over the springs of a particle. An edit raises it by the rows it touches, in
 //!   the time that their valence takes. It never falls on the way, so it stays a bound.
 //! * **A measure** by power iteration on M⁻¹ K in the present configuration, from below, used
