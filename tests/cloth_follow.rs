@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use tearmesh::cloth::{Cloth, ClothError, Copies, Fabric, Loads, Unbend, Unstable, Verlet, Xpbd};
 use tearmesh::subdivide::Plan;
 use tearmesh::{
-    Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, split,
+    Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split,
 };
 
 use crate::cloth_answers::near;
@@ -164,12 +164,13 @@ enum Done {
     Split,
     Insert,
     Merge,
+    Slide,
 }
 
 /// One random edit.
 fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) -> Done {
     let mut below = |n: usize| ((random.next() * n as f64) as usize).min(n - 1);
-    match below(5) {
+    match below(6) {
         0 | 1 => {
             let v = VertexId::new(below(mesh.vertex_count())).expect("a vertex");
             let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| below(2) == 0).collect();
@@ -194,6 +195,15 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
                 Err(_) => Done::Nothing,
             }
         }
+        3 => {
+            let h = mesh
+                .half_edges()
+                .nth(below(mesh.half_edge_count()))
+                .expect("a half-edge");
+            let t = 0.01 + 0.2 * below(1000) as f64 / 1000.0;
+            slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
+            Done::Slide
+        }
         _ => {
             let stitches = mend::stitches(mesh, |_| true);
             if stitches.is_empty() {
@@ -211,7 +221,7 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
 
 #[test]
 fn a_running_cloth_follows_every_edit_as_if_made_anew() {
-    let mut counts = [0; 3];
+    let mut counts = [0; 4];
     for seed in 0..60 {
         let mut random = Random(seed);
         let (mut mesh, positions) = match seed % 4 {
@@ -257,6 +267,10 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 }
                 Done::Insert => counts[1] += 1,
                 Done::Merge => counts[2] += 1,
+                Done::Slide => {
+                    counts[3] += 1;
+                    assert_eq!(now, moving, "a slide keeps momentum bit for bit");
+                }
             }
             for (now, moving) in now.iter().zip(&moving) {
                 near(now.to_f64(), moving.to_f64(), 1e-15);
@@ -276,7 +290,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         cloth.system_mut().when_unstable(Unstable::Substep);
         assert!(mesh.check().is_empty());
     }
-    println!("{counts:?} splits, insertions and merges");
+    println!("{counts:?} splits, insertions, merges and slides");
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
 

@@ -4,7 +4,7 @@
 use super::constraint::{Constraint, ConstraintId, Constraints};
 use super::sheet::{Cloth, Copies, Effect, NO_BEND, Unbend};
 use super::system::System;
-use crate::edit::{Child, Edit, Follower, Insert, Location, Merge, Source, Split};
+use crate::edit::{Child, Edit, Follower, Insert, Location, Merge, Slide, Source, Split};
 use crate::geometry::{Point, Vector, between, length};
 use crate::id::{HalfEdgeId, VertexId};
 
@@ -35,6 +35,10 @@ impl Follower for Cloth {
             Edit::Merge(merge) => {
                 self.merge(merge, edit);
                 merge.kept
+            }
+            Edit::Slide(slide) => {
+                self.slide(slide, edit);
+                slide.vertex
             }
         };
         self.effects.push(Effect {
@@ -150,11 +154,56 @@ impl Cloth {
                 self.system.model.faces[corner.index()] = renumbered.to.index() as u32;
             }
         }
+        // Copies that slid apart have different places at rest, and meet between.
+        let apart = self.rest.at(merge.kept) != self.rest.at(merge.gone);
         self.masses.follow(edit);
         self.rest.follow(edit);
         self.reweigh(kept);
+        if apart {
+            self.measure_again(kept);
+        }
         self.ledger.merge_elastic_j += self.elastic_at(kept) + across - elastic;
         self.ledger.merge_kinetic_j += self.system.kinetic_j(kept) - kinetic;
+    }
+
+    fn slide(&mut self, slide: &Slide<'_>, edit: &Edit<'_>) {
+        let (particle, toward) = (slide.vertex.index(), slide.toward.index());
+        let elastic = self.elastic_at(particle);
+        let x = &mut self.system.positions;
+        x[particle] = between(x[particle], x[toward], slide.t);
+        self.masses.follow(edit);
+        self.rest.follow(edit);
+        self.measure_again(particle);
+        self.ledger.slide_elastic_j += self.elastic_at(particle) - elastic;
+    }
+
+    /// Takes new rest lengths for the constraints of a particle whose place at rest has changed.
+    /// Stretch constraints keep k L, as the parts of a divided edge do.
+    fn measure_again(&mut self, particle: usize) {
+        let mut ids = std::mem::take(&mut self.room.ids);
+        ids.clear();
+        ids.extend(self.system.model.stretch.of(particle));
+        for &id in &ids {
+            let before = self.system.model.stretch.get(id);
+            let shortest = before.rest_length_m * f64::EPSILON;
+            let rest_length_m = self.rest_length(before.ends).max(shortest);
+            let stretch = &mut self.system.model.stretch;
+            if rest_length_m != before.rest_length_m {
+                let k = before.stiffness_n_per_m * (before.rest_length_m / rest_length_m);
+                stretch.set_stiffness(id, k);
+                stretch.set_rest_length(id, rest_length_m);
+                self.system.touched(&before.ends);
+            }
+        }
+        ids.clear();
+        ids.extend(self.system.model.bend.of(particle));
+        for &id in &ids {
+            let ends = self.system.model.bend.get(id).ends;
+            let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
+            self.system.model.bend.set_rest_length(id, rest_length_m);
+        }
+        self.system.touched(&[particle]);
+        self.room.ids = ids;
     }
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {

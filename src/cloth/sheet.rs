@@ -77,6 +77,8 @@ pub struct EnergyLedger {
     pub merge_elastic_j: f64,
     /// Kinetic energy by merges: two particles become one, as in an inelastic impact.
     pub merge_kinetic_j: f64,
+    /// Elastic energy by slides.
+    pub slide_elastic_j: f64,
 }
 
 impl EnergyLedger {
@@ -88,6 +90,7 @@ impl EnergyLedger {
             + self.insert_kinetic_j
             + self.merge_elastic_j
             + self.merge_kinetic_j
+            + self.slide_elastic_j
     }
 }
 
@@ -97,7 +100,7 @@ impl EnergyLedger {
 pub struct Effect {
     /// The number of the edit.
     pub number: u64,
-    /// The vertex that was split, inserted first, or kept.
+    /// The vertex that was split, inserted first, kept, or slid.
     pub vertex: VertexId,
     /// The bound of all frequencies before, in rad/s; see [`System::frequency_bound`].
     pub bound_before_rad_per_s: f64,
@@ -118,6 +121,8 @@ pub struct Effect {
 ///   together they are what it was. A new edge inside a face has, times its length, the mean
 ///   of the face's edges.
 /// * **Merge**: the inverse of a split; velocities are joined by mass.
+/// * **Slide**: the particle moves along its edge, at rest as well; it keeps its velocity, so
+///   momentum is exact, and its edges keep stiffness times length.
 ///
 /// ```
 /// use tearmesh::cloth::{Cloth, Fabric, Loads, Xpbd};
