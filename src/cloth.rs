@@ -21,6 +21,7 @@ mod constraint;
 mod follow;
 mod kernel;
 mod load;
+mod particle;
 mod pbd;
 mod provot;
 mod rk4;
