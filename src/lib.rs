@@ -66,7 +66,8 @@
 //! | 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) |
 //! | 2 | [`split`], [`mend`] (merges), [`subdivide`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] |
 //! | 3 | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods), [`tear`] (the rule for an overstretched edge) |
-//! | 4 | `script` (drives all of it from bytes or text; behind a feature) |
+//! | 4 | [`cloth`] (particles and constraints, a file for each solver, and the follower) |
+//! | 5 | `script` (drives a kernel from bytes or text; behind a feature) |
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
 //! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a
@@ -89,6 +90,7 @@
 
 mod attribute;
 pub mod classify;
+pub mod cloth;
 mod edit;
 mod exact;
 mod geometry;

@@ -94,3 +94,43 @@ fn walks_do_not_allocate() {
     });
     assert_eq!(taken, 0);
 }
+
+#[test]
+fn steps_of_a_cloth_do_not_allocate() {
+    use tearmesh::cloth::{Cloth, Fabric, Loads, Pbd, Provot, Rk4, Solver, Unstable, Verlet, Xpbd};
+
+    let (mesh, positions) = shapes::grid(10, 10);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let fabric = Fabric {
+        bend_n_per_m: Some(1.0),
+        ..Fabric::new(50.0)
+    };
+    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+        drag_per_s: Some(1.0),
+        ..Loads::default()
+    };
+    let system = cloth.system_mut();
+    system.set_loads(loads).expect("loads");
+    system.hold(0);
+    system.when_unstable(Unstable::Substep);
+    let (mut provot, mut rk4) = (Provot::default(), Rk4::new());
+    let methods: [&mut dyn Solver; 5] = [
+        &mut Verlet::new(),
+        &mut provot,
+        &mut Pbd::default(),
+        &mut Xpbd::default(),
+        &mut rk4,
+    ];
+    for method in methods {
+        // The first step makes room.
+        cloth.step(&mut *method, 0.005).expect("a step");
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                cloth.step(&mut *method, 0.005).expect("a step");
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}

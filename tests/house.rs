@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// The floor of each module of the library; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 17] = [
+const FLOORS: [(&str, u32); 18] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
@@ -23,7 +23,8 @@ const FLOORS: [(&str, u32); 17] = [
     ("shapes", 2),
     ("scissor", 3),
     ("tear", 3),
-    ("script", 4),
+    ("cloth", 4),
+    ("script", 5),
 ];
 
 fn floor(module: &str) -> u32 {

@@ -3,6 +3,10 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod cloth_answers;
+mod cloth_cost;
+mod cloth_failures;
+mod cloth_follow;
 mod cut_mend;
 mod exact;
 mod exhaustive;

@@ -1,0 +1,45 @@
+//! Cloth, as thin as can be: particles, constraints, solvers, and a follower of the log.
+//!
+//! A [`System`] is particles and springs over slices, with no mesh in sight. A [`Solver`] advances
+//! it; [`System::step`] watches over stability, notices blow-up, and keeps the last good state. A
+//! [`Cloth`] is a system made of a mesh, and a follower of its log.
+//!
+//! | method | what it is for | a step costs |
+//! |---|---|---|
+//! | [`Provot`] | the mass-spring model of the paper: a baseline | one force evaluation, and passes of the limiter |
+//! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
+//! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
+//! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
+//! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
+//!
+//! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
+//!
+//! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
+//! fixed order; no step allocates once its solver has seen a system of that size.
+
+mod constraint;
+mod follow;
+mod kernel;
+mod load;
+mod particle;
+mod pbd;
+mod provot;
+mod rk4;
+mod sheet;
+mod solver;
+mod stability;
+mod system;
+mod verlet;
+mod xpbd;
+
+pub use constraint::{Constraint, ConstraintId, Constraints};
+pub use load::{Collider, Loads, Path, Wind};
+pub use pbd::Pbd;
+pub use provot::{Limiter, LimiterReport, Provot};
+pub use rk4::Rk4;
+pub use sheet::{Cloth, ClothError, Copies, Effect, EnergyLedger, Fabric, Unbend};
+pub use solver::{Culprit, Solver, StepError, StepReport};
+pub use stability::Frequency;
+pub use system::{Counters, System, SystemError, Unstable};
+pub use verlet::Verlet;
+pub use xpbd::Xpbd;

@@ -1,0 +1,148 @@
+//! Position based dynamics, the second model of the paper.
+//!
+//! Predict, project the constraints so many times, and take as velocity what was moved
+//! (Müller et al. 2007). Always stable, and never sold as accurate: how stiff it is depends on
+//! the step and on the number of sweeps, and as the step goes to zero there is no limit.
+//! What it converges to with more sweeps is an inextensible net. Judge it by
+//! [`System::strain_rms`].
+
+use super::kernel;
+use super::solver::Solver;
+use super::system::System;
+use crate::geometry::{Point, Vector};
+
+/// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
+/// soft as [`Pbd::stiffness`] says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pbd {
+    /// Sweeps over all constraints a step.
+    pub sweeps: u32,
+    /// The part of an error that a step corrects, 0 to 1, whatever the number of
+    /// sweeps: each corrects 1 − (1 − k)^(1/n) (Müller et al. 2007, §3.3).
+    pub stiffness: f64,
+    /// The same of bend constraints.
+    pub bend_stiffness: f64,
+}
+
+impl Default for Pbd {
+    /// Ten sweeps, rigid stretch constraints, and bend constraints of 0.1.
+    fn default() -> Pbd {
+        Pbd {
+            sweeps: 10,
+            stiffness: 1.0,
+            bend_stiffness: 0.1,
+        }
+    }
+}
+
+impl Pbd {
+    /// The method with rigid constraints and so many sweeps.
+    #[must_use]
+    pub fn new(sweeps: u32) -> Pbd {
+        Pbd {
+            sweeps,
+            ..Pbd::default()
+        }
+    }
+}
+
+impl Solver for Pbd {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+        predict(system, dt_s);
+        let fraction = |stiffness: f64| 1.0 - root(1.0 - stiffness, self.sweeps);
+        let (stretch, bend) = (fraction(self.stiffness), fraction(self.bend_stiffness));
+        let System {
+            positions,
+            model,
+            counters,
+            ..
+        } = system;
+        let mut sane = true;
+        for _ in 0..self.sweeps {
+            for (family, fraction) in [(&model.stretch, stretch), (&model.bend, bend)] {
+                for batch in family.batches() {
+                    counters.projections += batch.ends.len() as u64;
+                    sane &= kernel::project(
+                        batch,
+                        &model.inverse_masses,
+                        fraction,
+                        model.stretch_ratio_max,
+                        positions,
+                    );
+                }
+            }
+        }
+        finish(system, dt_s);
+        sane
+    }
+}
+
+/// Moves all particles as if there were no constraint, and keeps where they were.
+pub(crate) fn predict(system: &mut System, dt_s: f64) {
+    let System {
+        positions,
+        velocities,
+        model,
+        scratch,
+        counters,
+        ..
+    } = system;
+    scratch.is_fresh = false;
+    scratch.before.clone_from(positions);
+    let accelerations = &mut scratch.accelerations;
+    accelerations.resize(positions.len(), Vector::zeros());
+    accelerations.fill(Vector::zeros());
+    model.external(positions, velocities, accelerations, counters);
+    let fade = 1.0 + dt_s * model.drag_per_s();
+    let particles = positions.iter_mut().zip(velocities).zip(accelerations);
+    for (((x, v), a), &w) in particles.zip(&model.inverse_masses) {
+        if w > 0.0 {
+            *v = (*v + *a * dt_s) / fade;
+        }
+        *x += *v * dt_s;
+    }
+}
+
+/// Takes as velocity what was moved, then lets colliders push.
+pub(crate) fn finish(system: &mut System, dt_s: f64) {
+    let moved = |(x, before): (&Point, &Point)| (x - before) / dt_s;
+    let moves = system.positions.iter().zip(&system.scratch.before);
+    for (v, moves) in system.velocities.iter_mut().zip(moves) {
+        *v = moved(moves);
+    }
+    system.collide();
+}
+
+/// The n-th root of a number from 0 to 1, by Newton's iteration from above.
+fn root(a: f64, n: u32) -> f64 {
+    if a <= 0.0 || n == 0 {
+        return 0.0;
+    }
+    let mut x = 1.0;
+    for _ in 0..200 {
+        let power = (1..n).fold(1.0, |power, _| power * x);
+        let next = x - (x - a / power) / f64::from(n);
+        if next >= x {
+            break;
+        }
+        x = next;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_to_a_power_give_the_number() {
+        for n in 1..=40 {
+            for a in [1e-6, 0.1, 0.5, 0.9, 1.0] {
+                let x = root(a, n);
+                let back = (0..n).fold(1.0, |power, _| power * x);
+                assert!((back - a).abs() < 1e-13, "{a} {n}: {x}");
+            }
+            assert_eq!(root(0.0, n), 0.0);
+        }
+    }
+}

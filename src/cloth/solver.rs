@@ -1,0 +1,300 @@
+//! What every solver shares: the trait, the watch over stability, and the way back.
+//!
+//! [`System::step`] is the one way to advance. It asks the stability limit of an explicit method
+//! before, looks for blow-up after, and leaves the last good state where something failed.
+
+use std::fmt;
+
+use super::stability::Frequency;
+use super::system::{System, Unstable};
+
+/// A method that advances a system.
+///
+/// ```
+/// use tearmesh::cloth::{Solver, System};
+///
+/// /// Particles that fly straight on.
+/// struct Inertia;
+///
+/// impl Solver for Inertia {
+///     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+///         let (positions, velocities) = system.state_mut();
+///         for (x, v) in positions.iter_mut().zip(velocities) {
+///             *x += *v * dt_s;
+///         }
+///         true
+///     }
+/// }
+/// ```
+pub trait Solver {
+    /// Advances positions and velocities by this many seconds. False where the system blew up;
+    /// the caller goes back.
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool;
+
+    /// The largest ω Δt at which the method is stable; `None` where there is none.
+    fn frequency_limit(&self) -> Option<f64> {
+        None
+    }
+}
+
+impl<S: Solver + ?Sized> Solver for &mut S {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+        (**self).advance(system, dt_s)
+    }
+
+    fn frequency_limit(&self) -> Option<f64> {
+        (**self).frequency_limit()
+    }
+}
+
+/// A step that was taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// The substeps that the watch over stability took it in: 1 unless [`Unstable::Substep`].
+    pub substeps: u32,
+    /// The largest step in seconds that would have been admitted whole, by the bound or by the
+    /// measured frequency, whichever admitted this one; `None` where nothing had to be asked.
+    pub limit_s: Option<f64>,
+}
+
+/// Why a step was not taken. The system is as it was before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The step is not a positive finite number of seconds.
+    Step {
+        /// The step as given.
+        given_s: f64,
+    },
+    /// An explicit method would be unstable.
+    Unstable {
+        /// The step as given.
+        given_s: f64,
+        /// The largest step that is admitted, the margin included.
+        limit_s: f64,
+        /// The frequency that sets it.
+        frequency: Frequency,
+    },
+    /// It would take more substeps than [`StepError::SUBSTEPS_MAX`].
+    Substeps {
+        /// The step as given.
+        given_s: f64,
+        /// The largest step that is admitted, the margin included.
+        limit_s: f64,
+    },
+    /// Something grew beyond all measure, or is not a number.
+    BlowUp {
+        /// The seconds simulated until the last good state, where the system still is.
+        elapsed_s: f64,
+        /// The first particle that is not finite, or the ends of the constraint that is
+        /// longest for its rest length.
+        at: Culprit,
+    },
+}
+
+/// Where a blow-up showed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Culprit {
+    /// A particle whose position or velocity is not finite.
+    Particle(usize),
+    /// A constraint.
+    Constraint {
+        /// Its particles.
+        ends: [usize; 2],
+        /// Its length as a multiple of its rest length.
+        stretch_ratio: f64,
+    },
+}
+
+impl StepError {
+    /// The most substeps that a step is divided into.
+    pub const SUBSTEPS_MAX: u32 = 10_000;
+}
+
+impl System {
+    /// Advances the system by `dt_s` seconds.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`], and the system is as it was before.
+    pub fn step(
+        &mut self,
+        solver: &mut (impl Solver + ?Sized),
+        dt_s: f64,
+    ) -> Result<StepReport, StepError> {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return Err(StepError::Step { given_s: dt_s });
+        }
+        let report = self.admit(solver.frequency_limit(), dt_s)?;
+        self.scratch.positions.clone_from(&self.positions);
+        self.scratch.velocities.clone_from(&self.velocities);
+        let began_s = self.elapsed_s;
+        let substep_s = dt_s / f64::from(report.substeps);
+        for _ in 0..report.substeps {
+            self.counters.substeps += 1;
+            self.drive(substep_s);
+            if !solver.advance(self, substep_s) || !self.is_finite() {
+                let at = self.culprit();
+                std::mem::swap(&mut self.positions, &mut self.scratch.positions);
+                std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
+                self.scratch.is_fresh = false;
+                self.elapsed_s = began_s;
+                return Err(StepError::BlowUp {
+                    elapsed_s: began_s,
+                    at,
+                });
+            }
+            self.elapsed_s += substep_s;
+        }
+        self.elapsed_s = began_s + dt_s;
+        Ok(report)
+    }
+
+    /// How many substeps a step takes, the cheap answer first.
+    fn admit(&mut self, limit: Option<f64>, dt_s: f64) -> Result<StepReport, StepError> {
+        let whole = |limit_s| StepReport {
+            substeps: 1,
+            limit_s,
+        };
+        let Some(limit) = limit.filter(|_| self.unstable != Unstable::Allow) else {
+            return Ok(whole(None));
+        };
+        let bound_s = limit / self.frequency_bound();
+        if dt_s <= bound_s {
+            return Ok(whole(Some(bound_s)));
+        }
+        let frequency = self.frequency();
+        let limit_s = (self.margin * limit / frequency.omega_rad_per_s).max(bound_s);
+        if dt_s <= limit_s {
+            return Ok(whole(Some(limit_s)));
+        }
+        let substeps = (dt_s / limit_s).ceil();
+        if self.unstable == Unstable::Refuse {
+            Err(StepError::Unstable {
+                given_s: dt_s,
+                limit_s,
+                frequency,
+            })
+        } else if substeps > f64::from(StepError::SUBSTEPS_MAX) {
+            Err(StepError::Substeps {
+                given_s: dt_s,
+                limit_s,
+            })
+        } else {
+            Ok(StepReport {
+                substeps: substeps as u32,
+                limit_s: Some(limit_s),
+            })
+        }
+    }
+
+    /// The largest step in seconds that the watch admits for a method with this limit of ω Δt:
+    /// 2 for [`Verlet`](super::Verlet). Measures the frequency.
+    pub fn stable_step_s(&mut self, frequency_limit: f64) -> f64 {
+        let bound_s = frequency_limit / self.frequency_bound();
+        (self.margin * frequency_limit / self.frequency().omega_rad_per_s).max(bound_s)
+    }
+
+    fn is_finite(&self) -> bool {
+        // Sums are finite where their parts are, and cheaper to look at.
+        let positions: f64 = self.positions.iter().map(|p| p.x + p.y + p.z).sum();
+        let velocities: f64 = self.velocities.iter().map(|v| v.x + v.y + v.z).sum();
+        (positions + velocities).is_finite()
+    }
+
+    fn culprit(&self) -> Culprit {
+        let particles = self.positions.iter().zip(&self.velocities);
+        let bad = |(p, v): (&crate::Point, &crate::Vector)| {
+            !(p.iter().chain(v.iter()).all(|x| x.is_finite()))
+        };
+        if let Some(particle) = particles.map(bad).position(|bad| bad) {
+            return Culprit::Particle(particle);
+        }
+        let mut worst = ([0; 2], 0.0);
+        for id in self.model.stretch.iter() {
+            let ratio = self.stretch_ratio(id);
+            if ratio > worst.1 {
+                worst = (self.model.stretch.get(id).ends, ratio);
+            }
+        }
+        Culprit::Constraint {
+            ends: worst.0,
+            stretch_ratio: worst.1,
+        }
+    }
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StepError::Step { given_s } => {
+                write!(f, "dt {given_s} s is not a positive finite step")
+            }
+            StepError::Unstable {
+                given_s,
+                limit_s,
+                frequency,
+            } => {
+                let omega = frequency.omega_rad_per_s;
+                write!(
+                    f,
+                    "dt {given_s} s exceeds the stability limit {} s (largest frequency {} rad/s",
+                    Digits(*limit_s),
+                    Digits(omega)
+                )?;
+                if let Some([a, b]) = frequency.ends {
+                    write!(f, " at edge {a}-{b}")?;
+                }
+                f.write_str(")")
+            }
+            StepError::Substeps { given_s, limit_s } => write!(
+                f,
+                "dt {given_s} s would take more than {} substeps of {} s",
+                StepError::SUBSTEPS_MAX,
+                Digits(*limit_s)
+            ),
+            StepError::BlowUp { elapsed_s, at } => {
+                write!(f, "the system blew up after {elapsed_s} s: ")?;
+                match at {
+                    Culprit::Particle(particle) => {
+                        write!(f, "particle {particle} is not finite")?;
+                    }
+                    Culprit::Constraint {
+                        ends: [a, b],
+                        stretch_ratio,
+                    } => write!(
+                        f,
+                        "edge {a}-{b} has {} times its rest length",
+                        Digits(*stretch_ratio)
+                    )?,
+                }
+                f.write_str("; the last good state is kept")
+            }
+        }
+    }
+}
+
+impl std::error::Error for StepError {}
+
+/// A number to three digits or all of those before the point.
+struct Digits(f64);
+
+impl fmt::Display for Digits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0.abs();
+        if x >= 100.0 || x == 0.0 {
+            write!(f, "{:.0}", self.0)
+        } else if x < 1e-6 {
+            write!(f, "{:.2e}", self.0)
+        } else {
+            let mut digits = 1;
+            let mut scale = 10.0;
+            while x < scale {
+                digits += 1;
+                scale /= 10.0;
+            }
+            write!(f, "{:.digits$}", self.0)
+        }
+    }
+}

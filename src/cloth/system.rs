@@ -1,0 +1,614 @@
+//! Particles and constraints, with no mesh in sight.
+//!
+//! A [`System`] is a list of particles and two families of springs between them: *stretch*
+//! constraints, and *bend* constraints that reach across something. A chain, a net or a cloth
+//! is one. Units are SI throughout: metres, kilograms, seconds, newtons.
+
+mod error;
+
+pub use error::SystemError;
+
+use super::constraint::{Constraint, ConstraintId, Constraints};
+use super::kernel;
+use super::load::{Loads, Path};
+use super::stability::Spectrum;
+use crate::geometry::{Point, Vector, check_point, dot};
+
+/// Particles, constraints and loads.
+///
+/// ```
+/// use tearmesh::cloth::{Loads, System, Verlet};
+/// use tearmesh::{Point, Vector};
+///
+/// // A chain of ten springs, without any mesh.
+/// let points = (0..11).map(|i| Point::new(0.0, 0.0, -0.1 * f64::from(i)));
+/// let mut chain = System::new(points, vec![0.01; 11])?;
+/// for i in 0..10 {
+///     chain.stretch([i, i + 1], 0.1, 50.0)?;
+/// }
+/// chain.hold(0);
+/// chain.set_loads(Loads {
+///     gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+///     drag_per_s: Some(5.0),
+///     ..Loads::default()
+/// })?;
+/// for _ in 0..5000 {
+///     chain.step(&mut Verlet::new(), 0.005)?;
+/// }
+/// // N L + m g N (N + 1) / (2 k)
+/// assert!((chain.positions()[10].z + 1.10791).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct System {
+    pub(crate) positions: Vec<Point>,
+    pub(crate) velocities: Vec<Vector>,
+    pub(crate) model: Model,
+    pub(crate) counters: Counters,
+    pub(crate) spectrum: Spectrum,
+    pub(crate) scratch: Scratch,
+    pub(crate) elapsed_s: f64,
+    pub(crate) unstable: Unstable,
+    pub(crate) margin: f64,
+}
+
+/// All but positions and velocities.
+#[derive(Clone, Debug)]
+pub(crate) struct Model {
+    pub(crate) masses: Vec<f64>,
+    /// Zero for a particle that is held.
+    pub(crate) inverse_masses: Vec<f64>,
+    pub(crate) held: Vec<bool>,
+    pub(crate) stretch: Constraints,
+    pub(crate) bend: Constraints,
+    /// The corners of faces, three each, where wind may blow.
+    pub(crate) faces: Vec<u32>,
+    pub(crate) loads: Loads,
+    paths: Vec<Path>,
+    /// Particles and their paths.
+    pub(crate) grabbed: Vec<(u32, u32)>,
+    pub(crate) stretch_ratio_max: f64,
+}
+
+/// Room for a step, so that none allocates.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    pub(crate) accelerations: Vec<Vector>,
+    /// Whether these are the accelerations now.
+    pub(crate) is_fresh: bool,
+    /// Where the step began: the last good state.
+    pub(crate) positions: Vec<Point>,
+    pub(crate) velocities: Vec<Vector>,
+    /// Where the substep began.
+    pub(crate) before: Vec<Point>,
+}
+
+/// What was computed since the system was made: the cost of a simulation, without a clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Evaluations of all forces.
+    pub force_evaluations: u64,
+    /// Projections of single constraints.
+    pub projections: u64,
+    /// Products of the stiffness matrix with a vector.
+    pub matrix_products: u64,
+    /// Sums of wind over all faces.
+    pub wind_evaluations: u64,
+    /// Tests of all particles against one collider.
+    pub collider_passes: u64,
+    /// Substeps.
+    pub substeps: u64,
+}
+
+/// What to do with a step beyond the stability limit of an explicit method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unstable {
+    /// Refuse it, with the limit: nothing changes.
+    #[default]
+    Refuse,
+    /// Divide it into as many substeps as it takes, and say how many.
+    Substep,
+    /// Take it. No frequency is computed; blow-up is still noticed.
+    Allow,
+}
+
+impl System {
+    /// Particles at rest at these points, with these masses in kilograms.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`]: where a coordinate is not usable, a mass is not positive, or the numbers
+    /// of points and masses differ.
+    pub fn new(
+        points: impl IntoIterator<Item = Point>,
+        masses_kg: Vec<f64>,
+    ) -> Result<System, SystemError> {
+        let system = System::with_massless(points, masses_kg);
+        let usable = |&mass: &f64| mass > 0.0 && mass.is_finite() && (1.0 / mass).is_finite();
+        let model = &system.model;
+        if model.masses.len() != system.positions.len() {
+            return Err(SystemError::Counts {
+                points: system.positions.len(),
+                masses: model.masses.len(),
+            });
+        }
+        if let Some(particle) = model.masses.iter().position(|mass| !usable(mass)) {
+            let given = model.masses[particle];
+            return Err(SystemError::Mass { particle, given });
+        }
+        let bad = |&point: &Point| check_point(point).is_err();
+        if let Some(particle) = system.positions.iter().position(bad) {
+            let given = system.positions[particle];
+            return Err(SystemError::Position { particle, given });
+        }
+        Ok(system)
+    }
+
+    /// The same without any check; particles without mass are held.
+    pub(crate) fn with_massless(
+        points: impl IntoIterator<Item = Point>,
+        masses: Vec<f64>,
+    ) -> System {
+        let positions: Vec<Point> = points.into_iter().collect();
+        let count = positions.len();
+        System {
+            velocities: vec![Vector::zeros(); count],
+            positions,
+            model: Model {
+                inverse_masses: masses.iter().map(|&mass| inverse(mass, false)).collect(),
+                masses,
+                held: vec![false; count],
+                stretch: Constraints::new(count),
+                bend: Constraints::new(count),
+                faces: Vec::new(),
+                loads: Loads::default(),
+                paths: Vec::new(),
+                grabbed: Vec::new(),
+                stretch_ratio_max: 100.0,
+            },
+            counters: Counters::default(),
+            spectrum: Spectrum::default(),
+            scratch: Scratch::default(),
+            elapsed_s: 0.0,
+            unstable: Unstable::default(),
+            margin: 0.95,
+        }
+    }
+
+    /// Adds a stretch constraint between two particles: rest length in metres, stiffness in N/m.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`]: a number is not positive and finite, or the ends are one particle or
+    /// none.
+    pub fn stretch(
+        &mut self,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
+    ) -> Result<ConstraintId, SystemError> {
+        self.connect(Family::Stretch, ends, rest_length_m, stiffness_n_per_m)
+    }
+
+    /// Adds a bend constraint: a spring between two particles that something else joins, so that
+    /// it resists folding (the flexion springs of Provot 1995, §2).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`System::stretch`].
+    pub fn bend(
+        &mut self,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
+    ) -> Result<ConstraintId, SystemError> {
+        self.connect(Family::Bend, ends, rest_length_m, stiffness_n_per_m)
+    }
+
+    fn connect(
+        &mut self,
+        family: Family,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
+    ) -> Result<ConstraintId, SystemError> {
+        let constraint = Constraint {
+            ends,
+            rest_length_m,
+            stiffness_n_per_m,
+        };
+        check_constraint(&constraint, self.positions.len())?;
+        let id = self.model.family_mut(family).add(constraint);
+        self.touched(&ends);
+        Ok(id)
+    }
+
+    /// Notes that masses or constraints at these particles have changed. Costs their valence.
+    pub(crate) fn touched(&mut self, particles: &[usize]) {
+        self.scratch.is_fresh = false;
+        self.spectrum.touched(&self.model, particles);
+    }
+
+    /// Changes the stiffness of a stretch constraint, in N/m.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Constraint`] where it is not positive and finite.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    pub fn set_stiffness(
+        &mut self,
+        id: ConstraintId,
+        stiffness_n_per_m: f64,
+    ) -> Result<(), SystemError> {
+        let constraint = Constraint {
+            stiffness_n_per_m,
+            ..self.model.stretch.get(id)
+        };
+        check_constraint(&constraint, self.positions.len())?;
+        self.model.stretch.set_stiffness(id, stiffness_n_per_m);
+        self.touched(&constraint.ends);
+        Ok(())
+    }
+
+    /// Pins a particle where it is.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    pub fn hold(&mut self, particle: usize) {
+        self.model.held[particle] = true;
+        self.velocities[particle] = Vector::zeros();
+        self.weigh(particle);
+    }
+
+    /// Lets a pinned or grabbed particle go.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    pub fn release(&mut self, particle: usize) {
+        let other = |&(grabbed, _): &(u32, u32)| grabbed as usize != particle;
+        self.model.grabbed.retain(other);
+        self.model.held[particle] = false;
+        self.weigh(particle);
+    }
+
+    /// Leads a particle along a path, from where the path is now.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    pub fn grab(&mut self, particle: usize, path: Path) {
+        self.release(particle);
+        self.hold(particle);
+        self.positions[particle] = path.at(self.elapsed_s);
+        let number = self.model.paths.len() as u32;
+        self.model.paths.push(path);
+        self.model.grabbed.push((particle as u32, number));
+    }
+
+    /// Brings the inverse mass up to date with the mass and with who is held.
+    pub(crate) fn weigh(&mut self, particle: usize) {
+        let model = &mut self.model;
+        model.inverse_masses[particle] = inverse(model.masses[particle], model.held[particle]);
+        self.touched(&[particle]);
+    }
+
+    /// Sets what acts from outside.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Loads`] where a number is not finite, or negative where it must not be.
+    pub fn set_loads(&mut self, loads: Loads) -> Result<(), SystemError> {
+        if !loads.is_usable() {
+            return Err(SystemError::Loads);
+        }
+        self.scratch.is_fresh = false;
+        self.model.loads = loads;
+        Ok(())
+    }
+
+    /// Says what to do with a step beyond the stability limit. Refusing it is the default.
+    pub fn when_unstable(&mut self, unstable: Unstable) {
+        self.unstable = unstable;
+    }
+
+    /// Sets how many times its rest length a constraint may have before the system counts as
+    /// blown up: 100 unless set. PBD stretches a hanging sheet of 64 × 64 cells twelvefold.
+    pub fn set_stretch_ratio_max(&mut self, ratio: f64) {
+        self.model.stretch_ratio_max = ratio;
+    }
+
+    /// Where the particles are, in metres.
+    #[must_use]
+    pub fn positions(&self) -> &[Point] {
+        &self.positions
+    }
+
+    /// Their velocities, in m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[Vector] {
+        &self.velocities
+    }
+
+    /// Positions and velocities, to be set. Those that are not finite are noticed by the next
+    /// step.
+    #[must_use]
+    pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
+        self.scratch.is_fresh = false;
+        (&mut self.positions, &mut self.velocities)
+    }
+
+    /// The masses, in kilograms.
+    #[must_use]
+    pub fn masses(&self) -> &[f64] {
+        &self.model.masses
+    }
+
+    /// Their inverses, in 1/kg: zero where a particle is held.
+    #[must_use]
+    pub fn inverse_masses(&self) -> &[f64] {
+        &self.model.inverse_masses
+    }
+
+    /// Whether a particle is pinned or grabbed.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    #[must_use]
+    pub fn is_held(&self, particle: usize) -> bool {
+        self.model.held[particle]
+    }
+
+    /// The stretch constraints.
+    #[must_use]
+    pub fn stretches(&self) -> &Constraints {
+        &self.model.stretch
+    }
+
+    /// The bend constraints.
+    #[must_use]
+    pub fn bends(&self) -> &Constraints {
+        &self.model.bend
+    }
+
+    /// What acts from outside.
+    #[must_use]
+    pub fn loads(&self) -> &Loads {
+        &self.model.loads
+    }
+
+    /// What has been computed so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// The seconds that have been simulated.
+    #[must_use]
+    pub fn elapsed_s(&self) -> f64 {
+        self.elapsed_s
+    }
+
+    /// The length of a stretch constraint as a multiple of its rest length.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn stretch_ratio(&self, id: ConstraintId) -> f64 {
+        let constraint = self.model.stretch.get(id);
+        self.length_m(&constraint) / constraint.rest_length_m
+    }
+
+    /// The force in a stretch constraint by its length, k (l − L), in newtons; tension is
+    /// positive.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn tension_n(&self, id: ConstraintId) -> f64 {
+        let constraint = self.model.stretch.get(id);
+        constraint.stiffness_n_per_m * (self.length_m(&constraint) - constraint.rest_length_m)
+    }
+
+    /// The force in a stretch constraint by the multiplier of the last step of
+    /// [`Xpbd`](super::Xpbd), −λ/Δt², in newtons; tension is positive. Zero before one.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn multiplier_n(&self, id: ConstraintId) -> f64 {
+        -self.model.stretch.multiplier(id)
+    }
+
+    fn length_m(&self, constraint: &Constraint) -> f64 {
+        let [a, b] = constraint.ends.map(|end| self.positions[end]);
+        let d = b - a;
+        dot(d, d).sqrt()
+    }
+
+    /// The elastic energy of all constraints, in joules.
+    #[must_use]
+    pub fn elastic_energy_j(&self) -> f64 {
+        let batches = self.model.batches();
+        batches
+            .map(|batch| kernel::energy(batch, &self.positions))
+            .sum()
+    }
+
+    /// The kinetic energy of the particles that are not held, in joules.
+    #[must_use]
+    pub fn kinetic_energy_j(&self) -> f64 {
+        let particles = 0..self.positions.len();
+        particles.map(|particle| self.kinetic_j(particle)).sum()
+    }
+
+    pub(crate) fn kinetic_j(&self, particle: usize) -> f64 {
+        if self.model.held[particle] {
+            return 0.0;
+        }
+        let v = self.velocities[particle];
+        0.5 * self.model.masses[particle] * dot(v, v)
+    }
+
+    /// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation.
+    pub fn accelerations(&mut self, accelerations: &mut Vec<Vector>) {
+        accelerations.clear();
+        accelerations.resize(self.positions.len(), Vector::zeros());
+        let _ = self.model.accelerate(
+            &self.positions,
+            &self.velocities,
+            accelerations,
+            &mut self.counters,
+        );
+    }
+
+    /// The root mean square of the strains l/L − 1 of all stretch constraints.
+    #[must_use]
+    pub fn strain_rms(&self) -> f64 {
+        let squares = self.model.stretch.iter().map(|id| {
+            let strain = self.stretch_ratio(id) - 1.0;
+            strain * strain
+        });
+        (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
+    }
+
+    /// The product K u of the stiffness matrix with displacements in metres, in newtons: minus
+    /// the change of forces, to first order. Negative stiffness, which springs under
+    /// compression have across, counts as zero (the indefinite terms are dropped).
+    ///
+    /// # Panics
+    ///
+    /// Unless there is one displacement a particle.
+    #[must_use]
+    pub fn stiffness_times(&mut self, displacements: &[Vector]) -> Vec<Vector> {
+        assert_eq!(
+            displacements.len(),
+            self.positions.len(),
+            "one displacement a particle"
+        );
+        let mut product = vec![Vector::zeros(); displacements.len()];
+        self.counters.matrix_products += 1;
+        for batch in self.model.batches() {
+            kernel::stiffness_times(batch, &self.positions, displacements, &mut product);
+        }
+        product
+    }
+
+    /// Gives the grabbed particles the velocity that leads them along their paths.
+    pub(crate) fn drive(&mut self, dt_s: f64) {
+        for &(particle, path) in &self.model.grabbed {
+            let to = self.model.paths[path as usize].at(self.elapsed_s + dt_s);
+            let particle = particle as usize;
+            self.velocities[particle] = (to - self.positions[particle]) / dt_s;
+        }
+    }
+
+    /// Pushes the particles out of the colliders.
+    pub(crate) fn collide(&mut self) {
+        for collider in &self.model.loads.colliders {
+            self.counters.collider_passes += 1;
+            collider.push_out(
+                &self.model.inverse_masses,
+                &mut self.positions,
+                &mut self.velocities,
+            );
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Family {
+    Stretch,
+    Bend,
+}
+
+impl Model {
+    pub(crate) fn family_mut(&mut self, family: Family) -> &mut Constraints {
+        match family {
+            Family::Stretch => &mut self.stretch,
+            Family::Bend => &mut self.bend,
+        }
+    }
+
+    /// The constraints of both families, colour by colour.
+    pub(crate) fn batches(&self) -> impl Iterator<Item = kernel::Batch<'_>> {
+        self.stretch.batches().chain(self.bend.batches())
+    }
+
+    pub(crate) fn drag_per_s(&self) -> f64 {
+        self.loads.drag_per_s.unwrap_or(0.0)
+    }
+
+    /// Fills in the accelerations by springs, wind and gravity; held particles have none. False
+    /// where a spring has blown up.
+    #[must_use]
+    pub(crate) fn accelerate(
+        &self,
+        positions: &[Point],
+        velocities: &[Vector],
+        accelerations: &mut [Vector],
+        counters: &mut Counters,
+    ) -> bool {
+        counters.force_evaluations += 1;
+        accelerations.fill(Vector::zeros());
+        let mut sane = true;
+        for batch in self.batches() {
+            sane &= kernel::forces(batch, positions, self.stretch_ratio_max, accelerations);
+        }
+        self.external(positions, velocities, accelerations, counters);
+        sane
+    }
+
+    /// Adds the force of wind, and makes accelerations of forces, with gravity.
+    pub(crate) fn external(
+        &self,
+        positions: &[Point],
+        velocities: &[Vector],
+        accelerations: &mut [Vector],
+        counters: &mut Counters,
+    ) {
+        if let Some(wind) = self.loads.wind {
+            counters.wind_evaluations += 1;
+            kernel::wind(
+                &self.faces,
+                wind.coefficient,
+                wind.velocity_m_per_s,
+                positions,
+                velocities,
+                accelerations,
+            );
+        }
+        let gravity = self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros);
+        for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
+            *a = if w > 0.0 {
+                *a * w + gravity
+            } else {
+                Vector::zeros()
+            };
+        }
+    }
+}
+
+fn inverse(mass: f64, held: bool) -> f64 {
+    if held || mass == 0.0 { 0.0 } else { 1.0 / mass }
+}
+
+fn check_constraint(constraint: &Constraint, particles: usize) -> Result<(), SystemError> {
+    let [a, b] = constraint.ends;
+    let positive = |x: f64| x > 0.0 && x.is_finite();
+    let numbers = positive(constraint.rest_length_m) && positive(constraint.stiffness_n_per_m);
+    if numbers && a != b && a.max(b) < particles {
+        Ok(())
+    } else {
+        Err(SystemError::Constraint { given: *constraint })
+    }
+}

@@ -1,0 +1,87 @@
+//! Velocity Verlet: the accurate explicit method.
+
+use super::solver::Solver;
+use super::system::System;
+
+/// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
+///
+/// Stable up to ω Δt = 2. Its oscillators have the frequency ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it
+/// runs fast by up to π/2 at the limit. Drag is taken in by a backward and a forward half
+/// step, which leaves the order; contact is of first order.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Verlet(());
+
+impl Verlet {
+    /// The method.
+    #[must_use]
+    pub fn new() -> Verlet {
+        Verlet::default()
+    }
+}
+
+impl Solver for Verlet {
+    fn frequency_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+        let half = dt_s / 2.0;
+        let fade = half * system.model.drag_per_s();
+        // The last accelerations of the step before are those of now, unless something has
+        // changed in between.
+        let mut sane = system.scratch.is_fresh || accelerate(system);
+        let System {
+            positions,
+            velocities,
+            model,
+            scratch,
+            ..
+        } = system;
+        let particles = positions
+            .iter_mut()
+            .zip(velocities)
+            .zip(&scratch.accelerations);
+        for (((x, v), a), &w) in particles.zip(&model.inverse_masses) {
+            if w > 0.0 {
+                *v = (*v + a * half) / (1.0 + fade);
+            }
+            *x += *v * dt_s;
+        }
+        sane &= accelerate(system);
+        let System {
+            velocities,
+            model,
+            scratch,
+            ..
+        } = system;
+        for ((v, a), &w) in velocities
+            .iter_mut()
+            .zip(&scratch.accelerations)
+            .zip(&model.inverse_masses)
+        {
+            if w > 0.0 {
+                *v = *v * (1.0 - fade) + a * half;
+            }
+        }
+        system.scratch.is_fresh = system.model.loads.colliders.is_empty();
+        system.collide();
+        sane
+    }
+}
+
+/// The accelerations now, into the scratch room.
+pub(crate) fn accelerate(system: &mut System) -> bool {
+    let System {
+        positions,
+        velocities,
+        model,
+        scratch,
+        counters,
+        ..
+    } = system;
+    scratch.is_fresh = false;
+    scratch
+        .accelerations
+        .resize(positions.len(), crate::Vector::zeros());
+    model.accelerate(positions, velocities, &mut scratch.accelerations, counters)
+}

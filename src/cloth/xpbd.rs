@@ -1,0 +1,118 @@
+//! Extended position based dynamics with small steps.
+//!
+//! Constraints with a compliance α = 1/k (Macklin, Müller and Chentanez 2016), and many substeps of
+//! one sweep rather than one step of many (Macklin et al. 2019, "Small Steps"): 6.5–8.5 times
+//! less strain for 1.3–1.4 times the cost. The force in each constraint is known as its
+//! multiplier, so a tear threshold can be in newtons.
+//!
+//! With enough sweeps this is backward Euler, and damps like it. With few it is wrong under
+//! pretension: look at [`Xpbd::residual_n`].
+//!
+//! Sweeps always run in the same direction; alternating stretches 33 times more. Drag enters the
+//! prediction *and* the compliance (a factor 1 + c Δt), otherwise the static stretch would be
+//! wrong by just that factor.
+
+use super::kernel;
+use super::pbd::{finish, predict};
+use super::solver::Solver;
+use super::system::System;
+use crate::geometry::{Vector, dot};
+
+/// XPBD: so many substeps a step, and sweeps a substep. Always stable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Xpbd {
+    /// Substeps a step; at least one.
+    pub substeps: u32,
+    /// Sweeps over all constraints a substep; one is best.
+    pub sweeps: u32,
+}
+
+impl Default for Xpbd {
+    /// Ten substeps of one sweep.
+    fn default() -> Xpbd {
+        Xpbd {
+            substeps: 10,
+            sweeps: 1,
+        }
+    }
+}
+
+impl Xpbd {
+    /// The method with so many substeps a step, and sweeps a substep.
+    #[must_use]
+    pub fn new(substeps: u32, sweeps: u32) -> Xpbd {
+        Xpbd { substeps, sweeps }
+    }
+
+    fn substep(&self, system: &mut System, dt_s: f64) -> bool {
+        predict(system, dt_s);
+        let System {
+            positions,
+            model,
+            counters,
+            ..
+        } = system;
+        let scale = (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s);
+        let mut sane = true;
+        for family in [&mut model.stretch, &mut model.bend] {
+            for (_, multipliers) in family.batches_mut() {
+                multipliers.fill(0.0);
+            }
+        }
+        for _ in 0..self.sweeps {
+            for family in [&mut model.stretch, &mut model.bend] {
+                for (batch, multipliers) in family.batches_mut() {
+                    counters.projections += batch.ends.len() as u64;
+                    sane &= kernel::project_compliant(
+                        batch,
+                        multipliers,
+                        &model.inverse_masses,
+                        scale,
+                        model.stretch_ratio_max,
+                        positions,
+                    );
+                }
+            }
+        }
+        for family in [&mut model.stretch, &mut model.bend] {
+            for (_, multipliers) in family.batches_mut() {
+                multipliers.iter_mut().for_each(|lambda| *lambda *= scale);
+            }
+        }
+        finish(system, dt_s);
+        sane
+    }
+
+    /// The largest difference, over all free particles, between the sum of the forces that the
+    /// last substep used and the sum of those that the springs have now, in newtons. Zero
+    /// where the sweeps have converged; costs one force evaluation.
+    #[must_use]
+    pub fn residual_n(&self, system: &System) -> f64 {
+        let mut residual = vec![Vector::zeros(); system.positions.len()];
+        for family in [&system.model.stretch, &system.model.bend] {
+            for id in family.iter() {
+                let constraint = family.get(id);
+                let [a, b] = constraint.ends;
+                let d: Vector = system.positions[b] - system.positions[a];
+                let length = dot(d, d).sqrt();
+                if length > 0.0 {
+                    let force = constraint.stiffness_n_per_m * (length - constraint.rest_length_m);
+                    let miss = d * ((force + family.multiplier(id)) / length);
+                    residual[a] += miss;
+                    residual[b] -= miss;
+                }
+            }
+        }
+        let free = residual.iter().zip(&system.model.inverse_masses);
+        free.filter(|(_, w)| **w > 0.0)
+            .map(|(r, _)| dot(*r, *r).sqrt())
+            .fold(0.0, f64::max)
+    }
+}
+
+impl Solver for Xpbd {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+        let substeps = self.substeps.max(1);
+        (0..substeps).all(|_| self.substep(system, dt_s / f64::from(substeps)))
+    }
+}

@@ -1,0 +1,480 @@
+//! A cloth that is split, subdivided and sewn while it moves is the cloth that one would make anew.
+
+use std::collections::BTreeMap;
+
+use tearmesh::cloth::{Cloth, ClothError, Copies, Fabric, Loads, Unbend, Unstable, Verlet, Xpbd};
+use tearmesh::subdivide::Plan;
+use tearmesh::{
+    Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split,
+};
+
+use crate::cloth_answers::near;
+use crate::random::Random;
+
+/// Edges with their rest length, and apexes across edges, as sets: what a cloth must have.
+fn expected(mesh: &Mesh, cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
+    let rest = |[a, b]: [VertexId; 2]| {
+        (cloth.rest_positions().at(b) - cloth.rest_positions().at(a)).norm()
+    };
+    let mut sets = [BTreeMap::new(), BTreeMap::new()];
+    let mut add = |family: usize, ends: [VertexId; 2]| {
+        let mut key = ends.map(VertexId::index);
+        key.sort_unstable();
+        let lengths: &mut Vec<u64> = sets[family].entry(key).or_default();
+        lengths.push(rest(ends).to_bits());
+    };
+    for h in mesh.edges() {
+        add(0, [mesh.origin(h), mesh.target(h)]);
+        if let Some(pair) = mesh.pair(h) {
+            add(1, [h, pair].map(|h| mesh.origin(mesh.prev(h))));
+        }
+    }
+    sets
+}
+
+/// The same of the constraints that there are.
+fn found(cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
+    [cloth.system().stretches(), cloth.system().bends()].map(|family| {
+        let mut set: BTreeMap<_, Vec<u64>> = BTreeMap::new();
+        for id in family.iter() {
+            let constraint = family.get(id);
+            let mut key = constraint.ends;
+            key.sort_unstable();
+            set.entry(key)
+                .or_default()
+                .push(constraint.rest_length_m.to_bits());
+        }
+        set
+    })
+}
+
+/// Everything that holds of a cloth at all times.
+fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
+    assert_eq!(cloth.indices(), mesh.indices());
+    let system = cloth.system();
+    assert_eq!(system.positions().len(), mesh.vertex_count());
+    let [mut edges, mut across] = expected(mesh, cloth);
+    let [mut have, mut have_across] = found(cloth);
+    // The last bit of a length depends on which end comes first.
+    let close = |set: &mut BTreeMap<[usize; 2], Vec<u64>>| {
+        for lengths in set.values_mut() {
+            for bits in lengths.iter_mut() {
+                *bits = (f64::from_bits(*bits) * 1e9).round() as u64;
+            }
+            lengths.sort_unstable();
+        }
+    };
+    [&mut edges, &mut across, &mut have, &mut have_across]
+        .into_iter()
+        .for_each(close);
+    assert_eq!(have, edges, "stretch constraints");
+    if bends {
+        assert_eq!(have_across, across, "bend constraints");
+    }
+    for h in mesh.half_edges() {
+        let constraint = system.stretches().get(cloth.stretch(h));
+        let mut ends = [mesh.origin(h), mesh.target(h)].map(VertexId::index);
+        let mut given = constraint.ends;
+        ends.sort_unstable();
+        given.sort_unstable();
+        assert_eq!(given, ends, "the constraint of {h}");
+        let edge = cloth.edge(cloth.stretch(h));
+        assert!(
+            edge == h || Some(edge) == mesh.pair(h),
+            "the edge of the constraint of {h}"
+        );
+    }
+    for family in [system.stretches(), system.bends()] {
+        for particle in 0..system.positions().len() {
+            let mut colours: Vec<usize> = family.of(particle).map(|id| family.colour(id)).collect();
+            let count = colours.len();
+            colours.sort_unstable();
+            colours.dedup();
+            assert_eq!(colours.len(), count, "colours at particle {particle}");
+        }
+    }
+    for v in mesh.vertices() {
+        let mass = cloth.masses().at(v);
+        assert_eq!(system.masses()[v.index()], mass);
+        let inverse = if system.is_held(v.index()) {
+            0.0
+        } else {
+            1.0 / mass
+        };
+        assert_eq!(system.inverse_masses()[v.index()], inverse);
+    }
+    assert!(cloth.masses().ledger().is_balanced());
+}
+
+/// Σ m v of all that is free, exactly.
+fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
+    let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
+    let system = cloth.system();
+    for (m, v) in system.masses().iter().zip(system.velocities()) {
+        for (sum, v) in sums.iter_mut().zip(v.iter()) {
+            let product = m * v;
+            sum.add(product);
+            sum.add(m.mul_add(*v, -product));
+        }
+    }
+    sums
+}
+
+fn energy(cloth: &Cloth) -> f64 {
+    cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j()
+}
+
+fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
+    Fabric {
+        bend_n_per_m: bend.then_some(3.0),
+        copies,
+        unbend,
+        ..Fabric::new(50.0)
+    }
+}
+
+/// A cloth in motion, strained and shaken.
+fn shaken(
+    mesh: &Mesh,
+    positions: &tearmesh::Positions,
+    fabric: Fabric,
+    random: &mut Random,
+) -> Cloth {
+    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(mesh, positions, masses, fabric).expect("a cloth");
+    let system = cloth.system_mut();
+    system
+        .set_loads(Loads {
+            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+            ..Loads::default()
+        })
+        .expect("loads");
+    system.when_unstable(Unstable::Substep);
+    let (points, velocities) = system.state_mut();
+    for (p, v) in points.iter_mut().zip(velocities) {
+        let mut next = || random.next() - 0.5;
+        *p += 0.02 * Vector::new(next(), next(), next());
+        *v = Vector::new(next(), next(), next());
+    }
+    cloth
+}
+
+enum Done {
+    Nothing,
+    Split,
+    Insert,
+    Merge,
+    Slide,
+}
+
+/// One random edit.
+fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) -> Done {
+    let mut below = |n: usize| ((random.next() * n as f64) as usize).min(n - 1);
+    match below(6) {
+        0 | 1 => {
+            let v = VertexId::new(below(mesh.vertex_count())).expect("a vertex");
+            let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| below(2) == 0).collect();
+            match split::faces(mesh, v, &faces, edits) {
+                Ok(_) => Done::Split,
+                Err(_) => Done::Nothing,
+            }
+        }
+        2 => {
+            let mut plan = Plan::new();
+            let h = mesh
+                .half_edges()
+                .nth(below(mesh.half_edge_count()))
+                .expect("a half-edge");
+            plan.on_edge(h, 0.2 + 0.6 * below(1000) as f64 / 1000.0);
+            if below(2) == 0 {
+                let f = mesh.faces().nth(below(mesh.face_count())).expect("a face");
+                plan.in_face(f, [0.2, 0.3, 0.5]);
+            }
+            match plan.apply(mesh, edits) {
+                Ok(_) => Done::Insert,
+                Err(_) => Done::Nothing,
+            }
+        }
+        3 => {
+            let h = mesh
+                .half_edges()
+                .nth(below(mesh.half_edge_count()))
+                .expect("a half-edge");
+            let t = 0.01 + 0.2 * below(1000) as f64 / 1000.0;
+            slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
+            Done::Slide
+        }
+        _ => {
+            let stitches = mend::stitches(mesh, |_| true);
+            if stitches.is_empty() {
+                return Done::Nothing;
+            }
+            let stitch = stitches[below(stitches.len())];
+            let weights = [stitch.kept(), stitch.gone()].map(|v| cloth.masses().at(v));
+            match mend::merge(mesh, stitch.kept(), stitch.gone(), weights, edits) {
+                Ok(_) => Done::Merge,
+                Err(_) => Done::Nothing,
+            }
+        }
+    }
+}
+
+#[test]
+fn a_running_cloth_follows_every_edit_as_if_made_anew() {
+    let mut counts = [0; 4];
+    for seed in 0..60 {
+        let mut random = Random(seed);
+        let (mut mesh, positions) = match seed % 4 {
+            0 => shapes::grid(3, 3),
+            1 => shapes::fan(7, true),
+            2 => shapes::tube(4, 3),
+            _ => shapes::octahedron(),
+        };
+        let copies = if seed % 3 == 0 {
+            Copies::Whole
+        } else {
+            Copies::Halved
+        };
+        let with_bends = seed % 5 < 3;
+        let unbend = if seed % 5 == 2 {
+            Unbend::Vertex
+        } else {
+            Unbend::Seam
+        };
+        let fabric = fabric(copies, unbend, with_bends);
+        let mut cloth = shaken(&mesh, &positions, fabric, &mut random);
+        let check =
+            |mesh: &Mesh, cloth: &Cloth| check(mesh, cloth, with_bends && unbend == Unbend::Seam);
+        check(&mesh, &cloth);
+        let mut edits = Edits::new();
+        for _ in 0..40 {
+            let (before, ledger) = (energy(&cloth), cloth.ledger());
+            let moving = momentum(&cloth);
+            let done = edit(&mut mesh, &cloth, &mut edits, &mut random);
+            edits.replay(&mut cloth);
+            check(&mesh, &cloth);
+            let now = momentum(&cloth);
+            match done {
+                Done::Nothing => continue,
+                Done::Split => {
+                    counts[0] += 1;
+                    assert_eq!(now, moving, "a split keeps momentum bit for bit");
+                    let made = cloth.ledger().split_elastic_j - ledger.split_elastic_j;
+                    assert!(
+                        made == 0.0 || copies == Copies::Whole || with_bends,
+                        "{made}"
+                    );
+                }
+                Done::Insert => counts[1] += 1,
+                Done::Merge => counts[2] += 1,
+                Done::Slide => {
+                    counts[3] += 1;
+                    assert_eq!(now, moving, "a slide keeps momentum bit for bit");
+                }
+            }
+            for (now, moving) in now.iter().zip(&moving) {
+                near(now.to_f64(), moving.to_f64(), 1e-15);
+            }
+            let told = cloth.ledger().total_j() - ledger.total_j();
+            near(energy(&cloth) - before, told, 1e-12 * (1.0 + before));
+
+            // The bound is that of a cloth made anew, or above it.
+            let known = cloth.system().known_frequency_bound().expect("it is known");
+            let measured = cloth.system().clone().measure_frequency(1e-3, 500);
+            assert!(measured.omega_rad_per_s <= known * (1.0 + 1e-12));
+            if random.next() < 0.3 {
+                cloth.step(&mut Xpbd::new(1, 1), 1e-3).expect("a step");
+                check(&mesh, &cloth);
+            }
+        }
+        cloth.system_mut().when_unstable(Unstable::Substep);
+        assert!(mesh.check().is_empty());
+    }
+    println!("{counts:?} splits, insertions, merges and slides");
+    assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+}
+
+#[test]
+fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
+    let (mesh, positions) = shapes::grid(6, 6);
+    for (copies, unbend) in [
+        (Copies::Halved, Unbend::Seam),
+        (Copies::Whole, Unbend::Vertex),
+    ] {
+        let mut mesh = mesh.clone();
+        let mut cloth = shaken(
+            &mesh,
+            &positions,
+            fabric(copies, unbend, false),
+            &mut Random(1),
+        );
+        let v = VertexId::new(24).expect("the centre");
+        let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
+        let mut edits = Edits::new();
+        let before = cloth.system().elastic_energy_j();
+        let torn: Vec<_> = {
+            let split = split::faces(&mut mesh, v, &faces, &mut edits).expect("a split");
+            split.torn.to_vec()
+        };
+        let extension = |cloth: &Cloth, h| {
+            let constraint = cloth.system().stretches().get(cloth.stretch(h));
+            cloth.system().stretch_ratio(cloth.stretch(h)) * constraint.rest_length_m
+                - constraint.rest_length_m
+        };
+        let made: f64 = torn
+            .iter()
+            .map(|link| 25.0 * extension(&cloth, link.stayed).powi(2))
+            .sum();
+        edits.replay(&mut cloth);
+        assert_eq!(torn.len(), 2);
+        assert!(made > 1e-6);
+        let stiffness = |h| {
+            cloth
+                .system()
+                .stretches()
+                .get(cloth.stretch(h))
+                .stiffness_n_per_m
+        };
+        for link in torn {
+            let each = if copies == Copies::Halved { 25.0 } else { 50.0 };
+            assert_eq!(
+                (stiffness(link.stayed), stiffness(link.moved)),
+                (each, each)
+            );
+        }
+        let answer = if copies == Copies::Halved { 0.0 } else { made };
+        near(cloth.ledger().split_elastic_j, answer, 1e-15);
+        near(cloth.system().elastic_energy_j() - before, answer, 1e-13);
+        // What the split did to the limit is on record.
+        let effect = cloth.effects()[0];
+        assert_eq!((effect.number, effect.vertex), (0, v));
+        assert!(effect.bound_after_rad_per_s >= effect.bound_before_rad_per_s);
+        cloth.step(&mut Xpbd::default(), 0.01).expect("a step");
+        assert!(cloth.effects().is_empty());
+    }
+}
+
+#[test]
+fn a_merge_undoes_a_split_and_pins_are_inherited() {
+    let (mut mesh, positions) = shapes::grid(4, 4);
+    for copies in [Copies::Halved, Copies::Whole] {
+        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+        let mut cloth = Cloth::new(
+            &mesh,
+            &positions,
+            masses,
+            fabric(copies, Unbend::Seam, true),
+        )
+        .expect("a cloth");
+        cloth.system_mut().hold(12);
+        let sets = |cloth: &Cloth| {
+            [cloth.system().stretches(), cloth.system().bends()].map(|family| {
+                let mut all: Vec<_> = family
+                    .iter()
+                    .map(|id| {
+                        let constraint = family.get(id);
+                        let mut ends = constraint.ends;
+                        ends.sort_unstable();
+                        (ends, constraint.stiffness_n_per_m.to_bits())
+                    })
+                    .collect();
+                all.sort_unstable();
+                all
+            })
+        };
+        let before = sets(&cloth);
+        let mut edits = Edits::new();
+        let v = VertexId::new(12).expect("the centre");
+        let faces: Vec<FaceId> = mesh.faces_of(v).take(2).collect();
+        let new = split::faces(&mut mesh, v, &faces, &mut edits)
+            .expect("a split")
+            .new;
+        edits.replay(&mut cloth);
+        assert!(cloth.system().is_held(new.index()));
+        assert_eq!(
+            (
+                cloth.free_mass(new),
+                cloth
+                    .free_mass(VertexId::new(0).expect("a vertex"))
+                    .is_some()
+            ),
+            (None, true)
+        );
+        assert_ne!(sets(&cloth), before);
+        mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
+        edits.replay(&mut cloth);
+        assert_eq!(sets(&cloth), before);
+        assert_eq!(cloth.ledger().total_j(), 0.0);
+    }
+}
+
+#[test]
+fn a_cloth_that_cannot_be_is_refused_with_ids() {
+    let (mesh, positions) = shapes::grid(1, 1);
+    let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");
+    let error =
+        Cloth::new(&mesh, &positions, masses.clone(), Fabric::new(-1.0)).expect_err("no stiffness");
+    assert_eq!(error, ClothError::Stiffness);
+    let twice = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
+    let twice = tearmesh::Positions::new(twice).expect("positions");
+    let error = Cloth::new(&mesh, &twice, masses.clone(), Fabric::new(1.0)).expect_err("one place");
+    assert!(
+        error.to_string().ends_with("has the rest length 0 m"),
+        "{error}"
+    );
+    let few = tearmesh::Positions::new([[0.0; 3]]).expect("positions");
+    let error = Cloth::new(&mesh, &few, masses, Fabric::new(1.0)).expect_err("too few");
+    assert_eq!(
+        error.to_string(),
+        "4 vertices have 1 positions and 4 masses"
+    );
+}
+
+#[test]
+fn a_hanging_cloth_is_uploaded_while_it_tears() {
+    let (mut mesh, positions) = shapes::grid(8, 8);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+        drag_per_s: Some(2.0),
+        ..Loads::default()
+    };
+    cloth.system_mut().set_loads(loads).expect("loads");
+    cloth.system_mut().when_unstable(Unstable::Substep);
+    (72..81).for_each(|top| cloth.system_mut().hold(top));
+    let mut edits = Edits::new();
+    let (mut splits, mut buffer, mut tail) = (0, Vec::new(), Vec::new());
+    cloth.write_f32(0, &mut buffer);
+    for _ in 0..60 {
+        cloth.step(&mut Verlet::new(), 1.0 / 120.0).expect("a step");
+        let worst = cloth.overstretched(1.05).max_by(|&a, &b| {
+            let ratio = |h| cloth.system().stretch_ratio(cloth.stretch(h));
+            ratio(a).total_cmp(&ratio(b))
+        });
+        let Some(edge) = worst else { continue };
+        let v = mesh.origin(edge);
+        if cloth.free_mass(v).is_none() {
+            continue;
+        }
+        let plane = tearmesh::Plane::new(cloth.at(v), cloth.at(mesh.target(edge)) - cloth.at(v))
+            .expect("a plane");
+        let old = cloth.positions().len();
+        splits += usize::from(
+            split::by_plane(&mut mesh, v, &plane, cloth.positions(), &mut edits).is_some(),
+        );
+        edits.replay(&mut cloth);
+        edits.clear();
+        cloth.write_f32(old, &mut tail);
+        buffer.extend(&tail);
+        assert_eq!(buffer.len(), mesh.vertex_count());
+        check(&mesh, &cloth, false);
+    }
+    assert!(splits > 3, "{splits}");
+    assert_eq!(cloth.system().counters().wind_evaluations, 0);
+}
