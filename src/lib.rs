@@ -66,7 +66,7 @@
 //! | 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) |
 //! | 2 | [`split`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] |
 //! | 3 | `scissor` (two rays to a cut; a file for `partition`, one for the paper's two) |
-//! | 4 | `script` (drives all of it from bytes or text; behind a feature) |
+//! | 4 | [`cloth`] (solvers), `script` (drives the floors below from bytes or text; behind a feature) |
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
 //! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a
@@ -89,6 +89,7 @@
 
 mod attribute;
 pub mod classify;
+pub mod cloth;
 mod edit;
 mod exact;
 mod geometry;

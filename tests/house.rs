@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// The floor of each module of the library; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 15] = [
+const FLOORS: [(&str, u32); 16] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
@@ -21,6 +21,7 @@ const FLOORS: [(&str, u32); 15] = [
     ("mass", 2),
     ("shapes", 2),
     ("scissor", 3),
+    ("cloth", 4),
     ("script", 4),
 ];
 
