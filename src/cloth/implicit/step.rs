@@ -214,6 +214,7 @@ struct History {
 #[derive(Clone, Copy)]
 struct Stage {
     method: Method,
+    time_step_s: f64,
     h: f64,
     /// 1 + h c.
     dragged: f64,
@@ -413,6 +414,7 @@ impl Implicit {
         };
         Stage {
             method,
+            time_step_s,
             h,
             dragged,
             inertia: dragged / (h * h),
@@ -450,6 +452,10 @@ impl Implicit {
             }
         })?;
         report.residual = stage.velocity_error(solved.residual);
+        if solved.end == End::Converged {
+            // It may have ended at rounding, above what was asked for.
+            report.limit = report.limit.max(report.residual);
+        }
         for (v, d) in self.velocities.iter_mut().zip(&self.pcg.delta) {
             *v += d / stage.h;
         }
@@ -497,14 +503,18 @@ impl Implicit {
             let solved = solver.solve(model, &at, self, |own| own.imbalance(model, stage));
             self.trial = at;
             solved?;
-            let Some(next) = self.search(model, stage, phi, left, report) else {
-                return Ok(());
-            };
-            phi = next;
+            match self.search(model, stage, phi, left, report) {
+                Search::Taken(next) => phi = next,
+                Search::Rounding => {
+                    report.limit = report.limit.max(report.residual);
+                    return Ok(());
+                }
+                Search::Failed => return Ok(()),
+            }
         }
     }
 
-    /// Halves the step until Φ falls enough; then takes it. `None` if it never does.
+    /// Halves the step until Φ falls enough; then takes it.
     ///
     /// Near the solution Φ no longer tells, because it is flat to its rounding; there a step
     /// is taken if it makes the residual smaller.
@@ -515,7 +525,7 @@ impl Implicit {
         phi: Potential,
         left: f64,
         report: &mut StepReport,
-    ) -> Option<Potential> {
+    ) -> Search {
         self.imbalance(model, stage);
         let slope = self.pcg.b.iter().zip(&self.pcg.delta);
         let slope: f64 = slope.fold(0.0, |sum, (b, d)| sum + dot(*b, *d));
@@ -530,14 +540,14 @@ impl Implicit {
             self.place(stage);
             let next = self.potential(model, stage);
             if next.value <= phi.value - 1e-4 * part * slope {
-                return Some(next);
+                return Search::Taken(next);
             }
             if next.value <= phi.value + phi.rounding {
                 model.forces(&self.trial, &mut self.forces);
                 self.work.force_evaluations += 1;
                 self.imbalance(model, stage);
                 if residual(model, &self.pcg.b) < left {
-                    return Some(next);
+                    return Search::Taken(next);
                 }
             }
             part *= 0.5;
@@ -545,7 +555,11 @@ impl Implicit {
         }
         std::mem::swap(&mut self.velocities, &mut self.trial_velocities);
         self.place(stage);
-        None
+        if slope <= phi.rounding {
+            Search::Rounding
+        } else {
+            Search::Failed
+        }
     }
 
     /// Φ at the trial positions.
@@ -590,6 +604,14 @@ impl Implicit {
             }
         }
     }
+}
+
+/// How a line search ended.
+enum Search {
+    Taken(Potential),
+    /// What could be gained is below the rounding of the potential.
+    Rounding,
+    Failed,
 }
 
 /// The value of a potential and how much of it is rounding.
@@ -648,8 +670,8 @@ impl Solver<'_> {
             }
             self.report.indefinite += 1;
             if self.settings.jacobian == Jacobian::Exact {
-                let h = self.stage.h;
-                return Err(StepError::Indefinite { time_step_s: h });
+                let time_step_s = self.stage.time_step_s;
+                return Err(StepError::Indefinite { time_step_s });
             }
             clamp = true;
         }
