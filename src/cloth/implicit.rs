@@ -128,7 +128,7 @@ impl Model<'_> {
         Ok(())
     }
 
-    pub(self) fn check_lengths(&self, n: usize) -> Result<(), ModelError> {
+    fn check_lengths(&self, n: usize) -> Result<(), ModelError> {
         let lengths = [
             (Part::Mass, self.masses.len(), n),
             (Part::Filter, self.filters.len(), 0),

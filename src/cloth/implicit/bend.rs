@@ -210,34 +210,63 @@ struct Series {
     r: f64,
 }
 
-/// The power series; the term of u^k has the divisor (2k + 1)!, at most 1e-17 at k = 15.
-fn series(u: f64) -> Series {
-    const TERMS: u32 = 16;
-    // Horner's rule for sum of (−u)^k weight(k) / (2k + first)!, inwards out: at each step what
-    // is known is divided by the two factors that the factorial has more.
-    let sum = |first: u32, weight: fn(f64) -> f64| {
-        let mut sum = 0.0;
-        for k in (0..TERMS).rev() {
-            let factors = f64::from(2 * k + first + 1) * f64::from(2 * k + first + 2);
-            sum = weight(f64::from(k)) - u * sum / factors;
+/// The terms of the power series; that of u^k has the divisor (2k + 1)! at least, so that the
+/// first one left out is below 1e-17 for u up to π².
+const TERMS: usize = 16;
+
+/// The coefficients of (−u)^k, weight(k) / (2k + first)!: of sinc for `first` = 1, of p for 3,
+/// of r for 5.
+const fn coefficients(first: usize) -> [f64; TERMS] {
+    let mut list = [0.0; TERMS];
+    let mut factorial = 1.0;
+    let mut i = 1;
+    while i < 2 * TERMS + first {
+        factorial *= i as f64;
+        if i >= first && (i - first).is_multiple_of(2) {
+            let k = (i - first) / 2;
+            if k < TERMS {
+                let even = 2.0 * k as f64;
+                let weight = match first {
+                    1 => 1.0,
+                    3 => even + 2.0,
+                    _ => (even + 4.0) * (even + 2.0),
+                };
+                list[k] = weight / factorial;
+            }
         }
-        sum
-    };
-    Series {
-        sinc: sum(1, |_| 1.0),
-        p: sum(3, |k| 2.0 * k + 2.0) / 6.0,
-        r: sum(5, |k| (2.0 * k + 4.0) * (2.0 * k + 2.0)) / 120.0,
+        i += 1;
     }
+    list
+}
+
+const SINC: [f64; TERMS] = coefficients(1);
+const P: [f64; TERMS] = coefficients(3);
+const R: [f64; TERMS] = coefficients(5);
+
+/// By Horner's rule.
+fn series(u: f64) -> Series {
+    let (mut sinc, mut p, mut r) = (0.0, 0.0, 0.0);
+    for k in (0..TERMS).rev() {
+        sinc = SINC[k] - u * sinc;
+        p = P[k] - u * p;
+        r = R[k] - u * r;
+    }
+    Series { sinc, p, r }
 }
 
 /// t² for which sin t / t is `x`, x in 0 … 1.
 fn inverse_sinc_squared(x: f64) -> f64 {
-    let mut u = 6.0 * (1.0 - x);
-    // From u = 0 the first step is the line above; six more reach the last bit from the worst
-    // start (x = 0), and one is to spare.
-    for _ in 0..7 {
+    let y = 1.0 - x;
+    // The inverse series, cut off: its terms are positive, so this lies to the left.
+    let mut u = y * (6.0 + y * (1.8 + y * (144.0 / 175.0)));
+    // From the worst start, x = 0, five steps reach the last bit; rounding ends the climb.
+    for _ in 0..8 {
         let Series { sinc, p, .. } = series(u);
-        u += 2.0 * (sinc - x) / p;
+        let next = u + 2.0 * (sinc - x) / p;
+        if next <= u {
+            break;
+        }
+        u = next;
     }
     u
 }

@@ -144,9 +144,16 @@ impl Pcg {
         if start <= limit {
             return ended(End::Converged, start);
         }
-        let mut rz = self.precondition();
+        for vectors in [
+            &mut self.direction,
+            &mut self.product,
+            &mut self.preconditioned,
+        ] {
+            vectors.clear();
+            vectors.resize(n, Vector::zeros());
+        }
+        let (mut left, mut rz) = self.advance(model, 0.0);
         self.direction.clone_from(&self.preconditioned);
-        let mut left = start;
         for _ in 0..stop.iterations {
             hessian.product(pairs, &self.direction, &mut self.product);
             work.matrix_products += 1;
@@ -163,23 +170,34 @@ impl Pcg {
             if !(curvature > 0.0) {
                 return ended(End::Indefinite, left);
             }
-            let step = rz / curvature;
-            for i in 0..n {
-                self.delta[i] += self.direction[i] * step;
-                self.b[i] -= self.product[i] * step;
-            }
-            left = residual(model, &self.b);
+            let before = rz;
+            (left, rz) = self.advance(model, rz / curvature);
             if left <= limit {
                 return ended(End::Converged, left);
             }
-            let before = rz;
-            rz = self.precondition();
             let turn = rz / before;
             for (p, z) in self.direction.iter_mut().zip(&self.preconditioned) {
                 *p = z + *p * turn;
             }
         }
         ended(End::Stopped, left)
+    }
+
+    /// Goes `step` along the direction: new δ and r, and z = P⁻¹ r. Returns the residual as an
+    /// acceleration, and r · z.
+    fn advance(&mut self, model: &Model<'_>, step: f64) -> (f64, f64) {
+        let (mut size, mut total, mut rz) = (0.0, 0.0, 0.0);
+        for (i, &m) in model.masses.iter().enumerate() {
+            self.delta[i] += self.direction[i] * step;
+            let r = self.b[i] - self.product[i] * step;
+            self.b[i] = r;
+            size += dot(r, r) / m;
+            total += m;
+            let z = self.inverses[i].times(r);
+            rz += dot(r, z);
+            self.preconditioned[i] = z;
+        }
+        ((size / total).sqrt(), rz)
     }
 
     /// Inverts the blocks on the diagonal; false if one is not definite.
@@ -193,18 +211,6 @@ impl Pcg {
             self.inverses.push(inverse);
         }
         true
-    }
-
-    /// z = P⁻¹ r; returns r · z.
-    fn precondition(&mut self) -> f64 {
-        self.preconditioned.clear();
-        let mut sum = 0.0;
-        for (inverse, &r) in self.inverses.iter().zip(&self.b) {
-            let z = inverse.times(r);
-            sum += dot(r, z);
-            self.preconditioned.push(z);
-        }
-        sum
     }
 }
 

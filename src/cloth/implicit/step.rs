@@ -33,8 +33,7 @@
 //! momentum is not kept by these methods.
 
 use super::pcg::{End, Pcg, Solved, Stop, residual};
-use super::{Hessian, Layout, Model, ModelError, Part, Work, first_bad};
-use crate::cloth::implicit::Filter;
+use super::{Filter, Hessian, Layout, Model, ModelError, Part, Work, first_bad};
 use crate::geometry::{Point, Vector, dot};
 use std::fmt;
 
@@ -88,13 +87,13 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Backward Euler, linearised; T = 0.1; 2000 iterations.
+    /// Backward Euler, linearised; T = 1; 2000 iterations.
     fn default() -> Settings {
         Settings {
             method: Method::BackwardEuler,
             jacobian: Jacobian::UnlessIndefinite,
             newton_iterations_max: 1,
-            tolerance: Tolerance::Tied(0.1),
+            tolerance: Tolerance::Tied(1.0),
             solver_iterations_max: 2000,
         }
     }
@@ -199,6 +198,7 @@ pub struct Implicit {
     start_velocities: Vec<Vector>,
     velocities: Vec<Vector>,
     trial_velocities: Vec<Vector>,
+    piece_masses: Vec<f64>,
     history: History,
 }
 
@@ -584,23 +584,24 @@ impl Implicit {
     /// Gives each piece that nothing holds the momentum that the exact answer has.
     fn keep_momentum(&mut self, model: &Model<'_>, stage: Stage) {
         let pieces = self.layout.pieces();
-        // By lowest particle: the momentum that is missing, and in `product.x` the mass, or
-        // NaN where something is held.
-        self.shift.clear();
-        self.shift.resize(pieces.len(), Vector::zeros());
-        self.product.clear();
-        self.product.resize(pieces.len(), Vector::zeros());
+        // By lowest particle: the momentum that is missing; the mass, or NaN where something is
+        // held.
+        let missing = &mut self.shift;
+        missing.clear();
+        missing.resize(pieces.len(), Vector::zeros());
+        self.piece_masses.clear();
+        self.piece_masses.resize(pieces.len(), 0.0);
         for (i, &piece) in pieces.iter().enumerate() {
             let (piece, m) = (piece as usize, model.masses[i]);
             let target = self.start_velocities[i] + model.acceleration(i) * stage.h;
-            self.shift[piece] += (target - self.velocities[i] * stage.dragged) * m;
+            missing[piece] += (target - self.velocities[i] * stage.dragged) * m;
             let free = model.filter(i) == Filter::Free;
-            self.product[piece].x += if free { m } else { f64::NAN };
+            self.piece_masses[piece] += if free { m } else { f64::NAN };
         }
         for (v, &piece) in self.velocities.iter_mut().zip(pieces) {
-            let mass = self.product[piece as usize].x;
+            let mass = self.piece_masses[piece as usize];
             if mass > 0.0 {
-                *v += self.shift[piece as usize] / (mass * stage.dragged);
+                *v += missing[piece as usize] / (mass * stage.dragged);
             }
         }
     }

@@ -129,6 +129,7 @@ fn stretch(w: Vector) -> f64 {
 
 /// The second derivatives of the energy: `[i][j]` is the block of corners i and j, in N/m; and
 /// how many of the three terms (u, v, shear) had a part dropped.
+#[inline]
 #[must_use]
 pub fn hessian(triangle: &Triangle, corners: [Point; 3], clamp: bool) -> ([[Block; 3]; 3], u32) {
     let [w_u, w_v] = triangle.derivatives(corners);
@@ -171,5 +172,14 @@ pub fn hessian(triangle: &Triangle, corners: [Point; 3], clamp: bool) -> ([[Bloc
             .plus(a * (g_u[i] * g_v[j]), &uv)
             .plus(a * (g_v[i] * g_u[j]), &vu)
     };
-    ([0, 1, 2].map(|i| [0, 1, 2].map(|j| block(i, j))), clamped)
+    // Moving the whole triangle changes no force: rows sum to zero, and the first corner's
+    // blocks follow from the others'.
+    let (b11, b12, b22) = (block(1, 1), block(1, 2), block(2, 2));
+    let b21 = b12.transposed();
+    let zero = Block::ZERO;
+    let b10 = zero.plus(-1.0, &b11).plus(-1.0, &b12);
+    let b20 = zero.plus(-1.0, &b21).plus(-1.0, &b22);
+    let b00 = zero.plus(-1.0, &b10).plus(-1.0, &b20);
+    let (b01, b02) = (b10.transposed(), b20.transposed());
+    ([[b00, b01, b02], [b10, b11, b12], [b20, b21, b22]], clamped)
 }
