@@ -103,7 +103,7 @@ impl Scene {
     /// Indices of the rim of a sheet.
     pub(crate) fn rim(n: u32) -> impl Iterator<Item = usize> {
         (0..(n + 1) * (n + 1))
-            .filter(move |i| i % (n + 1) % n == 0 || i / (n + 1) % n == 0)
+            .filter(move |i| (i % (n + 1)).is_multiple_of(n) || (i / (n + 1)).is_multiple_of(n))
             .map(|i| i as usize)
     }
 }

@@ -1,7 +1,7 @@
 //! Implicit time steps and states of rest, as Baraff and Witkin 1998 ("Large steps in cloth
 //! simulation") made them: pure functions over slices, with no mesh in sight.
 //!
-//! * [`triangle`] – stretch and shear of a triangle from w_u and w_v,
+//! * [`triangle`] – stretch and shear of a triangle from `w_u` and `w_v`,
 //! * [`spring`] – springs with exact derivatives, [`bend`] – Choi and Ko 2002,
 //! * [`Layout`], [`Hessian`] – the sparse matrix, changed in place when something tears,
 //! * [`Filter`] – held directions; conjugate gradients that respect them,

@@ -153,9 +153,7 @@ pub(super) fn is_definite(mut a: Vec<Vec<f64>>) -> bool {
         }
         for r in c + 1..a.len() {
             let factor = a[r][c] / a[c][c];
-            for k in c..a.len() {
-                a[r][k] -= factor * a[c][k];
-            }
+            super::matrix::subtract(&mut a, r, c, factor);
         }
     }
     true
@@ -235,6 +233,40 @@ fn bending_is_an_arc() {
     let load = 1e3 * (l - start);
     let euler = 12.0 * k / (l * l);
     assert!((load / euler - 1.0).abs() < 0.02, "{load} {euler}");
+}
+
+#[test]
+fn bending_energy_is_the_work_of_its_force_across_the_change_over() {
+    let (l, k, c) = (0.3, 0.02, 60.0);
+    let bend = Bend::new([0, 1], l, k, c).expect("stiff enough");
+    let change = bend.buckles_below();
+    assert!(change > 0.5 * l && change < 0.97 * l, "{change}");
+    let at = |d: f64| {
+        let mut scene = Scene::particles([[0.0; 3], [d, 0.0, 0.0]], 1.0);
+        scene.bends.push(bend);
+        let force = forces(&scene.model(), &scene.x)[0].x;
+        (scene.model().energy(&scene.x), force)
+    };
+    // Simpson's rule on both sides of the change-over, where the force has a kink.
+    let work = |from: f64, to: f64| {
+        let n = 200;
+        let h = (to - from) / f64::from(n);
+        let weight = |i: i32| match i {
+            0 => 1.0,
+            i if i == n => 1.0,
+            i => f64::from(2 + 2 * (i % 2)),
+        };
+        let sum: f64 = (0..=n)
+            .map(|i| weight(i) * at(from + h * f64::from(i)).1)
+            .sum();
+        -sum * h / 3.0
+    };
+    let half = 0.5 * l;
+    let total = work(half, change) + work(change, l);
+    let energy = at(half).0;
+    assert!((total / energy - 1.0).abs() < 1e-8, "{total} {energy}");
+    assert!((at(change * (1.0 - 1e-12)).1 / at(change).1 - 1.0).abs() < 1e-9);
+    assert_eq!(at(l), (0.0, 0.0));
 }
 
 #[test]

@@ -241,7 +241,7 @@ fn moduli(scene: &Scene, area: f64) -> [[f64; 3]; 3] {
     })
 }
 
-/// E_x, ν and γ/ε_x under tension along x.
+/// `E_x`, ν and γ / εx under tension along x.
 fn under_tension(c: [[f64; 3]; 3]) -> [f64; 3] {
     let strain = super::matrix::solve(c.map(Vec::from).to_vec(), vec![1.0, 0.0, 0.0]);
     [

@@ -4,7 +4,7 @@
 use super::{Scene, spring};
 use tearmesh::cloth::implicit::{
     Filter, Implicit, Jacobian, Method, ModelError, Part, RestError, RestSettings, Settings,
-    StepError, Tolerance, damping,
+    StepError, StepReport, Tolerance, damping,
 };
 use tearmesh::{Point, Vector};
 
@@ -18,16 +18,10 @@ fn squeezed() -> Scene {
     scene
 }
 
+type Outcome = Result<StepReport, StepError>;
+
 /// One step from the start, and the positions and velocities after it.
-fn one(
-    scene: &Scene,
-    time_step: f64,
-    settings: &Settings,
-) -> (
-    Result<tearmesh::cloth::implicit::StepReport, StepError>,
-    Vec<Point>,
-    Vec<Vector>,
-) {
+fn one(scene: &Scene, time_step: f64, settings: &Settings) -> (Outcome, Vec<Point>, Vec<Vector>) {
     let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
     let mut solver = Implicit::new(&scene.model()).expect("a good model");
     (
@@ -43,7 +37,7 @@ fn f12_the_threshold_of_indefiniteness_is_the_closed_form() {
         jacobian: Jacobian::Exact,
         ..Settings::default()
     };
-    for (drag, scale) in [(0.0, 1.0), (3.0, f64::NAN)] {
+    for drag in [0.0, 3.0] {
         let scene = Scene { drag, ..squeezed() };
         let (mut low, mut high) = (1e-3, 1e-1);
         for _ in 0..70 {
@@ -65,7 +59,7 @@ fn f12_the_threshold_of_indefiniteness_is_the_closed_form() {
         let closed = (drag * m + (drag * m * drag * m + 4.0 * m * q).sqrt()) / (2.0 * q);
         println!("F12: indefinite from {high:.17e} s, closed form {closed:.17e}");
         assert!((high / closed - 1.0).abs() < 1e-13, "{high} {closed}");
-        if !scale.is_nan() {
+        if drag == 0.0 {
             assert!(
                 (high / 9.746_794_344_808_97e-3 - 1.0).abs() < 1e-13,
                 "{high}"
@@ -85,9 +79,7 @@ fn f12_terms_are_dropped_only_where_the_matrix_is_indefinite_and_counted() {
         };
         one(&scene, time_step, &settings).0
     };
-    let counts = |r: Result<tearmesh::cloth::implicit::StepReport, StepError>| {
-        r.map(|r| (r.indefinite, r.clamped, r.work.hessian_evaluations))
-    };
+    let counts = |r: Outcome| r.map(|r| (r.indefinite, r.clamped, r.work.hessian_evaluations));
     assert_eq!(
         counts(step(9e-3, Jacobian::UnlessIndefinite)),
         Ok((0, 0, 1))

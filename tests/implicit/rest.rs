@@ -18,9 +18,12 @@ fn dot(a: P, b: P) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The energy of a few particles.
+type Energy = Box<dyn Fn(&[P]) -> f64>;
+
 /// A naive energy: a list of terms, each of a few particles.
 struct Naive {
-    terms: Vec<(Vec<usize>, Box<dyn Fn(&[P]) -> f64>)>,
+    terms: Vec<(Vec<usize>, Energy)>,
     /// Gravity on each coordinate: the energy is linear.
     weight: f64,
     free: Vec<usize>,
@@ -224,6 +227,23 @@ fn a_hinge_of_threads_and_arcs_comes_to_rest_where_forces_balance() {
         .rest(&scene.model(), &mut x, &settings)
         .expect("it rests");
     println!("threads and arcs: {report:?}");
+    // Rest is no step: BDF2 starts anew after it.
+    let bdf2 = Settings {
+        method: Method::Bdf2,
+        ..Settings::default()
+    };
+    let mut methods = Vec::new();
+    let (mut moving, mut v) = (x.clone(), scene.v.clone());
+    for step in 0..4 {
+        if step == 2 {
+            let rest = solver.rest(&scene.model(), &mut moving, &settings);
+            rest.expect("it rests");
+        }
+        let report = solver.step(&scene.model(), &mut moving, &mut v, 1e-3, &bdf2);
+        methods.push(report.expect("a step").method);
+    }
+    let (euler, bdf2) = (Method::BackwardEuler, Method::Bdf2);
+    assert_eq!(methods, [euler, bdf2, euler, bdf2]);
     let mut forces = Vec::new();
     scene.model().forces(&x, &mut forces);
     assert!(forces[1..8].iter().all(|f| f.norm() < 2e-10));

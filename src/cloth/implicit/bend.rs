@@ -9,12 +9,12 @@
 //! ```
 //!
 //! At d = L that force does not vanish: it is the buckling load 12 k / L². So near L a plain
-//! spring acts instead, f = max(f_b, c (d − L)); beyond L nothing does (threads that only pull
+//! spring acts instead, f = `max(f_b, c (d − L))`; beyond L nothing does (threads that only pull
 //! take over there). The energy is continued across the change-over, so that forces are its
 //! exact gradient. For one change-over to exist the spring has to be stiffer than the arc at
 //! d = 0: c > 4π² k / L³ (see [`Bend::new`]).
 //!
-//! **Correction.** The polynomial of degree four in d/L that is in common use for f_b,
+//! **Correction.** The polynomial of degree four in d/L that is in common use for `f_b`,
 //! −11.541 x⁴ + 34.193 x³ − 39.083 x² + 23.116 x − 9.713, has to be multiplied by 4 k / L². It is
 //! not used here.
 //!
@@ -114,7 +114,7 @@ impl Bend {
         self.buckles_below
     }
 
-    /// Where f_b(d) = c (d − L). The arc's force is concave in d and below the spring's at
+    /// Where `f_b(d)` = c (d − L). The arc's force is concave in d and below the spring's at
     /// d = L, above it at 0, so there is one such d, found by bisection to the last bit.
     fn change_over(&self) -> f64 {
         let (mut low, mut high) = (0.0, self.rest_length);

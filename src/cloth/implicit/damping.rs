@@ -82,7 +82,7 @@ impl Implicit {
             let filtered = x.iter().enumerate().map(|(i, &x)| model.filter(i).apply(x));
             x = filtered.collect();
             let size = weighted(model, &x, &x).sqrt();
-            if !(size > 0.0) {
+            if size.is_nan() || size <= 0.0 {
                 return Ok(None);
             }
             self.pcg.b.clear();

@@ -166,8 +166,7 @@ impl Pcg {
                 self.product[i] = q;
                 curvature += dot(p, q);
             }
-            // Written so that a NaN ends it too.
-            if !(curvature > 0.0) {
+            if curvature.is_nan() || curvature <= 0.0 {
                 return ended(End::Indefinite, left);
             }
             let before = rz;

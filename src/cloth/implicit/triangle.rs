@@ -14,11 +14,11 @@
 //!
 //! **Where we differ.** The paper scales its conditions by the area, so its energy goes with
 //! A² and the same cloth gets softer as its triangles get smaller. With A the stiffnesses are
-//! moduli in N/m that do not depend on the mesh: E_u = k_u and E_v = k_v at any strain,
-//! Poisson's ratio zero, and the shear modulus k_s at rest.
+//! moduli in N/m that do not depend on the mesh: `E_u` = `k_u` and `E_v` = `k_v` at any strain,
+//! Poisson's ratio zero, and the shear modulus `k_s` at rest.
 //!
 //! **What is indefinite.** The term (1 − 1/|w|)(I − ŵ ŵᵀ) of a compressed direction, and the
-//! term k_s s of the shear s = w_u · w_v, which has the eigenvalues ±k_s |s|. Clamped, the first
+//! term `k_s` s of the shear s = `w_u` · `w_v`, which has the eigenvalues ±`k_s` |s|. Clamped, the first
 //! is dropped (as the paper does) and of the second the negative half.
 
 use super::matrix::Block;
@@ -80,13 +80,13 @@ impl Triangle {
         bad.copied()
     }
 
-    /// How w_u and w_v change with each corner.
+    /// How `w_u` and `w_v` change with each corner.
     fn weights(&self) -> [[f64; 3]; 2] {
         let d = &self.rest_inverse;
         [0, 1].map(|c| [-(d[0][c] + d[1][c]), d[0][c], d[1][c]])
     }
 
-    /// w_u and w_v with the corners at these points.
+    /// `w_u` and `w_v` with the corners at these points.
     #[inline]
     #[must_use]
     pub fn derivatives(&self, [x0, x1, x2]: [Point; 3]) -> [Vector; 2] {
