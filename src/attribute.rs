@@ -12,8 +12,9 @@ use crate::id::{HalfEdgeId, VertexId};
 
 /// A value that can be interpolated.
 ///
-/// Implemented for floats, arrays of what can be blended, [`Point`] and [`Vector`].
-pub trait Blend: Clone {
+/// Implemented for floats, arrays of what can be blended, [`Point`] and [`Vector`]. Equal
+/// corners of a vertex are taken for one value.
+pub trait Blend: Clone + PartialEq {
     /// The value at the part `t` of the way from `self` to `other`: `self + t (other − self)`.
     /// Equal values have to give that value.
     #[must_use]
@@ -174,13 +175,18 @@ impl<T: Blend> Follower for PerVertex<T> {
                 let gone = self.values.swap_remove(merge.gone.index());
                 self[merge.kept] = self[merge.kept].between(&gone, 1.0 - merge.share);
             }
+            Edit::Slide(slide) => {
+                self[slide.vertex] = self[slide.vertex].between(&self[slide.toward], slide.t);
+            }
         }
         self.next_edit = edit.number() + 1;
     }
 }
 
 /// One value for each corner. A split or a merge leaves them where they are; where a face is
-/// divided, its children get theirs from the corners of that face alone.
+/// divided, its children get theirs from the corners of that face alone. Where a vertex slides,
+/// the corners in the faces of the edge are interpolated along it, and all others with the same
+/// value go with them.
 ///
 /// ```
 /// use tearmesh::{shapes, subdivide::Plan, Edits, HalfEdgeId, PerCorner};
@@ -259,6 +265,25 @@ impl<T: Blend> Follower for PerCorner<T> {
                             );
                             self.values.extend(values);
                         }
+                    }
+                }
+            }
+            Edit::Slide(slide) => {
+                let changes = slide.along.map(|corners| {
+                    let [corner, toward] = corners?;
+                    let before = self[corner].clone();
+                    let after = before.between(&self[toward], slide.t);
+                    Some((corner, before, after))
+                });
+                let changes: Vec<_> = changes.into_iter().flatten().collect();
+                for &h in slide.corners {
+                    // Where values differ round the vertex there is a seam, and the edge is
+                    // none of the other side's.
+                    let value = &mut self.values[h.index()];
+                    let own = changes.iter().find(|(corner, ..)| *corner == h);
+                    let same = || changes.iter().find(|(_, before, _)| before == value);
+                    if let Some((.., after)) = own.or_else(same) {
+                        *value = after.clone();
                     }
                 }
             }

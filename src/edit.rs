@@ -16,7 +16,7 @@
 mod record;
 
 pub use record::{
-    Child, Edit, Insert, InsertedPoint, Location, Merge, Renumbered, Source, Split, TornLink,
+    Child, Edit, Insert, InsertedPoint, Location, Merge, Renumbered, Slide, Source, Split, TornLink,
 };
 
 use crate::id::{HalfEdgeId, VertexId};
@@ -44,9 +44,10 @@ pub struct Edits {
     links: Vec<TornLink>,
     points: Vec<InsertedPoint>,
     children: Vec<Child>,
-    /// What few records have: the rest of insertions and merges.
+    /// What few records have: the rest of insertions, merges and slides.
     inserts: Vec<InsertEnds>,
     merges: Vec<MergeRest>,
+    slides: Vec<SlideRest>,
 }
 
 /// What was done, and where the record's lists end; they start where those of the record
@@ -68,6 +69,8 @@ enum Kind {
     Insert(u32),
     /// An index into `merges`.
     Merge(u32),
+    /// An index into `slides`.
+    Slide(u32),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -83,6 +86,14 @@ struct MergeRest {
     share: f64,
     /// The vertex that took the id of `gone`, and where its corners start.
     renumbered: Option<(VertexId, usize)>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct SlideRest {
+    vertex: VertexId,
+    toward: VertexId,
+    t: f64,
+    along: [Option<[HalfEdgeId; 2]>; 2],
 }
 
 impl Edits {
@@ -170,6 +181,7 @@ impl Edits {
         self.children.clear();
         self.inserts.clear();
         self.merges.clear();
+        self.slides.clear();
     }
 
     fn record(&self, i: usize) -> Edit<'_> {
@@ -177,6 +189,7 @@ impl Edits {
             Kind::Split { old, new } => Edit::Split(self.split(i, old, new)),
             Kind::Insert(j) => Edit::Insert(self.insert(i, j as usize)),
             Kind::Merge(j) => Edit::Merge(self.merge(i, j as usize)),
+            Kind::Slide(j) => Edit::Slide(self.slide(i, j as usize)),
         }
     }
 
@@ -226,6 +239,23 @@ impl Edits {
                 corners: others,
             }),
             sewn,
+        }
+    }
+
+    fn slide(&self, i: usize, j: usize) -> Slide<'_> {
+        let SlideRest {
+            vertex,
+            toward,
+            t,
+            along,
+        } = self.slides[j];
+        Slide {
+            number: self.first + i as u64,
+            vertex,
+            toward,
+            t,
+            along,
+            corners: self.lists(i).0,
         }
     }
 
@@ -316,6 +346,25 @@ impl Edits {
         });
         self.finish(Kind::Merge(j as u32));
         self.merge(self.records.len() - 1, j)
+    }
+
+    /// Makes a record of a slide, with the corners noted since the last one.
+    pub(crate) fn finish_slide(
+        &mut self,
+        vertex: VertexId,
+        toward: VertexId,
+        t: f64,
+        along: [Option<[HalfEdgeId; 2]>; 2],
+    ) -> Slide<'_> {
+        let j = self.slides.len();
+        self.slides.push(SlideRest {
+            vertex,
+            toward,
+            t,
+            along,
+        });
+        self.finish(Kind::Slide(j as u32));
+        self.slide(self.records.len() - 1, j)
     }
 
     fn finish(&mut self, kind: Kind) {

@@ -64,13 +64,13 @@
 //! |---|---|
 //! | 0 | `id` (ids), `geometry` (planes, rays, the tie rule), `exact` (sums without rounding) |
 //! | 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) |
-//! | 2 | [`split`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] |
-//! | 3 | `scissor` (two rays to a cut; a file for `partition`, one for the paper's two) |
+//! | 2 | [`split`], [`mend`] (merges), [`subdivide`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] |
+//! | 3 | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods), [`tear`] (the rule for an overstretched edge) |
 //! | 4 | [`cloth`] (solvers), `script` (drives the floors below from bytes or text; behind a feature) |
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
 //! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a
-//! link. Results depend on `+ − × ÷ √` in a fixed order: the same input gives the same bytes on
+//! link, and only `mend` sews one. Results depend on `+ − × ÷ √` in a fixed order: the same input gives the same bytes on
 //! every machine. `src/mesh/invariants.md` numbers what holds of every mesh.
 //!
 //! # Errors
@@ -102,21 +102,23 @@ mod scissor;
 #[cfg(feature = "script")]
 pub mod script;
 pub mod shapes;
+pub mod slide;
 pub mod split;
 pub mod subdivide;
+pub mod tear;
 
 pub use attribute::{Blend, PerCorner, PerVertex};
 pub use edit::{
-    Child, Edit, Edits, Follower, Insert, InsertedPoint, Location, Merge, Renumbered, Source,
-    Split, TornLink,
+    Child, Edit, Edits, Follower, Insert, InsertedPoint, Location, Merge, Renumbered, Slide,
+    Source, Split, TornLink,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
 pub use id::{FaceId, HalfEdgeId, VertexId};
 pub use mass::{Ledger, MassError, Masses};
 pub use mesh::{
-    BoundaryLoop, BuildError, Components, Corners, Defect, Fan, Invariant, Mesh, TornError,
-    Violation,
+    BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
+    TornError, Violation,
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};

@@ -385,6 +385,7 @@ impl Follower for Masses {
                 let gone = vertices.swap_remove(merge.gone.index());
                 vertices[merge.kept.index()].add(&gone);
             }
+            (Edit::Slide(_), _) => {}
         }
         self.next_edit = edit.number() + 1;
     }

@@ -21,14 +21,15 @@
 
 mod build;
 mod check;
+mod defect;
 mod diagnose;
 mod torn;
 mod walk;
 
 use std::iter::FusedIterator;
 
-pub use build::{BuildError, Defect};
 pub use check::{Invariant, Violation};
+pub use defect::{BuildError, Defect, Faces, Fans};
 pub use torn::TornError;
 pub use walk::{BoundaryLoop, Components, Corners, Fan};
 

@@ -188,6 +188,11 @@ impl Follower for Positions {
                 let kept = &mut self.points[merge.kept.index()];
                 *kept = between(*kept, gone, 1.0 - merge.share);
             }
+            Edit::Slide(slide) => {
+                let toward = self.at(slide.toward);
+                let point = &mut self.points[slide.vertex.index()];
+                *point = between(*point, toward, slide.t);
+            }
         }
         self.next_edit = edit.number() + 1;
     }

@@ -64,6 +64,7 @@ pub struct Scissor {
     through: bool,
     tips: Tips,
     snap: f64,
+    snap_move: bool,
     /// Where this cut goes on from another: vertices on the plane and on the first side plane.
     joints: Vec<VertexId>,
 }
@@ -164,6 +165,7 @@ impl Scissor {
             through: false,
             tips: Tips::default(),
             snap: Scissor::SNAP,
+            snap_move: false,
             joints: Vec::new(),
         })
     }
@@ -184,6 +186,17 @@ impl Scissor {
             snap.clamp(0.0, 0.49)
         };
         Scissor { snap, ..self }
+    }
+
+    /// Whether the method `exact` moves a vertex that was taken for a crossing onto the plane,
+    /// along the edge of that crossing: the seam is straight then, and faces do not get thin
+    /// either, but the surface changes a little where it is curved.
+    ///
+    /// A vertex stays where it is if a face would turn over or lose 70 % of its altitude, if it
+    /// is torn already, or if it is on the boundary and the edge is not.
+    #[must_use]
+    pub fn snap_move(self, snap_move: bool) -> Scissor {
+        Scissor { snap_move, ..self }
     }
 
     /// The scissor that goes on from where a cut by this one ended, at its second ray, to
@@ -234,6 +247,7 @@ impl Scissor {
             through: self.through,
             tips: self.tips,
             snap: self.snap,
+            snap_move: self.snap_move,
             ..scissor
         })
     }

@@ -19,6 +19,8 @@
 //!     grid 2 2 0b0110       # two by two cells; which diagonals rise
 //!     split 4 0b11          # the first two faces of vertex 4 get a vertex of their own
 //!     plane 1 1 0 0         # split vertex 1 by the plane through it with this normal
+//!     insert 5 edge 0 32    # put a vertex in the middle of the edge of half-edge 5
+//!     merge 0 1 1 1         # make the first torn vertex and its first copy one again
 //! ".parse()?;
 //!
 //! let mut refused = 0;
@@ -29,7 +31,7 @@
 //!         _ => {}
 //!     }
 //! });
-//! assert_eq!((world.mesh.vertex_count(), refused), (11, 0));
+//! assert_eq!((world.mesh.vertex_count(), refused), (11, 0)); // 9 + 1 + 1 + 1 - 1
 //!
 //! assert_eq!(Script::from_bytes(&script.to_bytes()), script);
 //! assert_eq!(script.to_string().parse(), Ok(script));
@@ -43,19 +45,41 @@
 //!
 //! ```
 //! use tearmesh::script::Script;
-//! use tearmesh::{Edit, Follower};
+//! use std::collections::BTreeSet;
+//! use tearmesh::{Edit, Follower, HalfEdgeId, Source};
 //!
 //! /// How many faces each vertex has: what you keep beside the mesh.
-//! struct Valences { of: Vec<usize>, next: u64 }
+//! struct Valences { of: Vec<usize>, next: u64, divided: BTreeSet<HalfEdgeId> }
 //!
 //! impl Follower for Valences {
 //!     fn next_edit(&self) -> u64 {
 //!         self.next
 //!     }
 //!     fn follow(&mut self, edit: &Edit<'_>) {
-//!         if let Edit::Split(split) = edit {
-//!             self.of[split.old.index()] -= split.corners.len();
-//!             self.of.push(split.corners.len());
+//!         match edit {
+//!             Edit::Split(split) => {
+//!                 self.of[split.old.index()] -= split.corners.len();
+//!                 self.of.push(split.corners.len());
+//!             }
+//!             Edit::Merge(merge) => {
+//!                 let gone = self.of.swap_remove(merge.gone.index());
+//!                 self.of[merge.kept.index()] += gone;
+//!             }
+//!             Edit::Insert(insert) => {
+//!                 self.of.resize(self.of.len() + insert.points.len(), 0);
+//!                 for child in insert.children {
+//!                     for (v, source) in child.vertices.iter().zip(child.sources) {
+//!                         self.of[v.index()] += 1;
+//!                         if let Source::Corner(h) = source {
+//!                             if self.divided.insert(h) {
+//!                                 self.of[v.index()] -= 1; // that of the divided face
+//!                             }
+//!                         }
+//!                     }
+//!                 }
+//!                 self.divided.clear();
+//!             }
+//!             _ => {} // A slide moves a vertex, and no corner.
 //!         }
 //!         self.next = edit.number() + 1;
 //!     }
@@ -67,7 +91,11 @@
 //!     script.run(|world, step| {
 //!         let count = |v| world.mesh.faces_of(v).count();
 //!         let truth: Vec<usize> = world.mesh.vertices().map(count).collect();
-//!         let valences = valences.get_or_insert_with(|| Valences { of: truth.clone(), next: 0 });
+//!         let valences = valences.get_or_insert_with(|| Valences {
+//!             of: truth.clone(),
+//!             next: 0,
+//!             divided: BTreeSet::new(),
+//!         });
 //!         world.edits.replay(valences);
 //!         assert_eq!(valences.of, truth, "after {step:?} of\n{script}");
 //!     });
@@ -88,11 +116,13 @@
 mod bytes;
 mod shape;
 mod text;
+mod triangles;
 mod world;
 
 pub use shape::{GROWN_MAX, Shape};
 pub use text::ScriptError;
-pub use world::{Step, World};
+pub use triangles::Triangles;
+pub use world::{Asked, AskedEnd, Step, World};
 
 use crate::scissor::Tips;
 
@@ -112,7 +142,7 @@ impl Script {
 
 /// One thing to do to a [`World`]. Numbers of vertices, faces and so on are taken modulo
 /// how many there are, so that every operation fits every mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Split a vertex by a set of its faces.
     Split {
@@ -141,10 +171,62 @@ pub enum Operation {
         /// The rays: each the origin, in units of 1/32, and the direction.
         rays: [[[i8; 3]; 2]; 2],
     },
+    /// Insert vertices, all at once.
+    Insert {
+        /// The half-edge from which spots are counted, so that several fall into one face.
+        half_edge: u16,
+        /// Where: up to [`SPOTS_MAX`]. No spot at all is an insertion too.
+        spots: Vec<Spot>,
+        /// An edge that is demanded across the face of the first spot (without one, of
+        /// `half_edge`): each end is, modulo how many there are, a corner of that face or one
+        /// of the spots.
+        chord: Option<[u8; 2]>,
+    },
+    /// Merge two vertices, as a rule copies of one.
+    Merge {
+        /// The first vertex: number so many of those that have copies, or of all where none has.
+        vertex: u16,
+        /// The second: number so many of the copies of the first, which is one of them.
+        other: u16,
+        /// Whether the second is number so many of all vertices instead.
+        any: bool,
+        /// The weights of both. Negative ones are refused.
+        weights: [i8; 2],
+    },
+    /// Sew together all copies that are chosen, weighed by their masses.
+    Sew {
+        /// Which vertices are chosen: bit `i % 16` for vertex `i`.
+        mask: u16,
+    },
     /// Tear the mesh to pieces: split each vertex until every face has its own.
     Tear,
     /// Let all followers replay the log, and clear it.
     Clear,
+}
+
+/// The most spots of an insertion.
+pub const SPOTS_MAX: usize = 4;
+
+/// The offsets of spots are below this: the half-edges of four faces.
+const OFFSETS: u8 = 12;
+
+/// Where to insert a vertex. What is wrong with a spot is refused with all others of its insertion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// On an edge.
+    Edge {
+        /// The half-edge, counted from that of the insertion: 0 to 11.
+        offset: u8,
+        /// How far along, in parts of 64: 0 to 64. Both ends are refused.
+        part: u8,
+    },
+    /// In a face.
+    Face {
+        /// A half-edge of the face, counted from that of the insertion: 0 to 11.
+        offset: u8,
+        /// The weights of the corners. Zero is refused.
+        weights: [u8; 3],
+    },
 }
 
 /// What is deliberately wrong with a set of faces.

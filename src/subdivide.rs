@@ -231,6 +231,8 @@ impl Work {
             faces.push(on.edge.face());
             faces.extend(mesh.pair_or_ghost(on.edge).map(HalfEdgeId::face));
         }
+        // A face without a point has no chord, and one that is demanded there is refused below.
+        faces.extend(plan.chords.iter().map(|chord| chord.f));
         faces.sort_unstable();
         faces.dedup();
         let mut chords: Vec<&Chord> = plan.chords.iter().collect();

@@ -1,6 +1,7 @@
 //! The method `exact` against the oracle of straight cuts, which shares no code with it.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use tearmesh::{
     CutReport, Edits, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector, mend,
@@ -8,7 +9,7 @@ use tearmesh::{
 
 use crate::oracle::straight::{Cut, Surface, judge, judge_polyline};
 use crate::random::Random;
-use crate::straight::{built, cases, random_generic_rays, said, surface, surfaces};
+use crate::straight::{Rays, built, cases, random_generic_rays, said, surface, surfaces};
 use crate::straight_polylines::{random_corners, sheets};
 
 /// A mesh and all that follows it, in a cut.
@@ -81,6 +82,66 @@ fn straight_cuts_satisfy_the_oracle() {
     assert!(cuts >= 400, "only {cuts} cuts");
 }
 
+/// The triangles of a file, read in the plainest way: `v x y z` and `f a/… b/… c/…`, counted from 1.
+fn file(path: &Path) -> Surface {
+    let text = std::fs::read_to_string(path).expect("a file");
+    let mut surface = Surface {
+        points: Vec::new(),
+        faces: Vec::new(),
+    };
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        let keyword = words.next();
+        if keyword == Some("v") {
+            let numbers: Vec<f64> = words.map(|word| word.parse().expect("a number")).collect();
+            surface.points.push([numbers[0], numbers[1], numbers[2]]);
+        } else if keyword == Some("f") {
+            let index = |word: &str| word.split('/').next()?.parse::<u32>().ok();
+            let corners: Vec<u32> = words
+                .map(|word| index(word).expect("an index") - 1)
+                .collect();
+            for two in corners[1..].windows(2) {
+                surface.faces.push([corners[0], two[0], two[1]]);
+            }
+        }
+    }
+    surface
+}
+
+/// Flags, sleeves and, where `TEARMESH_CORPUS` names their folder, garments.
+#[test]
+fn straight_cuts_of_garments_satisfy_the_oracle() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let mut files = vec![
+        data.join("flag.obj"),
+        data.join("sleeve.obj"),
+        data.join("sheet.obj"),
+    ];
+    if let Some(corpus) = std::env::var_os("TEARMESH_CORPUS") {
+        let names = [
+            "arcsim_tshirt",
+            "arcsim_dress3",
+            "snug_tshirt",
+            "snug_tank",
+            "assistive_hospitalgown",
+        ];
+        files.extend(names.map(|name| Path::new(&corpus).join(name).with_extension("obj")));
+    }
+    let mut random = Random(61);
+    for path in files {
+        let before = file(&path);
+        for _ in 0..12 {
+            let (rays, cut) = random_generic_rays(&before, &mut random);
+            let mut cutting = Cutting::new(&before);
+            cutting.cut(&scissor(rays).through(cut.sides.is_empty()).snap(0.0));
+            if let Err(faults) = judge(&before, &cut, &cutting.surface()) {
+                panic!("{}: {}", path.display(), said(&faults));
+            }
+        }
+        println!("{}: 12 cuts", path.display());
+    }
+}
+
 /// Cuts across older cuts, whose ghost links the second one has to cross, satisfy the oracle too,
 /// and mending everything leaves the surface whole.
 #[test]
@@ -134,7 +195,7 @@ fn cuts_across_cuts_satisfy_the_oracle_and_can_be_mended() {
     assert!(cuts >= 300 && torn_edges_crossed >= 150);
 }
 
-fn scissor([a, b]: [([f64; 3], [f64; 3]); 2]) -> Scissor {
+fn scissor([a, b]: Rays) -> Scissor {
     Scissor::new(&ray(a), &ray(b)).expect("a plane")
 }
 
@@ -264,6 +325,57 @@ fn a_snap_keeps_faces_from_getting_thin() {
     }
 }
 
+/// Moving the snapped vertices makes the seam straight and leaves faces well shaped; texture
+/// coordinates go with them.
+#[test]
+fn a_snap_that_moves_makes_the_seam_straight() {
+    let mut random = Random(53);
+    let (mut deviations, mut moved) = (Vec::new(), 0);
+    for sheet in sheets() {
+        for _ in 0..40 {
+            let (rays, _) = random_generic_rays(&sheet, &mut random);
+            let mut cutting = Cutting::new(&sheet);
+            let areas = |cutting: &Cutting| {
+                let of = |f| {
+                    let [a, b, c] = cutting.mesh.corners(f).map(|v| cutting.positions.at(v));
+                    (b - a).cross(&(c - a)).norm() / 2.0
+                };
+                cutting.mesh.faces().map(of).sum::<f64>()
+            };
+            let (before, altitude) = (
+                areas(&cutting),
+                altitudes(&cutting.mesh, &cutting.positions),
+            );
+            let scissor = scissor(rays).through(true).snap_move(true);
+            let report = cutting.cut(&scissor);
+            moved += cutting
+                .edits
+                .iter()
+                .filter(|edit| matches!(edit, tearmesh::Edit::Slide(_)))
+                .count();
+            deviations.push(report.seam_deviation_max_edges);
+            assert!((areas(&cutting) / before - 1.0).abs() < 1e-3);
+            let after = altitudes(&cutting.mesh, &cutting.positions);
+            let parents = parents(&cutting.edits, altitude.len());
+            for (child, after) in after.iter().enumerate() {
+                assert!(after / altitude[parents[child]] > 0.3 * 0.05 * 0.95);
+            }
+            // A corner that is less than the snap is touched and not cut off.
+            assert!(report.crumbs == 0 && report.lost <= 1, "{report:?}");
+        }
+    }
+    deviations.sort_by(f64::total_cmp);
+    let straight = deviations
+        .iter()
+        .filter(|deviation| **deviation < 1e-12)
+        .count();
+    println!(
+        "{moved} vertices moved, {straight} of {} seams straight",
+        deviations.len()
+    );
+    assert!(deviations[deviations.len() / 2] < 1e-12 && moved > 150);
+}
+
 /// The smallest altitude of each face.
 fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
     let of = |f| {
@@ -289,4 +401,22 @@ fn parents(edits: &Edits, faces: usize) -> Vec<usize> {
         }
     }
     parents
+}
+
+#[test]
+fn random_cuts_of_all_methods_can_be_mended() {
+    let mut random = Random(59);
+    let mut done = crate::cut_mend::Done::default();
+    for _ in 0..4000 {
+        let bytes: Vec<u8> = (0..120).map(|_| (random.next() * 256.0) as u8).collect();
+        let result = std::panic::catch_unwind(|| crate::cut_mend::Case::from_bytes(&bytes).check());
+        let Ok(one) = result else {
+            panic!("{bytes:?}: {:?}", crate::cut_mend::Case::from_bytes(&bytes));
+        };
+        done.cuts += one.cuts;
+        done.inserted += one.inserted;
+        done.splits += one.splits;
+        done.merges += one.merges;
+    }
+    println!("{done:?}");
 }

@@ -1,28 +1,50 @@
-//! The exhaustive small scope: every small mesh, every split of it, and every sequence of so many.
+//! The exhaustive small scope: every small mesh, every edit of it, and every sequence of so many.
 //!
 //! A mesh here is a connected oriented gluing of N triangles that is an oriented
 //! 2-manifold, up to isomorphism: any genus, any boundary. On each, every nonempty proper subset
-//! of the faces of every vertex is split off, so many times in a row, and all properties
-//! are checked after each split. What goes wrong at all goes wrong on a small mesh.
+//! of the faces of every vertex is split off, so many times in a row; and on smaller ones splits
+//! take turns with all merges of two copies and with insertions: on every edge, in every
+//! face, and two at once. All properties are checked after each. What goes wrong at all goes wrong
+//! on a small mesh.
 
-use tearmesh::{Edits, FaceId, Masses, Mesh, Positions, split};
+use tearmesh::script::{Asked, Step, World};
+use tearmesh::{FaceId, HalfEdgeId, Mesh, Positions, VertexId};
 
-use crate::lockstep::{self, Told, soup_of};
+use crate::lockstep::{Done, Model};
 use crate::oracle::{Soup, is_strict, joined_sets};
 
 #[test]
 fn every_split_of_every_small_mesh() {
-    assert_eq!(splits_of_meshes(7, 1), 10_294);
-    assert_eq!(splits_of_meshes(6, 2), 78_094);
-    assert_eq!(splits_of_meshes(4, 3), 28_186);
+    let splits = |faces_max, in_a_row| edits_of_meshes(Kinds::Splits, faces_max, in_a_row).splits;
+    assert_eq!(splits(7, 1), 10_294);
+    assert_eq!(splits(6, 2), 78_094);
+    assert_eq!(splits(4, 3), 28_186);
 }
 
 #[test]
 #[ignore = "for release builds: cargo test --release -p tearmesh -- --ignored"]
 fn every_split_of_every_larger_mesh() {
-    assert_eq!(splits_of_meshes(9, 1), 248_782);
-    assert_eq!(splits_of_meshes(7, 2), 444_082);
-    assert_eq!(splits_of_meshes(5, 3), 191_658);
+    let splits = |faces_max, in_a_row| edits_of_meshes(Kinds::Splits, faces_max, in_a_row).splits;
+    assert_eq!(splits(9, 1), 248_782);
+    assert_eq!(splits(7, 2), 444_082);
+    assert_eq!(splits(5, 3), 191_658);
+}
+
+#[test]
+fn every_edit_of_every_small_mesh() {
+    let edits = |faces_max, in_a_row| edits_of_meshes(Kinds::All, faces_max, in_a_row).counts();
+    assert_eq!(edits(6, 1), [2_454, 2_589, 0]);
+    assert_eq!(edits(4, 2), [15_940, 16_210, 162]);
+    assert_eq!(edits(2, 3), [50_006, 47_265, 554]);
+}
+
+#[test]
+#[ignore = "for release builds: cargo test --release -p tearmesh -- --ignored"]
+fn every_edit_of_every_larger_mesh() {
+    let edits = |faces_max, in_a_row| edits_of_meshes(Kinds::All, faces_max, in_a_row).counts();
+    assert_eq!(edits(8, 1), [50_654, 38_778, 0]);
+    assert_eq!(edits(5, 2), [56_534, 52_563, 526]);
+    assert_eq!(edits(3, 3), [305_500, 247_188, 3_386]);
 }
 
 /// The meshes without an inner vertex, handle or hole are the polygons, triangulated: up to
@@ -44,21 +66,28 @@ fn the_enumeration_finds_all_triangulated_polygons() {
     }
 }
 
-/// Checks all sequences of so many splits on all meshes of up to so many faces; returns how many
-/// splits that were.
-fn splits_of_meshes(faces_max: usize, in_a_row: usize) -> usize {
+/// What is done to a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kinds {
+    Splits,
+    All,
+}
+
+/// Checks all sequences of so many edits on all meshes of up to so many faces; returns how many
+/// edits that were.
+fn edits_of_meshes(kinds: Kinds, faces_max: usize, in_a_row: usize) -> Count {
     let mut count = Count::default();
     for faces in 1..=faces_max {
         for_each_gluing(faces, &mut |opposite| {
             count.gluings += 1;
             if let Some((vertices, triangles)) = strict_mesh(opposite) {
                 count.meshes += 1;
-                State::new(vertices, &triangles).split_in_all_ways(in_a_row, &mut count);
+                State::new(vertices, &triangles).edit_in_all_ways(kinds, in_a_row, &mut count);
             }
         });
     }
-    println!("up to {faces_max} faces, {in_a_row} splits in a row: {count:?}");
-    count.splits
+    println!("up to {faces_max} faces, {in_a_row} edits in a row: {count:?}");
+    count
 }
 
 #[derive(Default, Debug)]
@@ -66,97 +95,122 @@ struct Count {
     gluings: usize,
     meshes: usize,
     splits: usize,
+    insertions: usize,
+    merges: usize,
     refused: usize,
+}
+
+impl Count {
+    fn counts(&self) -> [usize; 3] {
+        [self.splits, self.insertions, self.merges]
+    }
 }
 
 #[derive(Clone)]
 struct State {
-    input: Mesh,
-    mesh: Mesh,
-    soup: Soup,
-    unit: f64,
-    edits: Edits,
-    area: Masses,
-    half: Masses,
+    world: World,
+    model: Model,
 }
 
 impl State {
     fn new(vertices: usize, triangles: &[[u32; 3]]) -> State {
         let mesh = Mesh::build(vertices, triangles).expect("the oracle calls it a manifold");
         let points = (0..vertices as u32).map(|i| [i, i * i, 1].map(f64::from));
-        let positions = Positions::new(points).expect("small numbers");
-        let (soup, unit) = soup_of(&mesh, &positions);
-        lockstep::the_mesh_agrees(&mesh, &soup);
-        let masses = "no face is without area";
-        State {
-            input: mesh.clone(),
-            soup,
-            unit,
-            edits: Edits::new(),
-            area: Masses::area(&mesh, &positions, 1.0).expect(masses),
-            half: Masses::half(&mesh, &positions, 1.0).expect(masses),
-            mesh,
-        }
+        let world = World::of(mesh, Positions::new(points).expect("small numbers"));
+        let model = Model::new(&world);
+        State { world, model }
     }
 
-    fn split_in_all_ways(&self, depth: usize, count: &mut Count) {
+    fn edit_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
         if depth == 0 {
             return;
         }
-        for v in 0..self.soup.root.len() {
-            let faces = self.soup.faces_of(v);
+        self.split_in_all_ways(kinds, depth, count);
+        if kinds == Kinds::All {
+            self.insert_in_all_ways(depth, count);
+            self.merge_in_all_ways(depth, count);
+        }
+    }
+
+    /// Edits and checks everything, and goes on from there if it was not refused.
+    fn then(
+        &self,
+        kinds: Kinds,
+        depth: usize,
+        count: &mut Count,
+        edit: impl FnOnce(&mut World, &mut dyn FnMut(&World, &Step<'_>)),
+    ) {
+        let State {
+            mut world,
+            mut model,
+        } = self.clone();
+        model.done = Done::default();
+        edit(&mut world, &mut |world, step| model.follow(world, step));
+        model.undoing_everything_gives_the_input_back();
+        let done = model.done;
+        count.splits += done.splits;
+        count.insertions += done.insertions;
+        count.merges += done.merges;
+        count.refused += done.refused;
+        if done.refused == 0 {
+            State { world, model }.edit_in_all_ways(kinds, depth - 1, count);
+        }
+    }
+
+    fn split_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
+        for v in self.world.mesh.vertices() {
+            let faces = self.model.soup().faces_of(v.index());
             for mask in 0..1usize << faces.len() {
-                let moving: Vec<usize> = (0..faces.len())
+                let moving: Vec<FaceId> = (0..faces.len())
                     .filter(|i| mask >> i & 1 == 1)
-                    .map(|i| faces[i])
+                    .filter_map(|i| FaceId::new(faces[i]))
                     .collect();
-                let mut after = self.clone();
-                if after.split(v, &moving, self) {
-                    count.splits += 1;
-                    after.split_in_all_ways(depth - 1, count);
-                } else {
-                    count.refused += 1;
-                }
+                self.then(kinds, depth, count, |world, observe| {
+                    world.split(v, &moving, observe);
+                });
             }
         }
     }
 
-    /// Splits and checks everything; false if the split was refused.
-    fn split(&mut self, v: usize, moving: &[usize], before: &State) -> bool {
-        let vertex = self.mesh.vertices().nth(v).expect("a vertex");
-        let faces: Vec<FaceId> = moving.iter().filter_map(|&f| FaceId::new(f)).collect();
-        let expected = self.soup.split(v, moving);
-        let split = match split::faces(&mut self.mesh, vertex, &faces, &mut self.edits) {
-            Ok(split) => split,
-            Err(refusal) => {
-                assert_eq!(Err(lockstep::plain(refusal)), expected);
-                assert_eq!(
-                    self.mesh, before.mesh,
-                    "a refused split leaves the mesh alone"
-                );
-                assert_eq!(self.edits.len(), before.edits.len(), "and the log");
-                return false;
+    /// On every edge, in every face, and some pairs in one face; a torn edge from both sides.
+    fn insert_in_all_ways(&self, depth: usize, count: &mut Count) {
+        let mesh = &self.world.mesh;
+        let on = |half_edge: HalfEdgeId, t| Asked::Edge { half_edge, t };
+        let inside = |face, weights| Asked::Face { face, weights };
+        let mut ways = Vec::new();
+        for h in mesh.edges() {
+            ways.push(vec![on(h, 0.5)]);
+        }
+        for face in mesh.faces() {
+            let [a, b, c] = face.half_edges();
+            let centre = inside(face, [1.0, 1.0, 1.0]);
+            ways.push(vec![centre]);
+            ways.push(vec![on(a, 0.25), on(b, 0.75)]);
+            ways.push(vec![on(c, 0.5), on(c, 0.125)]);
+            ways.push(vec![centre, on(b, 0.5)]);
+            ways.push(vec![centre, inside(face, [2.0, 1.0, 1.0])]);
+        }
+        for asked in ways {
+            self.then(Kinds::All, depth, count, |world, observe| {
+                world.insert(&asked, None, observe);
+            });
+        }
+    }
+
+    fn merge_in_all_ways(&self, depth: usize, count: &mut Count) {
+        let class = &self.model.soup().class;
+        for one in 0..class.len() {
+            for other in one + 1..class.len() {
+                // One pair of strangers for each vertex, which must be refused.
+                if class[one] == class[other] || other == one + 1 {
+                    let [one, other] =
+                        [one, other].map(|v| VertexId::new(v).expect("a small number"));
+                    self.then(Kinds::All, depth, count, |world, observe| {
+                        world.merge(other, one, [1.0, 3.0], observe);
+                    });
+                }
             }
-        };
-        assert_eq!(expected, Ok(()));
-        lockstep::a_split_changes_nothing_else(&before.mesh, &self.mesh, &split);
-        let told = Told::by(&split);
-        self.edits.replay(&mut (&mut self.area, &mut self.half));
-        let edit = self
-            .edits
-            .iter()
-            .next_back()
-            .expect("the split is in the log");
-        let split = lockstep::split_of(edit);
-        assert_eq!(Told::by(&split), told, "the log keeps what it returned");
-        lockstep::a_split_conserves_mass(&before.area, &self.area, &split);
-        lockstep::a_split_conserves_mass(&before.half, &self.half, &split);
-        lockstep::every_vertex_weighs_what_its_faces_weigh(&self.area, &self.soup, self.unit);
-        lockstep::halves_add_up(&self.half, &self.soup, self.unit);
-        lockstep::the_mesh_agrees(&self.mesh, &self.soup);
-        let history = lockstep::told(&self.edits);
-        lockstep::undoing_every_split_gives_the_input_back(&self.mesh, &history, &self.input);
-        true
+        }
     }
 }
 

@@ -79,13 +79,10 @@ fn figure_1_a_plane_with_all_faces_on_one_side_does_nothing() {
 #[test]
 fn figure_2_two_faces_that_share_a_vertex_alone() {
     let bow_tie = [[0, 1, 2], [0, 3, 4]];
-    let error = Mesh::build(5, &bow_tie).expect_err("a bow-tie");
-    assert_eq!(
-        error.defects(),
-        [Defect::BowTie {
-            vertex: v(0),
-            fans: vec![vec![f(0)], vec![f(1)]],
-        }]
+    refuses(
+        5,
+        &bow_tie,
+        &["v0 joins 2 fans that share no edge: f0 | f1"],
     );
 
     let mut mesh = open_fan_of_three();
@@ -231,99 +228,96 @@ fn a_split_of_a_bow_tie_tears_nothing() {
 
 // Inputs to refuse.
 
-fn defects(vertices: usize, triangles: &[[u32; 3]]) -> Vec<Defect> {
+/// Builds triangles that are wrong; `expected` has a line for each defect.
+fn refuses(vertices: usize, triangles: &[[u32; 3]], expected: &[&str]) {
     let error = Mesh::build(vertices, triangles).expect_err("not a manifold");
-    error.defects().to_vec()
+    let said: Vec<String> = error.defects().map(|defect| defect.to_string()).collect();
+    assert_eq!(said, expected, "{triangles:?}");
 }
 
 #[test]
 fn an_index_out_of_range_is_refused() {
-    let expected = Defect::IndexOutOfRange {
-        face: f(1),
-        corner: 2,
-        index: 4,
-        vertices: 4,
-    };
-    assert_eq!(defects(4, &[[0, 1, 2], [2, 1, 4]]), [expected]);
+    let expected = "f1 names vertex 4 at corner 2, but there are 4 vertices";
+    refuses(4, &[[0, 1, 2], [2, 1, 4]], &[expected]);
 }
 
 #[test]
 fn a_face_with_a_repeated_vertex_is_refused() {
     for triangle in [[3, 3, 1], [3, 1, 3], [1, 3, 3], [3, 3, 3]] {
-        let expected = Defect::RepeatedVertex {
-            face: f(0),
-            vertex: v(3),
-        };
-        assert_eq!(defects(4, &[triangle]), [expected]);
+        refuses(4, &[triangle], &["f0 names v3 more than once"]);
     }
 }
 
 #[test]
 fn a_face_that_occurs_twice_is_refused() {
-    let expected = Defect::DuplicateFaces {
-        vertices: [v(0), v(1), v(2)],
-        faces: vec![f(0), f(1)],
-    };
-    assert_eq!(defects(3, &[[0, 1, 2], [1, 2, 0]]), [expected]);
+    let expected = "the vertices v0, v1, v2 have several faces: f0, f1";
+    refuses(3, &[[0, 1, 2], [1, 2, 0]], &[expected]);
 }
 
 #[test]
 fn two_faces_back_to_back_are_refused() {
-    let expected = Defect::Pillow {
-        vertices: [v(0), v(1), v(2)],
-        faces: [f(0), f(1)],
-    };
-    assert_eq!(defects(3, &[[0, 1, 2], [0, 2, 1]]), [expected]);
+    let expected = "two faces lie back to back on v0, v1, v2: f0, f1";
+    refuses(3, &[[0, 1, 2], [0, 2, 1]], &[expected]);
 }
 
 #[test]
 fn a_third_face_on_an_edge_is_refused() {
-    let expected = Defect::CrowdedEdge {
-        ends: [v(0), v(1)],
-        faces: vec![f(0), f(1), f(2)],
-    };
-    assert_eq!(defects(5, &[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), [expected]);
+    let expected = "the edge v0-v1 has 3 faces: f0, f1, f2";
+    refuses(5, &[[0, 1, 2], [1, 0, 3], [0, 1, 4]], &[expected]);
 }
 
 /// A tetrahedron with a fin on its edge 0-1. A builder that pairs the fin with one face of the
 /// edge and forgets the other one finds every corner all the same: each vertex has one fan.
 #[test]
 fn a_fin_on_a_tetrahedron_is_refused() {
-    let expected = Defect::CrowdedEdge {
-        ends: [v(0), v(1)],
-        faces: vec![f(0), f(1), f(2)],
-    };
     let triangles = [[0, 1, 2], [1, 0, 3], [0, 1, 4], [3, 0, 4], [4, 1, 3]];
-    assert_eq!(defects(5, &triangles), [expected]);
+    let expected = "the edge v0-v1 has 3 faces: f0, f1, f2";
+    refuses(5, &triangles, &[expected]);
 }
 
 #[test]
 fn a_flipped_face_is_refused() {
-    let expected = Defect::FlippedFace {
-        from: v(1),
-        to: v(2),
-        faces: [f(0), f(1)],
-    };
-    assert_eq!(defects(4, &[[0, 1, 2], [1, 2, 3]]), [expected]);
+    let expected = "f0 and f1 both run from v1 to v2: one of them is flipped";
+    refuses(4, &[[0, 1, 2], [1, 2, 3]], &[expected]);
 }
 
 #[test]
 fn a_bow_tie_is_refused_with_all_its_fans() {
-    let expected = Defect::BowTie {
-        vertex: v(0),
-        fans: vec![vec![f(0), f(3)], vec![f(1)], vec![f(2)]],
-    };
     let triangles = [[0, 1, 2], [0, 3, 4], [5, 6, 0], [0, 2, 7]];
-    assert_eq!(defects(8, &triangles), [expected]);
+    let expected = "v0 joins 3 fans that share no edge: f0, f3 | f1 | f2";
+    refuses(8, &triangles, &[expected]);
 }
 
 #[test]
 fn more_vertices_than_ids_are_refused() {
-    let expected = Defect::TooManyVertices {
-        given: Mesh::MAX_VERTICES + 1,
-        limit: Mesh::MAX_VERTICES,
-    };
-    assert_eq!(defects(Mesh::MAX_VERTICES + 1, &[]), [expected]);
+    let (given, limit) = (Mesh::MAX_VERTICES + 1, Mesh::MAX_VERTICES);
+    refuses(
+        given,
+        &[],
+        &[&format!("{given} vertices, the limit is {limit}")],
+    );
+}
+
+/// One million faces on an edge are a number, not an allocation each; so are their distances.
+#[test]
+fn long_lists_of_faces_are_read_as_they_are() {
+    let triangles: Vec<[u32; 3]> = (0..100_000u32)
+        .map(|i| [0, 1, if i % 1000 == 0 { 2 } else { i + 3 }])
+        .collect();
+    let error = Mesh::build(100_003, &triangles).expect_err("a crowded edge");
+    let lists: Vec<Vec<usize>> = error
+        .defects()
+        .map(|defect| match defect {
+            Defect::DuplicateFaces { faces, .. } | Defect::CrowdedEdge { faces, .. } => {
+                assert_eq!(faces.iter().len(), faces.len());
+                assert_eq!(faces.iter().next(), Some(faces.first()));
+                faces.iter().map(|face| face.index()).collect()
+            }
+            other => panic!("{other}"),
+        })
+        .collect();
+    let rare: Vec<usize> = (0..100_000).step_by(1000).collect();
+    assert_eq!(lists, [rare, (0..100_000).collect()]);
 }
 
 #[test]
@@ -385,4 +379,11 @@ fn regression_a_midpoint_cut_reads_only_positions_that_there_are() {
         cut midpoint -39 -128 -50 11 60 -76 0 0 0 0 0 1
         ",
     );
+}
+
+/// A chord across a face without a point was passed over in silence.
+#[test]
+fn regression_a_chord_of_a_face_without_points_is_refused() {
+    regression("grid 1 1 0\ninsert 0 chord 0 0\ninsert 0 edge 3 32 face 0 1 1 1 chord 0 3");
+    regression("grid 2 2 0\ninsert 0 edge 0 32 edge 9 32 chord 2 4");
 }

@@ -9,7 +9,7 @@ use crate::rays::{Case, Outcome};
 
 /// The seeds of the target, as text: one for each shape and each kind of operation. With
 /// `TEARMESH_BLESS` set, the files are written.
-const SEEDS: [(&str, &str); 9] = [
+const SEEDS: [(&str, &str); 14] = [
     (
         "grid",
         "grid 3 3 0b101\nsplit 5 0b11\nplane 6 1 0 0\nsplit 5 0b1 foreign 3\nclear\nsplit 16 1",
@@ -42,6 +42,32 @@ const SEEDS: [(&str, &str); 9] = [
     (
         "glued",
         "glued 6 0 3 1 6 4 9 10 12 7 15\nsplit 2 0b1\nplane 3 1 0 0\nclear\ntear",
+    ),
+    (
+        "insert",
+        "fan 6\ninsert 0 edge 1 16 edge 0 48 edge 1 40 chord 3 5\ninsert 4 face 0 1 2 3 face 0 3 3 3\n\
+         insert 7 edge 0 64\ninsert 7 face 2 0 1 1\ninsert 0 edge 1 20 edge 1 20\nclear\n\
+         insert 0 face 0 1 1 1 chord 0 3\ninsert 2",
+    ),
+    (
+        "insert_on_a_tear",
+        "open-fan 4\nsplit 0 0b110\ninsert 3 edge 0 16 edge 0 24 edge 8 32\nsplit 6 0b1\n\
+         insert 2 edge 0 8 edge 3 60\nmerge 0 1 1 3\ninsert 9 edge 2 32 face 2 1 1 1",
+    ),
+    (
+        "merge",
+        "fan 6\nsplit 0 0b101\nsplit 0 0b10\nsplit 7 0b1\nmerge 0 1 0 0\nmerge 1 2 -1 3\n\
+         merge any 1 2 1 1\nmerge 0 0 1 1\nmerge 2 0 5 1\nclear\nmerge 0 1 2 2",
+    ),
+    (
+        "merge_renumbers",
+        "grid 2 2 0b0110\nsplit 4 0b11\ninsert 0 edge 2 32\nmerge 0 1 1 1\nsplit 9 0b1\ntear\n\
+         merge 3 1 1 1\nmerge 8 2 1 0\nsew 0x5555",
+    ),
+    (
+        "sew",
+        "tube 4 2\nplane 5 1 0 0\nplane 5 0 0 1\ninsert 12 edge 3 32\nsew 0xffff\ntear\nsew 0xff0f\n\
+         insert 4 face 0 1 1 1\nsew 0xffff",
     ),
 ];
 
@@ -88,6 +114,17 @@ fn what_fuzzing_found_stays_found() {
         println!("{script}");
         lockstep::check(&script);
     }
+}
+
+#[test]
+fn cuts_of_the_seeds_and_of_what_fuzzing_found_can_be_mended() {
+    let mut cuts = 0;
+    for folder in ["seeds/cut_mend", "regressions/cut_mend"] {
+        for bytes in inputs(folder) {
+            cuts += crate::cut_mend::Case::from_bytes(&bytes).check().cuts;
+        }
+    }
+    assert!(cuts >= 20, "only {cuts} cuts");
 }
 
 #[test]

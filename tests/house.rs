@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// The floor of each module of the library; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 16] = [
+const FLOORS: [(&str, u32); 18] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
@@ -15,12 +15,14 @@ const FLOORS: [(&str, u32); 16] = [
     ("split", 2),
     ("mend", 2),
     ("subdivide", 2),
+    ("slide", 2),
     ("classify", 2),
     ("place", 2),
     ("attribute", 2),
     ("mass", 2),
     ("shapes", 2),
     ("scissor", 3),
+    ("tear", 3),
     ("cloth", 4),
     ("script", 4),
 ];

@@ -44,7 +44,7 @@ impl Scene {
             springs: &self.springs,
             triangles: &self.triangles,
             bends: &self.bends,
-            drag: self.drag,
+            drag_per_s: self.drag,
         }
     }
 

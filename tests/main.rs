@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod cut_mend;
 mod exact;
 mod exhaustive;
 mod figures;
@@ -21,3 +22,4 @@ mod scissor;
 mod straight;
 mod straight_polylines;
 mod subdivide;
+mod tear;

@@ -13,6 +13,9 @@ use crate::oracle::straight::{
 };
 use crate::random::{self, Random};
 
+/// Two rays: an origin and a direction each.
+pub(crate) type Rays = [([f64; 3], [f64; 3]); 2];
+
 /// Generic cuts that each surface gets.
 const CUTS: usize = 24;
 
@@ -107,7 +110,7 @@ pub(crate) fn down([x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
 
 /// Two rays that pass a random vertex at a random distance: parallel ones, anti-parallel ones,
 /// or two from one eye.
-fn random_rays(before: &Surface, random: &mut Random) -> [([f64; 3], [f64; 3]); 2] {
+fn random_rays(before: &Surface, random: &mut Random) -> Rays {
     let mut random = || random.next();
     let pick = before.points[(random() * before.points.len() as f64) as usize];
     let edge = before.mean_edge();
@@ -140,7 +143,7 @@ fn random_rays(before: &Surface, random: &mut Random) -> [([f64; 3], [f64; 3]); 
 pub(crate) struct Case {
     pub(crate) name: &'static str,
     pub(crate) before: Surface,
-    rays: [([f64; 3], [f64; 3]); 2],
+    rays: Rays,
     pub(crate) cut: Cut,
     after: Surface,
 }
@@ -156,10 +159,7 @@ impl Case {
 }
 
 /// Rays of a generic cut that meets a surface; one in four goes through.
-pub(crate) fn random_generic_rays(
-    before: &Surface,
-    random: &mut Random,
-) -> ([([f64; 3], [f64; 3]); 2], Cut) {
+pub(crate) fn random_generic_rays(before: &Surface, random: &mut Random) -> (Rays, Cut) {
     loop {
         let rays = random_rays(before, random);
         let mut cut = Cut::between(rays);

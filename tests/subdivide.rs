@@ -1,5 +1,6 @@
 //! Insertions and merges: what they must leave as it was.
 
+use tearmesh::mend::{Stitch, StitchError};
 use tearmesh::subdivide::{Plan, Refusal};
 use tearmesh::{
     Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, PerCorner, Point, Positions, VertexId, mend,
@@ -162,5 +163,147 @@ fn random_edits_keep_every_invariant_and_the_surface() {
     assert!(
         insertions > 800 && merges > 150 && splits > 1200,
         "{insertions} {merges} {splits}"
+    );
+}
+
+/// The half-edges of the one edge that two triangles share.
+fn shared_edge(mesh: &Mesh) -> [HalfEdgeId; 2] {
+    let mut shared = mesh
+        .half_edges()
+        .filter_map(|h| mesh.pair(h).map(|g| [h, g]));
+    shared.next().expect("an edge with two faces")
+}
+
+/// Two points that rounding alone tells apart, given from either side of an edge: they are
+/// refused, or every child still covers something.
+#[test]
+fn points_that_nearly_coincide_make_no_child_without_area() {
+    let mut random = Random(7);
+    let mut refused = 0;
+    for _ in 0..20_000 {
+        let (mut mesh, _) = shapes::grid(1, 1);
+        let before = mesh.clone();
+        let [h, g] = shared_edge(&mesh);
+        let t = random.next().max(1e-9);
+        let steps = below(&mut random, 5) as i64 - 2;
+        let nearly = f64::from_bits((1.0 - t).to_bits().wrapping_add_signed(steps));
+        let mut plan = Plan::new();
+        plan.on_edge(h, t);
+        plan.on_edge(g, nearly);
+        let mut edits = Edits::new();
+        match plan.apply(&mut mesh, &mut edits) {
+            Ok(insert) => {
+                for child in insert.children {
+                    assert!(child.share > 0.0, "{t:e} and {nearly:e}: {child:?}");
+                }
+                assert_eq!(mesh.check(), []);
+            }
+            Err(refusal) => {
+                let known = matches!(refusal, Refusal::Repeated { .. } | Refusal::Crowded { .. });
+                assert!(known && mesh == before && edits.is_empty(), "{refusal}");
+                refused += 1;
+            }
+        }
+    }
+    assert!((1_000..19_000).contains(&refused), "{refused} were refused");
+}
+
+/// Where p on one edge and q on another are equally far along, the quad between them is divided
+/// from p to the end of the edge of q.
+#[test]
+fn of_two_diagonals_that_are_equally_good_one_is_always_taken() {
+    for corner in 0..3 {
+        for order in [[0, 1], [1, 0]] {
+            let mut mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a triangle");
+            let [ab, _, ca] = [0, 1, 2].map(|i| half_edge((corner + i) % 3));
+            let mut plan = Plan::new();
+            for which in order {
+                plan.on_edge([ab, ca][which], 0.5);
+            }
+            plan.apply(&mut mesh, &mut Edits::new()).expect("two edges");
+            let p = VertexId::new(3 + order[0]).expect("a small number");
+            let c = VertexId::new((corner + 2) % 3).expect("a small number");
+            let joined = mesh
+                .half_edges()
+                .any(|h| (mesh.origin(h), mesh.target(h)) == (p, c));
+            assert!(joined, "{p} and {c}, corner {corner}: {mesh:?}");
+        }
+    }
+}
+
+fn half_edge(index: usize) -> HalfEdgeId {
+    HalfEdgeId::new(index).expect("a small number")
+}
+
+#[test]
+fn sewing_lists_every_stitch_that_it_refuses_and_changes_nothing() {
+    let v = |index| VertexId::new(index).expect("a small number");
+    let (mut mesh, _) = shapes::grid(2, 2);
+    let mut edits = Edits::new();
+    for old in [3, 4, 5] {
+        let face = mesh.faces_of(v(old)).next().expect("a face");
+        split::faces(&mut mesh, v(old), &[face], &mut edits).expect("others stay");
+    }
+    let place: Vec<[f64; 3]> = (0..12).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+    let stitches: Vec<Stitch> = [(3, 9), (11, 5), (4, 10), (0, 1)]
+        .map(|(one, other)| Stitch::new(v(one), v(other)).expect("two vertices"))
+        .to_vec();
+    let weight = |of: VertexId| if of == v(5) { f64::NAN } else { 1.0 };
+    let before = (mesh.clone(), edits.next_number());
+    let error = mend::sew(&mut mesh, &place[..], &stitches, weight, 5.9, &mut edits)
+        .expect_err("all of these");
+    let reasons: Vec<StitchError> = error.refused().iter().map(|(_, why)| *why).collect();
+    assert_eq!(
+        reasons,
+        [
+            StitchError::Distance { distance: 6.0 },
+            StitchError::Weights,
+            StitchError::Distance { distance: 6.0 },
+            StitchError::Roots,
+        ]
+    );
+    assert_eq!(
+        error.to_string(),
+        "v3 and v9 cannot be sewn: they are 6 apart (and 3 more)"
+    );
+    assert_eq!((mesh.clone(), edits.next_number()), before);
+    // A vertex in several stitches, a stitch twice, and a chain from the lowest to the highest.
+    let (mut mesh, positions) = shapes::fan(6, true);
+    let uncut = mesh.clone();
+    for face in 1..6 {
+        let face = FaceId::new(face).expect("a small number");
+        split::faces(&mut mesh, v(0), &[face], &mut edits).expect("one stays");
+    }
+    edits.replay(&mut positions.clone().starting_at(before.1));
+    let place = vec![[0.0; 3]; mesh.vertex_count()];
+    let chain: Vec<Stitch> = [(7, 8), (8, 9), (0, 11), (11, 9), (7, 9), (10, 11), (8, 7)]
+        .map(|(one, other)| Stitch::new(v(one), v(other)).expect("two vertices"))
+        .to_vec();
+    let merges = mend::sew(&mut mesh, &place[..], &chain, |_| 0.0, 0.0, &mut edits);
+    assert_eq!(
+        merges,
+        Ok(5),
+        "seven stitches, of which two say nothing new"
+    );
+    assert_eq!(mesh, uncut);
+}
+
+/// A torn mesh from a file may end with a vertex without a face; it can be renumbered too.
+#[test]
+fn a_vertex_without_a_face_takes_the_id_that_a_merge_frees() {
+    let mut mesh = Mesh::build_torn(&[[0, 1, 2], [2, 4, 3]], &[0, 1, 2, 3, 1, 5])
+        .expect("v4 was split from v1");
+    let v = |index| VertexId::new(index).expect("a small number");
+    let mut edits = Edits::new();
+    let merge = mend::merge(&mut mesh, v(4), v(1), [1.0, 1.0], &mut edits).expect("copies");
+    let renumbered = merge.renumbered.expect("v4 is free");
+    assert_eq!(
+        (renumbered.from, renumbered.to, renumbered.corners),
+        (v(5), v(4), &[][..])
+    );
+    assert_eq!(mesh.check(), []);
+    assert_eq!(
+        mesh,
+        Mesh::build(5, &[[0, 1, 2], [2, 1, 3]]).expect("two triangles")
     );
 }

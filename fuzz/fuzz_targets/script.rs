@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 use tearmesh::script::Script;
 
-#[path = "../../tests/lockstep.rs"]
+#[path = "../../tests/lockstep/mod.rs"]
 #[allow(dead_code, reason = "shared with the tests")]
 mod lockstep;
 #[path = "../../tests/oracle/mod.rs"]

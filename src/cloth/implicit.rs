@@ -28,7 +28,7 @@
 //!     filters: &[Filter::Fixed, Filter::Free],
 //!     accelerations: &[Vector::new(0.0, 0.0, -9.81); 2],
 //!     springs: &[Spring { ends: [0, 1], rest_length: 1.0, stiffness: 50.0, tension_only: false }],
-//!     drag: 0.5,
+//!     drag_per_s: 0.5,
 //!     ..Model::default()
 //! };
 //! let mut x = [Point::origin(), Point::new(0.1, 0.0, -1.0)];
@@ -84,7 +84,7 @@ pub struct Model<'a> {
     /// Resistance against bending.
     pub bends: &'a [Bend],
     /// Linear drag c, in 1/s: the acceleration is −c v.
-    pub drag: f64,
+    pub drag_per_s: f64,
 }
 
 impl Model<'_> {
@@ -98,8 +98,10 @@ impl Model<'_> {
         self.check_lengths(n)?;
         let positive = |x: f64| x > 0.0 && x.is_finite();
         let usable = |x: f64| x >= 0.0 && x.is_finite();
-        if !usable(self.drag) {
-            return Err(ModelError::Drag { given: self.drag });
+        if !usable(self.drag_per_s) {
+            return Err(ModelError::Drag {
+                given: self.drag_per_s,
+            });
         }
         let at = |part, index| ModelError::Unusable { part, index };
         let require = |holds: bool, part, index| if holds { Ok(()) } else { Err(at(part, index)) };

@@ -12,6 +12,8 @@ pub enum Edit<'e> {
     Insert(Insert<'e>),
     /// Two vertices became one again.
     Merge(Merge<'e>),
+    /// A vertex slid along an edge.
+    Slide(Slide<'e>),
 }
 
 impl Edit<'_> {
@@ -22,6 +24,7 @@ impl Edit<'_> {
             Edit::Split(split) => split.number,
             Edit::Insert(insert) => insert.number,
             Edit::Merge(merge) => merge.number,
+            Edit::Slide(slide) => slide.number,
         }
     }
 }
@@ -171,5 +174,22 @@ pub struct Renumbered<'e> {
     /// The id it has.
     pub to: VertexId,
     /// Its corners.
+    pub corners: &'e [HalfEdgeId],
+}
+
+/// A vertex slid along an edge of the surface, and what it carries with it. The mesh is as it was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slide<'e> {
+    /// The number of the record.
+    pub number: u64,
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The vertex towards which it slid, which stays where it is.
+    pub toward: VertexId,
+    /// How far: it is now at `vertex + t (toward − vertex)`, with t strictly between 0 and 1.
+    pub t: f64,
+    /// For each face of the edge, up to two, its corner at the vertex and that at `toward`.
+    pub along: [Option<[HalfEdgeId; 2]>; 2],
+    /// All corners of the vertex, in the order of a walk.
     pub corners: &'e [HalfEdgeId],
 }

@@ -31,7 +31,8 @@ pub enum Invariant {
     PairAgrees = 6,
     /// I7: at least one end of a torn link differs.
     TornDiffers = 7,
-    /// I8: all corners of a vertex were corners of one vertex of the input.
+    /// I8: all corners of a vertex lie in one orbit of the rotation through pairs and ghost pairs,
+    /// so they were once the corners of one vertex.
     OneRoot = 8,
     /// I9: the half-edge of a vertex is the smallest one that starts there.
     Outgoing = 9,

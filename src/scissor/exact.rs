@@ -3,7 +3,7 @@
 //! 1. **Signs**, once a vertex. A sign that rounding cannot vouch for is zero: *on* the plane.
 //! 2. **Snap**, as a fraction of the edge: where the slit crosses an edge nearer to an end than
 //!    that, the end counts as on the plane, for all its edges. It is not moved, so the seam
-//!    deviates by as much. What is left are crossings well inside their edges, and
+//!    deviates by as much, unless that is asked for (`exact/slip.rs`). What is left are crossings well inside their edges, and
 //!    so no child has an altitude below r (1 − r) of its parent's.
 //! 3. **Trace** (`exact/trace.rs`): in each face the slit runs from node to node (a vertex on
 //!    the plane, or a crossing) as far as the strip between the side planes goes. Where that ends
@@ -24,6 +24,7 @@
 //! both sides, and the passive twin is not on the plane.
 
 mod label;
+mod slip;
 mod trace;
 
 use super::offsets::Offsets;
@@ -46,6 +47,9 @@ pub(super) fn cut(
     edits: &mut Edits,
 ) -> Outcome {
     let mut trace = Trace::new(scissor, mesh, positions, offsets);
+    if scissor.snap_move {
+        slip::onto_plane(&trace.snapped, mesh, positions, edits);
+    }
     let slit = loop {
         match Slit::insert(&trace, mesh, edits) {
             Ok(slit) => break slit,
@@ -55,7 +59,7 @@ pub(super) fn cut(
     };
     edits.replay(positions);
     let labels = if label {
-        labels(scissor, mesh, positions, &trace, &slit)
+        labels(scissor, mesh, positions, offsets, &trace, &slit)
     } else {
         Vec::new()
     };
@@ -78,11 +82,16 @@ fn labels(
     scissor: &Scissor,
     mesh: &Mesh,
     positions: &Positions,
+    offsets: &Offsets,
     trace: &Trace,
     slit: &Slit,
 ) -> Vec<Option<Side>> {
-    let is_on = |v: VertexId| trace.is_on(v) || slit.nodes.binary_search(&v).is_ok();
-    let offset = |v: VertexId| scissor.plane.offset(positions.at(v));
+    let is_on = |v: VertexId| trace.is_snapped(v) || slit.nodes.binary_search(&v).is_ok();
+    // Only the passive twin of a crossing is new and not on the plane.
+    let offset = |v: VertexId| match v.index() < offsets.len() {
+        true => offsets.of(v),
+        false => scissor.plane.offset(positions.at(v)),
+    };
     let sign = |v: VertexId| if is_on(v) { 0.0 } else { offset(v) };
     let goes_on = |f: FaceId| {
         let corners = mesh.corners(f);

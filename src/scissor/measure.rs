@@ -247,7 +247,7 @@ impl<'o> Survey<'o> {
                         in_slit.push(in_slit[child.parent.index()]);
                     }
                 }
-                Edit::Merge(_) => {}
+                Edit::Merge(_) | Edit::Slide(_) => {}
             }
         }
         // A slit that only grazes a corner may be so short that the quotient is infinite.

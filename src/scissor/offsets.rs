@@ -1,7 +1,7 @@
 //! How far each vertex is from the cutting plane, once for all.
 
 use super::ROUNDING;
-use crate::geometry::{Plane, max_abs};
+use crate::geometry::{Plane, Point, max_abs};
 use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -11,37 +11,50 @@ pub(super) struct Offsets {
     of: Vec<f64>,
     /// What rounding alone explains of a distance.
     bound: f64,
+    /// What counts as zero.
+    zero: f64,
 }
 
 impl Offsets {
     pub(super) fn new(plane: &Plane, positions: &Positions) -> Offsets {
-        let points = positions.as_slice();
-        let reach = points.iter().map(|p| max_abs(p.coords));
-        let reach = reach.fold(max_abs(plane.point().coords), f64::max);
+        let mut reach = max_abs(plane.point().coords);
+        let offset = |&p: &Point| {
+            reach = reach.max(max_abs(p.coords));
+            plane.offset(p)
+        };
+        let of = positions.as_slice().iter().map(offset).collect();
         Offsets {
-            of: points.iter().map(|&p| plane.offset(p)).collect(),
+            of,
             bound: ROUNDING * reach,
+            zero: 0.0,
         }
     }
 
     /// The same, and zero where rounding cannot vouch for the sign.
     pub(super) fn rounded(self) -> Offsets {
-        let Offsets { mut of, bound } = self;
-        for offset in &mut of {
-            if offset.abs() <= bound {
-                *offset = 0.0;
-            }
+        Offsets {
+            zero: self.bound,
+            ..self
         }
-        Offsets { of, bound }
     }
 
     pub(super) fn bound(&self) -> f64 {
         self.bound
     }
 
+    /// The number of vertices.
+    pub(super) fn len(&self) -> usize {
+        self.of.len()
+    }
+
     #[inline]
     pub(super) fn of(&self, v: VertexId) -> f64 {
-        self.of[v.index()]
+        let offset = self.of[v.index()];
+        if offset.abs() <= self.zero {
+            0.0
+        } else {
+            offset
+        }
     }
 
     /// Whether a face has vertices strictly on both sides of the plane.
@@ -50,10 +63,17 @@ impl Offsets {
         offsets.iter().any(|&d| d < 0.0) && offsets.iter().any(|&d| d > 0.0)
     }
 
-    /// Whether the plane meets a face at all, if only in a corner.
-    #[inline]
-    pub(super) fn touch(&self, mesh: &Mesh, f: FaceId) -> bool {
-        let [a, b, c] = mesh.corners(f).map(|v| self.of(v));
-        a.min(b).min(c) <= 0.0 && a.max(b).max(c) >= 0.0
+    /// The faces that the plane meets at all, if only in a corner.
+    pub(super) fn touched(&self, mesh: &Mesh) -> Vec<FaceId> {
+        let corners = mesh.indices().as_chunks::<3>().0.iter();
+        let touches = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|v| self.of[v as usize]);
+            a.min(b).min(c) <= self.zero && a.max(b).max(c) >= -self.zero
+        };
+        let faces = mesh.faces().zip(corners);
+        faces
+            .filter(|(_, triangle)| touches(triangle))
+            .map(|(f, _)| f)
+            .collect()
     }
 }

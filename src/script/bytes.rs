@@ -1,6 +1,6 @@
 //! Scripts as bytes: every byte string is one.
 
-use super::{Fault, GROWN_MAX, Operation, Script, Shape};
+use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot};
 use crate::scissor::Tips;
 
 impl Script {
@@ -23,7 +23,7 @@ impl Script {
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         write_shape(&self.shape, &mut bytes);
-        for &operation in &self.operations {
+        for operation in &self.operations {
             write_operation(operation, &mut bytes);
         }
         bytes
@@ -99,9 +99,17 @@ impl Bytes<'_> {
     }
 
     fn operation(&mut self) -> Operation {
-        // Most are splits by a sound set; tearing to pieces ends what can happen, so it is rare.
-        let code = self.byte();
-        match code % 16 {
+        // Codes below 16 are those that are written, and older than insertions and merges. The
+        // others make most operations sound ones; tearing to pieces ends what can happen,
+        // so it is rare.
+        const OFTEN: [u8; 15] = [0, 0, 0, 0, 0, 9, 9, 9, 13, 16, 16, 16, 17, 17, 18];
+        const SELDOM: [u8; 4] = [7, 8, 15, 18];
+        let code = match self.byte() {
+            code @ 0..=18 => code,
+            code if code % 16 == 15 => SELDOM[usize::from(code / 16) % SELDOM.len()],
+            code => OFTEN[usize::from(code % 16)],
+        };
+        match code {
             0..=6 => self.split(|_| Fault::None),
             7 => self.split(|bytes| Fault::Repeated(bytes.byte())),
             8 => self.split(|bytes| Fault::Foreign(bytes.u16())),
@@ -121,8 +129,45 @@ impl Bytes<'_> {
                     rays: [(); 2].map(|()| [self.vector(), self.vector()]),
                 }
             }
-            14 if code / 16 == 0 => Operation::Tear,
-            _ => Operation::Clear,
+            14 => Operation::Tear,
+            15 => Operation::Clear,
+            16 => self.insert(),
+            17 => {
+                let flags = self.byte();
+                Operation::Merge {
+                    vertex: self.u16(),
+                    other: self.u16(),
+                    any: flags % 8 == 7,
+                    weights: self.array().map(u8::cast_signed),
+                }
+            }
+            _ => Operation::Sew { mask: self.u16() },
+        }
+    }
+
+    fn insert(&mut self) -> Operation {
+        let half_edge = self.u16();
+        let flags = self.byte();
+        let count = usize::from(flags & 7) % (SPOTS_MAX + 1);
+        let spots = (0..count).map(|_| self.spot()).collect();
+        Operation::Insert {
+            half_edge,
+            spots,
+            chord: (flags >= 192).then(|| self.array()),
+        }
+    }
+
+    fn spot(&mut self) -> Spot {
+        let offset = self.byte() % OFFSETS;
+        match self.byte() {
+            part @ 0..195 => Spot::Edge {
+                offset,
+                part: part % 65,
+            },
+            _ => Spot::Face {
+                offset,
+                weights: self.array(),
+            },
         }
     }
 
@@ -162,8 +207,8 @@ fn write_shape(shape: &Shape, bytes: &mut Vec<u8>) {
     }
 }
 
-fn write_operation(operation: Operation, bytes: &mut Vec<u8>) {
-    match operation {
+fn write_operation(operation: &Operation, bytes: &mut Vec<u8>) {
+    match *operation {
         Operation::Split {
             vertex,
             mask,
@@ -205,5 +250,39 @@ fn write_operation(operation: Operation, bytes: &mut Vec<u8>) {
         }
         Operation::Tear => bytes.push(14),
         Operation::Clear => bytes.push(15),
+        Operation::Insert {
+            half_edge,
+            ref spots,
+            chord,
+        } => {
+            bytes.push(16);
+            bytes.extend(half_edge.to_le_bytes());
+            bytes.push(spots.len() as u8 | if chord.is_some() { 192 } else { 0 });
+            for &spot in spots {
+                match spot {
+                    Spot::Edge { offset, part } => bytes.extend([offset, part]),
+                    Spot::Face { offset, weights } => {
+                        bytes.extend([offset, 255]);
+                        bytes.extend(weights);
+                    }
+                }
+            }
+            bytes.extend(chord.into_iter().flatten());
+        }
+        Operation::Merge {
+            vertex,
+            other,
+            any,
+            weights,
+        } => {
+            bytes.extend([17, if any { 7 } else { 0 }]);
+            bytes.extend(vertex.to_le_bytes());
+            bytes.extend(other.to_le_bytes());
+            bytes.extend(weights.map(i8::cast_unsigned));
+        }
+        Operation::Sew { mask } => {
+            bytes.push(18);
+            bytes.extend(mask.to_le_bytes());
+        }
     }
 }

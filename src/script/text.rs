@@ -8,8 +8,14 @@
 //! split VERTEX MASK [repeated NUMBER | foreign FACE]
 //! plane VERTEX X Y Z
 //! cut [through] [midpoint] ORIGIN DIRECTION ORIGIN DIRECTION      (three numbers each)
+//! insert HALF-EDGE [SPOT …] [chord END END]
+//! merge VERTEX COPY WEIGHT WEIGHT
+//! merge any VERTEX VERTEX WEIGHT WEIGHT
+//! sew MASK
 //! tear
 //! clear
+//!
+//! SPOT: edge OFFSET PART | face OFFSET WEIGHT WEIGHT WEIGHT
 //! ```
 //!
 //! Whole numbers may be decimal, `0x…` or `0b…`. What follows a `#` is a comment.
@@ -17,7 +23,7 @@
 use std::fmt;
 use std::str::{FromStr, SplitWhitespace};
 
-use super::{Fault, GROWN_MAX, Operation, Script, Shape};
+use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot};
 use crate::scissor::Tips;
 
 impl fmt::Display for Script {
@@ -97,6 +103,36 @@ impl fmt::Display for Operation {
                 let mut numbers = rays.as_flattened().as_flattened().iter();
                 numbers.try_for_each(|x| write!(f, " {x}"))
             }
+            Operation::Insert {
+                half_edge,
+                spots,
+                chord,
+            } => {
+                write!(f, "insert {half_edge}")?;
+                for spot in spots {
+                    match spot {
+                        Spot::Edge { offset, part } => write!(f, " edge {offset} {part}")?,
+                        Spot::Face {
+                            offset,
+                            weights: [a, b, c],
+                        } => write!(f, " face {offset} {a} {b} {c}")?,
+                    }
+                }
+                match chord {
+                    None => Ok(()),
+                    Some([one, other]) => write!(f, " chord {one} {other}"),
+                }
+            }
+            Operation::Merge {
+                vertex,
+                other,
+                any,
+                weights: [one, two],
+            } => {
+                let any = if *any { " any" } else { "" };
+                write!(f, "merge{any} {vertex} {other} {one} {two}")
+            }
+            Operation::Sew { mask } => write!(f, "sew {mask:#b}"),
             Operation::Tear => write!(f, "tear"),
             Operation::Clear => write!(f, "clear"),
         }
@@ -227,8 +263,8 @@ impl<'t> Line<'t> {
         self.within(0, u16::MAX.into())
     }
 
-    fn vector(&mut self) -> Result<[i8; 3], ScriptError> {
-        let mut vector = [0; 3];
+    fn vector<const N: usize>(&mut self) -> Result<[i8; N], ScriptError> {
+        let mut vector = [0; N];
         for x in &mut vector {
             *x = self.within(i8::MIN.into(), i8::MAX.into())?;
         }
@@ -312,9 +348,47 @@ impl<'t> Line<'t> {
                     [self.vector()?, self.vector()?],
                 ],
             },
+            "insert" => self.insert()?,
+            "merge" => Operation::Merge {
+                any: self.takes("any"),
+                vertex: self.u16()?,
+                other: self.u16()?,
+                weights: self.vector()?,
+            },
+            "sew" => Operation::Sew { mask: self.u16()? },
             "tear" => Operation::Tear,
             "clear" => Operation::Clear,
             _ => return Err(self.error("an operation")),
+        })
+    }
+
+    fn insert(&mut self) -> Result<Operation, ScriptError> {
+        let half_edge = self.u16()?;
+        let mut spots = Vec::new();
+        while spots.len() < SPOTS_MAX {
+            if self.takes("edge") {
+                spots.push(Spot::Edge {
+                    offset: self.within(0, i128::from(OFFSETS) - 1)?,
+                    part: self.within(0, 64)?,
+                });
+            } else if self.takes("face") {
+                spots.push(Spot::Face {
+                    offset: self.within(0, i128::from(OFFSETS) - 1)?,
+                    weights: [self.byte()?, self.byte()?, self.byte()?],
+                });
+            } else {
+                break;
+            }
+        }
+        let chord = if self.takes("chord") {
+            Some([self.byte()?, self.byte()?])
+        } else {
+            None
+        };
+        Ok(Operation::Insert {
+            half_edge,
+            spots,
+            chord,
         })
     }
 }

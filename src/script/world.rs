@@ -1,15 +1,17 @@
 //! Running a script.
 
-use super::{Fault, Operation, Script, Shape};
-use crate::attribute::{PerCorner, PerVertex};
+use super::{Fault, Operation, Script, Shape, Spot, Triangles};
+use crate::attribute::PerCorner;
 use crate::edit::Edits;
 use crate::geometry::{Plane, Point, Ray, Vector};
-use crate::id::{FaceId, VertexId};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mass::Masses;
+use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::scissor::{CutReport, Method, Scissor, Tips};
 use crate::split::{self, Refusal};
+use crate::subdivide::{self, ChordEnd, Plan, PointId};
 
 /// A mesh and everything that can follow it.
 #[derive(Clone, Debug)]
@@ -22,14 +24,44 @@ pub struct World {
     pub positions: Positions,
     /// Masses by area with density 1, which have seen every edit.
     pub area: Masses,
-    /// Masses by halves with density 1, which have seen every edit.
-    pub half: Masses,
-    /// For each vertex the one that it was at first. Has seen every edit.
-    pub roots: PerVertex<f64>,
+    /// Masses by halves with density 1, which have seen every edit; `None` from the first
+    /// insertion on, which they cannot follow.
+    pub half: Option<Masses>,
+    /// The triangles. Have seen every edit.
+    pub triangles: Triangles,
     /// The same, but replayed only just before the log is cleared: by many edits at once.
-    pub late_roots: PerVertex<f64>,
-    /// For each corner its half-edge. Has seen every edit.
-    pub corners: PerCorner<f64>,
+    pub late_triangles: Triangles,
+    /// For each corner where it is. Has seen every edit. As a corner is where its vertex is,
+    /// this is the position of that up to rounding, whatever was done.
+    pub corners: PerCorner<[f64; 3]>,
+}
+
+/// A vertex that was to be inserted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asked {
+    /// On an edge: see [`Plan::on_edge`].
+    Edge {
+        /// The half-edge.
+        half_edge: HalfEdgeId,
+        /// How far along.
+        t: f64,
+    },
+    /// In a face: see [`Plan::in_face`].
+    Face {
+        /// The face.
+        face: FaceId,
+        /// The weights of its corners.
+        weights: [f64; 3],
+    },
+}
+
+/// An end of a chord that was demanded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AskedEnd {
+    /// A corner of the face.
+    Corner(HalfEdgeId),
+    /// A point, by its number among those that were to be inserted.
+    Point(usize),
 }
 
 /// What was done to a [`World`]. Edits are named by their numbers.
@@ -63,6 +95,35 @@ pub enum Step<'s> {
         /// What the cut reported.
         report: &'s CutReport,
     },
+    /// An insertion was tried.
+    Insert {
+        /// The points.
+        asked: &'s [Asked],
+        /// The chord that was demanded, and across which face.
+        chord: Option<(FaceId, [AskedEnd; 2])>,
+        /// The edit, or why there was none.
+        outcome: Result<u64, subdivide::Refusal>,
+    },
+    /// A merge was tried.
+    Merge {
+        /// One vertex.
+        one: VertexId,
+        /// The other.
+        other: VertexId,
+        /// The weights of both.
+        weights: [f64; 2],
+        /// The edit, or why there was none.
+        outcome: Result<u64, mend::Refusal>,
+    },
+    /// Copies were sewn together.
+    Sewn {
+        /// The first edit; those from there on are merges.
+        first: u64,
+        /// What was to be sewn.
+        stitches: &'s [Stitch],
+        /// The number of merges.
+        merges: usize,
+    },
     /// All followers replayed the log, and it was cleared.
     Cleared,
     /// The operation was none: a normal of zero, or rays that span no plane.
@@ -71,13 +132,13 @@ pub enum Step<'s> {
 
 impl Script {
     /// Makes the mesh, applies the operations, and shows the observer the world after
-    /// each step. All followers but [`World::late_roots`] have replayed by then.
+    /// each step. All followers but [`World::late_triangles`] have replayed by then.
     ///
     /// Tearing to pieces is many steps, each a split. A cut is one.
     pub fn run(&self, mut observe: impl FnMut(&World, &Step<'_>)) -> World {
         let mut world = World::new(&self.shape);
         observe(&world, &Step::Built);
-        for &operation in &self.operations {
+        for operation in &self.operations {
             world.apply(operation, &mut observe);
         }
         world
@@ -93,14 +154,26 @@ impl World {
     #[must_use]
     pub fn new(shape: &Shape) -> World {
         let (mesh, positions) = shape.make();
+        World::of(mesh, positions)
+    }
+
+    /// This mesh, with nothing done to it yet.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh has no area, or one that is too large or too small for exact masses, or
+    /// positions for fewer vertices than it has.
+    #[must_use]
+    pub fn of(mesh: Mesh, positions: Positions) -> World {
         let masses = "a mesh with an area has masses";
-        let roots = PerVertex::new((0..mesh.vertex_count() as u32).map(f64::from).collect());
+        let triangles = Triangles::new(&mesh);
+        let place = |h| positions.at(mesh.origin(h)).coords.into();
         World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
-            half: Masses::half(&mesh, &positions, 1.0).expect(masses),
-            late_roots: roots.clone(),
-            roots,
-            corners: PerCorner::new((0..mesh.half_edge_count() as u32).map(f64::from).collect()),
+            half: Some(Masses::half(&mesh, &positions, 1.0).expect(masses)),
+            late_triangles: triangles.clone(),
+            triangles,
+            corners: PerCorner::new(mesh.half_edges().map(place).collect()),
             edits: Edits::new(),
             mesh,
             positions,
@@ -108,8 +181,8 @@ impl World {
     }
 
     /// Applies an operation, and shows the observer each step of it.
-    pub fn apply(&mut self, operation: Operation, mut observe: impl FnMut(&World, &Step<'_>)) {
-        match operation {
+    pub fn apply(&mut self, operation: &Operation, mut observe: impl FnMut(&World, &Step<'_>)) {
+        match *operation {
             Operation::Split {
                 vertex,
                 mask,
@@ -140,6 +213,32 @@ impl World {
                 tips,
                 rays,
             } => self.cut(through, tips, rays, &mut observe),
+            Operation::Insert {
+                half_edge,
+                ref spots,
+                chord,
+            } => self.insert_at(half_edge, spots, chord, &mut observe),
+            Operation::Merge {
+                vertex,
+                other,
+                any,
+                weights,
+            } => {
+                let one = self.torn_vertex(vertex);
+                let other = if any {
+                    self.vertex(other)
+                } else {
+                    let root = self.mesh.root(one);
+                    let copies: Vec<_> = self
+                        .mesh
+                        .vertices()
+                        .filter(|&v| self.mesh.root(v) == root)
+                        .collect();
+                    copies[usize::from(other) % copies.len()]
+                };
+                self.merge(one, other, weights.map(f64::from), &mut observe);
+            }
+            Operation::Sew { mask } => self.sew_chosen(mask, &mut observe),
             Operation::Tear => {
                 for v in self.mesh.vertices() {
                     for &face in self.faces(v).iter().skip(1) {
@@ -148,7 +247,7 @@ impl World {
                 }
             }
             Operation::Clear => {
-                self.edits.replay(&mut self.late_roots);
+                self.edits.replay(&mut self.late_triangles);
                 self.edits.clear();
                 observe(self, &Step::Cleared);
             }
@@ -165,11 +264,12 @@ impl World {
         faces
     }
 
-    fn split(
+    /// Splits a vertex by a set of faces, and shows the observer that step.
+    pub fn split(
         &mut self,
         vertex: VertexId,
         faces: &[FaceId],
-        observe: &mut impl FnMut(&World, &Step<'_>),
+        mut observe: impl FnMut(&World, &Step<'_>),
     ) {
         let outcome = split::faces(&mut self.mesh, vertex, faces, &mut self.edits);
         let outcome = outcome.map(|split| split.number);
@@ -244,10 +344,140 @@ impl World {
         observe(self, &step);
     }
 
+    /// Number so many of the vertices that have copies, or of all where none has.
+    fn torn_vertex(&self, number: u16) -> VertexId {
+        let mut copies = vec![0; self.mesh.vertex_count()];
+        for v in self.mesh.vertices() {
+            copies[self.mesh.root(v).index()] += 1;
+        }
+        let has_copies = |&v: &VertexId| copies[self.mesh.root(v).index()] > 1;
+        let torn: Vec<VertexId> = self.mesh.vertices().filter(has_copies).collect();
+        match torn.len() {
+            0 => self.vertex(number),
+            count => torn[usize::from(number) % count],
+        }
+    }
+
+    /// The insertion at these spots, counted from a half-edge.
+    fn insert_at(
+        &mut self,
+        half_edge: u16,
+        spots: &[Spot],
+        chord: Option<[u8; 2]>,
+        observe: &mut impl FnMut(&World, &Step<'_>),
+    ) {
+        let count = self.mesh.half_edge_count() as u32;
+        let first = u32::from(half_edge) % count;
+        let at = |offset: u8| HalfEdgeId::from_u32((first + u32::from(offset)) % count);
+        let ask = |&spot: &Spot| match spot {
+            Spot::Edge { offset, part } => Asked::Edge {
+                half_edge: at(offset),
+                t: f64::from(part) / 64.0,
+            },
+            Spot::Face { offset, weights } => Asked::Face {
+                face: at(offset).face(),
+                weights: weights.map(f64::from),
+            },
+        };
+        let asked: Vec<Asked> = spots.iter().map(ask).collect();
+        let face = match asked.first() {
+            None => at(0).face(),
+            Some(Asked::Edge { half_edge, .. }) => half_edge.face(),
+            Some(&Asked::Face { face, .. }) => face,
+        };
+        let end = |number: u8| match usize::from(number) % (3 + asked.len()) {
+            corner @ 0..3 => AskedEnd::Corner(face.half_edges()[corner]),
+            point => AskedEnd::Point(point - 3),
+        };
+        let chord = chord.map(|two| (face, two.map(end)));
+        self.insert(&asked, chord, observe);
+    }
+
+    /// Inserts vertices, and shows the observer that step. The chord is one that is demanded
+    /// across a face.
+    pub fn insert(
+        &mut self,
+        asked: &[Asked],
+        chord: Option<(FaceId, [AskedEnd; 2])>,
+        mut observe: impl FnMut(&World, &Step<'_>),
+    ) {
+        let mut plan = Plan::new();
+        let points: Vec<PointId> = asked
+            .iter()
+            .map(|&ask| match ask {
+                Asked::Edge { half_edge, t } => plan.on_edge(half_edge, t),
+                Asked::Face { face, weights } => plan.in_face(face, weights),
+            })
+            .collect();
+        if let Some((face, ends)) = chord {
+            let end = |end: AskedEnd| match end {
+                AskedEnd::Corner(h) => ChordEnd::Corner(h),
+                AskedEnd::Point(i) => ChordEnd::Point(points[i]),
+            };
+            plan.chord(face, ends.map(end));
+        }
+        let outcome = plan.apply(&mut self.mesh, &mut self.edits);
+        let outcome = outcome.map(|insert| insert.number);
+        if outcome.is_ok() {
+            self.half = None;
+        }
+        self.replay();
+        let step = Step::Insert {
+            asked,
+            chord,
+            outcome,
+        };
+        observe(self, &step);
+    }
+
+    /// Merges two vertices, and shows the observer that step.
+    pub fn merge(
+        &mut self,
+        one: VertexId,
+        other: VertexId,
+        weights: [f64; 2],
+        mut observe: impl FnMut(&World, &Step<'_>),
+    ) {
+        let merge = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
+        let outcome = merge.map(|merge| merge.number);
+        self.replay();
+        let step = Step::Merge {
+            one,
+            other,
+            weights,
+            outcome,
+        };
+        observe(self, &step);
+    }
+
+    fn sew_chosen(&mut self, mask: u16, observe: &mut impl FnMut(&World, &Step<'_>)) {
+        let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
+        let stitches = mend::stitches(&self.mesh, chosen);
+        let first = self.edits.next_number();
+        let merges = mend::sew(
+            &mut self.mesh,
+            &self.positions,
+            &stitches,
+            |v| self.area.at(v),
+            f64::INFINITY,
+            &mut self.edits,
+        )
+        .expect("copies have one root and a mass");
+        self.replay();
+        let step = Step::Sewn {
+            first,
+            stitches: &stitches,
+            merges,
+        };
+        observe(self, &step);
+    }
+
     fn replay(&mut self) {
-        let masses = (&mut self.area, &mut self.half);
-        let attributes = (&mut self.roots, &mut self.corners);
+        if let Some(half) = &mut self.half {
+            self.edits.replay(half);
+        }
+        let beside = (&mut self.triangles, &mut self.corners);
         self.edits
-            .replay(&mut (&mut self.positions, masses, attributes));
+            .replay(&mut (&mut self.positions, &mut self.area, beside));
     }
 }

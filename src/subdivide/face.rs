@@ -191,7 +191,7 @@ impl Retriangulation {
     }
 
     /// Triangulates a convex polygon so that its smallest triangle is as large as can be; of
-    /// equals, the one with the earlier third node is taken.
+    /// equals, the one with the later third node is taken.
     fn fill(&mut self, polygon: &[usize]) {
         let n = polygon.len();
         if n == 3 {

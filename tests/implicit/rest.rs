@@ -189,7 +189,7 @@ fn r11_a_drape_agrees_with_an_independent_method() {
         };
         for _ in 0..1200 {
             let model = tearmesh::cloth::implicit::Model {
-                drag: 8.0,
+                drag_per_s: 8.0,
                 ..scene.model()
             };
             solver
@@ -220,7 +220,7 @@ fn a_hinge_of_threads_and_arcs_comes_to_rest_where_forces_balance() {
     let mut x = scene.x.clone();
     let mut solver = Implicit::new(&scene.model()).expect("a good model");
     let settings = RestSettings {
-        force_tolerance: 1e-10,
+        force_tolerance_n: 1e-10,
         ..RestSettings::default()
     };
     let report = solver

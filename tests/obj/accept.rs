@@ -122,6 +122,18 @@ fn forms_of_corners() {
     }
 }
 
+/// "References to fo in existing .obj files will still be read, however, they will be written out
+/// as f when the file is saved": the specification of version 3.0, under `f`.
+#[test]
+fn face_outlines_are_faces() {
+    let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0\nfo 1/1 2/1 3/1 # old\nf 3 2 4\n";
+    let document = read(file.as_bytes());
+    assert_eq!(document.triangles(), [[0, 1, 2], [2, 1, 3]]);
+    assert_eq!(codes(&document), [""; 0]);
+    let expected = file.replace("fo ", "f ").replace(" # old", "\n# old");
+    assert_eq!(text(&rewritten(file.as_bytes())), expected);
+}
+
 #[test]
 fn numbers_beyond_the_coordinates_are_kept() {
     let file = "v 0 0 0 0.5\nv 1 0 0 1 0.25 0\nv 0 1 0\nv 1 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13\n\
@@ -179,7 +191,7 @@ fn foreign_statements_are_kept_and_reported_once_a_keyword() {
     assert_eq!(
         said,
         [
-            "warning[W-OBJ-FOREIGN] line 2, column 1: `nl` is not interpreted, and kept as it is (3 statements, the first here)",
+            "warning[W-OBJ-FOREIGN] line 2, column 1: `nl` is not interpreted, and kept with its vertex and the copies of that (3 statements, the first here)",
             "warning[W-OBJ-FOREIGN] line 6, column 1: `vp` is not interpreted, and kept as it is (1 statement)",
             "warning[W-OBJ-FOREIGN] line 7, column 1: `curv` is not interpreted, and kept as it is (1 statement)",
             "warning[W-OBJ-ELEMENT] line 9, column 1: `l` elements are kept, but never cut (1 statement)",

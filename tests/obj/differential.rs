@@ -5,8 +5,8 @@
 //! 1. The text is UTF-8 without control characters, a CR only before a LF, and a `\` only at the
 //!    end of a line. (obj-rs takes a lone CR for a blank, and does not continue at `\` and a blank.)
 //! 2. Only statements that obj-rs knows and reads as the format means them: `v`, `vt`, `vn`, `f`,
-//!    `o`, `g`, `s`, `usemtl`, `mtllib`, `l` and `p`. It panics on 22 keywords and refuses unknown
-//!    ones, and `fo` is a face to it alone. Other statements are taken out before either reads.
+//!    `fo`, `o`, `g`, `s`, `usemtl`, `mtllib`, `l` and `p`. It panics on 22 keywords and refuses
+//!    unknown ones. Other statements are taken out before either reads.
 //! 3. Statements of geometry are ASCII (obj-rs takes every blank of Unicode for one), and have no
 //!    `#` in the middle of a word (`1.#INF` is a number without a value, not a comment).
 //! 4. obj-rs accepts it, and all its numbers are finite as `f32`.
@@ -29,8 +29,8 @@ pub(crate) enum Outcome {
     Same,
 }
 
-const KNOWN: [&str; 11] = [
-    "v", "vt", "vn", "f", "o", "g", "s", "usemtl", "mtllib", "l", "p",
+const KNOWN: [&str; 12] = [
+    "v", "vt", "vn", "f", "fo", "o", "g", "s", "usemtl", "mtllib", "l", "p",
 ];
 const CORNERS_MAX: usize = 4096;
 
@@ -87,7 +87,7 @@ pub(crate) fn check(bytes: &[u8]) -> Outcome {
 }
 
 /// The text without the statements that obj-rs does not know; none if clause 1 or 3 fails.
-fn lossless(bytes: &[u8]) -> Option<String> {
+pub(crate) fn lossless(bytes: &[u8]) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?.replace("\r\n", "\n");
     let mut kept = String::new();
     let mut lines = text.split_inclusive('\n');
@@ -115,7 +115,7 @@ fn lossless(bytes: &[u8]) -> Option<String> {
         if !KNOWN.contains(&keyword) {
             continue;
         }
-        if matches!(keyword, "v" | "vt" | "vn" | "f") {
+        if matches!(keyword, "v" | "vt" | "vn" | "f" | "fo") {
             let glued = words.len() < body.len() && !words.ends_with([' ', '\t']);
             if glued || !words.is_ascii() {
                 return None;

@@ -57,7 +57,7 @@ fn what_obj_rs_does_not_read_without_loss_is_left_out() {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     for (more, outcome) in [
         ("", Outcome::Same),
-        ("sp\ncurv 1 2\nfo 1 2 3\nnl 1\n", Outcome::Same),
+        ("sp\ncurv 1 2\nfo 3 2 1\nnl 1\n", Outcome::Same),
         ("f 1 2 \\\n 3\n# \\\n", Outcome::Same),
         ("f 1 1 2\n", Outcome::Refused),
         ("g a b\n", Outcome::Lossy),

@@ -8,11 +8,17 @@ mod differential;
 mod fuzz;
 mod memory;
 mod mesh;
+#[path = "../data/random.rs"]
+#[allow(dead_code, reason = "shared with the tests of the library")]
+mod random;
+mod raw;
 mod refuse;
 mod repair;
 mod round_trip;
 mod same_bytes;
 mod torn;
+mod torn_damage;
+mod torn_record;
 mod triangulate;
 
 use proptest::test_runner::Config;

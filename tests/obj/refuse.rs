@@ -338,6 +338,10 @@ fn faces_of_a_wrong_shape() {
             "E-OBJ-CORNERS 4:6+1 a face needs 3 corners, this one has 2 | expected another vertex | a line is",
         ),
         (
+            "fo 1 2",
+            "E-OBJ-CORNERS 4:7+1 a face needs 3 corners, this one has 2",
+        ),
+        (
             "f 1 1 2",
             "E-OBJ-REPEAT 4:5+1 this face has vertex 1 twice | already its corner 1 | a triangle with",
         ),

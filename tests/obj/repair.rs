@@ -187,7 +187,7 @@ fn everything_else_of_the_document_stays() {
     assert_eq!(
         text(&written),
         "# robe\no a\nv 0 0 0 0.5 1 0\nnl 7\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\nusemtl my mat\n\
-         o b\nv 1 1 1\nv 2 1 1\nvt 0.25\nv 3 2 1\nnv 1 2 3\nv 0 0 0 0.5 1 0\n# end\n\
+         o b\nv 1 1 1\nv 2 1 1\nvt 0.25\nv 3 2 1\nnv 1 2 3\nv 0 0 0 0.5 1 0\nnl 7\n# end\n\
          f 7/1 4/1 5/1\nf 4 6 5\np 1 6\n",
     );
     assert_eq!(text(&rewritten(&written)), text(&written));
@@ -196,6 +196,25 @@ fn everything_else_of_the_document_stays() {
     assert_eq!(lines, [3, 5, 6, 11, 12, 14, 3]);
     let lines: Vec<_> = (0..3).map(|t| document.line_of_triangle(t)).collect();
     assert_eq!(lines, [8, 17, 18]);
+}
+
+#[test]
+fn what_arcsim_says_of_a_vertex_is_said_of_its_new_fans() {
+    let start = "v 0 0 0\nnl 7\n# a\nnv 1 2 3\nv 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\n";
+    for (end, written) in [
+        ("nl 9\n# b\n", "nl 9\nv 0 0 0\nnl 7\nnv 1 2 3\n# b\n"),
+        (
+            "vt 0\nvv 9\n# b\n",
+            "vt 0\nvv 9\n# b\nv 0 0 0\nnl 7\nnv 1 2 3\n",
+        ),
+    ] {
+        let document = read(format!("{start}{end}f 1 2 3\nf 1 4 5\n").as_bytes());
+        let document = document.repaired(Repair::SeparateFans);
+        let mesh = document.mesh().expect("repaired");
+        let out = write_as(&document, &mesh, &positions(&document));
+        assert_eq!(text(&out), format!("{start}{written}f 1 2 3\nf 6 4 5\n"));
+        assert_eq!(text(&rewritten(&out)), text(&out));
+    }
 }
 
 #[test]
@@ -300,8 +319,8 @@ proptest! {
         }
         let Ok(mesh) = repaired.mesh() else {
             let error = repaired.mesh().expect_err("a flip");
-            let is_flip = |defect: &Defect| matches!(defect, Defect::FlippedFace { .. });
-            prop_assert!(error.defects().iter().all(is_flip), "{error}\n{file}");
+            let is_flip = |defect: Defect<'_>| matches!(defect, Defect::FlippedFace { .. });
+            prop_assert!(error.defects().all(is_flip), "{error}\n{file}");
             return Ok(());
         };
         let written = write_as(&repaired, &mesh, &positions(&repaired));

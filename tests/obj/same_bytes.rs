@@ -2,8 +2,9 @@
 //!
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
-use tearmesh::{Edits, FaceId, Mesh, Positions, VertexId, split};
-use tearmesh_obj::Document;
+use tearmesh::subdivide::Plan;
+use tearmesh::{Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, split};
+use tearmesh_obj::{Document, TornDocument};
 
 /// A file, and behind a zero byte (which no OBJ file has) what is split. Whether it is a mesh.
 pub(crate) fn check(bytes: &[u8]) -> bool {
@@ -35,10 +36,16 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
         // The empty and the full set are refused, and nothing has happened then.
         let _ = split::faces(&mut mesh, v, &faces, &mut edits);
     }
-    edits.replay(&mut positions);
+    let mut torn = TornDocument::new(&document);
+    edits.replay(&mut (&mut positions, &mut torn));
     assert_eq!(mesh.check(), []);
 
     let written = write(&document, &mesh, &positions);
+    assert!(
+        write_torn(&torn, &mesh, &positions) == written,
+        "a follower tells no more of one cut than its mesh"
+    );
+    divide_and_mend(&document, mesh.clone(), positions.clone(), torn, splits);
     let again = Document::read(&written[..]).expect("what was written can be read");
     corners_are_the_same(&document, &mesh, &positions, &again);
     attributes_are_the_same(&document, &again);
@@ -69,6 +76,109 @@ fn write(document: &Document, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
     let done = document.write(mesh, positions, &mut out);
     done.expect("a vector takes everything");
     out
+}
+
+fn write_torn(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
+    let mut out = Vec::new();
+    let done = torn.write(mesh, positions, &mut out);
+    done.expect("a vector takes everything");
+    out
+}
+
+/// Inserts where the bytes say; what is written is read and written again. Then all
+/// is sewn and simplified, in a second session too.
+fn divide_and_mend(
+    document: &Document,
+    mut mesh: Mesh,
+    mut positions: Positions,
+    mut torn: TornDocument<'_>,
+    places: &[u8],
+) {
+    torn.next_cut();
+    let mut edits = Edits::new();
+    let mut plan = Plan::new();
+    for chunk in places.chunks_exact(3).take(16) {
+        let place = usize::from(u16::from_le_bytes([chunk[1], chunk[2]]));
+        if chunk[0] % 3 == 0 {
+            let f = FaceId::new(place % mesh.face_count()).expect("a face of the mesh");
+            plan.in_face(f, [1.0, 1.0 + f64::from(chunk[0]), 2.0]);
+        } else {
+            let h = HalfEdgeId::new(place % mesh.half_edge_count()).expect("a half-edge");
+            plan.on_edge(h, (1.0 + f64::from(chunk[0])) / 257.0);
+        }
+    }
+    // Points at one place are refused, and nothing has happened then.
+    let _ = plan.apply(&mut mesh, &mut edits);
+    let mut torn = torn.starting_at(0);
+    let mut moving = positions.clone().starting_at(0);
+    edits.replay(&mut (&mut moving, &mut torn));
+    positions = moving;
+    let written = write_torn(&torn, &mesh, &positions);
+    let again = Document::read(&written[..]).expect("what was written can be read");
+    let same = again.mesh().expect("what was written is a mesh");
+    assert_eq!(same.roots(), mesh.roots());
+    let points = Positions::new(again.positions().iter().copied());
+    let points = points.expect("positions between those of a document");
+    let twice = write_torn(&TornDocument::new(&again), &same, &points);
+    assert!(twice == written, "writing again gives the same bytes");
+
+    let later = mended(TornDocument::new(&again), same, points);
+    let mended = mended(torn.starting_at(0), mesh, positions.starting_at(0));
+    let uncut = document.mesh().expect("it was one before");
+    let points = Positions::new(document.positions().iter().copied());
+    let points = points.expect("the reader refuses other coordinates");
+    if document_is_whole(document) {
+        let uncut = write_torn(&TornDocument::new(document), &uncut, &points);
+        assert_eq!(
+            String::from_utf8_lossy(&mended),
+            String::from_utf8_lossy(&uncut)
+        );
+    }
+    assert_eq!(later.len(), mended.len(), "the same but for moved `v`");
+}
+
+/// Whether the document itself has no record of cuts.
+fn document_is_whole(document: &Document) -> bool {
+    let mesh = document.mesh().expect("it was one before");
+    let roots = mesh.roots();
+    let torn = roots
+        .iter()
+        .enumerate()
+        .any(|(v, &root)| v != root as usize);
+    let points = Positions::new(document.positions().iter().copied());
+    let points = points.expect("the reader refuses other coordinates");
+    let written = write_torn(&TornDocument::new(document), &mesh, &points);
+    !torn && !written.starts_with(b"#tearmesh") && !has(&written, b"\n#tearmesh record")
+}
+
+fn has(bytes: &[u8], part: &[u8]) -> bool {
+    bytes.windows(part.len()).any(|window| window == part)
+}
+
+/// What is written once all is sewn and simplified.
+fn mended(mut torn: TornDocument<'_>, mut mesh: Mesh, mut positions: Positions) -> Vec<u8> {
+    let mut edits = Edits::new();
+    let stitches = mend::stitches(&mesh, |_| true);
+    mend::sew(
+        &mut mesh,
+        &positions,
+        &stitches,
+        |_| 1.0,
+        f64::INFINITY,
+        &mut edits,
+    )
+    .expect("all are of one root");
+    edits.replay(&mut (&mut positions, &mut torn));
+    assert_eq!(torn.cuts(), []);
+    match torn.simplified(&mesh, &positions).expect("it can be read") {
+        None => write_torn(&torn, &mesh, &positions),
+        Some(simple) => {
+            let mesh = simple.mesh().expect("a simplified mesh is one");
+            let points = Positions::new(simple.positions().iter().copied());
+            let points = points.expect("the reader refuses other coordinates");
+            write_torn(&TornDocument::new(&simple), &mesh, &points)
+        }
+    }
 }
 
 /// Each corner of each triangle is where it was, bit for bit, and has its vt and vn.

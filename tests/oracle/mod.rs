@@ -3,33 +3,42 @@
 //! Nothing here is imported from the library, and nothing is stored that can be found by
 //! looking at all faces. There are no links and no walks: which faces a vertex has, which
 //! edges are torn and which faces hang together is worked out anew from the triangles
-//! and the root of each vertex. Masses are integers.
+//! and the class of each vertex: two vertices are of one class if they were once the same.
+//! Masses are integers.
 
+mod insert;
 pub(crate) mod naive_cut;
 pub(crate) mod spoil;
 pub(crate) mod straight;
 mod strict;
 
+pub(crate) use insert::{Child, End, Place, Spot, Unfit};
 pub(crate) use strict::{Fault, faults, is_strict};
 
 /// Triangles whose vertices are split, and what belongs to the vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Soup {
-    /// The triangles as they were at first.
-    pub(crate) input: Vec<[u32; 3]>,
-    /// The triangles as they are now.
+    /// The triangles.
     pub(crate) faces: Vec<[u32; 3]>,
-    /// For each vertex the one that it was at first.
-    pub(crate) root: Vec<u32>,
+    /// The triangles as they would be if no vertex had been split: of classes, not vertices.
+    pub(crate) whole: Vec<[u32; 3]>,
+    /// For each vertex its class.
+    pub(crate) class: Vec<u32>,
+    /// The number of classes that there ever were.
+    classes: u32,
     /// For each vertex its position.
     pub(crate) points: Vec<[f64; 3]>,
     /// For each corner its lumped mass, in units.
     pub(crate) corner_mass: Vec<[u64; 3]>,
-    /// For each vertex the mass that its root had, in units, and how often it was halved.
-    pub(crate) halved: Vec<(u64, u32)>,
-    /// The sides of faces that lay opposite each other at first: (face, side), (face, side).
+    /// For each vertex the mass that its class has, in units, and its part of that, in parts of
+    /// [`WHOLE`]. Nothing once a vertex was inserted.
+    pub(crate) halved: Option<Vec<(u64, u128)>>,
+    /// The sides of faces that lie opposite each other in the whole: (face, side), (face, side).
     pub(crate) links: Vec<[(usize, usize); 2]>,
 }
+
+/// What a vertex has that was never split. It can be halved 120 times.
+pub(crate) const WHOLE: u128 = 1 << 120;
 
 /// Why a split was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,33 +49,50 @@ pub(crate) enum Refused {
     Repeated(usize),
 }
 
+/// Why a merge was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unmerged {
+    Same,
+    Apart,
+}
+
 impl Soup {
     /// The soup of these triangles. `corner_mass` has three units for each face.
     pub(crate) fn new(points: &[[f64; 3]], faces: &[[u32; 3]], corner_mass: &[[u64; 3]]) -> Soup {
         let mut soup = Soup {
-            input: faces.to_vec(),
             faces: faces.to_vec(),
-            root: (0..points.len() as u32).collect(),
+            whole: faces.to_vec(),
+            class: (0..points.len() as u32).collect(),
+            classes: points.len() as u32,
             points: points.to_vec(),
             corner_mass: corner_mass.to_vec(),
-            halved: Vec::new(),
-            links: Vec::new(),
+            halved: None,
+            links: links_of(faces),
         };
-        for v in 0..points.len() {
-            soup.halved.push((soup.lumped_mass(v), 0));
-        }
-        for f in 0..faces.len() {
-            for g in f + 1..faces.len() {
-                for i in 0..3 {
-                    for j in 0..3 {
-                        if side(faces[f], i) == reversed(side(faces[g], j)) {
-                            soup.links.push([(f, i), (g, j)]);
-                        }
-                    }
-                }
-            }
-        }
+        let whole = (0..points.len()).map(|v| (soup.lumped_mass(v), WHOLE));
+        soup.halved = Some(whole.collect());
         soup
+    }
+
+    /// The smallest vertex of the class of each vertex.
+    pub(crate) fn roots(&self) -> Vec<u32> {
+        let mut smallest = vec![u32::MAX; self.classes as usize];
+        for (v, &class) in self.class.iter().enumerate().rev() {
+            smallest[class as usize] = v as u32;
+        }
+        self.class
+            .iter()
+            .map(|&class| smallest[class as usize])
+            .collect()
+    }
+
+    /// Whether the triangles with classes for vertices are the whole.
+    pub(crate) fn is_whole_but_for_splits(&self) -> bool {
+        let classes = self
+            .faces
+            .iter()
+            .map(|face| face.map(|v| self.class[v as usize]));
+        classes.eq(self.whole.iter().copied())
     }
 
     /// The faces of a vertex, ascending.
@@ -82,7 +108,7 @@ impl Soup {
 
     /// The corners of every vertex, three a face, ascending.
     pub(crate) fn corners_by_vertex(&self) -> Vec<Vec<usize>> {
-        let mut corners = vec![Vec::new(); self.root.len()];
+        let mut corners = vec![Vec::new(); self.class.len()];
         for (f, face) in self.faces.iter().enumerate() {
             for i in 0..3 {
                 corners[face[i] as usize].push(3 * f + i);
@@ -107,7 +133,7 @@ impl Soup {
         if moving.len() == self.faces_of(v).len() {
             return Err(Refused::Everything);
         }
-        let new = self.root.len() as u32;
+        let new = self.class.len() as u32;
         for &f in moving {
             for corner in &mut self.faces[f] {
                 if *corner == v as u32 {
@@ -115,11 +141,41 @@ impl Soup {
                 }
             }
         }
-        self.root.push(self.root[v]);
+        self.class.push(self.class[v]);
         self.points.push(self.points[v]);
-        self.halved[v].1 += 1;
-        self.halved.push(self.halved[v]);
+        if let Some(halved) = &mut self.halved {
+            assert!(halved[v].1 % 2 == 0, "the oracle halves no further");
+            halved[v].1 /= 2;
+            halved.push(halved[v]);
+        }
         Ok(())
+    }
+
+    /// Merges two vertices: the lower number stays, and the last vertex gets the other one.
+    /// Returns both.
+    pub(crate) fn merge(&mut self, one: usize, other: usize) -> Result<[usize; 2], Unmerged> {
+        if one == other {
+            return Err(Unmerged::Same);
+        }
+        if self.class[one] != self.class[other] {
+            return Err(Unmerged::Apart);
+        }
+        let (kept, gone) = (one.min(other), one.max(other));
+        let last = self.class.len() - 1;
+        for corner in self.faces.as_flattened_mut() {
+            if *corner == gone as u32 {
+                *corner = kept as u32;
+            } else if *corner == last as u32 {
+                *corner = gone as u32;
+            }
+        }
+        self.class.swap_remove(gone);
+        self.points.swap_remove(gone);
+        if let Some(halved) = &mut self.halved {
+            halved[kept].1 += halved[gone].1;
+            halved.swap_remove(gone);
+        }
+        Ok([kept, gone])
     }
 
     /// The faces of a vertex whose centres are strictly behind the plane through that vertex:
@@ -160,7 +216,7 @@ impl Soup {
             }
         }
         let fan_of = joined_sets(3 * self.faces.len(), &joined);
-        let mut fans = vec![Vec::<Vec<usize>>::new(); self.root.len()];
+        let mut fans = vec![Vec::<Vec<usize>>::new(); self.class.len()];
         for (v, corners) in self.corners_by_vertex().iter().enumerate() {
             for &corner in corners {
                 let known = fans[v]
@@ -202,15 +258,34 @@ impl Soup {
         }
         mass
     }
+}
 
-    /// The total of the halved masses, in units divided by 2^`halvings`.
-    pub(crate) fn halved_total(&self, halvings: u32) -> u128 {
-        let mut total = 0;
-        for &(mass, times) in &self.halved {
-            total += u128::from(mass) << (halvings - times);
+/// The sides of triangles that run between the same two vertices, in opposite directions.
+pub(crate) fn links_of(faces: &[[u32; 3]]) -> Vec<[(usize, usize); 2]> {
+    let mut sides = Vec::new();
+    for (f, &face) in faces.iter().enumerate() {
+        for i in 0..3 {
+            sides.push((side(face, i), (f, i)));
         }
-        total
     }
+    sides.sort();
+    for two in sides.windows(2) {
+        assert!(
+            two[0].0 != two[1].0,
+            "two faces on one side of an edge: {two:?}"
+        );
+    }
+    let mut links = Vec::new();
+    for &(ends, here) in &sides {
+        if let Ok(i) = sides.binary_search_by_key(&reversed(ends), |&(ends, _)| ends) {
+            let there = sides[i].1;
+            if here < there {
+                links.push([here, there]);
+            }
+        }
+    }
+    links.sort();
+    links
 }
 
 /// Masses of corners by area, and what a unit of them is: 2^-52 of the power of two above the

@@ -17,9 +17,9 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestSettings {
     /// The largest component of force on any particle, in N, where it is free.
-    pub force_tolerance: f64,
+    pub force_tolerance_n: f64,
     /// How far a step may move particles where nothing else bounds it, in m.
-    pub reach: f64,
+    pub reach_m: f64,
     /// Newton's iterations.
     pub iterations_max: u32,
     /// Iterations of conjugate gradients in each of them.
@@ -30,8 +30,8 @@ impl Default for RestSettings {
     /// 1e-11 N, 0.1 m, 1000, 5000.
     fn default() -> RestSettings {
         RestSettings {
-            force_tolerance: 1e-11,
-            reach: 0.1,
+            force_tolerance_n: 1e-11,
+            reach_m: 0.1,
             iterations_max: 1000,
             solver_iterations_max: 5000,
         }
@@ -128,7 +128,7 @@ impl Implicit {
             let left = self.unbalanced(model, &x);
             report.residual = self.pcg.b.iter().fold(0.0, |most, b| max_abs(*b).max(most));
             // Written so that a NaN goes on to the error.
-            if report.residual <= settings.force_tolerance {
+            if report.residual <= settings.force_tolerance_n {
                 break;
             }
             let spent = report.iterations >= settings.iterations_max || !left.is_finite();
@@ -136,12 +136,12 @@ impl Implicit {
             if spent || stuck {
                 return Err(RestError::NotConverged {
                     residual: report.residual,
-                    limit: settings.force_tolerance,
+                    limit: settings.force_tolerance_n,
                     iterations: report.iterations,
                 });
             }
             report.iterations += 1;
-            let sigma = damping * left / settings.reach;
+            let sigma = damping * left / settings.reach_m;
             self.rest_direction(model, &x, sigma, settings, &mut report);
             let halvings = report.halvings;
             if let Some(next) = self.descend(model, &mut x, phi, left, &mut report) {

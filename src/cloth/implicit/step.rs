@@ -410,7 +410,7 @@ impl Implicit {
                 time_step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio),
             );
         }
-        let dragged = 1.0 + h * model.drag;
+        let dragged = 1.0 + h * model.drag_per_s;
         // The tolerance is that of the method asked for, also where it starts.
         let limit = match (settings.tolerance, settings.method) {
             (Tolerance::Fixed(limit), _) => limit,

@@ -87,10 +87,12 @@ struct Span {
 
 /// A vertex that counts as on the plane because a crossing is near it.
 #[derive(Clone, Copy)]
-struct Snapped {
-    vertex: VertexId,
+pub(super) struct Snapped {
+    pub(super) vertex: VertexId,
     /// How near the crossing is, as a part of its edge.
-    t: f64,
+    pub(super) t: f64,
+    /// The other end of that edge.
+    pub(super) toward: VertexId,
     /// The depths of the crossing.
     depths: [f64; 2],
 }
@@ -102,8 +104,8 @@ pub(super) struct Trace {
     pub(super) crossings: Vec<Crossing>,
     /// Nodes at which a side plane ends the slit, though no piece ends there in the face beyond.
     pub(super) lone_tips: Vec<(usize, Site)>,
-    /// The vertices on the plane.
-    on: Vec<bool>,
+    /// The vertices that count as on the plane because a crossing is near, ascending.
+    pub(super) snapped: Vec<Snapped>,
     /// Crossings nearer than this part of their edge are one.
     near: f64,
 }
@@ -122,20 +124,21 @@ impl Trace {
             positions,
             offsets,
             near: scissor.snap.max(TIP_MIN),
-            on: mesh.vertices().map(|v| offsets.of(v) == 0.0).collect(),
             snapped: Vec::new(),
         };
-        for &v in &scissor.joints {
-            tracer.on[v.index()] = true;
-        }
-        let touched: Vec<FaceId> = mesh.faces().filter(|&f| tracer.touches(f)).collect();
+        let mut touched = offsets.touched(mesh);
+        let joints = scissor.joints.iter();
+        touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
+        touched.sort_unstable();
+        touched.dedup();
         tracer.snap(&touched);
         tracer.trace(&touched)
     }
 
-    /// Whether a vertex of the mesh before the cut is on the plane.
-    pub(super) fn is_on(&self, v: VertexId) -> bool {
-        self.on.get(v.index()).is_some_and(|&on| on)
+    /// Whether a vertex of the mesh before the cut was put on the plane.
+    pub(super) fn is_snapped(&self, v: VertexId) -> bool {
+        let at = self.snapped.binary_search_by_key(&v, |one| one.vertex);
+        at.is_ok()
     }
 
     fn crossing(&self, h: HalfEdgeId) -> Option<&Crossing> {
@@ -244,24 +247,20 @@ struct Tracer<'t> {
     positions: &'t Positions,
     offsets: &'t Offsets,
     near: f64,
-    on: Vec<bool>,
     /// By vertex.
     snapped: Vec<Snapped>,
 }
 
 impl Tracer<'_> {
-    fn touches(&self, f: FaceId) -> bool {
-        self.offsets.touch(self.mesh, f)
-            || self.mesh.corners(f).into_iter().any(|v| self.on[v.index()])
-    }
-
     /// Zero on the plane, else the sign of the side.
     fn sign(&self, v: VertexId) -> f64 {
-        if self.on[v.index()] {
-            0.0
-        } else {
-            self.offsets.of(v)
-        }
+        let is_on = self.snap_of(v).is_some() || self.scissor.joints.contains(&v);
+        if is_on { 0.0 } else { self.offsets.of(v) }
+    }
+
+    fn snap_of(&self, v: VertexId) -> Option<&Snapped> {
+        let at = self.snapped.binary_search_by_key(&v, |one| one.vertex);
+        at.ok().map(|at| &self.snapped[at])
     }
 
     /// How far a point is inside each side plane.
@@ -310,9 +309,9 @@ impl Tracer<'_> {
     }
 
     fn vertex_node(&self, v: VertexId) -> Node {
-        let mut depths = match self.snapped.binary_search_by_key(&v, |one| one.vertex) {
-            Ok(at) => self.snapped[at].depths,
-            Err(_) => self.depths(self.positions.at(v)),
+        let mut depths = match self.snap_of(v) {
+            Some(snapped) => snapped.depths,
+            None => self.depths(self.positions.at(v)),
         };
         if self.scissor.joints.contains(&v) {
             depths[0] = 0.0;
@@ -399,11 +398,13 @@ impl Tracer<'_> {
                 let Site::Edge(h) = node.site else { continue };
                 let crossing = self.crossing(h);
                 let near = [crossing.t, 1.0 - crossing.t];
-                for (vertex, t) in self.ends(&crossing).into_iter().zip(near) {
+                let [a, b] = self.ends(&crossing);
+                for ([vertex, toward], t) in [[a, b], [b, a]].into_iter().zip(near) {
                     if met && t < self.scissor.snap {
                         snapped.push(Snapped {
                             vertex,
                             t,
+                            toward,
                             depths: node.depths,
                         });
                     }
@@ -419,9 +420,6 @@ impl Tracer<'_> {
                 .expect("t is finite")
         });
         snapped.dedup_by_key(|one| one.vertex);
-        for one in &snapped {
-            self.on[one.vertex.index()] = true;
-        }
         self.snapped = snapped;
     }
 
@@ -444,7 +442,7 @@ impl Tracer<'_> {
         }
     }
 
-    fn trace(self, touched: &[FaceId]) -> Trace {
+    fn trace(&self, touched: &[FaceId]) -> Trace {
         let mut pieces = Vec::new();
         let mut lone_tips = Vec::new();
         let mut on_plane = Vec::new();
@@ -455,7 +453,7 @@ impl Tracer<'_> {
             for h in f.half_edges() {
                 let ends = [self.mesh.origin(h), self.mesh.target(h)];
                 if let Some(pair) = self.mesh.pair(h)
-                    && ends.into_iter().all(|v| self.on[v.index()])
+                    && ends.into_iter().all(|v| self.sign(v) == 0.0)
                 {
                     on_plane.push(h.min(pair));
                 }
@@ -477,7 +475,7 @@ impl Tracer<'_> {
             pieces,
             crossings,
             lone_tips,
-            on: self.on,
+            snapped: self.snapped.clone(),
             near: self.near,
         };
         trace.finish(self.mesh);

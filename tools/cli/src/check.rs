@@ -106,7 +106,7 @@ impl Found {
                 );
             }
             Err(error) => {
-                let defects = defects::faults(&input, &document, &error, "or cut with");
+                let defects = defects::faults(&input, document, error, "or cut with");
                 found.faults.extend(defects);
             }
         }

@@ -9,8 +9,8 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use tearmesh::{Edits, Ledger, MassError, Masses, Mesh, Positions};
-use tearmesh_obj::{Document, Repair};
+use tearmesh::{Edits, Ledger, MassError, Masses, Mesh, Point, Positions};
+use tearmesh_obj::{Document, Repair, TornDocument};
 
 use self::files::Destination;
 use crate::args::{CutArgs, Format, Mass, Method};
@@ -95,7 +95,7 @@ impl Cutting<'_> {
         let document = read(input, repair(self.args), &mut self.faults)?;
         let read_ms = clock.milliseconds();
         let clock = Clock::start();
-        let mut mesh = build(input, &document)?;
+        let (document, mut mesh) = build(input, document)?;
         let build_ms = clock.milliseconds();
         self.report.input = Some(report::File::of(Some(input.name.clone()), &mesh));
         let vertices_before = mesh.vertex_count();
@@ -105,12 +105,14 @@ impl Cutting<'_> {
 
         let clock = Clock::start();
         let mut edits = Edits::new();
+        let mut torn = TornDocument::new(&document);
         for (i, (rays, scissor)) in cuts.iter().enumerate() {
             let number = (cuts.len() > 1).then_some(i + 1);
             let done = scissor.cut(self.method(), &mut mesh, &mut positions, &mut edits);
             let done = done.expect("positions that follow every cut are in step");
-            edits.replay(&mut masses);
+            edits.replay(&mut (&mut masses, &mut torn));
             edits.clear();
+            torn.next_cut();
             let method = self.args.method.name();
             let (through, tips) = (self.args.through, self.args.tips.name());
             let entry = report::Cut::new(rays, scissor, (method, through, tips), &done);
@@ -122,7 +124,7 @@ impl Cutting<'_> {
 
         let clock = Clock::start();
         let ledger = masses.ledger();
-        self.verify(&document, &mesh, &positions, &ledger)?;
+        self.verify(&torn, &mesh, &positions, &ledger)?;
         let check_ms = clock.milliseconds();
         if edits.next_number() == 0 && !self.args.allow_miss {
             return Err(self.nothing_cut());
@@ -130,7 +132,7 @@ impl Cutting<'_> {
 
         let clock = Clock::start();
         let mut to = self.destination.name();
-        self.write(&document, &mesh, &positions, streams)
+        self.write(&torn, &mesh, &positions, streams)
             .map_err(|error| {
                 let name = to.take().unwrap_or_default();
                 Stop::new(Exit::Output, cannot_write(&name, &error))
@@ -177,10 +179,10 @@ impl Cutting<'_> {
         })
     }
 
-    /// Checks every invariant, that each corner is where it was, and the ledger of masses.
+    /// Checks every invariant, that the surface is where it was, and the ledger of masses.
     fn verify(
         &mut self,
-        document: &Document,
+        torn: &TornDocument<'_>,
         mesh: &Mesh,
         positions: &Positions,
         ledger: &Ledger,
@@ -191,16 +193,7 @@ impl Cutting<'_> {
         let violations = mesh.check();
         let broken = &mut self.report.invariants.violations;
         broken.extend(violations.iter().map(ToString::to_string));
-        let was = document.triangles().as_flattened().iter();
-        let was = was.map(|&v| document.positions()[v as usize]);
-        let moved = mesh.half_edges().zip(was).find(|&(h, was)| {
-            let is = positions.at(mesh.origin(h));
-            (0..3).any(|axis| is[axis].to_bits() != was[axis].to_bits())
-        });
-        if let Some((h, was)) = moved {
-            let is = positions.at(mesh.origin(h));
-            broken.push(format!("I20 (positions): {h} was at {was}, and is at {is}"));
-        }
+        broken.extend(moved(torn.document(), mesh, positions));
         if !ledger.is_balanced() {
             broken.push(format!("I20 (mass): {before:e} became {after:e}"));
         }
@@ -230,12 +223,12 @@ impl Cutting<'_> {
 
     fn write(
         &mut self,
-        document: &Document,
+        torn: &TornDocument<'_>,
         mesh: &Mesh,
         positions: &Positions,
         streams: &mut Streams<'_>,
     ) -> io::Result<()> {
-        let fill = |mut out: &mut dyn Write| document.write(mesh, positions, &mut out);
+        let fill = |mut out: &mut dyn Write| torn.write(mesh, positions, &mut out);
         let written = match &self.destination {
             Destination::Nowhere { .. } => return Ok(()),
             Destination::File(path) => output::write(path, fill)?,
@@ -329,14 +322,41 @@ fn read(input: &Input, repair: Option<Repair>, faults: &mut Vec<Fault>) -> Resul
     Ok(document)
 }
 
-fn build(input: &Input, document: &Document) -> Result<Mesh, Stop> {
-    document.mesh().map_err(|error| {
-        let faults = defects::faults(input, document, &error, "or add");
-        Stop {
+fn build(input: &Input, document: Document) -> Result<(Document, Mesh), Stop> {
+    match document.mesh() {
+        Ok(mesh) => Ok((document, mesh)),
+        Err(error) => Err(Stop {
             exit: Exit::Input,
-            faults,
-        }
-    })
+            faults: defects::faults(input, document, error, "or add"),
+        }),
+    }
+}
+
+/// What is not where it was, in words: a corner, or where faces were divided, a vertex of the
+/// document, or the area.
+fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> Option<String> {
+    let bits = |point: Point| [point.x, point.y, point.z].map(f64::to_bits);
+    let was = document.positions();
+    if mesh.face_count() == document.triangles().len() {
+        let corners = document.triangles().as_flattened().iter();
+        let mut corners = corners.map(|&v| was[v as usize]).zip(mesh.half_edges());
+        let (was, h) = corners.find(|&(was, h)| bits(positions.at(mesh.origin(h))) != bits(was))?;
+        let is = positions.at(mesh.origin(h));
+        return Some(format!("I20 (positions): {h} was at {was}, and is at {is}"));
+    }
+    let mut vertices = mesh.vertices().zip(was);
+    if let Some((v, was)) = vertices.find(|&(v, &was)| bits(positions.at(v)) != bits(was)) {
+        let is = positions.at(v);
+        return Some(format!("I20 (positions): {v} was at {was}, and is at {is}"));
+    }
+    let area = |[a, b, c]: [Point; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
+    let triangles = document.triangles().iter();
+    let before: f64 = triangles.map(|t| area(t.map(|v| was[v as usize]))).sum();
+    let faces = mesh.faces().map(|f| mesh.corners(f));
+    let after: f64 = faces.map(|t| area(t.map(|v| positions.at(v)))).sum();
+    // Each area and each sum is rounded; what is lost or twice there would be far more.
+    let bound = 1e-9 * before;
+    ((after - before).abs() > bound).then(|| format!("I20 (area): {before:e} became {after:e}"))
 }
 
 fn cannot_write(name: &str, error: &io::Error) -> Fault {

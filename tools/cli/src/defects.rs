@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader};
 
-use tearmesh::{Defect, FaceId};
+use tearmesh::{Defect, FaceId, Faces};
 use tearmesh_obj::{Document, MeshError, Repair};
 
 use crate::input::Input;
@@ -20,21 +20,9 @@ const WIDTH: usize = 160;
 
 /// The first twenty defects; the last one says how many more there are, and which option would
 /// repair them all, if one does: "or add --repair", with `or` in front.
-pub(crate) fn faults(
-    input: &Input,
-    document: &Document,
-    error: &MeshError,
-    or: &str,
-) -> Vec<Fault> {
-    let lines_of = |defect: &Defect| {
-        let mut lines: Vec<usize> = faces(defect)
-            .iter()
-            .map(|f| document.line_of_triangle(f.index()))
-            .collect();
-        lines.dedup();
-        lines
-    };
-    let shown = || error.defects().iter().zip(error.shown());
+pub(crate) fn faults(input: &Input, document: Document, error: MeshError, or: &str) -> Vec<Fault> {
+    let lines_of = |defect| lines_of(defect, |face| document.line_of_triangle(face.index()));
+    let shown = || error.defects().zip(error.shown());
     let wanted = shown()
         .flat_map(|(defect, _)| lines_of(defect))
         .map(|line| (line, String::new()));
@@ -58,16 +46,13 @@ pub(crate) fn faults(
             let last = lines.pop();
             Fault {
                 excerpt: last.and_then(excerpt).map(Box::new),
-                related: lines
-                    .into_iter()
-                    .filter_map(excerpt)
-                    .take(SHOWN - 1)
-                    .collect(),
+                related: lines.into_iter().filter_map(excerpt).collect(),
                 ..Fault::of_file(&input.name, diagnostic)
             }
         })
         .collect();
     let more = error.defects().len() - faults.len();
+    drop(error); // It may be as large as the document, which is about to be repaired.
     if let Some(last) = faults.last_mut() {
         if more > 0 {
             last.message.push_str(&format!(
@@ -84,29 +69,45 @@ pub(crate) fn faults(
 
 /// The mildest option with which this document would have a mesh. Tried, not guessed: a
 /// hint must work when it is typed.
-fn option_that_repairs(document: &Document) -> Option<&'static str> {
-    let options = [
-        ("--separate-fans", Repair::SeparateFans),
-        ("--repair", Repair::All),
-    ];
-    let works = |repair| document.clone().repaired(repair).mesh().is_ok();
-    options
-        .into_iter()
-        .find(|&(_, repair)| works(repair))
-        .map(|(option, _)| option)
+///
+/// What is left after the first try may go on to the second, so that no copy is needed: fans that
+/// have vertices of their own are no obstacle to what is dropped, nor to which faces are.
+fn option_that_repairs(document: Document) -> Option<&'static str> {
+    let document = document.repaired(Repair::SeparateFans);
+    if document.mesh().is_ok() {
+        return Some("--separate-fans");
+    }
+    let document = document.repaired(Repair::All);
+    document.mesh().is_ok().then_some("--repair")
 }
 
-/// The faces of a defect, ascending.
-fn faces(defect: &Defect) -> Vec<FaceId> {
-    let mut faces = match defect {
-        Defect::IndexOutOfRange { face, .. } | Defect::RepeatedVertex { face, .. } => vec![*face],
-        Defect::DuplicateFaces { faces, .. } | Defect::CrowdedEdge { faces, .. } => faces.clone(),
-        Defect::Pillow { faces, .. } | Defect::FlippedFace { faces, .. } => faces.to_vec(),
-        Defect::BowTie { fans, .. } => fans.iter().filter_map(|fan| fan.first().copied()).collect(),
-        _ => Vec::new(),
+/// The lines of a defect that are shown: the first ones, and the last.
+fn lines_of(defect: Defect<'_>, line_of: impl Fn(FaceId) -> usize) -> Vec<usize> {
+    let mut lines = Vec::new();
+    let visit = |face| {
+        let line = line_of(face);
+        if lines.last() == Some(&line) {
+            return; // Triangles of one polygon.
+        }
+        if lines.len() == SHOWN {
+            lines.pop();
+        }
+        lines.push(line);
     };
-    faces.sort();
-    faces
+    match defect {
+        Defect::IndexOutOfRange { face, .. } | Defect::RepeatedVertex { face, .. } => {
+            [face].into_iter().for_each(visit);
+        }
+        Defect::DuplicateFaces { faces, .. } | Defect::CrowdedEdge { faces, .. } => {
+            faces.iter().for_each(visit);
+        }
+        Defect::Pillow { faces, .. } | Defect::FlippedFace { faces, .. } => {
+            faces.into_iter().for_each(visit);
+        }
+        Defect::BowTie { fans, .. } => fans.iter().map(Faces::first).for_each(visit),
+        _ => {}
+    }
+    lines
 }
 
 /// Fills in the texts of lines, as far as they can be read again.

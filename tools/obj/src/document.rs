@@ -3,6 +3,7 @@
 use tearmesh::Point;
 
 use crate::diagnostic::Diagnostic;
+use crate::record::Record;
 use crate::store::{Column, Layout, Rows, push};
 use crate::triangulate::Triangulation;
 
@@ -26,6 +27,8 @@ pub struct Document {
     /// The text of the layout's text runs, one after the other.
     pub(crate) text: Vec<u8>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// What makes the mesh a torn one; all polygons are triangles then.
+    pub(crate) record: Option<Box<Record>>,
 }
 
 /// The faces as the file has them, corner by corner.

@@ -1,6 +1,6 @@
 //! The keywords of the OBJ format, as far as statements are told apart by them.
 
-/// What kind of statement a keyword begins, apart from `v`, `vt`, `vn` and `f`.
+/// What kind of statement a keyword begins, apart from `v`, `vt`, `vn`, and `f` or `fo`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
     /// Structure that a cut leaves in place: nothing to warn of.
@@ -26,6 +26,11 @@ impl Class {
             _ => Class::Foreign,
         }
     }
+}
+
+/// Whether a foreign statement belongs to the last `v` before it, as `ARCSim` reads it.
+pub(crate) fn is_said_of_vertex(keyword: &[u8]) -> bool {
+    matches!(keyword, b"nl" | b"ny" | b"nv" | b"vv")
 }
 
 /// How many tokens come before the indices of an uninterpreted statement whose indices count

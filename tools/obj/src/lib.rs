@@ -2,7 +2,9 @@
 //!
 //! A [`Document`] is a whole OBJ file in memory. It gives the triangles and positions from which
 //! [`tearmesh::Mesh`] is built, and after any number of vertex splits it writes the file
-//! again, with the torn faces in place of the old ones and everything else as it was.
+//! again, with the torn faces in place of the old ones and everything else as it was. A
+//! [`TornDocument`] follows the log of the mesh, and so also writes what has
+//! new vertices and faces, keeps cuts apart, and undoes them in another session.
 //!
 //! ```
 //! use tearmesh::{Edits, FaceId, Positions, VertexId, split};
@@ -25,10 +27,13 @@
 //! let summary = document.write(&mesh, &positions, &mut out)?;
 //! assert_eq!((summary.vertices, summary.faces), (6, 2));
 //! assert_eq!(
-//!     String::from_utf8(out)?,
+//!     String::from_utf8(out.clone())?,
 //!     "o flag\nv 0 0 0\nv 1 0 0\n# corner\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nvt 0.5\n\
-//!      f 1/1 2/1 3/1\nf 6 5 4\n"
+//!      f 1/1 2/1 3/1\nf 6 5 4\n\
+//!      #tearmesh record 1 v 6 f 2 vt 1 1 vn 0 0 faces 7008e53ea9bc7ad2\n\
+//!      #~ split 5 2 1\n#~ split 6 3 1\n#tearmesh end 2 10c8189a8b417315\n"
 //! );
+//! assert_eq!(Document::read(&out[..])?.mesh()?, mesh); // With both tears.
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -39,13 +44,16 @@
 //!   same bytes.
 //! * Vertices keep their numbers: a split appends. It duplicates a position, never a texture
 //!   coordinate or a normal; each corner keeps those it had.
+//! * A torn mesh survives a file: comments at its end say what was one vertex until which cut, and
+//!   what was inserted where ([the record](#the-record)).
 //! * Objects, groups, materials, smoothing groups, comments, and statements nobody has heard of are
 //!   kept byte for byte and in order. What is kept without being understood is reported, by line.
+//!   What `ARCSim` says of a vertex (`nl`, `ny`, `nv`, `vv`) is said of its copies, too.
 //! * Every refusal has a code, line, column, the text, and what was expected. A mesh error names
 //!   the lines of its faces.
-//! * No input makes it panic, or reading it take more memory than the larger of 64 MiB and twelve
-//!   times the file. (Naming what is wrong with a mesh may take more: a million copies of one
-//!   face, twenty times.) Lines have at most 64 MiB, and polygons at most 4096 corners.
+//! * No input makes it panic, or take more memory than the larger of 64 MiB and twelve times the
+//!   file, to name and repair all that is wrong with its mesh included. Lines have at most
+//!   64 MiB, and polygons at most 4096 corners.
 //!
 //! # Codes
 //!
@@ -65,14 +73,51 @@
 //! | `W-OBJ-ELEMENT` | there are `l` or `p` elements, which no cut divides |
 //! | `W-OBJ-FOREIGN` | there are statements that are kept and not interpreted |
 //! | `W-OBJ-RELATIVE` | (note) negative indices of such statements were made absolute |
+//! | `W-OBJ-RECORD` | the record of tears is damaged, of a later version, or of other faces: the file is read as one without |
+//! | `W-OBJ-RECORD-MOVED` | copies of a vertex for its fans are at different places now, and so vertices of their own |
 //! | `W-OBJ-BOM` | (note) a byte order mark was dropped |
 //! | `W-OBJ-REPAIR-BOWTIE` | fans of a vertex were given vertices of their own ([`Repair`]) |
 //! | `W-OBJ-REPAIR-DUPLICATE`, `W-OBJ-REPAIR-PILLOW`, `W-OBJ-REPAIR-EDGE` | faces were dropped: on the vertices of another, or superfluous on an edge |
 //!
+//! # The record
+//!
+//! A torn or divided mesh is written with a record in comments at the end of its file. Vertices
+//! and faces are counted from 1, as everywhere in the file. Any program can read the file
+//! without it; [`Document::read`] takes it in, and then split-off vertices have their root again,
+//! several `v` of one vertex are one, and cuts can be undone ([`TornDocument::stitches_of_last`],
+//! [`TornDocument::simplified`]).
+//!
+//! ```text
+//! record  = header item* end
+//! header  = "#tearmesh record 1 v" V "f" F "vt" BEFORE ALL "vn" BEFORE ALL "faces" HASH
+//! item    = "#~ split" VERTEX FROM CUT            VERTEX was one with FROM, which is lower, until CUT
+//!         | "#~ fan" COPY VERTEX                  COPY is VERTEX, written again for another fan
+//!         | "#~ edge" VERTEX CUT A B T            inserted by CUT at A + T (B - A)
+//!         | "#~ face" VERTEX CUT A B C WA WB WC   inserted by CUT at WA A + WB B + WC C
+//!         | "#~ parent" FIRST LAST A B C          the faces FIRST to LAST cover what was A B C
+//! end     = "#tearmesh end" ITEMS HASH
+//! ```
+//!
+//! * Items come in that order (`edge` and `face` together), each kind by its first number,
+//!   ascending. Copies are the last `v` of the file, without a gap.
+//! * A vertex of several copies is named by its root, the lowest of them, in `A`, `B` and `C`;
+//!   `edge` and `face` name the root of what was inserted.
+//! * `V` and `F` count the `v` and `f` of the file. `BEFORE` counts the `vt` or `vn` before any
+//!   was inserted, and `ALL` those of the file.
+//! * A cut has a number from 1; a later one has a higher one. After a merge, a `split` names
+//!   what VERTEX was last one with, not what it was first split from.
+//! * The hash of the header is that of the number of `v` and of the vertices of all faces, that of
+//!   the end is of the lines between: 64 bits, FNV-1a, in hexadecimal.
+//!
+//! What another program does to positions, texture or groups leaves the record in force.
+//! Where it changed faces or the number of vertices, or the record itself, a warning says so, the
+//! file is read as one without a record, and what was one is left out.
+//!
 //! # Why not obj-rs
 //!
-//! obj-rs 0.7.4 is a fine reader of what a renderer needs, and our tests hold what we write against
-//! it. For a file that has to survive a cut it would not do:
+//! obj-rs 0.7.4 is a fine reader of what a renderer needs. Our tests hold what we read and write
+//! against it, and with the feature `obj-rs` a `RawObj` that a program already holds becomes a
+//! [`Document`] by `TryFrom`. For a file that has to survive a cut it would not do:
 //!
 //! * It keeps coordinates as `f32`: 11,755 of the 11,898 of a real gown would change. Comments are
 //!   gone, of several `o` only the last is left, and the order of groups with them, for they
@@ -84,18 +129,22 @@
 //!   byte order mark, a byte that is no UTF-8 even in a comment, CR line ends, a face before
 //!   its vertices.
 //! * It takes nan, infinity, `f 1 1 2` and a face of a million corners without a word.
-//! * It reads 60 MB/s where numbers and indices alone can be read at 290.
+//! * It takes three to five times as long to read the same file (`tools/bench/record/`).
 //!
 //! # Map
 //!
 //! | file | subject |
 //! |---|---|
 //! | `document.rs`, `store.rs` | the document, and the compact lists it is made of |
-//! | `read.rs`, `read/` | bytes to document: lines, tokens, faces, references ahead, what is carried through, faults |
+//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, references ahead, what is carried through, faults |
 //! | `triangulate.rs`, `triangulate/flip.rs` | polygons to triangles; diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
+//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
-//! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, numbers |
+//! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
+//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again |
+//! | `record.rs` | what is on record, and the checksum |
+//! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
 //! Bytes come in and go out: opening files, replacing them as a whole, and rendering diagnostics
@@ -105,14 +154,22 @@ mod diagnostic;
 mod document;
 mod keyword;
 mod mesh;
+#[cfg(feature = "obj-rs")]
+mod raw;
 mod read;
+mod record;
 mod repair;
+mod said;
 mod store;
+mod torn;
 mod triangulate;
 mod write;
 
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::{Corner, Document};
 pub use mesh::MeshError;
+#[cfg(feature = "obj-rs")]
+pub use raw::{Item, RawObjError};
 pub use repair::Repair;
+pub use torn::TornDocument;
 pub use write::WriteSummary;

@@ -5,16 +5,19 @@
 
 use std::fmt;
 
-use tearmesh::{BuildError, Defect, FaceId, Mesh, VertexId};
+use tearmesh::{BuildError, Defect, FaceId, Faces, Fans, Mesh, TornError, VertexId};
 
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
+use crate::record::Record;
 
 /// How many defects are put into words, and how many lines one of them lists.
 const SHOWN: usize = 20;
 
 impl Document {
-    /// Builds the mesh of the triangles.
+    /// Builds the mesh of the triangles; of a file with a record of tears, the torn mesh
+    /// that was written, with every vertex, pair and ghost pair, and its faces in the order of
+    /// the file.
     ///
     /// # Errors
     ///
@@ -29,14 +32,25 @@ impl Document {
     /// # Ok::<(), tearmesh_obj::ReadError>(())
     /// ```
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
-        Mesh::build(self.positions.len(), self.triangles()).map_err(|error| {
+        let built = match &self.record {
+            None => Mesh::build(self.positions.len(), self.triangles()),
+            Some(record) => self.torn_mesh(record),
+        };
+        built.map_err(|error| {
             let shown = error
                 .defects()
-                .iter()
                 .take(SHOWN)
-                .map(|d| self.describe(d))
+                .map(|defect| self.describe(defect))
                 .collect();
             MeshError { error, shown }
+        })
+    }
+
+    fn torn_mesh(&self, record: &Record) -> Result<Mesh, BuildError> {
+        let roots = record.roots(self.positions.len());
+        Mesh::build_torn(self.triangles(), &roots).map_err(|error| match error {
+            TornError::Build(error) => error,
+            _ => unreachable!("the reader has checked the roots of a record: {error}"),
         })
     }
 
@@ -46,41 +60,41 @@ impl Document {
     ///
     /// If the defect names a face or vertex that is none of this document.
     #[must_use]
-    pub fn describe(&self, defect: &Defect) -> Diagnostic {
+    pub fn describe(&self, defect: Defect<'_>) -> Diagnostic {
         let (code, face, message, help) = match defect {
             Defect::CrowdedEdge {
                 ends: [a, b],
                 faces,
             } => (
                 "E-MESH-EDGE",
-                faces.last(),
+                faces.iter().last(),
                 format!(
                     "edge {}-{} has {} faces ({})",
-                    number(*a),
-                    number(*b),
+                    number(a),
+                    number(b),
                     faces.len(),
-                    self.lines(faces)
+                    self.lines(faces.iter())
                 ),
                 "an edge of a surface has at most two faces: delete the surplus ones",
             ),
             Defect::FlippedFace { from, to, faces } => (
                 "E-MESH-FLIP",
-                faces.last(),
+                Some(faces[1]),
                 format!(
                     "two faces run from vertex {} to vertex {} ({}): one of them is flipped",
-                    number(*from),
-                    number(*to),
-                    self.lines(faces)
+                    number(from),
+                    number(to),
+                    self.lines(faces.into_iter())
                 ),
                 "make the orientation consistent: neighbours run along their common edge in \
                  opposite directions",
             ),
             Defect::BowTie { vertex, fans } => (
                 "E-MESH-BOWTIE",
-                fans.last().and_then(|fan| fan.first()),
+                fans.iter().last().map(Faces::first),
                 format!(
                     "vertex {} (line {}) joins {} fans of faces that share no edge ({})",
-                    number(*vertex),
+                    number(vertex),
                     self.line_of_vertex(vertex.index()),
                     fans.len(),
                     self.lines_of_fans(fans)
@@ -92,14 +106,14 @@ impl Document {
                 faces,
             } => (
                 "E-MESH-DUPLICATE",
-                faces.last(),
+                faces.iter().last(),
                 format!(
                     "{} faces have the same vertices {}, {}, {} ({})",
                     faces.len(),
-                    number(*a),
-                    number(*b),
-                    number(*c),
-                    self.lines(faces)
+                    number(a),
+                    number(b),
+                    number(c),
+                    self.lines(faces.iter())
                 ),
                 "delete all of these faces but one",
             ),
@@ -108,20 +122,20 @@ impl Document {
                 faces,
             } => (
                 "E-MESH-PILLOW",
-                faces.last(),
+                Some(faces[1]),
                 format!(
                     "two faces lie back to back on the vertices {}, {}, {} ({})",
-                    number(*a),
-                    number(*b),
-                    number(*c),
-                    self.lines(faces)
+                    number(a),
+                    number(b),
+                    number(c),
+                    self.lines(faces.into_iter())
                 ),
                 "delete one of the two: cloth is drawn from both sides, but modelled once",
             ),
             Defect::RepeatedVertex { face, vertex } => (
                 "E-MESH-REPEAT",
                 Some(face),
-                format!("a face has vertex {} twice", number(*vertex)),
+                format!("a face has vertex {} twice", number(vertex)),
                 "a triangle with a repeated vertex has no area: remove it",
             ),
             Defect::IndexOutOfRange {
@@ -134,7 +148,7 @@ impl Document {
                 Some(face),
                 format!(
                     "vertex {} does not exist: there are {vertices}",
-                    u64::from(*index) + 1
+                    u64::from(index) + 1
                 ),
                 "indices count from 1 through the whole file",
             ),
@@ -155,7 +169,7 @@ impl Document {
         Diagnostic {
             level: Level::Error,
             code,
-            location: face.map(|&face| Location {
+            location: face.map(|face| Location {
                 line: self.line(face),
                 column: 1,
             }),
@@ -170,20 +184,21 @@ impl Document {
     }
 
     /// `lines 3, 4, 9`, each once: triangles of one polygon stand on one line.
-    fn lines(&self, faces: &[FaceId]) -> String {
-        let mut lines: Vec<usize> = faces.iter().take(SHOWN).map(|&f| self.line(f)).collect();
-        lines.dedup();
-        let plural = if lines.len() == 1 { "" } else { "s" };
-        let list: Vec<String> = lines.iter().map(usize::to_string).collect();
+    fn lines(&self, faces: impl ExactSizeIterator<Item = FaceId>) -> String {
         let more = match faces.len().saturating_sub(SHOWN) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
+        let mut lines: Vec<usize> = faces.take(SHOWN).map(|face| self.line(face)).collect();
+        lines.dedup();
+        let plural = if lines.len() == 1 { "" } else { "s" };
+        let list: Vec<String> = lines.iter().map(usize::to_string).collect();
         format!("line{plural} {}{more}", list.join(", "))
     }
 
-    fn lines_of_fans(&self, fans: &[Vec<FaceId>]) -> String {
-        let shown: Vec<String> = fans.iter().take(SHOWN).map(|fan| self.lines(fan)).collect();
+    fn lines_of_fans(&self, fans: Fans<'_>) -> String {
+        let shown = fans.iter().take(SHOWN);
+        let shown: Vec<String> = shown.map(|fan| self.lines(fan.iter())).collect();
         let more = if fans.len() > SHOWN { " | …" } else { "" };
         format!("{}{more}", shown.join(" | "))
     }
@@ -205,7 +220,9 @@ impl MeshError {
     /// All defects, by the ids of the document: face `i` is its triangle `i`.
     /// [`Document::describe`] puts each into words.
     #[must_use]
-    pub fn defects(&self) -> &[Defect] {
+    pub fn defects(
+        &self,
+    ) -> impl ExactSizeIterator<Item = Defect<'_>> + DoubleEndedIterator + Clone {
         self.error.defects()
     }
 

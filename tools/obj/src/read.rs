@@ -7,14 +7,19 @@
 //! One pass over the input in chunks of 64 KiB; nothing is allocated for a line. Several hundred
 //! megabytes a second.
 
+mod decimal;
 mod face;
 mod fault;
 mod foreign;
 mod forward;
 mod lines;
+mod record;
 mod scan;
+mod usual;
 
-pub(crate) use self::foreign::attached_length;
+#[cfg(feature = "obj-rs")]
+pub(crate) use self::face::ARITY_MAX;
+pub(crate) use self::foreign::{attached_length, statements};
 
 use std::io::Read;
 
@@ -25,6 +30,7 @@ use self::fault::{Fault, Parsed, quoted, refuse};
 use self::foreign::{Tally, binary};
 use self::forward::{Forward, beyond};
 use self::lines::{Line, Lines};
+use self::record::RecordReader;
 use self::scan::Scan;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::{Document, Polygons};
@@ -52,7 +58,10 @@ impl Document {
         let mut lines = Lines::new(input);
         let mut reader = Reader::default();
         reader.start(&mut lines)?;
-        while let Some(line) = lines.next()? {
+        loop {
+            let (count, bytes) = reader.usual_lines(lines.buffered(), lines.number());
+            lines.skip_lines(count, bytes);
+            let Some(line) = lines.next()? else { break };
             reader
                 .statement(&line)
                 .map_err(|fault| textual(fault, &line).at(&line))?;
@@ -68,6 +77,7 @@ struct Reader {
     document: Document,
     forward: [Forward; 3],
     tally: Tally,
+    record: RecordReader,
 }
 
 impl Reader {
@@ -113,7 +123,9 @@ impl Reader {
         scan.at += keyword.len();
         match keyword {
             b"v" => self.vertex(line, &mut scan)?,
-            b"f" => self.face(line, &mut scan)?,
+            // `fo` (face outline) is older than version 2.11, of which the format says that it is
+            // still read, gives the same results as `f`, and is written as `f`.
+            b"f" | b"fo" => self.face(line, &mut scan)?,
             b"vt" => self.texture(line, &mut scan)?,
             b"vn" => self.normal(line, &mut scan)?,
             _ => return self.carry(line, &mut Scan { at: start, ..scan }),
@@ -191,6 +203,7 @@ impl Reader {
         if self.document.polygons.len() == 0 {
             return Err(self.no_face(last_line));
         }
+        self.record.finish(&mut self.document);
         self.document.shrink();
         self.document.triangulate();
         self.tally.report(&mut self.document.diagnostics);
@@ -226,7 +239,8 @@ impl Reader {
 }
 
 impl Document {
-    fn shrink(&mut self) {
+    /// Gives back memory that was reserved and is not needed.
+    pub(crate) fn shrink(&mut self) {
         let Polygons {
             vertices,
             texture,
@@ -245,7 +259,8 @@ impl Document {
         self.text.shrink_to_fit();
     }
 
-    fn triangulate(&mut self) {
+    /// Cuts polygons into triangles, and says so.
+    pub(crate) fn triangulate(&mut self) {
         if self.polygons.all_triangles() {
             return;
         }

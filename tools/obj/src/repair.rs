@@ -19,13 +19,15 @@
 //! A flipped face is never repaired: which of the two neighbours is wrong, the file does
 //! not say, and to turn one silently would turn its texture and its normals around.
 
-use tearmesh::{BuildError, Defect, FaceId, Mesh, VertexId};
+use std::collections::BTreeMap;
+
+use tearmesh::{BuildError, Defect, FaceId, Fans, Mesh, VertexId};
 
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::{Document, Polygons};
 use crate::read::attached_length;
-use crate::store::{Kind, Layout};
-use crate::triangulate::Triangulation;
+use crate::said::Said;
+use crate::store::{Kind, Layout, Run, extend, push};
 
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
@@ -50,6 +52,7 @@ impl Document {
     /// Vertices, texture coordinates and normals keep their numbers, so that elements and foreign
     /// statements stay right; a copy of a vertex has its position and extra numbers.
     ///
+    /// A file with a record of tears is not repaired.
     /// What is beyond repair, such as a flipped face, is left for [`Document::mesh`] to refuse.
     ///
     /// ```
@@ -67,23 +70,27 @@ impl Document {
     /// ```
     #[must_use]
     pub fn repaired(mut self, repair: Repair) -> Document {
+        if self.record.is_some() {
+            return self; // What would be a bow-tie without its record is none.
+        }
         let Err(mut error) = self.build() else {
             return self;
         };
         if repair == Repair::All {
-            for drops in [Document::on_the_same_vertices, Document::superfluous] {
-                let dropped = drops(&self, error.defects());
+            for choose in [Document::on_the_same_vertices, Document::superfluous] {
+                let dropped = choose(&self, &error);
                 if dropped.is_empty() {
                     continue;
                 }
-                self.drop_triangles(&dropped, error.defects());
+                drop(error);
+                self.drop_triangles(dropped);
                 match self.build() {
                     Ok(_) => return self,
                     Err(left) => error = left,
                 }
             }
         }
-        self.separate_fans(error.defects());
+        self.separate_fans(&error);
         self
     }
 
@@ -92,74 +99,87 @@ impl Document {
     }
 
     /// All triangles but the first on the same three vertices.
-    fn on_the_same_vertices(&self, defects: &[Defect]) -> Vec<Drop> {
-        let mut dropped = Vec::new();
-        for (number, defect) in defects.iter().enumerate() {
-            let faces = match defect {
-                Defect::DuplicateFaces { faces, .. } => &faces[..],
-                Defect::Pillow { faces, .. } => &faces[..],
-                _ => continue,
-            };
-            dropped.reserve(faces.len() - 1);
-            dropped.extend(faces[1..].iter().map(|&face| Drop {
-                face,
-                kept: faces[0],
-                defect: number as u32,
-            }));
+    fn on_the_same_vertices(&self, error: &BuildError) -> Dropped {
+        let mut dropped = Dropped::none(self.triangles().len());
+        for defect in error.defects() {
+            match defect {
+                Defect::DuplicateFaces { faces, .. } => {
+                    let kept = faces.first();
+                    for face in faces.iter().skip(1) {
+                        dropped.add(Drop {
+                            face,
+                            kept,
+                            reason: Reason::Duplicate,
+                        });
+                    }
+                }
+                Defect::Pillow {
+                    faces: [kept, face],
+                    ..
+                } => dropped.add(Drop {
+                    face,
+                    kept,
+                    reason: Reason::Pillow,
+                }),
+                _ => {}
+            }
         }
-        dropped.sort_unstable_by_key(|drop| drop.face);
         dropped
     }
 
     /// The triangles for which a crowded edge has no room.
-    fn superfluous(&self, defects: &[Defect]) -> Vec<Drop> {
-        let mut claims = Vec::new();
-        for (number, defect) in defects.iter().enumerate() {
-            if let Defect::CrowdedEdge { faces, .. } = defect {
-                claims.extend(faces.iter().map(|&face| (face, number)));
+    fn superfluous(&self, error: &BuildError) -> Dropped {
+        // Crowded edges, ascending, each with the face that stays for each direction.
+        let mut edges = Vec::new();
+        for defect in error.defects() {
+            if let Defect::CrowdedEdge { ends, .. } = defect {
+                push(&mut edges, (ends.map(u32::from), [None::<FaceId>; 2]));
             }
         }
-        claims.sort_unstable();
-        // The face that stays on each crowded edge, for each direction.
-        let mut taken: Vec<[Option<FaceId>; 2]> = vec![[None; 2]; defects.len()];
-        let mut dropped = Vec::new();
-        for of_face in claims.chunk_by(|(a, _), (b, _)| a == b) {
-            let face = of_face[0].0;
-            let place = |number: usize| {
-                let Defect::CrowdedEdge { ends, .. } = defects[number] else {
-                    unreachable!("only crowded edges are claimed");
-                };
-                (ends, usize::from(self.runs_along(face, ends)))
-            };
-            let earlier = of_face.iter().find_map(|&(_, number)| {
-                let (_, direction) = place(number);
-                Some((number, taken[number][direction]?))
+        let mut dropped = Dropped::none(self.triangles().len());
+        if edges.is_empty() {
+            return dropped;
+        }
+        for (f, &[a, b, c]) in self.triangles().iter().enumerate() {
+            let face = FaceId::new(f).expect("I1: every face has an id");
+            // In the order of the edges, so that the first of them is named.
+            let mut crowded = [(a, b), (b, c), (c, a)].map(|(from, to)| {
+                let ends = [from.min(to), from.max(to)];
+                let edge = edges.binary_search_by_key(&ends, |&(ends, _)| ends);
+                (edge.ok(), usize::from(from < to))
             });
-            if let Some((number, kept)) = earlier {
-                let defect = number as u32;
-                dropped.push(Drop { face, kept, defect });
-                continue;
-            }
-            for &(_, number) in of_face {
-                let (_, direction) = place(number);
-                taken[number][direction] = Some(face);
+            crowded.sort_unstable();
+            let crowded = crowded
+                .into_iter()
+                .filter_map(|(edge, direction)| Some((edge?, direction)));
+            let earlier = crowded.clone().find_map(|(edge, direction)| {
+                let (ends, taken) = edges[edge];
+                Some((taken[direction]?, ends))
+            });
+            if let Some((kept, ends)) = earlier {
+                let reason = Reason::Edge(ends);
+                dropped.add(Drop { face, kept, reason });
+            } else {
+                for (edge, direction) in crowded {
+                    edges[edge].1[direction] = Some(face);
+                }
             }
         }
         dropped
     }
 
-    /// Whether a triangle runs from the first of two vertices to the second, and not back.
-    fn runs_along(&self, face: FaceId, [from, to]: [VertexId; 2]) -> bool {
-        let [a, b, c] = self.triangles()[face.index()].map(|v| v as usize);
-        [(a, b), (b, c), (c, a)].contains(&(from.index(), to.index()))
-    }
-
-    /// Drops triangles, which are in ascending order, and says so.
-    fn drop_triangles(&mut self, dropped: &[Drop], defects: &[Defect]) {
-        self.report_drops(dropped, defects);
-        let mut gone = dropped.iter().map(|drop| drop.face.index()).peekable();
+    /// Drops triangles, and says so.
+    fn drop_triangles(&mut self, dropped: Dropped) {
+        self.report_drops(&dropped);
+        let gone = dropped.gone;
         let mut polygons = Polygons::default();
-        let mut triangulation = Triangulation::default();
+        // Cut in place: the memory for two of them may not be there.
+        let mut triangulation = self.triangulation.take();
+        let mut keep = |triangle, kept, alone| match &mut triangulation {
+            Some(triangulation) => triangulation.keep(triangle, kept, alone),
+            None => [0, 1, 2],
+        };
+        let mut kept = 0;
         let mut layout = Layout::default();
         let mut polygon = 0;
         for &run in self.layout.runs() {
@@ -169,46 +189,38 @@ impl Document {
             }
             for line in run.lines() {
                 let triangles = self.polygons.triangles(polygon);
-                if gone.peek().is_none_or(|&first| first >= triangles.end) {
-                    let corners = self.polygons.corners(polygon);
+                let corners = self.polygons.corners(polygon);
+                if !gone[triangles.clone()].contains(&true) {
                     polygons.add(corners.map(|corner| self.polygons.corner(corner)));
                     for triangle in triangles {
-                        let corners = self.triangulation.as_ref().map(|all| all.corners(triangle));
-                        let vertices = self.triangles()[triangle];
-                        triangulation.add(vertices, corners.unwrap_or([0, 1, 2]));
+                        keep(triangle, kept, false);
+                        kept += 1;
                     }
                     layout.push(Kind::Polygon, line);
                 } else {
-                    for triangle in triangles {
-                        if gone.next_if_eq(&triangle).is_some() {
-                            continue;
-                        }
-                        let corner = |corner| {
-                            let of_polygon = self.corner_of_polygon(triangle, corner, polygon);
-                            self.polygons.corner(of_polygon)
-                        };
-                        polygons.add([0, 1, 2].map(corner).into_iter());
-                        triangulation.add(self.triangles()[triangle], [0, 1, 2]);
+                    for triangle in triangles.filter(|&triangle| !gone[triangle]) {
+                        let of_polygon = keep(triangle, kept, true);
+                        kept += 1;
+                        let corner =
+                            |corner| self.polygons.corner(corners.start + usize::from(corner));
+                        polygons.add(of_polygon.map(corner).into_iter());
                         layout.push(Kind::Polygon, line);
                     }
                 }
                 polygon += 1;
             }
         }
-        self.triangulation = (!polygons.all_triangles()).then_some(triangulation);
+        self.triangulation = triangulation.filter(|_| !polygons.all_triangles());
+        if let Some(triangulation) = &mut self.triangulation {
+            triangulation.truncate(kept);
+        }
         self.polygons = polygons;
         self.layout = layout;
     }
 
-    fn report_drops(&mut self, dropped: &[Drop], defects: &[Defect]) {
-        for code in [
-            "W-OBJ-REPAIR-DUPLICATE",
-            "W-OBJ-REPAIR-PILLOW",
-            "W-OBJ-REPAIR-EDGE",
-        ] {
-            let because = |drop: &Drop| reason(&defects[drop.defect as usize]);
-            let mut of_code = dropped.iter().filter(|drop| because(drop).0 == code);
-            for drop in of_code.by_ref().take(REPORTED) {
+    fn report_drops(&mut self, dropped: &Dropped) {
+        for Named { count, first } in &dropped.named {
+            for drop in first.values().take(REPORTED) {
                 let line = self.line_of_triangle(drop.face.index());
                 let polygon = self.polygon_of(drop.face.index());
                 let what = match self.polygons.corners(polygon).len() {
@@ -216,25 +228,26 @@ impl Document {
                     _ => "a triangle of this face",
                 };
                 let kept = self.line_of_triangle(drop.kept.index());
-                let (_, why, place) = because(drop);
+                let (code, why, place) = drop.reason.words();
                 let message = format!("{what} is dropped: it {why} one on line {kept}{place}");
                 self.diagnostics.push(warning(code, line, message));
             }
-            if let Some(next) = of_code.next() {
+            if let Some(next) = first.values().nth(REPORTED) {
                 let line = self.line_of_triangle(next.face.index());
-                let more = 1 + of_code.count();
+                let more = count - REPORTED;
                 let message = format!("and {more} more faces are dropped (the first here)");
+                let (code, ..) = next.reason.words();
                 self.diagnostics.push(warning(code, line, message));
             }
         }
     }
 
     /// Gives a vertex to each fan of a bow-tie but the first, and says so.
-    fn separate_fans(&mut self, defects: &[Defect]) {
-        let bow_ties: Vec<(VertexId, &[Vec<FaceId>])> = defects
-            .iter()
+    fn separate_fans(&mut self, error: &BuildError) {
+        let bow_ties: Vec<(VertexId, Fans<'_>)> = error
+            .defects()
             .filter_map(|defect| match defect {
-                Defect::BowTie { vertex, fans } => Some((*vertex, &fans[..])),
+                Defect::BowTie { vertex, fans } => Some((vertex, fans)),
                 _ => None,
             })
             .collect();
@@ -243,23 +256,25 @@ impl Document {
             return; // Too many vertices for a mesh: it stays refused.
         }
         self.report_fans(&bow_ties);
+        let vertices: Vec<usize> = bow_ties.iter().map(|(vertex, _)| vertex.index()).collect();
+        let said = Said::in_document(self, &vertices);
         let lines = self.lines_of(bow_ties.iter().map(|(vertex, _)| vertex.index()));
         let mut added = Vec::with_capacity(copies);
         for (&(vertex, fans), &line) in bow_ties.iter().zip(&lines) {
-            for fan in &fans[1..] {
+            for fan in fans.iter().skip(1) {
                 let copy = self.positions.len();
                 self.positions.push(self.positions[vertex.index()]);
                 let extra = self.extras.row(vertex.index()).to_vec();
                 if !extra.is_empty() {
                     self.extras.set(copy, &extra);
                 }
-                for face in fan {
+                for face in fan.iter() {
                     self.move_corner(face.index(), vertex.index() as u32, copy as u32);
                 }
-                added.push(line);
+                added.push((line, vertex.index()));
             }
         }
-        self.lay_out_vertices(&added);
+        self.lay_out_vertices(&added, &said);
     }
 
     /// Puts another vertex in the place of one of a triangle's.
@@ -290,50 +305,68 @@ impl Document {
             .collect()
     }
 
-    /// Makes room in the layout for new vertices, each on the line of the one it copies: behind
-    /// the last vertex and the foreign statements attached to it, where a split's would be.
-    fn lay_out_vertices(&mut self, added: &[u32]) {
+    /// Makes room in the layout for new vertices, each given by the line and the number of the one
+    /// it copies, and copies what is said of that: behind the last vertex and what is
+    /// attached to it, where a split's would be.
+    fn lay_out_vertices(&mut self, added: &[(u32, usize)], said: &Said) {
         let runs = self.layout.runs();
         let last = runs
             .iter()
             .rposition(|run| run.kind == Kind::Vertex)
             .expect("a bow-tie is a vertex");
+        // Whole runs before the new vertices, and a part of the text behind them.
+        let before = said.late.map_or(last + 1, |late| late + 1);
+        let length = |runs: &[Run]| -> usize {
+            let text = runs.iter().filter(|run| run.kind == Kind::Text);
+            text.map(|run| run.count as usize).sum()
+        };
+        let mut text_before = length(&runs[..before]);
         let mut layout = Layout::default();
-        let mut text = &self.text[..];
-        for &run in &runs[..=last] {
+        for &run in &runs[..before] {
             layout.append(run);
-            if run.kind == Kind::Text {
-                text = &text[run.count as usize..];
+        }
+        let mut rest = &runs[before..];
+        let mut behind = None;
+        if let [run, more @ ..] = rest
+            && run.kind == Kind::Text
+            && said.late.is_none()
+        {
+            let attached = attached_length(&self.text[text_before..][..run.count as usize]);
+            layout.append_text(attached, *run);
+            text_before += attached;
+            behind = Some((run.count as usize - attached, *run));
+            rest = more;
+        }
+        let mut copies = Vec::new();
+        for &(line, vertex) in added {
+            layout.push(Kind::Vertex, line);
+            let statements = said.of(vertex);
+            if !statements.is_empty() {
+                extend(&mut copies, statements);
+                layout.push_text(statements.len(), line);
             }
         }
-        let mut rest = &runs[last + 1..];
-        if let [run, behind @ ..] = rest
-            && run.kind == Kind::Text
-        {
-            let attached = attached_length(&text[..run.count as usize]);
-            layout.append_text(attached, *run);
-            layout.add_vertices(added);
-            layout.append_text(run.count as usize - attached, *run);
-            rest = behind;
-        } else {
-            layout.add_vertices(added);
+        if let Some((bytes, run)) = behind {
+            layout.append_text(bytes, run);
         }
         for &run in rest {
             layout.append(run);
         }
+        self.text.splice(text_before..text_before, copies);
         self.layout = layout;
     }
 
-    fn report_fans(&mut self, bow_ties: &[(VertexId, &[Vec<FaceId>])]) {
+    fn report_fans(&mut self, bow_ties: &[(VertexId, Fans<'_>)]) {
         const CODE: &str = "W-OBJ-REPAIR-BOWTIE";
         let mut copy = self.positions.len();
         for (vertex, fans) in bow_ties.iter().take(REPORTED) {
-            let new: Vec<String> = fans[1..]
+            let new: Vec<String> = fans
                 .iter()
+                .skip(1)
                 .take(20)
                 .map(|fan| {
                     copy += 1;
-                    let line = self.line_of_triangle(fan[0].index());
+                    let line = self.line_of_triangle(fan.first().index());
                     format!("the fan on line {line} gets the new vertex {copy}")
                 })
                 .collect();
@@ -359,38 +392,91 @@ impl Document {
     }
 }
 
+/// Triangles to drop.
+struct Dropped {
+    /// A mark for each triangle.
+    gone: Vec<bool>,
+    /// Those that are reported, by reason.
+    named: [Named; 3],
+}
+
+/// Triangles that are dropped for one reason: how many, and the first of them, as many as are
+/// reported and one more.
+#[derive(Default)]
+struct Named {
+    count: usize,
+    first: BTreeMap<FaceId, Drop>,
+}
+
 /// A triangle to drop.
 struct Drop {
     face: FaceId,
     /// The one that stays in its place.
     kept: FaceId,
-    /// Why, among the defects.
-    defect: u32,
+    reason: Reason,
 }
 
-/// The code for a face that is dropped on account of a defect, what it has to do with the one
-/// that stays, and where.
-fn reason(defect: &Defect) -> (&'static str, &'static str, String) {
-    match defect {
-        Defect::Pillow { .. } => (
-            "W-OBJ-REPAIR-PILLOW",
-            "lies back to back with",
-            String::new(),
-        ),
-        Defect::CrowdedEdge { ends: [a, b], .. } => (
-            "W-OBJ-REPAIR-EDGE",
-            "runs the same way as",
-            format!(
-                " along the crowded edge {}-{}",
-                a.index() + 1,
-                b.index() + 1
+/// Why a triangle is dropped.
+#[derive(Clone, Copy)]
+enum Reason {
+    Duplicate,
+    Pillow,
+    /// The crowded edge, by its ends.
+    Edge([u32; 2]),
+}
+
+impl Dropped {
+    fn none(triangles: usize) -> Dropped {
+        Dropped {
+            gone: vec![false; triangles],
+            named: Default::default(),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.named.iter().all(|named| named.count == 0)
+    }
+
+    /// Adds a triangle; they may come in any order.
+    fn add(&mut self, drop: Drop) {
+        self.gone[drop.face.index()] = true;
+        let named = match drop.reason {
+            Reason::Duplicate => &mut self.named[0],
+            Reason::Pillow => &mut self.named[1],
+            Reason::Edge(_) => &mut self.named[2],
+        };
+        named.count += 1;
+        named.first.insert(drop.face, drop);
+        if named.first.len() > REPORTED + 1 {
+            named.first.pop_last();
+        }
+    }
+}
+
+impl Reason {
+    /// Its code, what the triangle has to do with the one that stays, and where.
+    fn words(self) -> (&'static str, &'static str, String) {
+        match self {
+            Reason::Duplicate => (
+                "W-OBJ-REPAIR-DUPLICATE",
+                "has the same vertices as",
+                String::new(),
             ),
-        ),
-        _ => (
-            "W-OBJ-REPAIR-DUPLICATE",
-            "has the same vertices as",
-            String::new(),
-        ),
+            Reason::Pillow => (
+                "W-OBJ-REPAIR-PILLOW",
+                "lies back to back with",
+                String::new(),
+            ),
+            Reason::Edge([a, b]) => (
+                "W-OBJ-REPAIR-EDGE",
+                "runs the same way as",
+                format!(
+                    " along the crowded edge {}-{}",
+                    u64::from(a) + 1,
+                    u64::from(b) + 1
+                ),
+            ),
+        }
     }
 }
 

@@ -15,6 +15,7 @@ pub(crate) fn push<T>(list: &mut Vec<T>, value: T) {
 }
 
 /// Appends values, growing as [`push`] does.
+#[inline]
 pub(crate) fn extend<T: Copy>(list: &mut Vec<T>, values: &[T]) {
     if list.capacity() - list.len() < values.len() {
         grow(list, values.len());
@@ -62,6 +63,15 @@ impl Rows {
         &self.values[start as usize..end as usize]
     }
 
+    /// Drops all rows from this one on.
+    pub(crate) fn truncate(&mut self, rows: usize) {
+        if rows < self.ends.len() {
+            self.ends.truncate(rows);
+            let end = self.ends.last().map_or(0, |&end| end as usize);
+            self.values.truncate(end);
+        }
+    }
+
     /// The number of rows, up to the last that was set.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()
@@ -94,10 +104,16 @@ impl Column {
     /// Gives the corner `index`, which comes after all that have one, an index.
     #[inline]
     pub(crate) fn set(&mut self, index: usize, value: u32) {
-        while self.values.len() < index {
+        self.set_all(index, &[value]);
+    }
+
+    /// Gives the corners from `first` on, which come after all that have one, an index each.
+    #[inline]
+    pub(crate) fn set_all(&mut self, first: usize, values: &[u32]) {
+        while self.values.len() < first {
             push(&mut self.values, Self::NONE);
         }
-        push(&mut self.values, value);
+        extend(&mut self.values, values);
     }
 
     #[inline]
@@ -122,7 +138,7 @@ pub(crate) enum Kind {
     Texture,
     /// `vn`
     Normal,
-    /// `f`
+    /// `f`, or `fo` as it was called once
     Polygon,
     /// Anything else, kept as bytes: whole lines, each with `\n` at its end.
     Text,
@@ -219,11 +235,47 @@ impl Layout {
         }
     }
 
-    /// Adds a vertex for each of these lines.
-    pub(crate) fn add_vertices(&mut self, lines: &[u32]) {
-        for &line in lines {
-            self.push(Kind::Vertex, line);
+    /// Drops the last vertices, and for each text run behind one the statements in it that do
+    /// not pass: what was said of a vertex goes with it.
+    pub(crate) fn drop_last_vertices(
+        &mut self,
+        count: usize,
+        text: &mut Vec<u8>,
+        passes: impl Fn(&[u8]) -> Vec<u8>,
+    ) {
+        if count == 0 {
+            return;
         }
+        let vertices = |run: &Run| match run.kind {
+            Kind::Vertex => run.count as usize,
+            _ => 0,
+        };
+        let stay = self.runs.iter().map(vertices).sum::<usize>() - count;
+        let (mut seen, mut at) = (0, 0);
+        let mut kept = Vec::with_capacity(text.len());
+        for run in &mut self.runs {
+            match run.kind {
+                Kind::Vertex => {
+                    let left = stay.saturating_sub(seen).min(run.count as usize);
+                    seen += run.count as usize;
+                    run.count = left as u32;
+                }
+                Kind::Text => {
+                    let lines = &text[at..at + run.count as usize];
+                    at += lines.len();
+                    let before = kept.len();
+                    if seen > stay {
+                        kept.extend(passes(lines));
+                    } else {
+                        kept.extend_from_slice(lines);
+                    }
+                    run.count = (kept.len() - before) as u32;
+                }
+                _ => {}
+            }
+        }
+        *text = kept;
+        self.runs.retain(|run| run.count > 0);
     }
 
     pub(crate) fn runs(&self) -> &[Run] {

@@ -17,7 +17,6 @@ mod flip;
 use tearmesh::Point;
 
 use crate::document::Polygons;
-use crate::store::push;
 
 /// The triangles of all polygons, where not all are triangles.
 #[derive(Clone, Debug, Default)]
@@ -36,11 +35,18 @@ impl Triangulation {
         for polygon in 0..polygons.len() {
             let vertices = &polygons.vertices[polygons.corners(polygon)];
             let first = corners.len();
-            if vertices.len() > 3 {
-                flatten(vertices, positions, &mut flat);
-                cut_into_triangles(&flat, &mut corners);
-            } else {
-                corners.push([0, 1, 2]);
+            match *vertices {
+                [_, _, _] => corners.push([0, 1, 2]),
+                // What is done for all, on four numbers instead of a list.
+                [a, b, c, d] => {
+                    let places = [a, b, c, d].map(|vertex| positions[vertex as usize]);
+                    let axes = axes(places.into_iter());
+                    cut_into_triangles(&places.map(|place| seen(place, axes)), &mut corners);
+                }
+                _ => {
+                    flatten(vertices, positions, &mut flat);
+                    cut_into_triangles(&flat, &mut corners);
+                }
             }
             let vertex = |corner| vertices[usize::from(corner)];
             triangles.extend(corners[first..].iter().map(|triangle| triangle.map(vertex)));
@@ -59,10 +65,19 @@ impl Triangulation {
         &self.triangles
     }
 
-    /// Appends a triangle: its vertices, and which corners of its polygon it has.
-    pub(crate) fn add(&mut self, vertices: [u32; 3], corners: [u16; 3]) {
-        push(&mut self.triangles, vertices);
-        push(&mut self.corners, corners);
+    /// Moves a triangle to an earlier place, as a polygon of its own if it stands `alone`; the
+    /// corners of its polygon that it had.
+    pub(crate) fn keep(&mut self, triangle: usize, place: usize, alone: bool) -> [u16; 3] {
+        let corners = self.corners[triangle];
+        self.triangles[place] = self.triangles[triangle];
+        self.corners[place] = if alone { [0, 1, 2] } else { corners };
+        corners
+    }
+
+    /// Drops all triangles from a place on.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        self.triangles.truncate(count);
+        self.corners.truncate(count);
     }
 
     /// Gives a corner of a triangle another vertex.
@@ -81,16 +96,29 @@ type Flat = [f64; 2];
 
 /// Projects a polygon along an axis so that its area is positive.
 fn flatten(vertices: &[u32], positions: &[Point], flat: &mut Vec<Flat>) {
-    // Seen from the first corner, large coordinates of a small face do not cancel digits.
-    let at = |vertex: u32| positions[vertex as usize];
-    let origin = at(vertices[0]);
+    let places = vertices.iter().map(|&vertex| positions[vertex as usize]);
+    let axes = axes(places.clone());
+    flat.clear();
+    flat.extend(places.map(|place| seen(place, axes)));
+}
+
+/// The coordinates that are kept of a polygon, in the order in which its area is positive.
+#[inline]
+fn axes(mut places: impl Iterator<Item = Point>) -> [usize; 2] {
+    // Seen from the first corner, large coordinates of a small face do not cancel digits, and the
+    // two sides that meet there add nothing.
+    let mut corner = || places.next();
+    let (Some(origin), Some(second)) = (corner(), corner()) else {
+        unreachable!("a polygon has three corners or more");
+    };
     let mut normal = [0.0; 3];
-    for (i, &vertex) in vertices.iter().enumerate() {
-        let a = at(vertex) - origin;
-        let b = at(vertices[(i + 1) % vertices.len()]) - origin;
+    let mut a = second - origin;
+    for place in places {
+        let b = place - origin;
         normal[0] += a.y * b.z - a.z * b.y;
         normal[1] += a.z * b.x - a.x * b.z;
         normal[2] += a.x * b.y - a.y * b.x;
+        a = b;
     }
     let [x, y, z] = normal.map(f64::abs);
     let (dropped, kept) = match () {
@@ -98,20 +126,22 @@ fn flatten(vertices: &[u32], positions: &[Point], flat: &mut Vec<Flat>) {
         () if y >= x => (1, [2, 0]),
         () => (0, [1, 2]),
     };
-    let [u, v] = if normal[dropped] < 0.0 {
+    if normal[dropped] < 0.0 {
         [kept[1], kept[0]]
     } else {
         kept
-    };
-    flat.clear();
-    flat.extend(
-        vertices
-            .iter()
-            .map(|&vertex| [at(vertex)[u], at(vertex)[v]]),
-    );
+    }
+}
+
+/// A point without the coordinate that is dropped.
+#[inline]
+fn seen(place: Point, axes: [usize; 2]) -> Flat {
+    let place = [place.x, place.y, place.z];
+    axes.map(|axis| place[axis])
 }
 
 /// Appends n − 2 triangles of a polygon of n ≥ 3 points.
+#[inline]
 fn cut_into_triangles(flat: &[Flat], triangles: &mut Vec<[u16; 3]>) {
     let fan = (1..flat.len() - 1).map(|i| [0, i as u16, i as u16 + 1]);
     if fan

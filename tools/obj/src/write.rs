@@ -2,7 +2,8 @@
 //!
 //! **Order.** Statements come in the order of the document, and polygons as their triangles.
 //! The vertices of the mesh keep their numbers: the document's own come first, then those that
-//! splits added. The new ones follow the last `v` of the document. Where a face needs a vertex
+//! splits added. The new ones follow the last `v` of the document and what is said of it, each with
+//! a copy of what `ARCSim` says of the vertex that it was split from (`said.rs`). Where a face needs a vertex
 //! before that (a file of several objects has `v` after `f`), the statements it needs are moved
 //! up to just before it, each with the foreign statements attached to it (`nv` of `ARCSim`). So no face
 //! precedes its vertices, and no number changes.
@@ -10,24 +11,31 @@
 //! **Bow-ties.** A split may leave a vertex with several fans (the tip of a finite cut).
 //! Other programs, and our own [`Document::mesh`], would take such a vertex for a
 //! defect, so it is written as several `v`, one a fan: the fan with the smallest half-edge keeps
-//! the number, the others follow all vertices of the mesh.
+//! the number (by the order of the file), the others follow all vertices of the mesh.
+//!
+//! **The record** (`record.rs`) is the end of the file.
 //!
 //! **Bytes.** Line ends are `\n`; numbers have the shortest digits that read back
 //! as the same bits; everything else keeps its bytes. Reading what was written, and
 //! writing it again, gives the same bytes.
 
 mod number;
+mod prepare;
+mod record;
 mod separate;
 
 use std::io::{self, Write};
 
-use tearmesh::{Mesh, Positions, VertexId};
+use tearmesh::{Mesh, Positions};
 
 use self::number::{write_integer, write_number};
-use self::separate::Separated;
+pub(crate) use self::prepare::Prepared;
 use crate::document::Document;
 use crate::read::attached_length;
+use crate::record::Hash;
+use crate::said;
 use crate::store::{Kind, Run};
+use crate::torn::TornDocument;
 
 /// How many bytes are handed to the output at once.
 const CHUNK: usize = 64 << 10;
@@ -45,9 +53,12 @@ pub struct WriteSummary {
 }
 
 impl Document {
-    /// Writes the document with the faces of `mesh`, its vertices at `positions`.
+    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it is
+    /// torn with a record of that at the end.
     ///
-    /// The mesh is that of [`Document::mesh`], after any number of splits.
+    /// The mesh is that of [`Document::mesh`], after any number of splits, all of which go on
+    /// record as one cut. Insertions, merges, and cuts that are to be undone one by one need a
+    /// [`TornDocument`].
     ///
     /// # Errors
     ///
@@ -72,46 +83,54 @@ impl Document {
             mesh.vertex_count() >= self.positions.len(),
             "a split never drops a vertex"
         );
-        assert_eq!(
-            positions.len(),
-            mesh.vertex_count(),
-            "every vertex has a position"
-        );
-        let separated = Separated::new(mesh);
-        let summary = WriteSummary {
-            vertices: mesh.vertex_count() + separated.copies.len(),
-            faces: mesh.face_count(),
-            separated: separated.copies.len(),
-        };
-        Writer {
-            document: self,
-            mesh,
-            positions,
-            separated,
-            vertices: Stream::new(Kind::Vertex),
-            texture: Stream::new(Kind::Texture),
-            normals: Stream::new(Kind::Normal),
-            added: false,
-            out: Output {
-                sink: out,
-                pending: Vec::with_capacity(CHUNK + 4096),
-            },
-        }
-        .write()?;
-        Ok(summary)
+        TornDocument::after_splits(self, mesh).write(mesh, positions, out)
     }
+}
+
+/// Writes what was prepared.
+pub(crate) fn write(
+    torn: &TornDocument<'_>,
+    prepared: &Prepared<'_>,
+    positions: &Positions,
+    out: &mut impl Write,
+) -> io::Result<WriteSummary> {
+    let vertices = prepared.vertices.count();
+    let writer = Writer {
+        document: torn.document(),
+        torn,
+        prepared,
+        positions,
+        vertices: Stream::new(Kind::Vertex),
+        texture: Stream::new(Kind::Texture),
+        normals: Stream::new(Kind::Normal),
+        added: [false; 3],
+        hash: Hash::of_faces(vertices),
+        out: Output {
+            sink: out,
+            pending: Vec::with_capacity(CHUNK + 4096),
+        },
+    };
+    writer.write()?;
+    Ok(WriteSummary {
+        vertices,
+        faces: prepared.face_count(),
+        separated: prepared.fans().count(),
+    })
 }
 
 struct Writer<'d, W> {
     document: &'d Document,
-    mesh: &'d Mesh,
+    torn: &'d TornDocument<'d>,
+    prepared: &'d Prepared<'d>,
     positions: &'d Positions,
-    separated: Separated<'d>,
     vertices: Stream,
     texture: Stream,
     normals: Stream,
-    /// Whether the vertices that the document has not were written.
-    added: bool,
+    /// Whether the vertices, texture coordinates and normals that the document has not
+    /// were written.
+    added: [bool; 3],
+    /// That of the faces written so far.
+    hash: Hash,
     out: Output<'d, W>,
 }
 
@@ -197,70 +216,111 @@ impl<W: Write> Writer<'_, W> {
                         .map_or(0, |before| attached_to(runs[before], lines));
                     self.out.text(&lines[written..])?;
                     text = rest;
+                    if self.prepared.said.late == Some(i) {
+                        self.write_added()?;
+                    }
                 }
             }
         }
+        self.write_record()?;
         self.out.flush()
     }
 
     /// Writes vertices of the document, with what is attached to them, so that `count`
     /// are written; after the last one, the vertices that the document has not.
     fn write_vertices(&mut self, count: usize) -> io::Result<()> {
-        let document = self.document;
+        let (document, prepared) = (self.document, self.prepared);
         let runs = document.layout.runs();
         while let Some((range, completes_run)) = self.vertices.advance(runs, count) {
-            for vertex in range {
+            // Of a mended mesh the last vertices of the document are gone.
+            for vertex in range.start..range.end.min(prepared.mesh_vertices) {
                 self.write_vertex(vertex)?;
             }
             if completes_run {
-                self.write_attached(self.vertices)?;
+                let last = range.end - 1;
+                let is_gone = last >= prepared.mesh_vertices || !prepared.vertices.has(last);
+                self.write_attached(self.vertices, is_gone)?;
             }
         }
-        if self.vertices.written == document.positions.len() && !self.added {
-            self.added = true;
-            for vertex in document.positions.len()..self.mesh.vertex_count() {
-                self.write_vertex(vertex)?;
-            }
-            for copy in 0..self.separated.copies.len() {
-                let vertex = self.separated.copies[copy].index();
-                self.write_vertex(vertex)?;
+        if self.prepared.said.late.is_none() {
+            self.write_added()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the vertices that the document has not, if all that it has are written.
+    fn write_added(&mut self) -> io::Result<()> {
+        let of_document = self.document.positions.len();
+        let prepared = self.prepared;
+        if self.vertices.written < of_document || self.added[0] {
+            return Ok(());
+        }
+        self.added[0] = true;
+        let all = prepared.mesh_vertices + prepared.separated.copies.len();
+        for index in of_document.min(prepared.mesh_vertices)..all {
+            self.write_vertex(index)?;
+            if let Some(origin) = prepared
+                .origin(index)
+                .filter(|_| prepared.vertices.has(index))
+            {
+                self.out.text(prepared.said.of(origin))?;
             }
         }
         Ok(())
     }
 
+    /// The same for texture coordinates.
     fn write_texture(&mut self, count: usize) -> io::Result<()> {
-        while let Some((range, completes_run)) =
-            self.texture.advance(self.document.layout.runs(), count)
+        let (document, prepared) = (self.document, self.prepared);
+        while let Some((range, completes_run)) = self.texture.advance(document.layout.runs(), count)
         {
-            for index in range {
+            for index in range.filter(|&index| prepared.texture.has(index)) {
                 self.out
-                    .statement(b"vt", self.document.texture.row(index), &[])?;
+                    .statement(b"vt", document.texture.row(index), &[])?;
             }
             if completes_run {
-                self.write_attached(self.texture)?;
+                self.write_attached(self.texture, false)?;
+            }
+        }
+        let of_document = document.texture.len();
+        if self.texture.written == of_document && !self.added[1] {
+            self.added[1] = true;
+            if let Some(rows) = self.torn.new_texture() {
+                for new in (0..rows.len()).filter(|new| prepared.texture.has(of_document + new)) {
+                    self.out.statement(b"vt", rows.row(new), &[])?;
+                }
             }
         }
         Ok(())
     }
 
+    /// The same for normals.
     fn write_normals(&mut self, count: usize) -> io::Result<()> {
-        while let Some((range, completes_run)) =
-            self.normals.advance(self.document.layout.runs(), count)
+        let (document, prepared) = (self.document, self.prepared);
+        while let Some((range, completes_run)) = self.normals.advance(document.layout.runs(), count)
         {
-            for index in range {
-                self.out
-                    .statement(b"vn", &self.document.normals[index], &[])?;
+            for index in range.filter(|&index| prepared.normals.has(index)) {
+                self.out.statement(b"vn", &document.normals[index], &[])?;
             }
             if completes_run {
-                self.write_attached(self.normals)?;
+                self.write_attached(self.normals, false)?;
+            }
+        }
+        let of_document = document.normals.len();
+        if self.normals.written == of_document && !self.added[2] {
+            self.added[2] = true;
+            for (new, normal) in self.torn.new_normals().iter().enumerate() {
+                if prepared.normals.has(of_document + new) {
+                    self.out.statement(b"vn", normal, &[])?;
+                }
             }
         }
         Ok(())
     }
 
-    /// Writes the foreign statements directly after the run that a stream has completed.
-    fn write_attached(&mut self, stream: Stream) -> io::Result<()> {
+    /// Writes the foreign statements directly after the run that a stream has completed. What is
+    /// said of a vertex goes with it.
+    fn write_attached(&mut self, stream: Stream, is_gone: bool) -> io::Result<()> {
         let runs = self.document.layout.runs();
         let Some(&Run {
             kind: Kind::Text,
@@ -271,74 +331,93 @@ impl<W: Write> Writer<'_, W> {
             return Ok(());
         };
         let lines = &self.document.text[stream.text_before..][..count as usize];
-        let attached = attached_to(runs[stream.run], lines);
-        self.out.text(&lines[..attached])
+        let lines = &lines[..attached_to(runs[stream.run], lines)];
+        if is_gone {
+            self.out.text(&said::left_without_vertex(lines))
+        } else {
+            self.out.text(lines)
+        }
     }
 
     fn write_polygon(&mut self, polygon: usize) -> io::Result<()> {
-        let document = self.document;
-        for corner in document
-            .polygons
-            .corners(polygon)
-            .map(|i| document.polygons.corner(i))
-        {
-            if let Some(texture) = corner.texture {
-                self.write_texture(texture as usize + 1)?;
+        let (document, prepared, torn) = (self.document, self.prepared, self.torn);
+        let faces = prepared.slots.of(document.polygons.triangles(polygon));
+        let faces = &prepared.slots.faces[faces];
+        if torn.is_undivided() && prepared.removes_nothing() {
+            for corner in document.polygons.corners(polygon) {
+                let corner = document.polygons.corner(corner);
+                self.write_indices([corner.texture, corner.normal])?;
             }
-            if let Some(normal) = corner.normal {
-                self.write_normals(normal as usize + 1)?;
-            }
-        }
-        for triangle in document.polygons.triangles(polygon) {
-            for corner in 3 * triangle..3 * triangle + 3 {
-                let needed = self.separated.indices[corner] as usize + 1;
-                self.write_vertices(needed.min(document.positions.len()))?;
+        } else {
+            for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
+                self.write_indices(torn.corner_of(h as usize))?;
             }
         }
-        for triangle in document.polygons.triangles(polygon) {
-            self.write_triangle(triangle, polygon)?;
+        let of_document = document.positions.len();
+        for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
+            let vertex = prepared.separated.indices[h as usize] as usize;
+            let needed = if vertex < prepared.mesh_vertices {
+                of_document.min(vertex + 1)
+            } else {
+                of_document
+            };
+            self.write_vertices(needed)?;
+            if vertex >= of_document.min(prepared.mesh_vertices) {
+                self.write_added()?;
+            }
+        }
+        for &face in faces {
+            self.write_triangle(prepared.half_edges(face), polygon)?;
         }
         Ok(())
     }
 
-    fn write_triangle(&mut self, triangle: usize, polygon: usize) -> io::Result<()> {
+    /// Writes texture coordinates and normals as far as a corner needs them.
+    fn write_indices(&mut self, [texture, normal]: [Option<u32>; 2]) -> io::Result<()> {
+        if let Some(texture) = texture {
+            self.write_texture(self.document.texture.len().min(texture as usize + 1))?;
+        }
+        if let Some(normal) = normal {
+            self.write_normals(self.document.normals.len().min(normal as usize + 1))?;
+        }
+        Ok(())
+    }
+
+    fn write_triangle(&mut self, half_edges: [u32; 3], polygon: usize) -> io::Result<()> {
+        let prepared = self.prepared;
         let out = &mut self.out.pending;
         out.push(b'f');
-        for corner in 0..3 {
-            let vertex = self.separated.indices[3 * triangle + corner];
-            let of_polygon = self.document.corner_of_polygon(triangle, corner, polygon);
-            let from = self.document.polygons.corner(of_polygon);
+        for h in half_edges {
+            let vertex = prepared.separated.indices[h as usize];
+            let vertex = prepared.vertices.of(vertex);
+            self.hash.add_corner(vertex);
+            let [texture, normal] = self.torn.corner(h as usize, polygon);
             out.push(b' ');
             write_integer(out, u64::from(vertex) + 1);
-            if from.texture.is_some() || from.normal.is_some() {
+            if texture.is_some() || normal.is_some() {
                 out.push(b'/');
             }
-            if let Some(texture) = from.texture {
-                write_integer(out, u64::from(texture) + 1);
+            if let Some(texture) = texture {
+                write_integer(out, u64::from(prepared.texture.of(texture)) + 1);
             }
-            if let Some(normal) = from.normal {
+            if let Some(normal) = normal {
                 out.push(b'/');
-                write_integer(out, u64::from(normal) + 1);
+                write_integer(out, u64::from(prepared.normals.of(normal)) + 1);
             }
         }
         out.push(b'\n');
         self.out.flush_if_full()
     }
 
-    /// Writes a vertex of the mesh with the extra numbers of the one it was split from.
-    fn write_vertex(&mut self, vertex: usize) -> io::Result<()> {
-        let of_document = if vertex < self.document.positions.len() {
-            vertex
-        } else {
-            let id = VertexId::new(vertex).expect("I1: every vertex has an id");
-            self.mesh.root(id).index()
-        };
+    /// Writes a vertex of the mesh, or a copy of one, unless it is left out.
+    fn write_vertex(&mut self, index: usize) -> io::Result<()> {
+        if !self.prepared.vertices.has(index) {
+            return Ok(());
+        }
+        let vertex = self.prepared.vertex(index);
         let at = self.positions.as_slice()[vertex];
-        self.out.statement(
-            b"v",
-            &[at.x, at.y, at.z],
-            self.document.extras.row(of_document),
-        )
+        let extras = self.torn.extra_numbers(vertex);
+        self.out.statement(b"v", &[at.x, at.y, at.z], extras)
     }
 }
 

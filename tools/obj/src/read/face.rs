@@ -47,7 +47,7 @@ impl Element {
 }
 
 impl Reader {
-    /// Reads what follows the keyword `f`.
+    /// Reads what follows the keyword `f` or `fo`.
     pub(super) fn face(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
         let keyword = *scan;
         let first = self.document.polygons.vertices.len();
@@ -188,7 +188,7 @@ pub(super) fn absolute(
 
 /// The first corner whose vertex an earlier corner has, after that one.
 #[inline]
-fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
+pub(super) fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
     match *corners {
         [a, b, c] if a != b && b != c && c != a => None,
         [a, b, c, d] if a != b && a != c && a != d && b != c && b != d && c != d => None,

@@ -7,7 +7,7 @@ use super::fault::{Fault, Parsed, locate, quoted};
 use super::lines::{Line, logical_line_length};
 use super::scan::Scan;
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location};
-use crate::keyword::{Class, tokens_before_indices};
+use crate::keyword::{Class, is_said_of_vertex, tokens_before_indices};
 use crate::store::{extend, push};
 
 /// The most keywords that are reported by name.
@@ -56,6 +56,13 @@ impl Tally {
                 Class::Element => (
                     "W-OBJ-ELEMENT",
                     format!("{keyword} elements are kept, but never cut ({statements})"),
+                ),
+                _ if is_said_of_vertex(&counted.keyword) => (
+                    "W-OBJ-FOREIGN",
+                    format!(
+                        "{keyword} is not interpreted, and kept with its vertex and the \
+                         copies of that ({statements})"
+                    ),
                 ),
                 _ => (
                     "W-OBJ-FOREIGN",
@@ -120,13 +127,16 @@ impl Counted {
 }
 
 impl Reader {
-    /// Carries a line through that begins with none of `v`, `vt`, `vn` and `f`; the cursor
+    /// Carries a line through that begins with none of `v`, `vt`, `vn`, `f` and `fo`; the cursor
     /// stands at its keyword, if it has one.
     pub(super) fn carry(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
         let start = scan.at;
         let keyword = scan.token();
         if let Some(control) = keyword.iter().position(|byte| byte.is_ascii_control()) {
             return Err(binary(start + control, keyword[control]));
+        }
+        if keyword.is_empty() && self.record.takes(line, start) {
+            return Ok(());
         }
         let class = Class::of(keyword);
         if !keyword.is_empty() && class != Class::Structure {
@@ -191,6 +201,7 @@ impl Reader {
     pub(super) fn carry_comment(&mut self, line: &Line<'_>, scan: &Scan<'_>) -> Parsed<()> {
         match line.bytes.get(scan.at..) {
             None | Some([]) => Ok(()),
+            Some(_) if self.record.takes(line, scan.at) => Ok(()),
             Some(comment) => self
                 .push_text(comment, line.number)
                 .map_err(|fault| fault.after(scan.at)),
@@ -247,4 +258,19 @@ pub(crate) fn attached_length(text: &[u8]) -> usize {
         length += logical_line_length(rest);
     }
     length
+}
+
+/// The statements of a text, each with its keyword (empty for a comment or a blank line) and its
+/// whole lines, each with `\n` at its end.
+pub(crate) fn statements(mut text: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])> {
+    std::iter::from_fn(move || {
+        if text.is_empty() {
+            return None;
+        }
+        let (statement, rest) = text.split_at(logical_line_length(text));
+        text = rest;
+        let mut scan = Scan::new(statement);
+        scan.find_token();
+        Some((scan.token(), statement))
+    })
 }

@@ -63,6 +63,17 @@ impl<R: Read> Lines<R> {
         self.start += count;
     }
 
+    /// What was read from the input and not yet handed out: it begins with a line.
+    pub(super) fn buffered(&self) -> &[u8] {
+        &self.buffer[self.start..self.end]
+    }
+
+    /// Drops so many whole lines, of so many bytes together, from the start of what is buffered.
+    pub(super) fn skip_lines(&mut self, count: u32, bytes: usize) {
+        self.number += count;
+        self.start += bytes;
+    }
+
     /// The number of the line after the last one that was handed out.
     pub(super) fn number(&self) -> u32 {
         self.number

@@ -1,5 +1,6 @@
 //! A cursor over a logical line: blanks, tokens, numbers, indices.
 
+use super::decimal::{digits, nearest};
 use super::fault::{Fault, Parsed, quoted};
 
 /// A cursor over a logical line.
@@ -80,11 +81,8 @@ impl<'l> Scan<'l> {
         end
     }
 
-    /// Reads the number at the cursor, correctly rounded.
-    ///
-    /// Where the digits fit 53 bits and the power of ten is exact (up to 10^22), one
-    /// multiplication or division of two exact numbers is correctly rounded; that is nearly
-    /// every number of a file with six or nine digits. The rest is left to `str::parse`.
+    /// Reads the number at the cursor, correctly rounded. What [`nearest`] does not find is left to
+    /// `str::parse`.
     #[inline]
     pub(super) fn number(&mut self) -> Parsed<f64> {
         let start = self.at;
@@ -120,14 +118,9 @@ impl<'l> Scan<'l> {
             _ if self.at_token_end() => {}
             _ => return Err(self.unreadable(start)),
         }
-        if digits <= 19 && mantissa <= 1 << 53 && exponent.unsigned_abs() <= 22 {
-            let power = POWERS[exponent.unsigned_abs() as usize];
-            let value = mantissa as f64;
-            let value = if exponent < 0 {
-                value / power
-            } else {
-                value * power
-            };
+        if digits <= 19
+            && let Some(value) = nearest(mantissa, exponent)
+        {
             return Ok(if negative { -value } else { value });
         }
         self.number_by_library(start)
@@ -151,17 +144,7 @@ impl<'l> Scan<'l> {
     /// Appends digits to a number, and says how many; the number is right up to 19 of them.
     #[inline]
     fn digits(&mut self, value: &mut u64) -> usize {
-        let mut number = *value;
-        let mut count = 0;
-        for &byte in &self.bytes[self.at..] {
-            let digit = byte.wrapping_sub(b'0');
-            if digit > 9 {
-                break;
-            }
-            number = number.wrapping_mul(10).wrapping_add(u64::from(digit));
-            count += 1;
-        }
-        *value = number;
+        let count = digits(&self.bytes[self.at..], value);
         self.at += count;
         count
     }
@@ -235,12 +218,6 @@ impl<'l> Scan<'l> {
         Some(if negative { -value } else { value })
     }
 }
-
-/// The powers of ten that are exact.
-const POWERS: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
-    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
-];
 
 /// `nan`, `-inf`, `infinity`, `1.#IND` and the like.
 fn is_non_number(token: &[u8]) -> bool {

@@ -15,7 +15,6 @@ use tearmesh::Point;
 
 use super::{Triangulation, doubled_area, flatten};
 use crate::document::Polygons;
-use crate::store::{extend, push};
 
 /// Flips diagonals that collide.
 pub(super) fn flip_colliding(
@@ -92,12 +91,14 @@ fn colliding_polygons(
         };
         start as usize..bucket_ends[a as usize] as usize
     };
-    let mut colliding = Vec::new();
+    // A mark for each: a polygon may collide in many places.
+    let mut colliding = vec![false; polygons.len()];
     for a in 0..vertex_count as u32 {
         let entries = &mut entries[bucket(a)];
         entries.sort_unstable();
         for pair in entries.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            extend(&mut colliding, &[pair[0].1, pair[1].1]);
+            colliding[pair[0].1 as usize] = true;
+            colliding[pair[1].1 as usize] = true;
         }
     }
     // Many sides may meet the same diagonals, which must be visited once all the same.
@@ -111,13 +112,13 @@ fn colliding_polygons(
                 .take_while(|entry| entry.0 == b);
             if same.clone().next().is_some() && !met[first] {
                 met[first] = true;
-                same.for_each(|&(_, polygon)| push(&mut colliding, polygon));
+                same.for_each(|&(_, polygon)| colliding[polygon as usize] = true);
             }
         });
     }
-    colliding.sort_unstable();
-    colliding.dedup();
-    colliding
+    drop((entries, met));
+    let numbers = (0..).zip(&colliding).filter(|&(_, &collides)| collides);
+    numbers.map(|(polygon, _)| polygon).collect()
 }
 
 /// How often each edge occurs whose ends both belong to these polygons: as a side of a
@@ -163,13 +164,18 @@ fn for_each_diagonal(
 ) {
     for polygon in 0..polygons.len() {
         let vertices = &polygons.vertices[polygons.corners(polygon)];
-        if vertices.len() > 3 {
-            let corners = &triangulation.corners[polygons.triangles(polygon)];
-            for [i, j] in diagonals(corners, vertices.len()) {
-                visit(
-                    ends(vertices[usize::from(i)], vertices[usize::from(j)]),
-                    polygon,
-                );
+        if vertices.len() == 3 {
+            continue;
+        }
+        let corners = &triangulation.corners[polygons.triangles(polygon)];
+        match (vertices, corners) {
+            // Nearly all polygons are convex quads.
+            (&[a, _, c, _], [[0, 1, 2], [0, 2, 3]]) => visit(ends(a, c), polygon),
+            _ => {
+                for [i, j] in diagonals(corners, vertices.len()) {
+                    let [a, b] = [i, j].map(|corner| vertices[usize::from(corner)]);
+                    visit(ends(a, b), polygon);
+                }
             }
         }
     }

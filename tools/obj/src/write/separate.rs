@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use tearmesh::{HalfEdgeId, Mesh, VertexId};
 
 /// The faces of a mesh in which no vertex has several fans.
+#[derive(Debug)]
 pub(super) struct Separated<'m> {
     /// The vertex of each corner, three a face.
     pub(super) indices: Cow<'m, [u32]>,
@@ -13,16 +14,23 @@ pub(super) struct Separated<'m> {
 }
 
 impl<'m> Separated<'m> {
+    /// The fans of a vertex are told apart by their first corner in the file, where faces have
+    /// these ranks, or those of their ids.
+    ///
     /// Linear in the half-edges; copies nothing where no vertex has several fans.
-    pub(super) fn new(mesh: &'m Mesh) -> Separated<'m> {
+    pub(super) fn new(mesh: &'m Mesh, rank: Option<&[u32]>) -> Separated<'m> {
+        let place = |h: &HalfEdgeId| {
+            let face = h.face().index();
+            (rank.map_or(face, |rank| rank[face] as usize), h.corner())
+        };
         let mut indices = Cow::Borrowed(mesh.indices());
         let mut copies = Vec::new();
         for vertex in starts_of_tears(mesh) {
             let mut fans: Vec<HalfEdgeId> = mesh
                 .fans(vertex)
-                .filter_map(|h| mesh.fan(h).min())
+                .filter_map(|h| mesh.fan(h).min_by_key(place))
                 .collect();
-            fans.sort();
+            fans.sort_by_key(place);
             for &fan in fans.iter().skip(1) {
                 let copy = mesh.vertex_count() + copies.len();
                 let copy = u32::try_from(copy).expect("I1: there are fewer fans than half-edges");

@@ -1,0 +1,96 @@
+//! Sliding a vertex along an edge.
+//!
+//! A straight cut may move a vertex that is nearly on its plane onto it ([`Scissor::snap_move`]).
+//! The mesh does not change, but everything beside it does: the vertex takes its values with
+//! it along the edge, so a picture on the surface stays where it was, and the rest state of a
+//! cloth stays that of the same piece of cloth. Masses stay: cloth is neither made nor lost.
+//!
+//! [`Scissor::snap_move`]: crate::Scissor::snap_move
+
+use std::fmt;
+
+use crate::edit::{Edits, Slide};
+use crate::id::VertexId;
+use crate::mesh::Mesh;
+
+/// Slides a vertex towards a neighbour by the part `t` of the way.
+///
+/// # Errors
+///
+/// [`Refusal`]; then nothing has changed.
+///
+/// # Panics
+///
+/// If a vertex is none of this mesh.
+///
+/// ```
+/// use tearmesh::{shapes, slide, Edits, VertexId};
+///
+/// let (mesh, mut positions) = shapes::grid(2, 1);
+/// let [v, w] = [0, 1].map(|i| VertexId::new(i).unwrap());
+/// let mut edits = Edits::new();
+/// slide::toward(&mesh, v, w, 0.25, &mut edits)?;
+/// edits.replay(&mut positions);
+/// assert_eq!(positions.at(v).x, 0.125);
+/// # Ok::<(), slide::Refusal>(())
+/// ```
+pub fn toward<'e>(
+    mesh: &Mesh,
+    vertex: VertexId,
+    toward: VertexId,
+    t: f64,
+    edits: &'e mut Edits,
+) -> Result<Slide<'e>, Refusal> {
+    if !(t > 0.0 && t < 1.0) {
+        return Err(Refusal::Parameter { t });
+    }
+    let mut along = [None; 2];
+    for h in mesh.corners_of(vertex) {
+        if mesh.target(h) == toward {
+            along[0] = Some([h, h.next()]);
+        }
+        if mesh.origin(h.prev()) == toward {
+            along[1] = Some([h, h.prev()]);
+        }
+    }
+    if along == [None; 2] {
+        return Err(Refusal::Apart { vertex, toward });
+    }
+    for h in mesh.corners_of(vertex) {
+        edits.note_corner(h);
+    }
+    Ok(edits.finish_slide(vertex, toward, t, along))
+}
+
+/// Why a vertex was not slid. Nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The parameter is not strictly between 0 and 1.
+    Parameter {
+        /// The parameter.
+        t: f64,
+    },
+    /// No edge joins the vertices.
+    Apart {
+        /// The vertex that was to slide.
+        vertex: VertexId,
+        /// The vertex towards which it was to slide.
+        toward: VertexId,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Parameter { t } => {
+                write!(f, "nothing slid: {t} is not between 0 and 1")
+            }
+            Refusal::Apart { vertex, toward } => {
+                write!(f, "{vertex} did not slide: no edge joins it to {toward}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

@@ -1,0 +1,125 @@
+//! The tearing rule: what becomes of an edge that is stretched too far.
+//!
+//! "Whenever the stretching of an edge reaches a specified threshold value, we select one of the
+//! edge's adjacent vertices to be split. If both vertices can be split, we choose the one with the
+//! highest mass value. If the overstretched edge is formed by the vertices A and B and A is the
+//! vertex chosen to be split, the splitting plane is given by the vertex A and its normal is the
+//! vector B − A" (Souza et al. 2014 §III-A). Where both masses are equal, the lower id is
+//! chosen, so the result does not depend on which way an edge is named.
+//!
+//! The rule knows no cloth. It asks where vertices are ([`Place`]), how heavy they are, and writes
+//! what it did to the log; which edge is stretched too far, and what a split means for
+//! particles and constraints, is for the simulation to say. Below is a whole one, of one's own:
+//!
+//! ```
+//! use tearmesh::{shapes, tear, Edit, Edits, Follower, Vector, VertexId};
+//!
+//! /// Particles and nothing else: a follower that copies the particle of a vertex that is split.
+//! struct Particles { x: Vec<[f64; 3]>, m: Vec<f64>, seen: u64 }
+//!
+//! impl Follower for Particles {
+//!     fn next_edit(&self) -> u64 {
+//!         self.seen
+//!     }
+//!     fn follow(&mut self, edit: &Edit<'_>) {
+//!         if let Edit::Split(split) = edit {
+//!             self.m[split.old.index()] /= 2.0;
+//!             self.m.push(self.m[split.old.index()]);
+//!             self.x.push(self.x[split.old.index()]);
+//!         }
+//!         self.seen = edit.number() + 1;
+//!     }
+//! }
+//!
+//! let (mut mesh, positions) = shapes::grid(4, 4);
+//! let x: Vec<[f64; 3]> = positions.as_slice().iter().map(|&p| p.into()).collect();
+//! let rest = |a: VertexId, b: VertexId| (positions.at(b) - positions.at(a)).norm();
+//! let mut cloth = Particles { m: vec![1.0 / 64.0; x.len()], x, seen: 0 };
+//! let mut edits = Edits::new();
+//!
+//! cloth.x[12][2] = 1.0; // Something pulls at the middle.
+//! let length = |x: &[[f64; 3]], [a, b]: [VertexId; 2]| {
+//!     (Vector::from(x[b.index()]) - Vector::from(x[a.index()])).norm()
+//! };
+//! let overstretched: Vec<_> = mesh
+//!     .edges()
+//!     .filter(|&h| {
+//!         let ends = [mesh.origin(h), mesh.target(h)];
+//!         length(&cloth.x, ends) > 1.5 * rest(ends[0], ends[1])
+//!     })
+//!     .collect();
+//! for edge in overstretched {
+//!     tear::edge(&mut mesh, edge, &cloth.x[..], |v| Some(cloth.m[v.index()]), &mut edits);
+//!     edits.replay(&mut cloth);
+//! }
+//! assert!(cloth.x.len() > 25 && cloth.x.len() == mesh.vertex_count());
+//! assert_eq!(cloth.m.iter().sum::<f64>(), 25.0 / 64.0);
+//! ```
+
+use crate::classify;
+use crate::edit::{Edits, Split};
+use crate::geometry::{Plane, Side};
+use crate::id::{HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Place;
+use crate::split;
+
+/// Tears an overstretched edge, named by either of its half-edges: splits one of its ends by
+/// the plane through it whose normal points to the other end.
+///
+/// `mass` gives the mass of a vertex, or `None` for one that must not be split, because it is
+/// pinned, say. Faces whose centres are behind the plane, away from the other end, go to the new
+/// vertex. `None` if neither end can be split: there has to be a face on each side.
+///
+/// Cost: a walk round both ends; nothing is allocated where mesh and log have room.
+///
+/// # Panics
+///
+/// If the half-edge is none of this mesh, or `place` does not know its surroundings.
+pub fn edge<'e>(
+    mesh: &mut Mesh,
+    edge: HalfEdgeId,
+    place: &(impl Place + ?Sized),
+    mass: impl Fn(VertexId) -> Option<f64>,
+    edits: &'e mut Edits,
+) -> Option<Split<'e>> {
+    let (vertex, plane) = candidate(mesh, edge, place, mass)?;
+    split::by_plane(mesh, vertex, &plane, place, edits)
+}
+
+/// The vertex that [`edge`] would split, and the plane. Changes nothing.
+///
+/// # Panics
+///
+/// As [`edge`].
+#[must_use]
+pub fn candidate(
+    mesh: &Mesh,
+    edge: HalfEdgeId,
+    place: &(impl Place + ?Sized),
+    mass: impl Fn(VertexId) -> Option<f64>,
+) -> Option<(VertexId, Plane)> {
+    let [a, b] = [mesh.origin(edge), mesh.target(edge)];
+    let heavier_first = match (mass(a), mass(b)) {
+        (Some(of_a), Some(of_b)) if of_b > of_a || (of_b == of_a && b < a) => [(b, a), (a, b)],
+        _ => [(a, b), (b, a)],
+    };
+    heavier_first.into_iter().find_map(|(v, other)| {
+        mass(v)?;
+        let at = place.at(v);
+        let plane = Plane::new(at, place.at(other) - at).ok()?;
+        has_both_sides(mesh, v, &plane, place).then_some((v, plane))
+    })
+}
+
+/// Whether a plane leaves faces of a vertex on each side.
+fn has_both_sides(mesh: &Mesh, v: VertexId, plane: &Plane, place: &(impl Place + ?Sized)) -> bool {
+    let mut found = [false; 2];
+    for f in mesh.faces_of(v) {
+        found[usize::from(classify::face(mesh, f, plane, place) == Side::Back)] = true;
+        if found == [true; 2] {
+            return true;
+        }
+    }
+    false
+}

@@ -1,0 +1,140 @@
+//! What an insertion must do, and what it must leave as it was.
+
+use tearmesh::script::{Asked, AskedEnd};
+use tearmesh::subdivide::Refusal;
+use tearmesh::{Edit, FaceId, HalfEdgeId, Insert, Location, Mesh};
+
+use super::beside::weights_in_parent;
+use super::mesh::euler;
+use crate::oracle::{Child, End, Place, Soup, Spot, Unfit};
+
+/// An insertion that was asked for, in the words of the oracle.
+pub(super) struct Request {
+    spots: Vec<Spot>,
+    chord: Option<(usize, [End; 2])>,
+}
+
+fn place_of(h: HalfEdgeId) -> (usize, usize) {
+    (h.face().index(), h.corner())
+}
+
+impl Request {
+    pub(super) fn new(
+        mesh: &Mesh,
+        asked: &[Asked],
+        chord: Option<(FaceId, [AskedEnd; 2])>,
+    ) -> Request {
+        let spot = |ask: &Asked| match *ask {
+            Asked::Edge { half_edge, t } => {
+                assert!(half_edge.index() < mesh.half_edge_count());
+                Spot::Side {
+                    side: place_of(half_edge),
+                    t,
+                }
+            }
+            Asked::Face { face, weights } => Spot::Inside {
+                face: face.index(),
+                weights,
+            },
+        };
+        let end = |end: AskedEnd| match end {
+            AskedEnd::Corner(h) => {
+                let (f, i) = place_of(h);
+                End::Corner(f, i)
+            }
+            AskedEnd::Point(i) => End::Spot(i),
+        };
+        Request {
+            spots: asked.iter().map(spot).collect(),
+            chord: chord.map(|(f, ends)| (f.index(), ends.map(end))),
+        }
+    }
+
+    pub(super) fn is_refused_where_it_should(&self, soup: &Soup, outcome: Result<u64, Refusal>) {
+        let unfit = soup.unfit(&self.spots, self.chord);
+        let refused = outcome.err().map(|refusal| match refusal {
+            Refusal::Parameter { .. } => Unfit::Parameter,
+            Refusal::Weights { .. } => Unfit::Weights,
+            Refusal::Repeated { .. } => Unfit::Repeated,
+            Refusal::Chord { .. } => Unfit::Chord,
+            Refusal::Crowded { .. } => Unfit::Crowded,
+            other => panic!("no small mesh is {other}"),
+        });
+        match refused {
+            None => assert_eq!(unfit, [], "it was not refused"),
+            Some(reason) => assert!(unfit.contains(&reason), "{reason:?} is none of {unfit:?}"),
+        }
+    }
+
+    /// The soup is divided as the record tells, and checks all of it.
+    pub(super) fn is_carried_out(&self, soup: &mut Soup, edit: &Edit<'_>) {
+        let Edit::Insert(insert) = edit else {
+            panic!("not an insertion: {edit:?}");
+        };
+        let children: Vec<Child> = insert
+            .children
+            .iter()
+            .map(|child| Child {
+                parent: child.parent.index(),
+                face: child.face.index(),
+                vertices: child.vertices.map(u32::from),
+                share: child.share,
+                weights: child
+                    .sources
+                    .map(|source| weights_in_parent(child, &source)),
+            })
+            .collect();
+        let places = soup.insert(&self.spots, self.chord, &children);
+        let told: Vec<(u32, Place)> = insert
+            .points
+            .iter()
+            .map(|point| {
+                let place = match point.at {
+                    Location::Edge { ends, t } => Place::Edge {
+                        ends: ends.map(u32::from),
+                        t,
+                    },
+                    Location::Face { vertices, weights } => Place::Face {
+                        vertices: vertices.map(u32::from),
+                        weights,
+                    },
+                };
+                (point.vertex.into(), place)
+            })
+            .collect();
+        assert_eq!(told, places, "the new vertices");
+    }
+}
+
+/// I16, I17: old vertices and faces keep their ids; the Euler characteristic, the number
+/// of pieces and the number of boundary loops stay.
+pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, insert: &Insert<'_>) {
+    assert_eq!(
+        after.vertex_count(),
+        before.vertex_count() + insert.points.len(),
+        "vertices"
+    );
+    let families = insert.families().count();
+    let children = insert.children.len();
+    assert_eq!(
+        after.face_count(),
+        before.face_count() + children - families,
+        "faces"
+    );
+    for f in before.faces() {
+        if insert.families().all(|family| family[0].parent != f) {
+            assert_eq!(after.corners(f), before.corners(f), "{f} was not divided");
+        }
+    }
+    assert_eq!(euler(after), euler(before), "the Euler characteristic");
+    assert_eq!(
+        after.components().count(),
+        before.components().count(),
+        "pieces"
+    );
+    assert_eq!(
+        after.boundary_loops().len(),
+        before.boundary_loops().len(),
+        "boundary loops"
+    );
+}

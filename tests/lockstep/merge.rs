@@ -1,0 +1,223 @@
+//! What a merge must do, and what it must leave as it was.
+
+use tearmesh::mend::{self, Refusal, Stitch};
+use tearmesh::{Edit, Edits, HalfEdgeId, Merge, Mesh, Split, VertexId};
+
+use super::history::Told;
+use super::mesh::euler;
+use crate::oracle::{Soup, Unmerged};
+
+fn merge_of<'e>(edit: &Edit<'e>) -> Merge<'e> {
+    match *edit {
+        Edit::Merge(merge) => merge,
+        ref other => panic!("not a merge: {other:?}"),
+    }
+}
+
+/// The vertex that stays, and that which goes.
+pub(super) fn vertices(edit: &Edit<'_>) -> [usize; 2] {
+    let merge = merge_of(edit);
+    [merge.kept.index(), merge.gone.index()]
+}
+
+pub(super) fn is_refused_where_it_should(
+    soup: &Soup,
+    one: VertexId,
+    other: VertexId,
+    weights: [f64; 2],
+    outcome: Result<u64, Refusal>,
+) {
+    let expected = soup.clone().merge(one.index(), other.index());
+    match outcome {
+        Err(Refusal::Weights { given }) => {
+            assert_eq!(given, weights);
+            assert!(
+                weights.iter().any(|&weight| weight < 0.0),
+                "{weights:?} are weights"
+            );
+        }
+        Err(refusal) => {
+            let refused = match refusal {
+                Refusal::Same { .. } => Unmerged::Same,
+                _ => Unmerged::Apart,
+            };
+            assert_eq!(expected, Err(refused));
+        }
+        Ok(_) => {
+            assert!(expected.is_ok(), "{expected:?} was not refused");
+            assert!(weights.iter().all(|&weight| weight >= 0.0));
+        }
+    }
+}
+
+/// The share is that of the vertex that stays, whichever was named first.
+pub(super) fn has_the_weights(edit: &Edit<'_>, one: VertexId, weights: [f64; 2]) {
+    let merge = merge_of(edit);
+    let [kept, gone] = if merge.kept == one {
+        weights
+    } else {
+        [weights[1], weights[0]]
+    };
+    let share = if kept + gone == 0.0 {
+        0.5
+    } else {
+        kept / (kept + gone)
+    };
+    assert!(
+        (merge.share - share).abs() < 1e-15,
+        "{} instead of {share}",
+        merge.share
+    );
+}
+
+/// Makes the merge of a record again; it must come out the same.
+pub(super) fn is_a_merge(before: &Mesh, edit: &Edit<'_>) -> Mesh {
+    let Merge {
+        kept, gone, share, ..
+    } = merge_of(edit);
+    let mut mesh = before.clone();
+    let mut edits = Edits::new();
+    mend::merge(&mut mesh, kept, gone, [1.0, 1.0], &mut edits).expect("a merge of sewing is one");
+    let mut again = Told::by(&edits.iter().next().expect("a merge"));
+    if let Told::Merge { share: half, .. } = &mut again {
+        *half = share;
+    }
+    assert_eq!(again, Told::by(edit), "a merge of sewing is a merge");
+    mesh
+}
+
+/// I15 to I17: the frame of a merge.
+pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, edit: &Edit<'_>) {
+    let Merge {
+        kept,
+        gone,
+        corners,
+        renumbered,
+        sewn,
+        ..
+    } = merge_of(edit);
+    assert!(kept < gone, "the lower id stays");
+    let last = before.vertex_count() - 1;
+    assert_eq!(after.vertex_count(), last, "one vertex less");
+    assert_eq!(
+        after.face_count(),
+        before.face_count(),
+        "no face more or less"
+    );
+    let sorted = |corners: &[HalfEdgeId]| {
+        let mut corners = corners.to_vec();
+        corners.sort();
+        corners
+    };
+    let of = |v: VertexId| -> Vec<HalfEdgeId> {
+        before
+            .half_edges()
+            .filter(|&h| before.origin(h) == v)
+            .collect()
+    };
+    assert_eq!(sorted(corners), of(gone), "the corners of {gone}");
+    assert_eq!(
+        renumbered.is_some(),
+        gone.index() != last,
+        "whether the last is renumbered"
+    );
+    if let Some(it) = renumbered {
+        assert_eq!((it.from.index(), it.to), (last, gone));
+        assert_eq!(
+            sorted(it.corners),
+            of(it.from),
+            "the corners of {}",
+            it.from
+        );
+    }
+    let ends = |h: HalfEdgeId| (after.origin(h), after.target(h));
+    let mut newly = 0;
+    for h in before.half_edges() {
+        let origin = match before.origin(h) {
+            v if v == gone => kept,
+            v if v.index() == last => gone,
+            v => v,
+        };
+        assert_eq!(after.origin(h), origin, "origin of {h}");
+        assert_eq!(
+            after.pair_or_ghost(h),
+            before.pair_or_ghost(h),
+            "links never change"
+        );
+        let ghost = before.ghost_pair(h);
+        let agrees = ghost.filter(|&g| ends(g) == (ends(h).1, ends(h).0));
+        assert_eq!(
+            after.ghost_pair(h),
+            ghost.filter(|_| agrees.is_none()),
+            "{h} is sewn exactly where its ends agree"
+        );
+        newly += usize::from(agrees.is_some());
+        let listed = sewn
+            .iter()
+            .filter(|link| link.stayed == h || link.moved == h);
+        assert_eq!(
+            listed.count(),
+            usize::from(agrees.is_some()),
+            "{h} among {sewn:?}"
+        );
+    }
+    assert_eq!(newly, 2 * sewn.len(), "two half-edges for each sewn link");
+    for link in sewn {
+        assert_eq!(before.ghost_pair(link.stayed), Some(link.moved));
+        let had = |h: HalfEdgeId, v| [before.origin(h), before.target(h)].contains(&v);
+        assert!(
+            had(link.stayed, kept),
+            "{} is of a face of {kept}",
+            link.stayed
+        );
+        assert!(
+            had(link.moved, gone),
+            "{} is of a face that came over",
+            link.moved
+        );
+    }
+    let change = euler(after) - euler(before);
+    assert_eq!(change, sewn.len() as isize - 1, "the Euler characteristic");
+}
+
+/// I21: a merge of the last split undoes it, bit for bit.
+pub(super) fn undoes_the_last_split(before: &Mesh, after: &Mesh, split: &Split<'_>) {
+    let mut mesh = after.clone();
+    let mut edits = Edits::new();
+    let (old, new) = (split.old, split.new);
+    let merge = mend::merge(&mut mesh, new, old, [1.0, 3.0], &mut edits).expect("just split");
+    assert_eq!(merge.corners.len(), split.corners.len());
+    assert!(
+        split.corners.iter().all(|h| merge.corners.contains(h)),
+        "the corners go back"
+    );
+    let sewn = |link| merge.sewn.contains(link);
+    assert!(
+        merge.sewn.len() == split.torn.len() && split.torn.iter().all(sewn),
+        "what was torn is sewn: {:?}, {:?}",
+        split.torn,
+        merge.sewn
+    );
+    assert_eq!((merge.kept, merge.renumbered), (old, None));
+    assert_eq!(mesh, *before, "a merge undoes the split");
+}
+
+/// All copies that were in a stitch are one, and where all copies were chosen, no edge between
+/// them is torn.
+pub(super) fn copies_are_sewn(before: &Mesh, after: &Mesh, stitches: &[Stitch]) {
+    assert_eq!(after.vertex_count() + stitches.len(), before.vertex_count());
+    let copies = |mesh: &Mesh| {
+        let roots = mesh.roots();
+        let is_copy = |&(v, &root): &(usize, &u32)| root as usize != v;
+        roots.iter().enumerate().filter(is_copy).count()
+    };
+    assert_eq!(
+        copies(after) + stitches.len(),
+        copies(before),
+        "copies that are left"
+    );
+    if copies(after) == 0 {
+        let torn = after.half_edges().find(|&h| after.ghost_pair(h).is_some());
+        assert_eq!(torn, None, "nothing is torn where there are no copies");
+    }
+}

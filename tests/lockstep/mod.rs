@@ -1,0 +1,329 @@
+//! The properties, as named functions, and a model that runs beside the library in lock step.
+//!
+//! Proptest, the exhaustive small cases, the regressions and the fuzz targets all use these.
+//! Numbers like I16 are those of `src/mesh/invariants.md`.
+
+mod beside;
+mod history;
+mod insert;
+mod merge;
+mod mesh;
+mod split;
+
+use tearmesh::script::{Script, Step, World};
+use tearmesh::split as split_op;
+use tearmesh::{Edit, Edits, FaceId, Mesh, Positions, Split};
+
+use crate::oracle::{Soup, is_strict, lump};
+pub(crate) use history::{Told, told};
+
+/// How much was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Done {
+    pub(crate) splits: usize,
+    pub(crate) insertions: usize,
+    pub(crate) merges: usize,
+    /// Refused, or nothing to do.
+    pub(crate) refused: usize,
+}
+
+/// Runs a script and checks every property after every step.
+pub(crate) fn check(script: &Script) -> Done {
+    let mut model: Option<Model> = None;
+    let world = script.run(|world, step| match &mut model {
+        None => model = Some(Model::new(world)),
+        Some(model) => model.follow(world, step),
+    });
+    let model = model.expect("the mesh is built first");
+    model.undoing_everything_gives_the_input_back();
+    running_again_gives_the_same_bytes(script, &world);
+    model.done
+}
+
+pub(crate) fn split_of(edit: Edit<'_>) -> Split<'_> {
+    match edit {
+        Edit::Split(split) => split,
+        other => panic!("a cut only splits, and this is {other:?}"),
+    }
+}
+
+/// The soup beside a [`World`], and the world as it was before the last step.
+#[derive(Clone)]
+pub(crate) struct Model {
+    soup: Soup,
+    unit: f64,
+    input: Mesh,
+    before: World,
+    /// Every edit so far, those that were cleared included.
+    history: Vec<Told>,
+    pub(crate) done: Done,
+}
+
+impl Model {
+    pub(crate) fn new(world: &World) -> Model {
+        let (soup, unit) = soup_of(&world.mesh, &world.positions);
+        assert!(
+            is_strict(world.mesh.vertex_count(), &soup.faces),
+            "a shape is a manifold"
+        );
+        let model = Model {
+            soup,
+            unit,
+            input: world.mesh.clone(),
+            before: world.clone(),
+            history: Vec::new(),
+            done: Done::default(),
+        };
+        model.everything_agrees(world);
+        model
+    }
+
+    /// The vertices and faces as the oracle has them.
+    pub(crate) fn soup(&self) -> &Soup {
+        &self.soup
+    }
+
+    /// Checks a step, and everything after it.
+    pub(crate) fn follow(&mut self, world: &World, step: &Step<'_>) {
+        let edits = self.history.len();
+        match *step {
+            Step::Split {
+                vertex,
+                faces,
+                outcome,
+            } => {
+                let expected = self.soup.split(vertex.index(), &indices(faces));
+                assert_eq!(
+                    outcome.map_err(split::plain).map(|_| ()),
+                    expected,
+                    "outcome of {step:?}"
+                );
+                self.one_edit(world, outcome.ok());
+            }
+            Step::Plane {
+                vertex,
+                normal,
+                outcome,
+            } => {
+                let behind = self.soup.behind(vertex.index(), normal);
+                let expected = self.soup.split(vertex.index(), &behind);
+                assert_eq!(outcome.is_some(), expected.is_ok(), "outcome of {step:?}");
+                self.one_edit(world, outcome);
+            }
+            Step::Insert {
+                asked,
+                chord,
+                outcome,
+            } => {
+                let asked = insert::Request::new(&self.before.mesh, asked, chord);
+                asked.is_refused_where_it_should(&self.soup, outcome);
+                if outcome.is_ok() {
+                    let edit = world.edits.iter().next_back();
+                    asked.is_carried_out(&mut self.soup, &edit.expect("it is in the log"));
+                }
+                self.one_edit(world, outcome.ok());
+            }
+            Step::Merge {
+                one,
+                other,
+                weights,
+                outcome,
+            } => {
+                merge::is_refused_where_it_should(&self.soup, one, other, weights, outcome);
+                if outcome.is_ok() {
+                    let edit = world.edits.iter().next_back().expect("it is in the log");
+                    merge::has_the_weights(&edit, one, weights);
+                    let merged = self.soup.merge(one.index(), other.index());
+                    assert_eq!(merged, Ok(merge::vertices(&edit)), "kept and gone");
+                }
+                self.one_edit(world, outcome.ok());
+            }
+            Step::Sewn {
+                first,
+                stitches,
+                merges,
+            } => {
+                assert_eq!(first, edits as u64, "edits are numbered from 0");
+                let mut mesh = self.before.mesh.clone();
+                for edit in world.edits.since(first) {
+                    let [kept, gone] = merge::vertices(&edit);
+                    assert_eq!(self.soup.merge(kept, gone), Ok([kept, gone]));
+                    let after = merge::is_a_merge(&mesh, &edit);
+                    merge::changes_nothing_else(&mesh, &after, &edit);
+                    mesh = after;
+                    self.history.push(Told::by(&edit));
+                }
+                assert_eq!(mesh, world.mesh, "sewing is nothing but merges");
+                assert_eq!(self.history.len() - edits, merges, "merges");
+                assert_eq!(stitches.len(), merges, "one merge for each stitch");
+                merge::copies_are_sewn(&self.before.mesh, &world.mesh, stitches);
+                self.done.merges += merges;
+            }
+            Step::Cut { first, report } => {
+                assert_eq!(report.pieces_before, self.before.mesh.components().count());
+                self.a_cut_is_made_of_splits(world, first);
+                assert_eq!(
+                    report.splits,
+                    self.history.len() - edits,
+                    "splits of the cut"
+                );
+                assert_eq!(
+                    report.pieces,
+                    self.soup.piece_count(),
+                    "pieces after the cut"
+                );
+            }
+            Step::Cleared => {
+                assert!(world.edits.is_empty(), "the log was cleared");
+                assert_eq!(world.edits.next_number(), self.before.edits.next_number());
+                assert_eq!(
+                    world.late_triangles, world.triangles,
+                    "a late follower sees all edits at once"
+                );
+                assert_eq!(world.mesh, self.before.mesh);
+                self.before = world.clone();
+            }
+            Step::Nothing => self.one_edit(world, None),
+            ref other => panic!("the mesh is built once, and this is {other:?}"),
+        }
+        assert_eq!(
+            world.edits.next_number(),
+            self.history.len() as u64,
+            "edits are numbered from 0"
+        );
+        if self.history.len() > edits {
+            self.everything_agrees(world);
+            self.before = world.clone();
+        }
+    }
+
+    /// One edit was made, with this number: the last one. Or none, and nothing has changed.
+    fn one_edit(&mut self, world: &World, number: Option<u64>) {
+        let Some(number) = number else {
+            self.done.refused += 1;
+            return nothing_changed(&self.before, world);
+        };
+        assert_eq!(
+            number,
+            self.history.len() as u64,
+            "edits are numbered from 0"
+        );
+        let mut edits = world.edits.since(number);
+        let edit = edits.next().expect("what was done is in the log");
+        assert!(edits.next().is_none(), "one operation is one edit");
+        assert_eq!(edit.number(), number);
+        let [before, after] = [&self.before, world];
+        match edit {
+            Edit::Split(split) => {
+                split::changes_nothing_else(&before.mesh, &after.mesh, &split);
+                split::conserves_mass(&before.area, &after.area, &split);
+                if let (Some(before), Some(after)) = (&before.half, &after.half) {
+                    split::conserves_mass(before, after, &split);
+                }
+                merge::undoes_the_last_split(&before.mesh, &after.mesh, &split);
+                self.done.splits += 1;
+            }
+            Edit::Insert(insert) => {
+                insert::changes_nothing_else(&before.mesh, &after.mesh, &insert);
+                beside::new_values_come_from_the_right_places(&before.mesh, &edit);
+                assert!(
+                    after.half.is_none() && !insert.points.is_empty() || after.mesh == before.mesh
+                );
+                self.done.insertions += 1;
+            }
+            Edit::Merge(_) => {
+                merge::changes_nothing_else(&before.mesh, &after.mesh, &edit);
+                beside::merged_values_are_joined_by_weight(&before.mesh, &edit);
+                self.done.merges += 1;
+            }
+            other => panic!("there is no other operation, and this is {other:?}"),
+        }
+        self.history.push(Told::by(&edit));
+    }
+
+    /// The same splits, one by one, make the same mesh.
+    fn a_cut_is_made_of_splits(&mut self, world: &World, first: u64) {
+        assert_eq!(
+            first,
+            self.history.len() as u64,
+            "edits are numbered from 0"
+        );
+        let mut mesh = self.before.mesh.clone();
+        for edit in world.edits.since(first) {
+            let split = split_of(edit);
+            let faces: Vec<FaceId> = split.corners.iter().map(|h| h.face()).collect();
+            let expected = self.soup.split(split.old.index(), &indices(&faces));
+            assert_eq!(expected, Ok(()), "a cut makes no split that is refused");
+            let before = mesh.clone();
+            let mut edits = Edits::new();
+            let again = split_op::faces(&mut mesh, split.old, &faces, &mut edits);
+            let again = again.map(|split| Told::by(&Edit::Split(split)));
+            assert_eq!(again, Ok(Told::by(&edit)), "a split of a cut is a split");
+            split::changes_nothing_else(&before, &mesh, &split);
+            self.history.push(Told::by(&edit));
+            self.done.splits += 1;
+        }
+        assert_eq!(mesh, world.mesh, "a cut is nothing but splits");
+    }
+
+    fn everything_agrees(&self, world: &World) {
+        let soup = &self.soup;
+        mesh::agrees(&world.mesh, soup);
+        beside::every_vertex_is_where_its_root_was(&world.positions, soup);
+        beside::every_corner_is_where_its_vertex_is(&world.corners, soup);
+        beside::every_vertex_weighs_what_its_faces_weigh(&world.area, soup, self.unit);
+        if let Some(half) = &world.half {
+            beside::halves_add_up(half, soup, self.unit);
+        }
+        assert_eq!(
+            world.triangles.as_slice(),
+            soup.faces,
+            "the records alone give the triangles"
+        );
+    }
+
+    /// I21: with all edits undone in reverse order, the triangles build the input again.
+    pub(crate) fn undoing_everything_gives_the_input_back(&self) {
+        let (vertices, triangles) = history::undone(&self.history, &self.before.mesh);
+        let rebuilt = Mesh::build(vertices, &triangles);
+        assert_eq!(rebuilt.as_ref(), Ok(&self.input), "the input, bit for bit");
+    }
+}
+
+/// The soup of a mesh that nothing was done to, and the unit of its masses.
+pub(crate) fn soup_of(mesh: &Mesh, positions: &Positions) -> (Soup, f64) {
+    let triangles = history::triangles(mesh);
+    let points: Vec<[f64; 3]> = positions
+        .as_slice()
+        .iter()
+        .map(|p| [p.x, p.y, p.z])
+        .collect();
+    let (unit, corner_mass) = lump(&points, &triangles);
+    (Soup::new(&points, &triangles, &corner_mass), unit)
+}
+
+fn indices(faces: &[FaceId]) -> Vec<usize> {
+    faces.iter().map(|f| f.index()).collect()
+}
+
+/// I22: a refused operation leaves everything as it was, bit for bit.
+pub(crate) fn nothing_changed(before: &World, after: &World) {
+    assert_eq!(after.mesh, before.mesh, "the mesh");
+    assert_eq!(after.positions, before.positions, "the positions");
+    assert_eq!(after.triangles, before.triangles, "the followers");
+    assert_eq!(after.corners, before.corners, "the followers");
+    assert_eq!(
+        after.edits.next_number(),
+        before.edits.next_number(),
+        "the numbering of edits"
+    );
+    assert_eq!(told(&after.edits), told(&before.edits), "the log");
+}
+
+/// The same script gives the same bytes.
+pub(crate) fn running_again_gives_the_same_bytes(script: &Script, world: &World) {
+    let again = script.run(|_, _| {});
+    assert_eq!(again.mesh, world.mesh, "the mesh");
+    assert_eq!(again.positions, world.positions, "the positions");
+    assert_eq!(told(&again.edits), told(&world.edits), "the log");
+}

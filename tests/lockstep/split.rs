@@ -1,0 +1,123 @@
+//! What a split must leave as it was.
+
+use tearmesh::split::Refusal;
+use tearmesh::{HalfEdgeId, Masses, Mesh, Split, VertexId};
+
+use super::mesh::euler;
+use crate::oracle::Refused;
+
+/// A refusal, in the words of the oracle.
+pub(super) fn plain(refusal: Refusal) -> Refused {
+    match refusal {
+        Refusal::Empty { .. } => Refused::Empty,
+        Refusal::Everything { .. } => Refused::Everything,
+        Refusal::Foreign { face, .. } => Refused::Foreign(face.index()),
+        Refusal::Repeated { face, .. } => Refused::Repeated(face.index()),
+    }
+}
+
+/// I15 to I17: the frame of a split.
+pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, split: &Split<'_>) {
+    let Split {
+        old,
+        new,
+        corners,
+        torn,
+        ..
+    } = *split;
+    assert_eq!(
+        before.vertex_count(),
+        new.index(),
+        "the new vertex is the last one"
+    );
+    assert_eq!(after.vertex_count(), new.index() + 1, "one vertex more");
+    assert_eq!(after.face_count(), before.face_count(), "no face more");
+    assert!(!corners.is_empty(), "a face moves");
+    assert!(after.indices().contains(&old.into()), "a face stays");
+    let mut moved = vec![false; before.half_edge_count()];
+    for &h in corners {
+        assert_eq!(before.origin(h), old, "{h} was a corner of {old}");
+        assert!(!moved[h.index()], "{h} moves once");
+        moved[h.index()] = true;
+    }
+    let walk = before.corners_of(old).filter(|h| moved[h.index()]);
+    assert!(
+        walk.eq(corners.iter().copied()),
+        "corners in the order of a walk"
+    );
+
+    let ends = |h: HalfEdgeId| (after.origin(h), after.target(h));
+    let mut tears = 0;
+    for h in before.half_edges() {
+        let origin = if moved[h.index()] {
+            new
+        } else {
+            before.origin(h)
+        };
+        assert_eq!(after.origin(h), origin, "origin of {h}");
+        assert_eq!(
+            after.pair_or_ghost(h),
+            before.pair_or_ghost(h),
+            "links never change"
+        );
+        let tears_now = before
+            .pair(h)
+            .is_some_and(|g| ends(g) != (ends(h).1, ends(h).0));
+        let is_torn = before.ghost_pair(h).is_some() || tears_now;
+        assert_eq!(
+            after.ghost_pair(h).is_some(),
+            is_torn,
+            "whether {h} is torn"
+        );
+        tears += usize::from(tears_now);
+        let listed = torn
+            .iter()
+            .filter(|link| link.stayed == h || link.moved == h);
+        assert_eq!(
+            listed.count(),
+            usize::from(tears_now),
+            "{h} among the torn links {torn:?}"
+        );
+    }
+    assert_eq!(tears, 2 * torn.len(), "two half-edges for each torn link");
+    let moves = |h: HalfEdgeId| h.face().half_edges().iter().any(|h| moved[h.index()]);
+    for link in torn {
+        assert_eq!(
+            after.ghost_pair(link.stayed),
+            Some(link.moved),
+            "ghost pair"
+        );
+        assert!(moves(link.moved), "{} is of a face that moved", link.moved);
+        assert!(
+            !moves(link.stayed),
+            "{} is of a face that stayed",
+            link.stayed
+        );
+    }
+    let change = euler(after) - euler(before);
+    assert_eq!(change, 1 - torn.len() as isize, "the Euler characteristic");
+}
+
+/// I20: the two halves weigh what the vertex weighed, bit for bit, and nothing else changed.
+pub(super) fn conserves_mass(before: &Masses, after: &Masses, split: &Split<'_>) {
+    let (old, new) = (split.old, split.new);
+    assert_eq!(
+        after.at(old) + after.at(new),
+        before.at(old),
+        "m_old + m_new"
+    );
+    assert!(
+        after.at(old) > 0.0 && after.at(new) > 0.0,
+        "no half without mass"
+    );
+    for v in (0..before.len())
+        .filter_map(VertexId::new)
+        .filter(|&v| v != old)
+    {
+        assert_eq!(
+            after.at(v).to_bits(),
+            before.at(v).to_bits(),
+            "the mass of {v}"
+        );
+    }
+}

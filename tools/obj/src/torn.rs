@@ -1,0 +1,536 @@
+//! A document and what became of it.
+//!
+//! A [`TornDocument`] replays the log of a mesh and keeps everything in step that the file has
+//! and the mesh has not: which texture coordinate and normal each corner has, in
+//! which group and material each face lies, the colours and weights of vertices; and which
+//! cut parted what, so that it can be undone in another session.
+
+mod ancestry;
+mod corners;
+mod simplify;
+
+pub(crate) use self::ancestry::SplitOff;
+pub(crate) use self::simplify::Removal;
+
+use std::io::{self, Write};
+
+use tearmesh::{
+    Blend, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
+    VertexId, mend::Stitch,
+};
+
+use self::ancestry::Ancestry;
+use self::corners::Corners;
+use crate::document::Document;
+use crate::record::{At, Inserted, Parent, Record};
+use crate::store::Rows;
+use crate::write::{Prepared, WriteSummary, write};
+
+/// A document and what became of it: a [`Follower`] of the log of its mesh, that writes it.
+///
+/// A split moves corners, and each keeps its texture coordinate and normal: neither is ever
+/// duplicated. Where a face is divided, its children stand where it stood, and so in its
+/// object, group, material and smoothing group. Their new corners have the texture coordinate and
+/// normal between those of the corners of the divided face *in that face*, so
+/// a seam of the texture stays one; where both sides of an edge hold the same two indices the new one
+/// is a single index on both, torn or not, and where these two are one, so is it.
+///
+/// * Texture coordinates, and what a `v` has behind z (if all corners have as many numbers), are
+///   interpolated linearly; a missing number of a texture coordinate is 0.
+/// * A normal is interpolated linearly and then given the length between those of its sources,
+///   so unit normals give a unit normal. Opposite normals give that of the first source.
+/// * A corner has a texture coordinate or normal only if all its sources have one.
+/// * The new vertex of a split has the extra numbers of the old one; of two that are merged,
+///   those of the one that is kept stay.
+/// * Where a vertex slides along an edge, its corners there take theirs with them, and so do all
+///   others that have the same index.
+///
+/// ```
+/// use tearmesh::{Edits, HalfEdgeId, Positions, subdivide::Plan};
+/// use tearmesh_obj::{Document, TornDocument};
+///
+/// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\ng seam\nf 1/1 2/2 3/3\n";
+/// let document = Document::read(&file[..])?;
+/// let mut mesh = document.mesh()?;
+/// let mut positions = Positions::new(document.positions().iter().copied())?;
+/// let mut torn = TornDocument::new(&document);
+///
+/// let mut plan = Plan::new();
+/// plan.on_edge(HalfEdgeId::new(0).expect("small"), 0.5);
+/// let mut edits = Edits::new();
+/// plan.apply(&mut mesh, &mut edits)?;
+/// edits.replay(&mut (&mut positions, &mut torn));
+///
+/// let mut out = Vec::new();
+/// torn.write(&mesh, &positions, &mut out)?;
+/// assert_eq!(
+///     String::from_utf8(out)?,
+///     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.5 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 0.5 0\ng seam\n\
+///      f 4/4 2/2 3/3\nf 3/3 1/1 4/4\n\
+///      #tearmesh record 1 v 4 f 2 vt 3 4 vn 0 0 faces 6c8e819334246200\n\
+///      #~ edge 4 1 1 2 0.5\n#~ parent 1 2 1 2 3\n#tearmesh end 2 e27dc3c3a447c600\n"
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct TornDocument<'d> {
+    document: &'d Document,
+    next_edit: u64,
+    /// The number of the cut whose edits are being followed.
+    cut: u32,
+    /// Whether anything was split or inserted since that number was given.
+    cut_is_used: bool,
+    ancestry: Ancestry,
+    /// The row of extra numbers of each vertex: one of the document, or behind those one of
+    /// `new_extras`. Empty if the document has none.
+    extras: Vec<u32>,
+    new_extras: Rows,
+    /// What was inserted, by class, ascending. `vertex` is the class, and those in `at` are.
+    inserted: Vec<Inserted>,
+    /// What became of faces, and of their corners; `None` until the first insertion.
+    corners: Option<Corners<'d>>,
+}
+
+impl<'d> TornDocument<'d> {
+    /// The document as it is, which has seen no edit yet. Linear in the document.
+    #[must_use]
+    pub fn new(document: &'d Document) -> TornDocument<'d> {
+        let count = document.positions.len();
+        let record = document.record.as_deref();
+        let has_extras = document.extras.len() > 0;
+        TornDocument {
+            document,
+            next_edit: 0,
+            cut: record.map_or(0, Record::last_cut) + 1,
+            cut_is_used: false,
+            ancestry: Ancestry::new(count, record.map_or(&[], |record| &record.splits)),
+            extras: (0..count as u32).filter(|_| has_extras).collect(),
+            new_extras: Rows::default(),
+            inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
+            corners: None,
+        }
+    }
+
+    /// The document with this mesh, which is its own after splits that were not followed.
+    pub(crate) fn after_splits(document: &'d Document, mesh: &Mesh) -> TornDocument<'d> {
+        let mut torn = TornDocument::new(document);
+        let triangles = document.triangles().as_flattened();
+        for v in mesh.vertices().skip(document.positions.len()) {
+            // A split only moves corners, so all of these were of one vertex.
+            let corner = mesh.half_edge_of(v).expect("a new vertex has a face");
+            torn.split(triangles[corner.index()] as usize);
+        }
+        torn
+    }
+
+    /// The same, for a log whose next record has this number.
+    #[must_use]
+    pub fn starting_at(self, next_edit: u64) -> TornDocument<'d> {
+        TornDocument { next_edit, ..self }
+    }
+
+    /// The document.
+    #[must_use]
+    pub fn document(&self) -> &'d Document {
+        self.document
+    }
+
+    /// Edits from now on belong to the next cut, which can be undone apart from the one before.
+    /// Does nothing if no edit was followed since it was called last.
+    ///
+    /// The number counts on from the cuts that the file has on record.
+    ///
+    /// # Panics
+    ///
+    /// After 2³² cuts.
+    pub fn next_cut(&mut self) {
+        if std::mem::take(&mut self.cut_is_used) {
+            self.cut = self.cut.checked_add(1).expect("less than 2^32 cuts");
+        }
+    }
+
+    /// The numbers of the cuts that still keep something apart, ascending.
+    #[must_use]
+    pub fn cuts(&self) -> Vec<u32> {
+        let mut cuts: Vec<u32> = self.split_off().iter().map(|split| split.cut).collect();
+        cuts.sort_unstable();
+        cuts.dedup();
+        cuts
+    }
+
+    /// The stitches that undo the last cuts, as many of those that still keep something apart.
+    ///
+    /// [`mend::sew`](tearmesh::mend::sew) makes them. To sew everything, or what lies near a place,
+    /// takes no record: see [`mend::stitches`](tearmesh::mend::stitches).
+    ///
+    /// ```
+    /// use tearmesh::{Edits, FaceId, Positions, VertexId, mend, split};
+    /// use tearmesh_obj::{Document, TornDocument};
+    ///
+    /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 2 4\n";
+    /// let document = Document::read(&file[..])?;
+    /// let mut mesh = document.mesh()?;
+    /// let mut positions = Positions::new(document.positions().iter().copied())?;
+    /// let mut torn = TornDocument::new(&document);
+    /// let mut edits = Edits::new();
+    /// for v in [1, 2] {
+    ///     let v = VertexId::new(v).expect("small");
+    ///     split::faces(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+    ///     edits.replay(&mut (&mut positions, &mut torn));
+    ///     torn.next_cut();
+    /// }
+    /// let stitches = torn.stitches_of_last(1);
+    /// assert_eq!((stitches[0].kept().index(), stitches[0].gone().index()), (2, 5));
+    /// mend::sew(&mut mesh, &positions, &stitches, |_| 1.0, 0.0, &mut edits)?;
+    /// edits.replay(&mut (&mut positions, &mut torn));
+    /// assert_eq!((mesh.vertex_count(), torn.cuts()), (5, vec![1]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn stitches_of_last(&self, cuts: usize) -> Vec<Stitch> {
+        let all = self.cuts();
+        let last = &all[all.len().saturating_sub(cuts)..];
+        let split_off = self.split_off().into_iter();
+        let of_last = split_off.filter(|split| last.contains(&split.cut));
+        of_last
+            .filter_map(|split| {
+                let [from, vertex] = [split.from, split.vertex].map(|v| VertexId::new(v as usize));
+                Stitch::new(from?, vertex?)
+            })
+            .collect()
+    }
+
+    /// The number of vertices of the mesh that was followed.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.ancestry.len()
+    }
+
+    /// The number of faces of the mesh that was followed.
+    #[must_use]
+    pub fn face_count(&self) -> usize {
+        match &self.corners {
+            Some(corners) => corners.face_count(),
+            None => self.document.triangles().len(),
+        }
+    }
+
+    /// The faces of the mesh in the order in which they are written: a face that was divided,
+    /// then its children by id, stand where the face stood. Vertices are written in the order of
+    /// their ids, so the mesh that is read again is this one but for the numbers of its faces.
+    #[must_use]
+    pub fn faces_in_order(&self) -> Vec<FaceId> {
+        let slots = self.slots();
+        let faces = slots.faces.iter();
+        faces.filter_map(|&f| FaceId::new(f as usize)).collect()
+    }
+
+    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it
+    /// is torn or was divided, with a record of that at the end.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
+    /// position for each vertex.
+    pub fn write(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        write(self, &Prepared::new(self, mesh, None), positions, out)
+    }
+
+    fn assert_in_step(&self, mesh: &Mesh, positions: &Positions) {
+        assert_eq!(
+            (mesh.vertex_count(), mesh.face_count()),
+            (self.vertex_count(), self.face_count()),
+            "the document has followed all edits of the mesh"
+        );
+        assert_eq!(
+            positions.len(),
+            mesh.vertex_count(),
+            "every vertex has a position"
+        );
+    }
+
+    fn split(&mut self, old: usize) {
+        self.ancestry.split(old, self.cut);
+        if let Some(&row) = self.extras.get(old) {
+            self.extras.push(row);
+        }
+        self.cut_is_used = true;
+    }
+
+    fn insert(&mut self, insert: &Insert<'_>) {
+        if insert.points.is_empty() {
+            return;
+        }
+        let mut before: Option<&InsertedPoint> = None;
+        for point in insert.points {
+            match before.and_then(|twin| self.apart_as_twins(twin, point)) {
+                Some(cut) => {
+                    self.ancestry.split(self.ancestry.len() - 1, cut);
+                    before = None;
+                }
+                None => {
+                    self.inserted.push(Inserted {
+                        vertex: self.ancestry.class_count() as u32,
+                        cut: self.cut,
+                        at: self.place(&point.at),
+                    });
+                    self.ancestry.insert();
+                    before = Some(point);
+                }
+            }
+            if !self.extras.is_empty() {
+                let row = self.interpolated(&point.at);
+                let row = self.new_row(&row);
+                self.extras.push(row);
+            }
+        }
+        let (document, ancestry) = (self.document, &self.ancestry);
+        let corners = self.corners.get_or_insert_with(|| Corners::new(document));
+        corners.insert(insert, |v| ancestry.class(v.index()));
+        self.cut_is_used = true;
+    }
+
+    fn slide(&mut self, slide: &Slide<'_>) {
+        if !self.extras.is_empty() {
+            let ends = [slide.vertex, slide.toward];
+            let row = self.interpolated(&Location::Edge { ends, t: slide.t });
+            if !row.is_empty() {
+                self.extras[slide.vertex.index()] = self.new_row(&row);
+            }
+        }
+        let document = self.document;
+        if document.texture.len() + document.normals.len() > 0 {
+            let corners = self.corners.get_or_insert_with(|| Corners::new(document));
+            corners.slide(slide);
+        }
+    }
+
+    fn new_row(&mut self, row: &[f64]) -> u32 {
+        let index = self.new_extras.len();
+        self.new_extras.set(index, row);
+        (self.document.positions.len() + index) as u32
+    }
+
+    /// The cut since which the two sides of a torn edge are apart, if these two points are on
+    /// both sides of one: the same place of an edge between the same roots.
+    fn apart_as_twins(&mut self, one: &InsertedPoint, other: &InsertedPoint) -> Option<u32> {
+        let (Location::Edge { ends, t }, Location::Edge { ends: others, t: u }) =
+            (one.at, other.at)
+        else {
+            return None;
+        };
+        let sides = [0, 1].map(|end| [ends[end], others[end]].map(VertexId::index));
+        let same = |[a, b]: [usize; 2]| self.ancestry.class(a) == self.ancestry.class(b);
+        if t != u || !sides.into_iter().all(same) {
+            return None;
+        }
+        let since = sides.map(|[a, b]| self.ancestry.apart_since(a, b));
+        Some(since[0].min(since[1]))
+    }
+
+    fn place(&self, at: &Location) -> At {
+        let class = |v: VertexId| self.ancestry.class(v.index());
+        match *at {
+            Location::Edge { ends, t } => At::Edge {
+                ends: ends.map(class),
+                t,
+            },
+            Location::Face { vertices, weights } => At::Face {
+                corners: vertices.map(class),
+                weights,
+            },
+        }
+    }
+
+    /// The extra numbers at a place; none where those of its sources are not of one length.
+    fn interpolated(&self, at: &Location) -> Vec<f64> {
+        let row = |v: VertexId| self.extra_numbers(v.index());
+        let alike = |rows: &[&[f64]]| rows.iter().all(|row| row.len() == rows[0].len());
+        match *at {
+            Location::Edge { ends, t } => {
+                let [a, b] = ends.map(row);
+                let both = a.iter().zip(b).filter(|_| alike(&[a, b]));
+                both.map(|(a, b)| a.between(b, t)).collect()
+            }
+            Location::Face { vertices, weights } => {
+                let rows @ [a, b, c] = vertices.map(row);
+                let all = (0..a.len()).filter(|_| alike(&rows));
+                all.map(|i| f64::weighted([&a[i], &b[i], &c[i]], weights))
+                    .collect()
+            }
+        }
+    }
+
+    /// What the `v` of a vertex has behind z.
+    pub(crate) fn extra_numbers(&self, vertex: usize) -> &[f64] {
+        let Some(&row) = self.extras.get(vertex) else {
+            return &[];
+        };
+        let count = self.document.positions.len();
+        match (row as usize).checked_sub(count) {
+            None => self.document.extras.row(row as usize),
+            Some(new) => self.new_extras.row(new),
+        }
+    }
+
+    fn split_off(&self) -> Vec<SplitOff> {
+        // Looking up shortens the ways to what was merged, which does not show.
+        self.ancestry.clone().split_off()
+    }
+}
+
+impl Follower for TornDocument<'_> {
+    fn next_edit(&self) -> u64 {
+        self.next_edit
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        match edit {
+            Edit::Split(split) => {
+                assert_eq!(
+                    split.new.index(),
+                    self.ancestry.len(),
+                    "the document is in step with the mesh"
+                );
+                self.split(split.old.index());
+            }
+            Edit::Insert(insert) => self.insert(insert),
+            Edit::Merge(merge) => {
+                self.ancestry.merge(merge.kept.index(), merge.gone.index());
+                if !self.extras.is_empty() {
+                    self.extras.swap_remove(merge.gone.index());
+                }
+            }
+            Edit::Slide(slide) => self.slide(slide),
+            _ => panic!(
+                "edit {} is of a kind that no document follows",
+                edit.number()
+            ),
+        }
+        self.next_edit = edit.number() + 1;
+    }
+}
+
+/// The faces of a mesh by the triangle of the document where they stand.
+#[derive(Debug)]
+pub(crate) struct Slots {
+    pub(crate) faces: Vec<u32>,
+    starts: Vec<u32>,
+}
+
+impl Slots {
+    /// Where the faces of triangles are in `faces`.
+    pub(crate) fn of(&self, triangles: std::ops::Range<usize>) -> std::ops::Range<usize> {
+        self.starts[triangles.start] as usize..self.starts[triangles.end] as usize
+    }
+}
+
+/// What is known of the faces and vertices, in terms of the mesh.
+impl TornDocument<'_> {
+    pub(crate) fn slots(&self) -> Slots {
+        let triangles = self.document.triangles().len() as u32;
+        match &self.corners {
+            Some(corners) => corners.slots(triangles as usize),
+            None => Slots {
+                faces: (0..triangles).collect(),
+                starts: (0..=triangles).collect(),
+            },
+        }
+    }
+
+    /// Faces that were divided: the triangles of the document where the parts stand, and the
+    /// classes of the corners. Ascending.
+    pub(crate) fn parents(&self) -> Vec<Parent> {
+        let recorded = self
+            .document
+            .record
+            .iter()
+            .flat_map(|record| &record.parents);
+        let mut parents: Vec<Parent> = recorded.copied().collect();
+        if let Some(corners) = &self.corners {
+            parents.extend(corners.divided());
+            parents.sort_unstable_by_key(|parent| parent.first);
+        }
+        parents
+    }
+
+    pub(crate) fn inserted(&self) -> &[Inserted] {
+        &self.inserted
+    }
+
+    /// The class of each vertex.
+    pub(crate) fn classes(&self) -> Vec<u32> {
+        (0..self.ancestry.len())
+            .map(|v| self.ancestry.class(v))
+            .collect()
+    }
+
+    /// The lowest vertex of each class; `u32::MAX` where there is none.
+    pub(crate) fn roots_of_classes(&self) -> Vec<u32> {
+        let mut roots = vec![u32::MAX; self.ancestry.class_count()];
+        for v in (0..self.ancestry.len()).rev() {
+            roots[self.ancestry.class(v) as usize] = v as u32;
+        }
+        roots
+    }
+
+    pub(crate) fn split_off_vertices(&self) -> Vec<SplitOff> {
+        self.split_off()
+    }
+
+    /// The texture coordinate and the normal of a corner of the mesh.
+    #[inline]
+    pub(crate) fn corner(&self, half_edge: usize, polygon: usize) -> [Option<u32>; 2] {
+        match &self.corners {
+            Some(corners) => corners.at(half_edge),
+            None => {
+                let (face, corner) = (half_edge / 3, half_edge % 3);
+                let of_polygon = self.document.corner_of_polygon(face, corner, polygon);
+                let corner = self.document.polygons.corner(of_polygon);
+                [corner.texture, corner.normal]
+            }
+        }
+    }
+
+    /// The same, where the polygon is not at hand.
+    pub(crate) fn corner_of(&self, half_edge: usize) -> [Option<u32>; 2] {
+        let polygon = match self.corners {
+            Some(_) => 0,
+            None => self.document.polygon_of(half_edge / 3),
+        };
+        self.corner(half_edge, polygon)
+    }
+
+    /// How many texture coordinates and normals there were before any was inserted.
+    pub(crate) fn counts_before(&self) -> (usize, usize) {
+        match &self.document.record {
+            Some(record) => (record.texture_before, record.normals_before),
+            None => (self.document.texture.len(), self.document.normals.len()),
+        }
+    }
+
+    /// Whether faces and corners are those of the document.
+    pub(crate) fn is_undivided(&self) -> bool {
+        self.corners.is_none()
+    }
+
+    pub(crate) fn new_texture(&self) -> Option<&Rows> {
+        self.corners.as_ref().map(|corners| &corners.new_texture)
+    }
+
+    pub(crate) fn new_normals(&self) -> &[[f64; 3]] {
+        self.corners
+            .as_ref()
+            .map_or(&[], |corners| &corners.new_normals)
+    }
+}

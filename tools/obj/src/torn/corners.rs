@@ -1,0 +1,262 @@
+//! What became of faces and their corners.
+
+use std::collections::BTreeMap;
+
+use tearmesh::{Blend, Child, HalfEdgeId, Insert, Slide, Source, VertexId};
+
+use super::Slots;
+use crate::document::Document;
+use crate::record::Parent;
+use crate::store::Rows;
+
+/// No index.
+const NONE: u32 = u32::MAX;
+
+/// The faces and corners of a mesh, once faces were divided.
+#[derive(Clone, Debug)]
+pub(super) struct Corners<'d> {
+    document: &'d Document,
+    /// The triangle of the document where each face stands.
+    slots: Vec<u32>,
+    /// The texture coordinate and the normal of each corner.
+    corners: Vec<[u32; 2]>,
+    /// Triangles that are no parts of a recorded parent and were divided, and their corners.
+    divided: BTreeMap<u32, [u32; 3]>,
+    /// Texture coordinates and normals behind those of the document.
+    pub(super) new_texture: Rows,
+    pub(super) new_normals: Vec<[f64; 3]>,
+}
+
+/// What a new corner lies between: the class of its vertex, which tells the edge and how far
+/// along, and the indices at the sources.
+type Between = (u32, [u32; 3]);
+
+impl<'d> Corners<'d> {
+    pub(super) fn new(document: &'d Document) -> Corners<'d> {
+        let count = document.triangles().len();
+        let mut corners = Vec::with_capacity(3 * count);
+        for polygon in 0..document.polygons.len() {
+            for triangle in document.polygons.triangles(polygon) {
+                for corner in 0..3 {
+                    let of_polygon = document.corner_of_polygon(triangle, corner, polygon);
+                    let corner = document.polygons.corner(of_polygon);
+                    corners
+                        .push([corner.texture, corner.normal].map(|index| index.unwrap_or(NONE)));
+                }
+            }
+        }
+        Corners {
+            document,
+            slots: (0..count as u32).collect(),
+            corners,
+            divided: BTreeMap::new(),
+            new_texture: Rows::default(),
+            new_normals: Vec::new(),
+        }
+    }
+
+    pub(super) fn face_count(&self) -> usize {
+        self.slots.len()
+    }
+
+    pub(super) fn at(&self, half_edge: usize) -> [Option<u32>; 2] {
+        self.corners[half_edge].map(|index| (index != NONE).then_some(index))
+    }
+
+    pub(super) fn divided(&self) -> impl Iterator<Item = Parent> + '_ {
+        self.divided.iter().map(|(&first, &corners)| Parent {
+            first,
+            end: first + 1,
+            corners,
+        })
+    }
+
+    pub(super) fn slots(&self, triangles: usize) -> Slots {
+        let mut starts = vec![0_u32; triangles + 1];
+        for &slot in &self.slots {
+            starts[slot as usize + 1] += 1;
+        }
+        for i in 0..triangles {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut faces = vec![0; self.slots.len()];
+        for (face, &slot) in self.slots.iter().enumerate() {
+            faces[next[slot as usize] as usize] = face as u32;
+            next[slot as usize] += 1;
+        }
+        Slots { faces, starts }
+    }
+
+    /// Follows an insertion; `class` is that of each vertex, the inserted ones included.
+    pub(super) fn insert(&mut self, insert: &Insert<'_>, class: impl Fn(VertexId) -> u32) {
+        let mut made = [BTreeMap::new(), BTreeMap::new()];
+        for family in insert.families() {
+            let parent = family[0].parent.index();
+            let slot = self.slots[parent];
+            if !self.is_part_of_recorded(slot) && !self.divided.contains_key(&slot) {
+                self.divided.insert(slot, original(family, &class));
+            }
+            let before = [0, 1, 2].map(|corner| self.corners[3 * parent + corner]);
+            for child in family {
+                let face = child.face.index();
+                if face >= self.slots.len() {
+                    assert_eq!(face, self.slots.len(), "new faces come without a gap");
+                    self.slots.push(slot);
+                    self.corners.extend([[NONE; 2]; 3]);
+                }
+                for corner in 0..3 {
+                    let class = class(child.vertices[corner]);
+                    let source = child.sources[corner];
+                    self.corners[3 * face + corner] = [0, 1].map(|which| {
+                        let before = before.map(|corner| corner[which]);
+                        let made = &mut made[which];
+                        self.index(source, before, class, which, made)
+                    });
+                }
+            }
+        }
+    }
+
+    /// Follows a vertex that slides: the corners in the faces of the edge get an index between
+    /// those at its ends, and corners that had the same index as these get it with them.
+    pub(super) fn slide(&mut self, slide: &Slide<'_>) {
+        for which in 0..2 {
+            let mut changes: Vec<(HalfEdgeId, [u32; 2], u32)> = Vec::new();
+            for [corner, toward] in slide.along.into_iter().flatten() {
+                let ends @ [from, to] = [corner, toward].map(|h| self.corners[h.index()][which]);
+                if from == to || from == NONE || to == NONE {
+                    continue;
+                }
+                let made = changes.iter().find(|(_, of, _)| *of == ends);
+                let (between, weights) = ([from, to, to], [1.0 - slide.t, slide.t, 0.0]);
+                let index = match made {
+                    Some(&(.., index)) => index,
+                    None if which == 0 => self.new_texture_between(between, weights, true),
+                    None => self.new_normal_between(between, weights, true),
+                };
+                changes.push((corner, ends, index));
+            }
+            for &h in slide.corners {
+                let index = &mut self.corners[h.index()][which];
+                let own = changes.iter().find(|(corner, ..)| *corner == h);
+                let same = || changes.iter().find(|(_, [from, _], _)| from == index);
+                if let Some(&(.., after)) = own.or_else(same) {
+                    *index = after;
+                }
+            }
+        }
+    }
+
+    fn is_part_of_recorded(&self, slot: u32) -> bool {
+        let Some(record) = &self.document.record else {
+            return false;
+        };
+        let parents = &record.parents;
+        let after = parents.partition_point(|parent| parent.first <= slot);
+        after > 0 && slot < parents[after - 1].end
+    }
+
+    /// The index of a texture coordinate (0) or normal (1) at a place in a face whose corners
+    /// have these.
+    fn index(
+        &mut self,
+        source: Source,
+        before: [u32; 3],
+        class: u32,
+        which: usize,
+        made: &mut BTreeMap<Between, u32>,
+    ) -> u32 {
+        let (between, weights) = match source {
+            Source::Corner(h) => return before[h.corner()],
+            Source::Edge { ends, t } => {
+                let [a, b] = ends.map(|h| before[h.corner()]);
+                ([a, b, b], [1.0 - t, t, 0.0])
+            }
+            Source::Face { weights } => (before, weights),
+        };
+        if between.contains(&NONE) {
+            return NONE;
+        }
+        if between.iter().all(|&index| index == between[0]) {
+            return between[0];
+        }
+        // The corners of two faces with a common edge come in opposite order; what a
+        // place on the edge lies between does not.
+        if let Some(&index) = made.get(&(class, between)) {
+            return index;
+        }
+        let on_edge = matches!(source, Source::Edge { .. });
+        let index = if which == 0 {
+            self.new_texture_between(between, weights, on_edge)
+        } else {
+            self.new_normal_between(between, weights, on_edge)
+        };
+        made.insert((class, between), index);
+        index
+    }
+
+    fn new_texture_between(&mut self, between: [u32; 3], weights: [f64; 3], on_edge: bool) -> u32 {
+        let count = self.document.texture.len();
+        let rows = between.map(|index| match (index as usize).checked_sub(count) {
+            None => self.document.texture.row(index as usize),
+            Some(new) => self.new_texture.row(new),
+        });
+        let length = rows.iter().map(|row| row.len()).max().unwrap_or(0);
+        let row: Vec<f64> = (0..length)
+            .map(|i| {
+                let values = rows.map(|row| row.get(i).copied().unwrap_or(0.0));
+                blend(values, weights, on_edge)
+            })
+            .collect();
+        let new = self.new_texture.len();
+        self.new_texture.set(new, &row);
+        (count + new) as u32
+    }
+
+    fn new_normal_between(&mut self, between: [u32; 3], weights: [f64; 3], on_edge: bool) -> u32 {
+        let count = self.document.normals.len();
+        let normals = between.map(|index| match (index as usize).checked_sub(count) {
+            None => self.document.normals[index as usize],
+            Some(new) => self.new_normals[new],
+        });
+        let blended = |values: [f64; 3]| blend(values, weights, on_edge);
+        let mut normal = [0, 1, 2].map(|axis| blended(normals.map(|normal| normal[axis])));
+        let (length, wanted) = (length(normal), blended(normals.map(length)));
+        let scale = wanted / length;
+        if length > 0.0 && scale.is_finite() {
+            normal = normal.map(|x| x * scale);
+        } else {
+            normal = normals[0];
+        }
+        self.new_normals.push(normal);
+        (count + self.new_normals.len() - 1) as u32
+    }
+}
+
+/// The value between three, or on an edge between the first two.
+fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
+    if on_edge {
+        a.between(&b, weights[1])
+    } else {
+        f64::weighted([&a, &b, &c], weights)
+    }
+}
+
+fn length(normal: [f64; 3]) -> f64 {
+    let [x, y, z] = normal.map(|x| x * x);
+    (x + y + z).sqrt()
+}
+
+/// The classes of the corners of a divided face: each corner is one of a child.
+fn original(family: &[Child], class: impl Fn(VertexId) -> u32) -> [u32; 3] {
+    let mut corners = [NONE; 3];
+    for child in family {
+        for (source, &vertex) in child.sources.iter().zip(&child.vertices) {
+            if let Source::Corner(h) = source {
+                corners[h.corner()] = class(vertex);
+            }
+        }
+    }
+    corners
+}

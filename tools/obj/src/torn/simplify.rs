@@ -1,0 +1,327 @@
+//! Taking out again what cuts inserted.
+
+use tearmesh::{Mesh, Positions};
+
+use super::{Slots, TornDocument};
+use crate::diagnostic::ReadError;
+use crate::document::Document;
+use crate::record::Parent;
+use crate::write::{Prepared, write};
+
+/// What is left out when a torn document is written simplified.
+#[derive(Debug)]
+pub(crate) struct Removal {
+    /// Whether each vertex of the mesh is left out, each texture coordinate and each normal.
+    pub(crate) vertices: Vec<bool>,
+    pub(crate) texture: Vec<bool>,
+    pub(crate) normals: Vec<bool>,
+    /// Ascending, by the triangles of the document where they stand.
+    restored: Vec<Restored>,
+}
+
+/// A face that takes the place of those that cover it.
+#[derive(Clone, Copy, Debug)]
+struct Restored {
+    parent: Parent,
+    /// Half-edges of the mesh whose corners it has.
+    corners: [u32; 3],
+}
+
+/// Marks a restored face among faces of the mesh, of which there are less.
+const RESTORED: u32 = 1 << 31;
+
+impl Removal {
+    /// Whether the face that stood from this triangle of the document on is restored.
+    pub(crate) fn restores(&self, first: u32) -> bool {
+        let parent = |restored: &Restored| restored.parent.first;
+        self.restored.binary_search_by_key(&first, parent).is_ok()
+    }
+
+    /// The corners of a restored face.
+    #[inline]
+    pub(crate) fn restored(&self, face: u32) -> Option<[u32; 3]> {
+        let index = face.checked_sub(RESTORED)?;
+        Some(self.restored[index as usize].corners)
+    }
+
+    /// The faces that are written.
+    pub(crate) fn slots(&self, slots: &Slots) -> Slots {
+        let triangles = slots.starts.len() - 1;
+        let mut faces = Vec::with_capacity(slots.faces.len());
+        let mut starts = vec![0];
+        let mut restored = (RESTORED..).zip(&self.restored).peekable();
+        for triangle in 0..triangles {
+            let here = restored
+                .peek()
+                .map(|&(face, restored)| (face, restored.parent));
+            match here {
+                Some((face, parent)) if triangle >= parent.first as usize => {
+                    if triangle == parent.first as usize {
+                        faces.push(face);
+                    }
+                    if triangle + 1 == parent.end as usize {
+                        restored.next();
+                    }
+                }
+                _ => faces.extend_from_slice(&slots.faces[slots.of(triangle..triangle + 1)]),
+            }
+            starts.push(faces.len() as u32);
+        }
+        Slots { faces, starts }
+    }
+}
+
+impl TornDocument<'_> {
+    /// The document without the vertices that cuts inserted and that keep nothing apart any more,
+    /// and with the faces that they divided whole again; `None` if nothing can go.
+    ///
+    /// Mending sews the sides of a cut, and leaves the vertices along it. An inserted vertex goes if
+    /// all its copies are one again and every face that it divided is restored. A divided
+    /// face is restored if every vertex inserted in it or on its edges goes, and all its parts
+    /// agree on the vertex, the texture coordinate and the normal at each of its corners. So
+    /// faces go together along the whole length of a cut, up to where it is still open.
+    /// Texture coordinates and normals that were inserted go if no face is left that has them.
+    ///
+    /// After a cut is mended altogether, this gives what was there before it, bit for bit; but for
+    /// the positions of vertices that were moved, and in a file that has `v` after `f`, for the place
+    /// of `v` statements that the cut had to move up.
+    ///
+    /// The document is made by writing and reading: linear, in the memory of a file more.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Document::read`], where a position is beyond what a file may have.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
+    /// position for each vertex.
+    ///
+    /// ```
+    /// use tearmesh::{Edits, HalfEdgeId, Positions, subdivide::Plan};
+    /// use tearmesh_obj::{Document, TornDocument};
+    ///
+    /// let document = Document::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..])?;
+    /// let mut mesh = document.mesh()?;
+    /// let mut positions = Positions::new(document.positions().iter().copied())?;
+    /// let mut torn = TornDocument::new(&document);
+    /// let mut plan = Plan::new();
+    /// plan.on_edge(HalfEdgeId::new(0).expect("small"), 0.5);
+    /// let mut edits = Edits::new();
+    /// plan.apply(&mut mesh, &mut edits)?;
+    /// edits.replay(&mut (&mut positions, &mut torn));
+    ///
+    /// let simple = torn.simplified(&mesh, &positions)?.expect("the vertex holds nothing apart");
+    /// assert_eq!(simple.triangles(), document.triangles());
+    /// assert_eq!(simple.positions(), document.positions());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn simplified(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+    ) -> Result<Option<Document>, ReadError> {
+        self.assert_in_step(mesh, positions);
+        let Some(removal) = self.removal(mesh) else {
+            return Ok(None);
+        };
+        let mut bytes = Vec::new();
+        write(
+            self,
+            &Prepared::new(self, mesh, Some(&removal)),
+            positions,
+            &mut bytes,
+        )?;
+        Document::read(&bytes[..]).map(Some)
+    }
+
+    fn removal(&self, mesh: &Mesh) -> Option<Removal> {
+        let slots = self.slots();
+        let going = Going::find(self, mesh, &slots);
+        if going.restored.is_empty() {
+            return None;
+        }
+        let classes = self.classes();
+        let mut removal = Removal {
+            vertices: classes.iter().map(|&class| going.goes(class)).collect(),
+            texture: Vec::new(),
+            normals: Vec::new(),
+            restored: going.restored,
+        };
+        let counts = self.counts();
+        let before = self.counts_before();
+        let before = [before.0, before.1];
+        let mut unused = [0, 1].map(|which| {
+            let all = 0..counts[which];
+            all.map(|index| index >= before[which]).collect::<Vec<_>>()
+        });
+        for &face in &removal.slots(&slots).faces {
+            let own = [
+                3 * face as usize,
+                3 * face as usize + 1,
+                3 * face as usize + 2,
+            ];
+            let corners = removal.restored(face);
+            for h in corners.map_or(own, |corners| corners.map(|h| h as usize)) {
+                for (index, unused) in self.corner_of(h).into_iter().zip(&mut unused) {
+                    if let Some(index) = index {
+                        unused[index as usize] = false;
+                    }
+                }
+            }
+        }
+        [removal.texture, removal.normals] = unused;
+        Some(removal)
+    }
+
+    /// How many texture coordinates and normals there are.
+    fn counts(&self) -> [usize; 2] {
+        let new = self.new_texture().map_or(0, |rows| rows.len());
+        [
+            self.document.texture.len() + new,
+            self.document.normals.len() + self.new_normals().len(),
+        ]
+    }
+}
+
+/// Which inserted vertices go, and which faces are restored.
+struct Going {
+    /// By class: whether it was inserted and may go.
+    goes: Vec<bool>,
+    restored: Vec<Restored>,
+}
+
+impl Going {
+    fn goes(&self, class: u32) -> bool {
+        self.goes[class as usize]
+    }
+
+    /// Begins with everything inserted, and takes back what cannot go until nothing more follows.
+    fn find(torn: &TornDocument<'_>, mesh: &Mesh, slots: &Slots) -> Going {
+        let classes = torn.classes();
+        let mut copies = vec![0_u32; torn.ancestry.class_count()];
+        for &class in &classes {
+            copies[class as usize] += 1;
+        }
+        let mut goes = vec![false; copies.len()];
+        for inserted in torn.inserted() {
+            goes[inserted.vertex as usize] = copies[inserted.vertex as usize] == 1;
+        }
+        let class_at = |h: usize| classes[mesh.indices()[h] as usize];
+        let parents = torn.parents();
+        for &class in parents.iter().flat_map(|parent| &parent.corners) {
+            goes[class as usize] = false; // Of a parent that no honest record has.
+        }
+        // What a parent has inside stands and falls with it.
+        let mut within: Vec<(u32, u32)> = Vec::new();
+        let mut candidates: Vec<Option<Restored>> = Vec::with_capacity(parents.len());
+        let mut covered = 0;
+        for (number, &parent) in parents.iter().enumerate() {
+            let faces = slots.of(parent.first as usize..parent.end as usize);
+            keep(&mut goes, &slots.faces[covered..faces.start], class_at);
+            covered = faces.end;
+            let faces = &slots.faces[faces];
+            let half_edges = || {
+                faces
+                    .iter()
+                    .flat_map(|&f| 3 * f as usize..3 * f as usize + 3)
+            };
+            let own = |h: &usize| !parent.corners.contains(&class_at(*h));
+            within.extend(
+                half_edges()
+                    .filter(own)
+                    .map(|h| (class_at(h), number as u32)),
+            );
+            candidates.push(torn.whole(parent, half_edges(), mesh, class_at));
+        }
+        keep(&mut goes, &slots.faces[covered..], class_at);
+        within.sort_unstable();
+        within.dedup();
+        let mut by_parent: Vec<(u32, u32)> = within.iter().map(|&(c, p)| (p, c)).collect();
+        by_parent.sort_unstable();
+        let of = |list: &[(u32, u32)], key: u32| {
+            let start = list.partition_point(|&(k, _)| k < key);
+            start..list.partition_point(|&(k, _)| k <= key)
+        };
+
+        let stays = |c: usize| copies[c] > 0 && !goes[c];
+        let mut staying: Vec<u32> = (0..goes.len())
+            .filter(|&c| stays(c))
+            .map(|c| c as u32)
+            .collect();
+        for number in 0..candidates.len() {
+            if candidates[number].is_none() {
+                for &(_, class) in &by_parent[of(&by_parent, number as u32)] {
+                    staying.extend(std::mem::take(&mut goes[class as usize]).then_some(class));
+                }
+            }
+        }
+        loop {
+            while let Some(class) = staying.pop() {
+                for &(_, parent) in &within[of(&within, class)] {
+                    if candidates[parent as usize].take().is_none() {
+                        continue;
+                    }
+                    for &(_, class) in &by_parent[of(&by_parent, parent)] {
+                        staying.extend(std::mem::take(&mut goes[class as usize]).then_some(class));
+                    }
+                }
+            }
+            // What stays was put between vertices that stay, or the record would name none.
+            for inserted in torn.inserted() {
+                if !goes[inserted.vertex as usize] {
+                    for &class in inserted.at.roots() {
+                        staying.extend(std::mem::take(&mut goes[class as usize]).then_some(class));
+                    }
+                }
+            }
+            if staying.is_empty() {
+                break;
+            }
+        }
+        Going {
+            goes,
+            restored: candidates.into_iter().flatten().collect(),
+        }
+    }
+}
+
+/// The vertices of faces that were not divided stay.
+fn keep(goes: &mut [bool], faces: &[u32], class_at: impl Fn(usize) -> u32) {
+    for &face in faces {
+        for h in 3 * face as usize..3 * face as usize + 3 {
+            goes[class_at(h) as usize] = false;
+        }
+    }
+}
+
+impl TornDocument<'_> {
+    /// The face that these half-edges are those of the parts of, if the parts agree on its corners.
+    fn whole(
+        &self,
+        parent: Parent,
+        half_edges: impl Iterator<Item = usize>,
+        mesh: &Mesh,
+        class_at: impl Fn(usize) -> u32,
+    ) -> Option<Restored> {
+        let mut corners: [Option<usize>; 3] = [None; 3];
+        for h in half_edges {
+            let class = class_at(h);
+            let Some(corner) = parent.corners.iter().position(|&of| of == class) else {
+                continue;
+            };
+            let first = *corners[corner].get_or_insert(h);
+            let vertex = |h: usize| mesh.indices()[h];
+            if vertex(first) != vertex(h) || self.corner_of(first) != self.corner_of(h) {
+                return None;
+            }
+        }
+        let [Some(a), Some(b), Some(c)] = corners else {
+            return None;
+        };
+        Some(Restored {
+            parent,
+            corners: [a, b, c].map(|h| h as u32),
+        })
+    }
+}

@@ -1,0 +1,119 @@
+//! The record, to comments.
+
+use std::io::{self, Write};
+
+use super::number::{write_integer, write_number};
+use super::{Output, Writer};
+use crate::record::{At, END, HEADER, Hash, ITEM, Record, VERSION};
+
+impl<W: Write> Writer<'_, W> {
+    /// Writes the record, if there is one: everything before it is written.
+    pub(super) fn write_record(&mut self) -> io::Result<()> {
+        let prepared = self.prepared;
+        let Some(record) = &prepared.record else {
+            return Ok(());
+        };
+        let counts = [
+            prepared.vertices.count(),
+            prepared.face_count(),
+            record.texture_before,
+            prepared.texture.count(),
+            record.normals_before,
+            prepared.normals.count(),
+        ];
+        let out = &mut self.out.pending;
+        out.extend_from_slice(HEADER);
+        integer(out, VERSION as usize);
+        for (word, counts) in [
+            ("v", &counts[..1]),
+            ("f", &counts[1..2]),
+            ("vt", &counts[2..4]),
+            ("vn", &counts[4..]),
+        ] {
+            out.push(b' ');
+            out.extend_from_slice(word.as_bytes());
+            for &count in counts {
+                integer(out, count);
+            }
+        }
+        out.extend_from_slice(b" faces");
+        hexadecimal(out, self.hash);
+        out.push(b'\n');
+        let mut items = Items {
+            out: &mut self.out,
+            count: 0,
+            hash: Hash::default(),
+        };
+        items.write(record, prepared.fans())?;
+        let Items { count, hash, .. } = items;
+        let out = &mut self.out.pending;
+        out.extend_from_slice(END);
+        integer(out, count);
+        hexadecimal(out, hash);
+        out.push(b'\n');
+        self.out.flush_if_full()
+    }
+}
+
+struct Items<'o, 'w, W> {
+    out: &'o mut Output<'w, W>,
+    count: usize,
+    hash: Hash,
+}
+
+impl<W: Write> Items<'_, '_, W> {
+    fn write(&mut self, record: &Record, fans: impl Iterator<Item = [u32; 2]>) -> io::Result<()> {
+        for split in &record.splits {
+            let numbers = [split.vertex + 1, split.from + 1, split.cut];
+            self.item("split", &numbers, &[])?;
+        }
+        for [copy, vertex] in fans {
+            self.item("fan", &[copy + 1, vertex + 1], &[])?;
+        }
+        for inserted in &record.inserted {
+            let [vertex, cut] = [inserted.vertex + 1, inserted.cut];
+            match inserted.at {
+                At::Edge { ends: [a, b], t } => {
+                    self.item("edge", &[vertex, cut, a + 1, b + 1], &[t])?;
+                }
+                At::Face {
+                    corners: [a, b, c],
+                    weights,
+                } => self.item("face", &[vertex, cut, a + 1, b + 1, c + 1], &weights)?,
+            }
+        }
+        for parent in &record.parents {
+            let [a, b, c] = parent.corners.map(|v| v + 1);
+            self.item("parent", &[parent.first + 1, parent.end, a, b, c], &[])?;
+        }
+        Ok(())
+    }
+
+    fn item(&mut self, word: &str, whole: &[u32], numbers: &[f64]) -> io::Result<()> {
+        let out = &mut self.out.pending;
+        let start = out.len();
+        out.extend_from_slice(ITEM);
+        out.push(b' ');
+        out.extend_from_slice(word.as_bytes());
+        for &number in whole {
+            integer(out, number as usize);
+        }
+        for &number in numbers {
+            out.push(b' ');
+            write_number(out, number);
+        }
+        out.push(b'\n');
+        self.hash.add(&out[start..]);
+        self.count += 1;
+        self.out.flush_if_full()
+    }
+}
+
+fn integer(out: &mut Vec<u8>, number: usize) {
+    out.push(b' ');
+    write_integer(out, number as u64);
+}
+
+fn hexadecimal(out: &mut Vec<u8>, hash: Hash) {
+    out.extend_from_slice(format!(" {:016x}", hash.0).as_bytes());
+}
