@@ -48,6 +48,7 @@ mod layout;
 mod matrix;
 mod pcg;
 mod rest;
+mod settings;
 pub mod spring;
 mod step;
 pub mod triangle;
@@ -60,8 +61,9 @@ pub use layout::Layout;
 pub use matrix::{Block, Hessian};
 pub use pcg::Filter;
 pub use rest::{RestError, RestReport, RestSettings};
+pub use settings::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
 pub use spring::Spring;
-pub use step::{Implicit, Jacobian, Method, Settings, StepError, StepReport, Tolerance};
+pub use step::Implicit;
 pub use triangle::Triangle;
 
 /// What a solver has to know of a piece of cloth: slices of whoever owns it.
