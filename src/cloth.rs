@@ -19,6 +19,7 @@
 
 mod constraint;
 mod follow;
+pub mod implicit;
 mod kernel;
 mod load;
 mod particle;

@@ -13,6 +13,7 @@ mod exhaustive;
 mod figures;
 mod fuzz;
 mod house;
+mod implicit;
 mod lockstep;
 mod methods;
 mod oracle;
