@@ -10,6 +10,7 @@
 //! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
 //! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
 //! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
+//! | [`ImplicitSprings`] | stiff and accurate at once, one sliver among good faces | conjugate gradients; triangles in [`implicit`] |
 //! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
@@ -29,6 +30,7 @@ mod rk4;
 mod sheet;
 mod solver;
 mod stability;
+mod stiff;
 mod system;
 mod verlet;
 mod xpbd;
@@ -41,6 +43,7 @@ pub use rk4::Rk4;
 pub use sheet::{Cloth, ClothError, Copies, Effect, EnergyLedger, Fabric, Unbend};
 pub use solver::{Culprit, Solver, StepError, StepReport};
 pub use stability::Frequency;
+pub use stiff::ImplicitSprings;
 pub use system::{Counters, System, SystemError, Unstable};
 pub use verlet::Verlet;
 pub use xpbd::Xpbd;

@@ -1,0 +1,123 @@
+//! A system's springs, stepped implicitly.
+//!
+//! The adapter between [`System`] and [`implicit`](super::implicit): it hands the particles,
+//! the springs of both families, gravity, wind and drag over as slices, and takes back positions
+//! and velocities. Triangles and Choi and Ko's bends are no part of a system; who needs them
+//! uses [`implicit`](super::implicit) itself.
+
+use super::implicit::{self, Filter, Implicit, Settings, Spring};
+use super::solver::Solver;
+use super::system::System;
+use crate::geometry::Vector;
+
+/// Implicit steps of a system: backward Euler or BDF2, stable at any step.
+///
+/// ```
+/// use tearmesh::cloth::{ImplicitSprings, Loads, System};
+/// use tearmesh::{Point, Vector};
+///
+/// let mut spring = System::new([Point::origin(), Point::new(0.0, 0.0, -1.0)], vec![0.1; 2])?;
+/// spring.stretch([0, 1], 1.0, 50.0)?;
+/// spring.hold(0);
+/// let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -9.81));
+/// spring.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
+/// let mut solver = ImplicitSprings::default();
+/// for _ in 0..200 {
+///     spring.step(&mut solver, 0.5)?; // Far beyond the limit of an explicit method.
+/// }
+/// assert!((spring.positions()[1].z + 1.0 + 0.1 * 9.81 / 50.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct ImplicitSprings {
+    /// How to take a step.
+    pub settings: Settings,
+    solver: Implicit,
+    filters: Vec<Filter>,
+    accelerations: Vec<Vector>,
+    springs: Vec<Spring>,
+    error: Option<implicit::StepError>,
+}
+
+impl ImplicitSprings {
+    /// The method with these settings.
+    #[must_use]
+    pub fn new(settings: Settings) -> ImplicitSprings {
+        ImplicitSprings {
+            settings,
+            ..ImplicitSprings::default()
+        }
+    }
+
+    /// Why the last step failed, if it did: [`System::step`] says only that it blew up.
+    #[must_use]
+    pub fn error(&self) -> Option<implicit::StepError> {
+        self.error
+    }
+
+    /// Forgets the previous step: for BDF2, after particles were renumbered by a merge, or their
+    /// state was set. Where their number changed that is noticed.
+    pub fn forget(&mut self) {
+        self.solver.forget();
+    }
+
+    /// Gathers what the solver has to know.
+    fn gather(&mut self, system: &mut System) {
+        let System {
+            positions,
+            velocities,
+            model,
+            counters,
+            ..
+        } = system;
+        self.accelerations.clear();
+        self.accelerations.resize(positions.len(), Vector::zeros());
+        model.external(positions, velocities, &mut self.accelerations, counters);
+        let filter = |&w: &f64| if w > 0.0 { Filter::Free } else { Filter::Fixed };
+        self.filters.clear();
+        self.filters.extend(model.inverse_masses.iter().map(filter));
+        self.springs.clear();
+        for family in [&model.stretch, &model.bend] {
+            let springs = family.iter().map(|id| family.get(id));
+            self.springs.extend(springs.map(|constraint| Spring {
+                ends: constraint.ends.map(|end| end as u32),
+                rest_length: constraint.rest_length_m,
+                stiffness: constraint.stiffness_n_per_m,
+                tension_only: false,
+            }));
+        }
+    }
+}
+
+impl Solver for ImplicitSprings {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+        self.gather(system);
+        system.scratch.is_fresh = false;
+        let model = implicit::Model {
+            masses: &system.model.masses,
+            filters: &self.filters,
+            accelerations: &self.accelerations,
+            springs: &self.springs,
+            drag_per_s: system.model.drag_per_s(),
+            ..implicit::Model::default()
+        };
+        let (positions, velocities) = (&mut system.positions, &mut system.velocities);
+        let settings = &self.settings;
+        match self
+            .solver
+            .step(&model, positions, velocities, dt_s, settings)
+        {
+            Ok(report) => {
+                self.error = None;
+                system.counters.force_evaluations += report.work.force_evaluations;
+                system.counters.matrix_products += report.work.matrix_products;
+                system.collide();
+                true
+            }
+            Err(error) => {
+                self.error = Some(error);
+                false
+            }
+        }
+    }
+}
