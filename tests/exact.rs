@@ -420,3 +420,76 @@ fn random_cuts_of_all_methods_can_be_mended() {
     }
     println!("{done:?}");
 }
+
+/// A slit that ends inside a sheet is one slit of about the right length, whatever was snapped: a
+/// snapped vertex stands for the crossing, also where it lies beyond a side plane itself.
+#[test]
+fn snapped_slits_are_whole_and_of_the_right_length() {
+    let mut random = Random(67);
+    let (mut errors, mut slits) = (Vec::new(), 0);
+    for sheet in sheets() {
+        let mut done = 0;
+        while done < 80 {
+            let [x, y] = [0.25 + 0.5 * random.next(), 0.25 + 0.5 * random.next()];
+            let turn = std::f64::consts::TAU * random.next();
+            let half = 0.1 + 0.1 * random.next();
+            let ends = [
+                [x - half * turn.cos(), y - half * turn.sin()],
+                [x + half * turn.cos(), y + half * turn.sin()],
+            ];
+            let mut cutting = Cutting::new(&sheet);
+            let report = cutting.cut(&scissor(ends.map(crate::straight::down)).snap(0.2));
+            assert_eq!(cutting.mesh.boundary_loops().len(), 2, "{ends:?}");
+            assert_eq!(report.tip_overshoots.len(), 2, "{ends:?}");
+            let slit = report.seam_length / report.seam_length_ratio;
+            errors.push((report.seam_length - slit).abs() / sheet.mean_edge());
+            done += 1;
+        }
+        slits += done;
+    }
+    errors.sort_by(f64::total_cmp);
+    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+    println!(
+        "{slits} slits, length off by {mean:.3} edges, {:.3} at most",
+        errors[errors.len() - 1]
+    );
+    assert!(mean < 0.1 && errors[errors.len() - 1] < 0.45);
+}
+
+/// Where rays pass two sheets, a polyline is one slit on each.
+#[test]
+fn a_polyline_is_joined_on_every_sheet_that_it_passes() {
+    let mut random = Random(71);
+    for snap in [0.0, Scissor::SNAP, 0.2] {
+        let (mut mesh, mut points) = (Vec::new(), Vec::new());
+        // Two sheets, one below the other, and not alike.
+        for (z, sheet) in [(0.0, &sheets()[1]), (-1.0, &sheets()[2])] {
+            let first = points.len() as u32;
+            mesh.extend(sheet.faces.iter().map(|face| face.map(|v| v + first)));
+            points.extend(sheet.points.iter().map(|p| [p[0], p[1], p[2] + z]));
+        }
+        let both = Surface {
+            points,
+            faces: mesh,
+        };
+        let (mut done, mut joined) = (0, 0);
+        while done < 60 {
+            let corners = random_corners(&mut random);
+            let inside = |p: &[f64; 2]| p.iter().all(|x| *x > 0.05 && *x < 0.95);
+            if !corners.iter().all(inside) {
+                continue;
+            }
+            let mut cutting = Cutting::new(&both);
+            along_polyline(&mut cutting, &corners, snap);
+            done += 1;
+            joined += usize::from(cutting.mesh.boundary_loops().len() == 4);
+        }
+        println!("snap {snap}: {joined} of {done} polylines joined on both sheets");
+        // The plane passes through the joint on one sheet, and by that on the other: with a snap
+        // of a fifth of an edge it may pass too far away.
+        assert!(
+            joined == done || (snap > Scissor::SNAP && joined >= 57),
+            "snap {snap}: {joined}"
+        );
+    }
+}

@@ -124,6 +124,7 @@ impl Trace {
             positions,
             offsets,
             near: scissor.snap.max(TIP_MIN),
+            round_joints: Vec::new(),
             snapped: Vec::new(),
         };
         let mut touched = offsets.touched(mesh);
@@ -131,7 +132,9 @@ impl Trace {
         touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
         touched.sort_unstable();
         touched.dedup();
+        tracer.look_round_joints();
         tracer.snap(&touched);
+        tracer.look_round_joints();
         tracer.trace(&touched)
     }
 
@@ -247,6 +250,9 @@ struct Tracer<'t> {
     positions: &'t Positions,
     offsets: &'t Offsets,
     near: f64,
+    /// Nodes in the faces of joints, and the depth of the joint inside the first side plane. By
+    /// site.
+    round_joints: Vec<(Site, f64)>,
     /// By vertex.
     snapped: Vec<Snapped>,
 }
@@ -278,6 +284,34 @@ impl Tracer<'_> {
         })
     }
 
+    /// The side plane passes through one joint, and by the others, on other sheets, as far
+    /// as they were snapped. Each cut begins at its joint: what is nearest to one is measured
+    /// from there.
+    fn look_round_joints(&mut self) {
+        self.round_joints.clear();
+        let mut round = Vec::new();
+        for &v in &self.scissor.joints {
+            let depth = self.scissor.sides[0].offset(self.positions.at(v));
+            let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
+            round.extend(faces.flatten().map(|node| (node.site, depth)));
+        }
+        round.sort_by(|a, b| a.partial_cmp(b).expect("depths are finite"));
+        round.dedup_by_key(|&mut (site, _)| site);
+        self.round_joints = round;
+    }
+
+    fn joint_depth(&self, site: Site) -> Option<f64> {
+        let key = |&(site, _): &(Site, f64)| site;
+        let at = self.round_joints.binary_search_by_key(&site, key);
+        at.ok().map(|at| self.round_joints[at].1)
+    }
+
+    /// The depths of a node that has these by its place.
+    fn node(&self, site: Site, mut depths: [f64; 2]) -> Node {
+        depths[0] -= self.joint_depth(site).unwrap_or(0.0);
+        Node { site, depths }
+    }
+
     fn crossing(&self, h: HalfEdgeId) -> Crossing {
         let half_edge = self.mesh.pair(h).map_or(h, |pair| pair.min(h));
         let [a, b] = [self.mesh.origin(half_edge), self.mesh.target(half_edge)];
@@ -302,24 +336,20 @@ impl Tracer<'_> {
     fn crossing_node(&self, h: HalfEdgeId) -> Node {
         let crossing = self.crossing(h);
         let [p, q] = self.ends(&crossing).map(|v| self.positions.at(v));
-        Node {
-            site: Site::Edge(crossing.half_edge),
-            depths: self.depths(between(p, q, crossing.t)),
-        }
+        let depths = self.depths(between(p, q, crossing.t));
+        self.node(Site::Edge(crossing.half_edge), depths)
     }
 
     fn vertex_node(&self, v: VertexId) -> Node {
-        let mut depths = match self.snap_of(v) {
+        let depths = match self.snap_of(v) {
             Some(snapped) => snapped.depths,
             None => self.depths(self.positions.at(v)),
         };
+        let mut node = self.node(Site::Vertex(v), depths);
         if self.scissor.joints.contains(&v) {
-            depths[0] = 0.0;
+            node.depths[0] = 0.0;
         }
-        Node {
-            site: Site::Vertex(v),
-            depths,
-        }
+        node
     }
 
     /// The nodes of a face with vertices on both sides of the plane.
@@ -396,6 +426,9 @@ impl Tracer<'_> {
             for (node, at_node) in nodes.into_iter().zip(at_node) {
                 let met = at_node || node.depths.into_iter().all(|depth| depth >= 0.0);
                 let Site::Edge(h) = node.site else { continue };
+                if self.joint_depth(node.site).is_some() {
+                    continue;
+                }
                 let crossing = self.crossing(h);
                 let near = [crossing.t, 1.0 - crossing.t];
                 let [a, b] = self.ends(&crossing);
