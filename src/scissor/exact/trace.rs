@@ -345,11 +345,7 @@ impl Tracer<'_> {
             Some(snapped) => snapped.depths,
             None => self.depths(self.positions.at(v)),
         };
-        let mut node = self.node(Site::Vertex(v), depths);
-        if self.scissor.joints.contains(&v) {
-            node.depths[0] = 0.0;
-        }
-        node
+        self.node(Site::Vertex(v), depths)
     }
 
     /// The nodes of a face with vertices on both sides of the plane.
