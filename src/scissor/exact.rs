@@ -5,7 +5,7 @@
 //!    that, the end counts as on the plane, for all its edges. It is not moved, so the seam
 //!    deviates by as much, unless that is asked for (`exact/slip.rs`). What is left are crossings well inside their edges, and
 //!    so no child has an altitude below r (1 − r) of its parent's.
-//! 3. **Trace** (`exact/trace.rs`): in each face the slit runs from node to node (a vertex on
+//! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from node to node (a vertex on
 //!    the plane, or a crossing) as far as the strip between the side planes goes. Where that ends
 //!    inside the face there is a *tip*.
 //! 4. **Insert** all crossings and tips at once, each computed once from the same end, so both sides
@@ -26,6 +26,7 @@
 mod label;
 mod slip;
 mod trace;
+mod tracer;
 
 use super::offsets::Offsets;
 use super::{Ends, Outcome, Scissor, unshare};
@@ -46,7 +47,7 @@ pub(super) fn cut(
     label: bool,
     edits: &mut Edits,
 ) -> Outcome {
-    let mut trace = Trace::new(scissor, mesh, positions, offsets);
+    let mut trace = tracer::trace(scissor, mesh, positions, offsets);
     if scissor.snap_move {
         slip::onto_plane(&trace.snapped, mesh, positions, edits);
     }

@@ -7,17 +7,8 @@
 //!
 //! Everything here is worked out from the mesh as it was before the cut.
 
-use super::super::Scissor;
-use super::super::offsets::Offsets;
-use super::label::Patches;
-use crate::geometry::{Point, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
-use crate::place::Positions;
-
-/// Tips nearer to a node than this part of the way between nodes are the node, also where
-/// snapping is off: the faces round them could not be told from nothing.
-const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Where a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -71,20 +62,6 @@ pub(super) struct Crossing {
     pub(super) used: bool,
 }
 
-/// A node and its depths inside the two side planes.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    site: Site,
-    depths: [f64; 2],
-}
-
-/// The part of a piece between the side planes.
-struct Span {
-    from: f64,
-    to: f64,
-    sides: [Option<usize>; 2],
-}
-
 /// A vertex that counts as on the plane because a crossing is near it.
 #[derive(Clone, Copy)]
 pub(super) struct Snapped {
@@ -94,7 +71,7 @@ pub(super) struct Snapped {
     /// The other end of that edge.
     pub(super) toward: VertexId,
     /// The depths of the crossing.
-    depths: [f64; 2],
+    pub(super) depths: [f64; 2],
 }
 
 /// The slit on a mesh.
@@ -107,37 +84,10 @@ pub(super) struct Trace {
     /// The vertices that count as on the plane because a crossing is near, ascending.
     pub(super) snapped: Vec<Snapped>,
     /// Crossings nearer than this part of their edge are one.
-    near: f64,
+    pub(super) near: f64,
 }
 
 impl Trace {
-    /// Traces the slit.
-    pub(super) fn new(
-        scissor: &Scissor,
-        mesh: &Mesh,
-        positions: &Positions,
-        offsets: &Offsets,
-    ) -> Trace {
-        let mut tracer = Tracer {
-            scissor,
-            mesh,
-            positions,
-            offsets,
-            near: scissor.snap.max(TIP_MIN),
-            round_joints: Vec::new(),
-            snapped: Vec::new(),
-        };
-        let mut touched = offsets.touched(mesh);
-        let joints = scissor.joints.iter();
-        touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
-        touched.sort_unstable();
-        touched.dedup();
-        tracer.look_round_joints();
-        tracer.snap(&touched);
-        tracer.look_round_joints();
-        tracer.trace(&touched)
-    }
-
     /// Whether a vertex of the mesh before the cut was put on the plane.
     pub(super) fn is_snapped(&self, v: VertexId) -> bool {
         let at = self.snapped.binary_search_by_key(&v, |one| one.vertex);
@@ -209,7 +159,7 @@ impl Trace {
 
     /// Notes which crossings are used, and which pieces need a vertex in the middle: those of one
     /// edge between vertices that both stay joined.
-    fn finish(&mut self, mesh: &Mesh) {
+    pub(super) fn finish(&mut self, mesh: &Mesh) {
         let ends = |piece: &Piece| {
             let at_nodes = piece.ends_at_nodes();
             [0, 1].map(|end| at_nodes[end].then_some(piece.nodes[end]))
@@ -241,330 +191,4 @@ fn is_closed(mesh: &Mesh, site: Site) -> bool {
 pub(super) fn corner_of(mesh: &Mesh, f: FaceId, v: VertexId) -> HalfEdgeId {
     let corner = f.half_edges().into_iter().find(|&h| mesh.origin(h) == v);
     corner.expect("a node of a piece is on the outline of its face")
-}
-
-/// A trace in the making.
-struct Tracer<'t> {
-    scissor: &'t Scissor,
-    mesh: &'t Mesh,
-    positions: &'t Positions,
-    offsets: &'t Offsets,
-    near: f64,
-    /// Nodes in the faces of joints, and the depth of the joint inside the first side plane. By
-    /// site.
-    round_joints: Vec<(Site, f64)>,
-    /// By vertex.
-    snapped: Vec<Snapped>,
-}
-
-impl Tracer<'_> {
-    /// Zero on the plane, else the sign of the side.
-    fn sign(&self, v: VertexId) -> f64 {
-        let is_on = self.snap_of(v).is_some() || self.scissor.joints.contains(&v);
-        if is_on { 0.0 } else { self.offsets.of(v) }
-    }
-
-    fn snap_of(&self, v: VertexId) -> Option<&Snapped> {
-        let at = self.snapped.binary_search_by_key(&v, |one| one.vertex);
-        at.ok().map(|at| &self.snapped[at])
-    }
-
-    /// How far a point is inside each side plane.
-    fn depths(&self, p: Point) -> [f64; 2] {
-        if self.scissor.through {
-            return [f64::INFINITY; 2];
-        }
-        self.scissor.sides.map(|side| {
-            let depth = side.offset(p);
-            if depth.abs() <= self.offsets.bound() {
-                0.0
-            } else {
-                depth
-            }
-        })
-    }
-
-    /// The side plane passes through one joint, and by the others, on other sheets, as far
-    /// as they were snapped. Each cut begins at its joint: what is nearest to one is measured
-    /// from there.
-    fn look_round_joints(&mut self) {
-        self.round_joints.clear();
-        let mut round = Vec::new();
-        for &v in &self.scissor.joints {
-            let depth = self.scissor.sides[0].offset(self.positions.at(v));
-            let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
-            round.extend(faces.flatten().map(|node| (node.site, depth)));
-        }
-        round.sort_by(|a, b| a.partial_cmp(b).expect("depths are finite"));
-        round.dedup_by_key(|&mut (site, _)| site);
-        self.round_joints = round;
-    }
-
-    fn joint_depth(&self, site: Site) -> Option<f64> {
-        let key = |&(site, _): &(Site, f64)| site;
-        let at = self.round_joints.binary_search_by_key(&site, key);
-        at.ok().map(|at| self.round_joints[at].1)
-    }
-
-    /// The depths of a node that has these by its place.
-    fn node(&self, site: Site, mut depths: [f64; 2]) -> Node {
-        depths[0] -= self.joint_depth(site).unwrap_or(0.0);
-        Node { site, depths }
-    }
-
-    fn crossing(&self, h: HalfEdgeId) -> Crossing {
-        let half_edge = self.mesh.pair(h).map_or(h, |pair| pair.min(h));
-        let [a, b] = [self.mesh.origin(half_edge), self.mesh.target(half_edge)];
-        let forward = is_before(self.positions.at(a), self.positions.at(b));
-        let [from, to] = if forward { [a, b] } else { [b, a] };
-        let [near, far] = [from, to].map(|v| self.offsets.of(v).abs());
-        Crossing {
-            half_edge,
-            t: near / (near + far),
-            forward,
-            used: false,
-        }
-    }
-
-    /// The vertices between which a crossing is, in the order in which it is counted.
-    fn ends(&self, crossing: &Crossing) -> [VertexId; 2] {
-        let h = crossing.half_edge;
-        let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
-        if crossing.forward { [a, b] } else { [b, a] }
-    }
-
-    fn crossing_node(&self, h: HalfEdgeId) -> Node {
-        let crossing = self.crossing(h);
-        let [p, q] = self.ends(&crossing).map(|v| self.positions.at(v));
-        let depths = self.depths(between(p, q, crossing.t));
-        self.node(Site::Edge(crossing.half_edge), depths)
-    }
-
-    fn vertex_node(&self, v: VertexId) -> Node {
-        let depths = match self.snap_of(v) {
-            Some(snapped) => snapped.depths,
-            None => self.depths(self.positions.at(v)),
-        };
-        self.node(Site::Vertex(v), depths)
-    }
-
-    /// The nodes of a face with vertices on both sides of the plane.
-    fn nodes(&self, f: FaceId) -> Option<[Node; 2]> {
-        let mut nodes = f.half_edges().into_iter().filter_map(|h| {
-            let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
-            let (da, db) = (self.sign(a), self.sign(b));
-            if da == 0.0 {
-                let across = self.sign(self.mesh.target(h.next()));
-                let divides = (db < 0.0 && across > 0.0) || (db > 0.0 && across < 0.0);
-                divides.then(|| self.vertex_node(a))
-            } else {
-                let crosses = (da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0);
-                crosses.then(|| self.crossing_node(h))
-            }
-        });
-        Some([nodes.next()?, nodes.next()?])
-    }
-
-    /// The part between the side planes of the piece from one node to the other.
-    ///
-    /// An end so near to a node that it is the node counts as one. Where nothing is left, the node
-    /// at which a side plane ends the slit is returned with that plane.
-    fn span(&self, [one, other]: [Node; 2]) -> Result<Span, Option<(usize, Site)>> {
-        let mut span = Span {
-            from: 0.0,
-            to: 1.0,
-            sides: [None; 2],
-        };
-        for side in 0..2 {
-            let (start, end) = (one.depths[side], other.depths[side]);
-            if start < 0.0 && end < 0.0 {
-                return Err(None);
-            }
-            if start < 0.0 && start / (start - end) > span.from {
-                span.from = start / (start - end);
-                span.sides[0] = Some(side);
-            } else if end < 0.0 && start / (start - end) < span.to {
-                span.to = start / (start - end);
-                span.sides[1] = Some(side);
-            }
-        }
-        if span.to - span.from <= self.near {
-            let is_inside = |node: Node| node.depths.into_iter().all(|depth| depth >= 0.0);
-            let tip = match span.sides {
-                [None, Some(side)] if is_inside(one) => Some((side, one.site)),
-                [Some(side), None] if is_inside(other) => Some((side, other.site)),
-                _ => None,
-            };
-            return Err(tip);
-        }
-        if span.from <= self.near {
-            span.from = 0.0;
-        }
-        if 1.0 - span.to <= self.near {
-            span.to = 1.0;
-        }
-        Ok(span)
-    }
-
-    /// Puts vertices on the plane that are near a crossing that the slit meets: nearer than
-    /// the snap, as a part of the edge.
-    fn snap(&mut self, touched: &[FaceId]) {
-        if self.scissor.snap == 0.0 {
-            return;
-        }
-        let mut snapped = Vec::new();
-        for &f in touched {
-            let Some(nodes) = self.nodes(f) else { continue };
-            let at_node = match self.span(nodes) {
-                Ok(span) => [span.from == 0.0, span.to == 1.0],
-                Err(_) => [false; 2],
-            };
-            for (node, at_node) in nodes.into_iter().zip(at_node) {
-                let met = at_node || node.depths.into_iter().all(|depth| depth >= 0.0);
-                let Site::Edge(h) = node.site else { continue };
-                if self.joint_depth(node.site).is_some() {
-                    continue;
-                }
-                let crossing = self.crossing(h);
-                let near = [crossing.t, 1.0 - crossing.t];
-                let [a, b] = self.ends(&crossing);
-                for ([vertex, toward], t) in [[a, b], [b, a]].into_iter().zip(near) {
-                    if met && t < self.scissor.snap {
-                        snapped.push(Snapped {
-                            vertex,
-                            t,
-                            toward,
-                            depths: node.depths,
-                        });
-                    }
-                }
-            }
-        }
-        self.snap_copies(&mut snapped);
-        // The nearest crossing speaks for the vertex. Equal ones are two faces' view of one,
-        // or decided by the order of faces.
-        snapped.sort_by(|a, b| {
-            (a.vertex, a.t)
-                .partial_cmp(&(b.vertex, b.t))
-                .expect("t is finite")
-        });
-        snapped.dedup_by_key(|one| one.vertex);
-        self.snapped = snapped;
-    }
-
-    /// Copies of one vertex that are at one place decide together.
-    fn snap_copies(&self, snapped: &mut Vec<Snapped>) {
-        let torn = |v: VertexId| {
-            self.mesh.corners_of(v).any(|h| {
-                self.mesh.ghost_pair(h).is_some() || self.mesh.ghost_pair(h.prev()).is_some()
-            })
-        };
-        for i in 0..snapped.len() {
-            let one = snapped[i];
-            if !torn(one.vertex) {
-                continue;
-            }
-            let place = self.positions.at(one.vertex);
-            let copies = self.mesh.copies(one.vertex);
-            let copies = copies.filter(|&v| v != one.vertex && self.positions.at(v) == place);
-            snapped.extend(copies.map(|vertex| Snapped { vertex, ..one }));
-        }
-    }
-
-    fn trace(&self, touched: &[FaceId]) -> Trace {
-        let mut pieces = Vec::new();
-        let mut lone_tips = Vec::new();
-        let mut on_plane = Vec::new();
-        for &f in touched {
-            if let Some(nodes) = self.nodes(f) {
-                self.add(Place::Face(f), nodes, &mut pieces, &mut lone_tips);
-            }
-            for h in f.half_edges() {
-                let ends = [self.mesh.origin(h), self.mesh.target(h)];
-                if let Some(pair) = self.mesh.pair(h)
-                    && ends.into_iter().all(|v| self.sign(v) == 0.0)
-                {
-                    on_plane.push(h.min(pair));
-                }
-            }
-        }
-        on_plane.sort_unstable();
-        on_plane.dedup();
-        self.along_edges(&on_plane, &mut pieces, &mut lone_tips);
-        let nodes = pieces.iter().flat_map(|piece| piece.nodes);
-        let mut crossings: Vec<Crossing> = nodes
-            .filter_map(|site| match site {
-                Site::Edge(h) => Some(self.crossing(h)),
-                Site::Vertex(_) => None,
-            })
-            .collect();
-        crossings.sort_by_key(|crossing| crossing.half_edge);
-        crossings.dedup_by_key(|crossing| crossing.half_edge);
-        let mut trace = Trace {
-            pieces,
-            crossings,
-            lone_tips,
-            snapped: self.snapped.clone(),
-            near: self.near,
-        };
-        trace.finish(self.mesh);
-        trace
-    }
-
-    /// Adds the edges on the plane whose faces lie on different sides of it.
-    fn along_edges(
-        &self,
-        edges: &[HalfEdgeId],
-        pieces: &mut Vec<Piece>,
-        lone_tips: &mut Vec<(usize, Site)>,
-    ) {
-        let sign = |v: VertexId| self.sign(v);
-        let offset = |v: VertexId| self.offsets.of(v);
-        let faces = edges.iter().flat_map(|&h| {
-            let pair = self.mesh.pair(h);
-            std::iter::once(h).chain(pair).map(HalfEdgeId::face)
-        });
-        let patches = Patches::new(self.mesh, faces, &sign, &offset);
-        for &h in edges {
-            let pair = self
-                .mesh
-                .pair(h)
-                .expect("only edges with a pair were taken");
-            let [one, other] = [h, pair].map(|h| patches.side(self.mesh, h.face(), &sign));
-            if one == other {
-                continue;
-            }
-            let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
-            let forward = is_before(self.positions.at(a), self.positions.at(b));
-            let ends = if forward { [a, b] } else { [b, a] };
-            let nodes = ends.map(|v| self.vertex_node(v));
-            self.add(Place::Edge { h, forward }, nodes, pieces, lone_tips);
-        }
-    }
-
-    fn add(
-        &self,
-        place: Place,
-        nodes: [Node; 2],
-        pieces: &mut Vec<Piece>,
-        lone_tips: &mut Vec<(usize, Site)>,
-    ) {
-        match self.span(nodes) {
-            Ok(Span { from, to, sides }) => pieces.push(Piece {
-                place,
-                nodes: nodes.map(|node| node.site),
-                from,
-                to,
-                tips: sides,
-                middle: false,
-            }),
-            Err(tip) => lone_tips.extend(tip),
-        }
-    }
-}
-
-/// Whether a point comes before another, coordinate by coordinate.
-fn is_before(p: Point, q: Point) -> bool {
-    let first = (0..3).find(|&axis| p[axis] != q[axis]);
-    first.is_some_and(|axis| p[axis] < q[axis])
 }
