@@ -493,3 +493,78 @@ fn a_polyline_is_joined_on_every_sheet_that_it_passes() {
         );
     }
 }
+
+/// A sheet folded along an edge on the plane, with both faces on one side, is touched and not
+/// cut; so is one with a strip in the plane.
+#[test]
+fn touching_is_not_cutting() {
+    let fold = Surface {
+        points: vec![[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.5, 0.5], [1.0, 0.5, -0.5]],
+        faces: vec![[0, 1, 2], [1, 0, 3]],
+    };
+    let strip = Surface {
+        points: vec![
+            [0.0; 3],
+            [0.0, 1.0, 0.0],
+            [0.0, 1.0, 1.0],
+            [0.0, 0.0, 1.0],
+            [1.0, 0.5, -0.5],
+            [1.0, 0.5, 1.5],
+        ],
+        faces: vec![[0, 1, 2], [0, 2, 3], [1, 0, 4], [3, 2, 5]],
+    };
+    for surface in [fold, strip] {
+        let mut cutting = Cutting::new(&surface);
+        let rays = [[0.0, -1.0], [0.0, 2.0]].map(crate::straight::down);
+        let report = cutting.cut(&scissor(rays).through(true));
+        assert_eq!(
+            (report.splits, report.vertices_inserted),
+            (0, 0),
+            "{report:?}"
+        );
+        // Where the neighbours are on different sides it is a cut.
+        let mut other = surface.clone();
+        other.points[3][0] = -1.0;
+        if other.faces.len() == 2 {
+            let report = Cutting::new(&other).cut(&scissor(rays).through(true));
+            assert_eq!((report.splits, report.pieces), (2, 2), "{report:?}");
+        }
+    }
+}
+
+/// Where a cut crosses an older one, both sides of that are snapped alike: of copies at one place
+/// all are split, or none.
+#[test]
+fn copies_of_a_vertex_decide_together() {
+    let mut random = Random(73);
+    let mut together = 0;
+    for sheet in sheets() {
+        for _ in 0..60 {
+            let mut cutting = Cutting::new(&sheet);
+            let mut part = || 0.2 + 0.6 * random.next();
+            let upright = [[part(), -1.0], [part(), 2.0]].map(crate::straight::down);
+            let level = [[-1.0, part()], [2.0, part()]].map(crate::straight::down);
+            cutting.cut(&scissor(upright).through(true).snap(0.2));
+            let before = cutting.mesh.clone();
+            let first = cutting.edits.next_number();
+            cutting.cut(&scissor(level).through(true).snap(0.2));
+            let mut split: Vec<_> = Vec::new();
+            for edit in cutting.edits.since(first) {
+                if let tearmesh::Edit::Split(split_of) = edit {
+                    split.push(split_of.old);
+                }
+            }
+            for v in before.vertices().filter(|v| split.contains(v)) {
+                let copies = before
+                    .vertices()
+                    .filter(|&w| before.root(w) == before.root(v));
+                for w in copies {
+                    assert!(split.contains(&w), "{v} was split, and {w} was not");
+                    together += usize::from(w != v);
+                }
+            }
+        }
+    }
+    println!("{together} copies");
+    assert!(together >= 20, "only {together}");
+}
