@@ -121,7 +121,7 @@ impl Elsewhere {
         } else {
             (large, "1,002,528")
         };
-        format!("not installed; {ms} ms for {faces} faces in PEERS.md")
+        format!("not installed; {ms} ms for {faces} faces on another machine")
     }
 }
 
