@@ -200,19 +200,24 @@ fn everything_else_of_the_document_stays() {
 
 #[test]
 fn what_arcsim_says_of_a_vertex_is_said_of_its_new_fans() {
-    let start = "v 0 0 0\nnl 7\n# a\nnv 1 2 3\nv 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\n";
+    let rest = "v 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\n";
     for (end, written) in [
         ("nl 9\n# b\n", "nl 9\nv 0 0 0\nnl 7\nnv 1 2 3\n# b\n"),
         (
             "vt 0\nvv 9\n# b\n",
-            "vt 0\nvv 9\n# b\nv 0 0 0\nnl 7\nnv 1 2 3\n",
+            "vv 9\nvt 0\n# b\nv 0 0 0\nnl 7\nnv 1 2 3\n",
         ),
     ] {
-        let document = read(format!("{start}{end}f 1 2 3\nf 1 4 5\n").as_bytes());
+        let document =
+            read(format!("v 0 0 0\nnl 7\n# a\nnv 1 2 3\n{rest}{end}f 1 2 3\nf 1 4 5\n").as_bytes());
         let document = document.repaired(Repair::SeparateFans);
         let mesh = document.mesh().expect("repaired");
         let out = write_as(&document, &mesh, &positions(&document));
-        assert_eq!(text(&out), format!("{start}{written}f 1 2 3\nf 6 4 5\n"));
+        let first = "v 0 0 0\nnl 7\nnv 1 2 3\n# a\n";
+        assert_eq!(
+            text(&out),
+            format!("{first}{rest}{written}f 1 2 3\nf 6 4 5\n")
+        );
         assert_eq!(text(&rewritten(&out)), text(&out));
     }
 }

@@ -83,14 +83,25 @@ fn what_arcsim_says_of_a_vertex_is_said_of_its_copies() {
     check(
         "v 0 0 0\nv 1 0 0\nnl 2 # pinned\nvt 0\nnv 1 \\\n2 3\ne 1 2\nv 0 1 0\nv 1 1 0\nnl 4\nea 5\nf 1 2 3\nf 3 2 4\n",
         &[(1, &[1])],
-        "v 0 0 0\nv 1 0 0\nnl 2 # pinned\nvt 0\nnv 1 \\\n2 3\ne 1 2\nv 0 1 0\nv 1 1 0\nnl 4\nea 5\n\
+        "v 0 0 0\nv 1 0 0\nnl 2 # pinned\nnv 1 \\\n2 3\nvt 0\ne 1 2\nv 0 1 0\nv 1 1 0\nnl 4\nea 5\n\
          v 1 0 0\nnl 2 # pinned\nnv 1 \\\n2 3\nv 0 1 0\nf 1 2 3\nf 6 5 4\n",
     );
-    // What is said of the last vertex stays said of it, though a `vt` or a comment stands between.
+    // What is said of a vertex is written behind it, though others stand between.
     check(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0\nvv 1 2 3\n# end\nf 1 2 3\nf 3 2 4\n",
         &[(1, &[1])],
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0\nvv 1 2 3\n# end\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvv 1 2 3\nv 1 0 0\nv 0 1 0\nvt 0\n# end\nf 1 2 3\nf 6 5 4\n",
+    );
+    // Even a `v` that a face needs earlier does not come between them.
+    check(
+        "nl 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nnl 3\nv 1 1 0\nf 3 2 4\nnl 4\n",
+        &[(1, &[1])],
+        "nl 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nnl 3\nf 1 2 3\nv 1 1 0\nnl 4\nv 1 0 0\nv 0 1 0\nnl 3\nf 6 5 4\n",
+    );
+    check(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nnl 3\nv 1 1 0\nf 3 2 4\nnl 4\n",
+        &[(1, &[0])],
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nnl 3\nv 1 1 0\nnl 4\nv 1 0 0\nv 0 1 0\nnl 3\nf 1 5 3\nf 6 2 4\n",
     );
 }
 

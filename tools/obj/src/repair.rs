@@ -315,7 +315,9 @@ impl Document {
             .rposition(|run| run.kind == Kind::Vertex)
             .expect("a bow-tie is a vertex");
         // Whole runs before the new vertices, and a part of the text behind them.
-        let before = said.late.map_or(last + 1, |late| late + 1);
+        let of_document = self.positions.len() - added.len();
+        let late = said.late_run(of_document);
+        let before = late.unwrap_or(last) + 1;
         let length = |runs: &[Run]| -> usize {
             let text = runs.iter().filter(|run| run.kind == Kind::Text);
             text.map(|run| run.count as usize).sum()
@@ -329,7 +331,7 @@ impl Document {
         let mut behind = None;
         if let [run, more @ ..] = rest
             && run.kind == Kind::Text
-            && said.late.is_none()
+            && late.is_none()
         {
             let attached = attached_length(&self.text[text_before..][..run.count as usize]);
             layout.append_text(attached, *run);

@@ -5,8 +5,9 @@
 //! splits added. The new ones follow the last `v` of the document and what is said of it, each with
 //! a copy of what `ARCSim` says of the vertex that it was split from (`said.rs`). Where a face needs a vertex
 //! before that (a file of several objects has `v` after `f`), the statements it needs are moved
-//! up to just before it, each with the foreign statements attached to it (`nv` of `ARCSim`). So no face
-//! precedes its vertices, and no number changes.
+//! up to just before it, each with the foreign statements attached to it. So no face
+//! precedes its vertices, and no number changes. What `ARCSim` says of a vertex is written
+//! behind that vertex, wherever it stood: no `v` comes between them.
 //!
 //! **Bow-ties.** A split may leave a vertex with several fans (the tip of a finite cut).
 //! Other programs, and our own [`Document::mesh`], would take such a vertex for a
@@ -188,6 +189,8 @@ impl<W: Write> Writer<'_, W> {
         let runs = document.layout.runs();
         let (mut vertices, mut texture, mut normals, mut polygons) = (0, 0, 0, 0);
         let mut text = &document.text[..];
+        // They say something of no vertex, and go on doing so.
+        self.out.text(self.prepared.said.late(0))?;
         for (i, run) in runs.iter().enumerate() {
             let count = run.count as usize;
             match run.kind {
@@ -214,10 +217,12 @@ impl<W: Write> Writer<'_, W> {
                     let written = i
                         .checked_sub(1)
                         .map_or(0, |before| attached_to(runs[before], lines));
-                    self.out.text(&lines[written..])?;
                     text = rest;
-                    if self.prepared.said.late == Some(i) {
-                        self.write_added()?;
+                    let lines = &lines[written..];
+                    if self.prepared.said.has_late() {
+                        self.out.text(&said::left_without_vertex(lines))?;
+                    } else {
+                        self.out.text(lines)?;
                     }
                 }
             }
@@ -240,12 +245,12 @@ impl<W: Write> Writer<'_, W> {
                 let last = range.end - 1;
                 let is_gone = last >= prepared.mesh_vertices || !prepared.vertices.has(last);
                 self.write_attached(self.vertices, is_gone)?;
+                if !is_gone {
+                    self.out.text(prepared.said.late(range.end))?;
+                }
             }
         }
-        if self.prepared.said.late.is_none() {
-            self.write_added()?;
-        }
-        Ok(())
+        self.write_added()
     }
 
     /// Writes the vertices that the document has not, if all that it has are written.
@@ -279,7 +284,7 @@ impl<W: Write> Writer<'_, W> {
                     .statement(b"vt", document.texture.row(index), &[])?;
             }
             if completes_run {
-                self.write_attached(self.texture, false)?;
+                self.write_attached(self.texture, prepared.said.has_late())?;
             }
         }
         let of_document = document.texture.len();
@@ -303,7 +308,7 @@ impl<W: Write> Writer<'_, W> {
                 self.out.statement(b"vn", &document.normals[index], &[])?;
             }
             if completes_run {
-                self.write_attached(self.normals, false)?;
+                self.write_attached(self.normals, prepared.said.has_late())?;
             }
         }
         let of_document = document.normals.len();
@@ -318,9 +323,9 @@ impl<W: Write> Writer<'_, W> {
         Ok(())
     }
 
-    /// Writes the foreign statements directly after the run that a stream has completed. What is
-    /// said of a vertex goes with it.
-    fn write_attached(&mut self, stream: Stream, is_gone: bool) -> io::Result<()> {
+    /// Writes the foreign statements directly after the run that a stream has completed, and
+    /// perhaps not what they say of a vertex, which is gone or has been told.
+    fn write_attached(&mut self, stream: Stream, without_vertex: bool) -> io::Result<()> {
         let runs = self.document.layout.runs();
         let Some(&Run {
             kind: Kind::Text,
@@ -332,7 +337,7 @@ impl<W: Write> Writer<'_, W> {
         };
         let lines = &self.document.text[stream.text_before..][..count as usize];
         let lines = &lines[..attached_to(runs[stream.run], lines)];
-        if is_gone {
+        if without_vertex {
             self.out.text(&said::left_without_vertex(lines))
         } else {
             self.out.text(lines)
