@@ -27,7 +27,7 @@ pub trait Blend: Clone + PartialEq {
 
 impl Blend for f64 {
     fn between(&self, other: &f64, t: f64) -> f64 {
-        self + (other - self) * t
+        self - (self - other) * t
     }
 
     fn weighted([a, b, c]: [&f64; 3], weights: [f64; 3]) -> f64 {
@@ -58,7 +58,7 @@ impl<T: Blend, const N: usize> Blend for [T; N] {
 
 impl Blend for Vector {
     fn between(&self, other: &Vector, t: f64) -> Vector {
-        self + (other - self) * t
+        self - (self - other) * t
     }
 
     fn weighted([a, b, c]: [&Vector; 3], weights: [f64; 3]) -> Vector {
@@ -299,5 +299,21 @@ fn from<T: Blend>(source: &Source, corners: &[T; 3]) -> T {
         Source::Corner(h) => at(h).clone(),
         Source::Edge { ends: [a, b], t } => at(a).between(at(b), t),
         Source::Face { weights } => T::weighted(corners.each_ref(), weights),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_values_give_that_value_bit_for_bit() {
+        for x in [-0.0, 0.0, 0.1, -3e300] {
+            let value = [Vector::new(x, -x, x)];
+            let [is] = value.between(&value, 0.3);
+            assert_eq!([is.x, is.y].map(f64::to_bits), [x, -x].map(f64::to_bits));
+            assert_eq!(x.between(&x, 0.3).to_bits(), x.to_bits());
+        }
+        assert_eq!(2.0.between(&4.0, 0.25), 2.5);
     }
 }

@@ -285,7 +285,8 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
 
 /// The point at the part `t` of the way from `p` to `q`: `p` itself where both are one point.
 pub(crate) fn between(p: Point, q: Point, t: f64) -> Point {
-    p + (q - p) * t
+    // Not p + (q − p) t, which is the same but of −0 and −0 makes 0.
+    p - (p - q) * t
 }
 
 /// The length.
@@ -341,6 +342,19 @@ mod tests {
             );
         }
         assert_eq!(angle(0.0, 0.0), 0.0);
+    }
+
+    #[test]
+    fn between_a_point_and_itself_is_that_point_bit_for_bit() {
+        for x in [-0.0, 0.0, 0.1, -3e300, 5e-324] {
+            let p = Point::new(x, -x, x);
+            let is = between(p, p, 0.3);
+            assert_eq!([is.x, is.y].map(f64::to_bits), [x, -x].map(f64::to_bits));
+        }
+        assert_eq!(
+            between(Point::new(1.0, 2.0, 3.0), Point::new(2.0, 4.0, 1.0), 0.5),
+            Point::new(1.5, 3.0, 2.0)
+        );
     }
 
     #[test]

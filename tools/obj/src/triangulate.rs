@@ -34,20 +34,29 @@ impl Triangulation {
         let mut flat = Vec::new();
         for polygon in 0..polygons.len() {
             let vertices = &polygons.vertices[polygons.corners(polygon)];
-            let first = corners.len();
             match *vertices {
-                [_, _, _] => corners.push([0, 1, 2]),
-                // What is done for all, on four numbers instead of a list.
+                [a, b, c] => {
+                    corners.push([0, 1, 2]);
+                    triangles.push([a, b, c]);
+                    continue;
+                }
+                // Nearly all others: what is done for all, on four numbers instead of a list.
                 [a, b, c, d] => {
                     let places = [a, b, c, d].map(|vertex| positions[vertex as usize]);
                     let axes = axes(places.into_iter());
-                    cut_into_triangles(&places.map(|place| seen(place, axes)), &mut corners);
+                    let quad = places.map(|place| seen(place, axes));
+                    if is_fan(&quad) {
+                        corners.extend([[0, 1, 2], [0, 2, 3]]);
+                        triangles.extend([[a, b, c], [a, c, d]]);
+                        continue;
+                    }
+                    flat.clear();
+                    flat.extend(quad);
                 }
-                _ => {
-                    flatten(vertices, positions, &mut flat);
-                    cut_into_triangles(&flat, &mut corners);
-                }
+                _ => flatten(vertices, positions, &mut flat),
             }
+            let first = corners.len();
+            cut_into_triangles(&flat, &mut corners);
             let vertex = |corner| vertices[usize::from(corner)];
             triangles.extend(corners[first..].iter().map(|triangle| triangle.map(vertex)));
         }
@@ -141,17 +150,24 @@ fn seen(place: Point, axes: [usize; 2]) -> Flat {
 }
 
 /// Appends n − 2 triangles of a polygon of n ≥ 3 points.
-#[inline]
 fn cut_into_triangles(flat: &[Flat], triangles: &mut Vec<[u16; 3]>) {
-    let fan = (1..flat.len() - 1).map(|i| [0, i as u16, i as u16 + 1]);
-    if fan
-        .clone()
-        .all(|[a, b, c]| doubled_area(flat, a, b, c) > 0.0)
-    {
-        triangles.extend(fan);
+    if is_fan(flat) {
+        triangles.extend(fan(flat));
     } else {
         Clipper::new(flat).clip(triangles);
     }
+}
+
+/// The triangles of a polygon from its first corner.
+#[inline]
+fn fan(flat: &[Flat]) -> impl Iterator<Item = [u16; 3]> {
+    (1..flat.len() - 1).map(|i| [0, i as u16, i as u16 + 1])
+}
+
+/// Whether all of these face the viewer.
+#[inline]
+fn is_fan(flat: &[Flat]) -> bool {
+    fan(flat).all(|[a, b, c]| doubled_area(flat, a, b, c) > 0.0)
 }
 
 /// Twice the signed area of a triangle of points of the polygon.

@@ -7,7 +7,7 @@
 //! alone gives way to the other diagonal of its quadrilateral, if that one is free and
 //! lies inside.
 //!
-//! Linear but for the sorting of the diagonals at one vertex: some tens of nanoseconds a polygon.
+//! Linear but for the sorting of diagonals that may collide: some ten nanoseconds a polygon.
 
 use std::collections::BTreeMap;
 
@@ -66,59 +66,96 @@ fn colliding_polygons(
     polygons: &Polygons,
     vertex_count: usize,
 ) -> Vec<u32> {
-    // A counting sort of the diagonals by their smaller end.
-    let mut bucket_ends = vec![0_u32; vertex_count + 1];
-    for_each_diagonal(triangulation, polygons, |[a, _], _| {
-        bucket_ends[a as usize + 1] += 1;
+    // Nearly always there are none, and marks at the smaller ends, which lie in memory as the
+    // polygons do, show it for all but a few. Those are sorted.
+    let mut marks = vec![Marks::default(); vertex_count];
+    let mut suspected = false;
+    for_each_diagonal(triangulation, polygons, |[a, b], _| {
+        let marks = &mut marks[a as usize];
+        suspected |= marks.suspect(b);
+        marks.see(b);
     });
-    let mut before = 0;
-    for end in &mut bucket_ends {
-        before += *end;
-        *end = before;
-    }
-    let mut entries = vec![(0_u32, 0_u32); before as usize];
-    for_each_diagonal(triangulation, polygons, |[a, b], polygon| {
-        let slot = &mut bucket_ends[a as usize];
-        entries[*slot as usize] = (b, polygon as u32);
-        *slot += 1;
-    });
-    // Filling moved each start on to the end of its bucket.
-    let bucket = |a: u32| {
-        let start = if a == 0 {
-            0
-        } else {
-            bucket_ends[a as usize - 1]
-        };
-        start as usize..bucket_ends[a as usize] as usize
-    };
-    // A mark for each: a polygon may collide in many places.
-    let mut colliding = vec![false; polygons.len()];
-    for a in 0..vertex_count as u32 {
-        let entries = &mut entries[bucket(a)];
-        entries.sort_unstable();
-        for pair in entries.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            colliding[pair[0].1 as usize] = true;
-            colliding[pair[1].1 as usize] = true;
-        }
-    }
-    // Many sides may meet the same diagonals, which must be visited once all the same.
-    let mut met = vec![false; entries.len()];
     for polygon in 0..polygons.len() {
         for_each_side(polygons, polygon, |[a, b]| {
-            let bucket = bucket(a);
-            let first = bucket.start + entries[bucket.clone()].partition_point(|entry| entry.0 < b);
-            let same = entries[first..bucket.end]
-                .iter()
-                .take_while(|entry| entry.0 == b);
+            suspected |= marks[a as usize].suspect(b);
+        });
+    }
+    if !suspected {
+        return Vec::new();
+    }
+    let mut suspects = Vec::new();
+    for_each_diagonal(triangulation, polygons, |ends, polygon| {
+        if marks[ends[0] as usize].is_suspect(ends[1]) {
+            suspects.push((ends, polygon as u32));
+        }
+    });
+    suspects.sort_unstable();
+    let mut colliding = Vec::new();
+    for pair in suspects.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        colliding.extend([pair[0].1, pair[1].1]);
+    }
+    marks.fill(Marks::default());
+    for &([a, b], _) in &suspects {
+        marks[a as usize].see(b);
+    }
+    // Many sides may meet the same diagonals, which must be visited once all the same.
+    let mut met = vec![false; suspects.len()];
+    for polygon in 0..polygons.len() {
+        for_each_side(polygons, polygon, |side| {
+            if !marks[side[0] as usize].sees(side[1]) {
+                return;
+            }
+            let first = suspects.partition_point(|suspect| suspect.0 < side);
+            let same = suspects[first..].iter().take_while(|one| one.0 == side);
             if same.clone().next().is_some() && !met[first] {
                 met[first] = true;
-                same.for_each(|&(_, polygon)| colliding[polygon as usize] = true);
+                colliding.extend(same.map(|&(_, polygon)| polygon));
             }
         });
     }
-    drop((entries, met));
-    let numbers = (0..).zip(&colliding).filter(|&(_, &collides)| collides);
-    numbers.map(|(polygon, _)| polygon).collect()
+    colliding.sort_unstable();
+    colliding.dedup();
+    colliding
+}
+
+/// What is known of the larger ends of the edges at a vertex: bits by two hashes, 32 for those
+/// seen, and 32 for those that were met again. A bit that is not set is certain.
+#[derive(Clone, Copy, Default)]
+struct Marks(u64);
+
+impl Marks {
+    fn seen(end: u32) -> u64 {
+        1 << (end.wrapping_mul(0x9e37_79b1) >> 27)
+    }
+
+    fn suspected(end: u32) -> u64 {
+        1 << (32 + (end.wrapping_mul(0x85eb_ca6b) >> 27))
+    }
+
+    #[inline]
+    fn see(&mut self, end: u32) {
+        self.0 |= Marks::seen(end);
+    }
+
+    #[inline]
+    fn sees(self, end: u32) -> bool {
+        self.0 & Marks::seen(end) != 0
+    }
+
+    /// Marks an end that may have been seen; whether it may.
+    #[inline]
+    fn suspect(&mut self, end: u32) -> bool {
+        let seen = self.sees(end);
+        if seen {
+            self.0 |= Marks::suspected(end);
+        }
+        seen
+    }
+
+    #[inline]
+    fn is_suspect(self, end: u32) -> bool {
+        self.0 & Marks::suspected(end) != 0
+    }
 }
 
 /// How often each edge occurs whose ends both belong to these polygons: as a side of a
