@@ -245,6 +245,54 @@ fn a_diagonal_avoids_an_edge_that_exists_elsewhere() {
     assert_eq!(document.triangles()[..2], [[0, 1, 3], [1, 2, 3]]);
 }
 
+/// Both of these, wherever in a file the vertices and the faces stand.
+#[test]
+fn every_colliding_diagonal_is_found_under_any_numbers() {
+    let groups = 200;
+    let count = 11 * groups;
+    for stride in [1, 7, 331, 1009] {
+        let number = |group: usize, vertex: usize| (11 * group + vertex) * stride % count;
+        let places = [
+            "0 0 0",
+            "1 0 0",
+            "1 1 0",
+            "0 1 0",
+            "0.5 0.5 1",
+            "0.5 0.5 2",
+            "0 0 0",
+            "2 -2 0",
+            "4 0 0",
+            "2 0.5 -0.5",
+            "2 2 3",
+        ];
+        let mut vertices = vec![""; count];
+        let (mut quads, mut others) = (String::new(), String::new());
+        for group in 0..groups {
+            for (vertex, place) in places.iter().enumerate() {
+                vertices[number(group, vertex)] = place;
+            }
+            let face = |corners: &[usize]| {
+                let corners = corners.iter().map(|&v| number(group, v) + 1);
+                let corners: Vec<String> = corners.map(|v| v.to_string()).collect();
+                format!("f {}\n", corners.join(" "))
+            };
+            quads += &face(&[0, 1, 2, 3]);
+            quads += &face(&[6, 7, 8, 9]);
+            others += &(face(&[2, 0, 4]) + &face(&[0, 2, 5]) + &face(&[6, 9, 8, 10]));
+        }
+        let vertices: String = vertices
+            .iter()
+            .map(|place| format!("v {place}\n"))
+            .collect();
+        let document = read(format!("{vertices}{quads}{others}").as_bytes());
+        for (group, found) in document.triangles().chunks(4).take(groups).enumerate() {
+            let expected = [[0, 1, 3], [1, 2, 3], [6, 7, 9], [7, 8, 9]];
+            let expected = expected.map(|corners| corners.map(|v| number(group, v) as u32));
+            assert_eq!(found, expected, "group {group}, stride {stride}");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(super::properties(2))]
 
