@@ -83,39 +83,83 @@ fn colliding_polygons(
     if !suspected {
         return Vec::new();
     }
-    let mut suspects = Vec::new();
-    for_each_diagonal(triangulation, polygons, |ends, polygon| {
-        if marks[ends[0] as usize].is_suspect(ends[1]) {
-            suspects.push((ends, polygon as u32));
+    let suspects = Suspects::among(triangulation, polygons, &marks);
+    // A mark for each: a polygon may collide in many places.
+    let mut colliding = vec![false; polygons.len()];
+    for pair in (0..vertex_count as u32).flat_map(|a| suspects.at(a).windows(2)) {
+        if pair[0].0 == pair[1].0 {
+            colliding[pair[0].1 as usize] = true;
+            colliding[pair[1].1 as usize] = true;
         }
-    });
-    suspects.sort_unstable();
-    let mut colliding = Vec::new();
-    for pair in suspects.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-        colliding.extend([pair[0].1, pair[1].1]);
     }
-    marks.fill(Marks::default());
-    for &([a, b], _) in &suspects {
-        marks[a as usize].see(b);
+    for (a, marks) in (0..).zip(&mut marks) {
+        *marks = Marks::default();
+        suspects.at(a).iter().for_each(|&(b, _)| marks.see(b));
     }
-    // Many sides may meet the same diagonals, which must be visited once all the same.
-    let mut met = vec![false; suspects.len()];
     for polygon in 0..polygons.len() {
-        for_each_side(polygons, polygon, |side| {
-            if !marks[side[0] as usize].sees(side[1]) {
+        for_each_side(polygons, polygon, |[a, b]| {
+            if !marks[a as usize].sees(b) {
                 return;
             }
-            let first = suspects.partition_point(|suspect| suspect.0 < side);
-            let same = suspects[first..].iter().take_while(|one| one.0 == side);
-            if same.clone().next().is_some() && !met[first] {
-                met[first] = true;
-                colliding.extend(same.map(|&(_, polygon)| polygon));
+            let entries = suspects.at(a);
+            let first = entries.partition_point(|entry| entry.0 < b);
+            // If there are more diagonals like this, they have collided with each other.
+            if let Some(&(end, polygon)) = entries.get(first)
+                && end == b
+            {
+                colliding[polygon as usize] = true;
             }
         });
     }
-    colliding.sort_unstable();
-    colliding.dedup();
-    colliding
+    let numbers = (0..).zip(&colliding).filter(|&(_, &collides)| collides);
+    numbers.map(|(polygon, _)| polygon).collect()
+}
+
+/// Diagonals that may collide, sorted.
+struct Suspects {
+    /// By the smaller end, where its entries end.
+    ends: Vec<u32>,
+    /// The larger end, and the polygon.
+    entries: Vec<(u32, u32)>,
+}
+
+impl Suspects {
+    /// A counting sort by the smaller end.
+    fn among(triangulation: &Triangulation, polygons: &Polygons, marks: &[Marks]) -> Suspects {
+        let mut ends = vec![0_u32; marks.len() + 1];
+        for_each_diagonal(triangulation, polygons, |[a, b], _| {
+            ends[a as usize + 1] += u32::from(marks[a as usize].is_suspect(b));
+        });
+        let mut before = 0;
+        for end in &mut ends {
+            before += *end;
+            *end = before;
+        }
+        let mut entries = vec![(0, 0); before as usize];
+        for_each_diagonal(triangulation, polygons, |[a, b], polygon| {
+            if marks[a as usize].is_suspect(b) {
+                // Filling moves each start on to the end of its entries.
+                let slot = &mut ends[a as usize];
+                entries[*slot as usize] = (b, polygon as u32);
+                *slot += 1;
+            }
+        });
+        let mut suspects = Suspects { ends, entries };
+        for a in 0..marks.len() as u32 {
+            let range = suspects.first(a)..suspects.ends[a as usize] as usize;
+            suspects.entries[range].sort_unstable();
+        }
+        suspects
+    }
+
+    fn first(&self, a: u32) -> usize {
+        let before = (a as usize).checked_sub(1);
+        before.map_or(0, |before| self.ends[before] as usize)
+    }
+
+    fn at(&self, a: u32) -> &[(u32, u32)] {
+        &self.entries[self.first(a)..self.ends[a as usize] as usize]
+    }
 }
 
 /// What is known of the larger ends of the edges at a vertex: bits by two hashes, 32 for those
