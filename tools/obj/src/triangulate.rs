@@ -12,26 +12,27 @@
 //! O(n²): a corner remembers which corner was found in its triangle, and is tested again
 //! only when that one is gone, or its triangle has changed, which happens twice for each ear.
 
+mod corners;
 mod flip;
 
 use tearmesh::Point;
 
+use self::corners::Corners;
 use crate::document::Polygons;
 
 /// The triangles of all polygons, where not all are triangles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Triangulation {
     triangles: Vec<[u32; 3]>,
-    /// For each corner of a triangle, which corner of its polygon it is.
-    corners: Vec<[u16; 3]>,
+    corners: Corners,
 }
 
 impl Triangulation {
     pub(crate) fn of(polygons: &Polygons, positions: &[Point]) -> Triangulation {
         let count = polygons.vertices.len() - 2 * polygons.len();
-        let mut corners = Vec::with_capacity(count);
+        let mut corners = Corners::with_capacity(count, polygons);
         let mut triangles = Vec::with_capacity(count);
-        let mut flat = Vec::new();
+        let (mut flat, mut cut) = (Vec::new(), Vec::new());
         for polygon in 0..polygons.len() {
             let vertices = &polygons.vertices[polygons.corners(polygon)];
             match *vertices {
@@ -46,7 +47,8 @@ impl Triangulation {
                     let axes = axes(places.into_iter());
                     let quad = places.map(|place| seen(place, axes));
                     if is_fan(&quad) {
-                        corners.extend([[0, 1, 2], [0, 2, 3]]);
+                        corners.push([0, 1, 2]);
+                        corners.push([0, 2, 3]);
                         triangles.extend([[a, b, c], [a, c, d]]);
                         continue;
                     }
@@ -55,13 +57,15 @@ impl Triangulation {
                 }
                 _ => flatten(vertices, positions, &mut flat),
             }
-            let first = corners.len();
-            cut_into_triangles(&flat, &mut corners);
-            let vertex = |corner| vertices[usize::from(corner)];
-            triangles.extend(corners[first..].iter().map(|triangle| triangle.map(vertex)));
+            cut.clear();
+            cut_into_triangles(&flat, &mut cut);
+            for &triangle in &cut {
+                corners.push(triangle);
+                triangles.push(triangle.map(|corner| vertices[usize::from(corner)]));
+            }
         }
         assert_eq!(
-            corners.len(),
+            triangles.len(),
             count,
             "a polygon of n corners has n − 2 triangles"
         );
@@ -77,9 +81,10 @@ impl Triangulation {
     /// Moves a triangle to an earlier place, as a polygon of its own if it stands `alone`; the
     /// corners of its polygon that it had.
     pub(crate) fn keep(&mut self, triangle: usize, place: usize, alone: bool) -> [u16; 3] {
-        let corners = self.corners[triangle];
+        let corners = self.corners.get(triangle);
         self.triangles[place] = self.triangles[triangle];
-        self.corners[place] = if alone { [0, 1, 2] } else { corners };
+        let own = if alone { [0, 1, 2] } else { corners };
+        self.corners.set(place, own);
         corners
     }
 
@@ -96,7 +101,7 @@ impl Triangulation {
 
     #[inline]
     pub(crate) fn corners(&self, triangle: usize) -> [u16; 3] {
-        self.corners[triangle]
+        self.corners.get(triangle)
     }
 }
 

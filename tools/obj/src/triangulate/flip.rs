@@ -34,12 +34,13 @@ pub(super) fn flip_colliding(
         let vertex = |corner: u16| vertices[usize::from(corner)];
         let key = |[a, b]: [u16; 2]| ends(vertex(a), vertex(b));
         let triangles = polygons.triangles(polygon);
-        let corners = &mut triangulation.corners[triangles.clone()];
-        for diagonal in diagonals(corners, vertices.len()).collect::<Vec<_>>() {
+        let corners = triangles.clone().map(|t| triangulation.corners.get(t));
+        let mut corners: Vec<[u16; 3]> = corners.collect();
+        for diagonal in diagonals(&corners, vertices.len()).collect::<Vec<_>>() {
             if edges[&key(diagonal)] < 2 {
                 continue;
             }
-            let Some(([first, second], [k, l])) = quadrilateral(corners, diagonal) else {
+            let Some(([first, second], [k, l])) = quadrilateral(&corners, diagonal) else {
                 continue;
             };
             let [i, j] = diagonal;
@@ -54,7 +55,8 @@ pub(super) fn flip_colliding(
                 edges.insert(key([k, l]), 1);
             }
         }
-        for (triangle, corners) in triangles.zip(&*corners) {
+        for (triangle, corners) in triangles.zip(corners) {
+            triangulation.corners.set(triangle, corners);
             triangulation.triangles[triangle] = corners.map(vertex);
         }
     }
@@ -243,21 +245,27 @@ fn for_each_diagonal(
     polygons: &Polygons,
     mut visit: impl FnMut([u32; 2], usize),
 ) {
+    let mut several = Vec::new();
     for polygon in 0..polygons.len() {
         let vertices = &polygons.vertices[polygons.corners(polygon)];
         if vertices.len() == 3 {
             continue;
         }
-        let corners = &triangulation.corners[polygons.triangles(polygon)];
-        match (vertices, corners) {
-            // Nearly all polygons are convex quads.
-            (&[a, _, c, _], [[0, 1, 2], [0, 2, 3]]) => visit(ends(a, c), polygon),
-            _ => {
-                for [i, j] in diagonals(corners, vertices.len()) {
-                    let [a, b] = [i, j].map(|corner| vertices[usize::from(corner)]);
-                    visit(ends(a, b), polygon);
-                }
-            }
+        let corners = polygons
+            .triangles(polygon)
+            .map(|t| triangulation.corners(t));
+        // Nearly all polygons are convex quads.
+        if let [a, _, c, _] = *vertices
+            && corners.clone().eq([[0, 1, 2], [0, 2, 3]])
+        {
+            visit(ends(a, c), polygon);
+            continue;
+        }
+        several.clear();
+        several.extend(corners);
+        for [i, j] in diagonals(&several, vertices.len()) {
+            let [a, b] = [i, j].map(|corner| vertices[usize::from(corner)]);
+            visit(ends(a, b), polygon);
         }
     }
 }

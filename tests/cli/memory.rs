@@ -1,0 +1,81 @@
+//! The bound on memory holds for the command, too: the larger of 64 MiB and twelve times the file.
+//!
+//! tests/obj/memory.rs has all kinds of files for the library. Here are those that took most
+//! there, since the command adds excerpts, hints that are tried, and its own code.
+
+use std::io::{Write as _, stderr};
+use std::process::Command;
+
+use tearmesh_cli::{Streams, run};
+
+const CHILD: &str = "TEARMESH_MEMORY_OF_COMMAND";
+
+/// Not a test of its own: what [`a_refused_file_takes_no_more_memory_than_promised`] runs.
+#[test]
+fn child() {
+    let Some(line) = std::env::var_os(CHILD) else {
+        return;
+    };
+    let line = line.into_string().expect("the parent wrote it");
+    let (mut output, mut error) = (Vec::new(), Vec::new());
+    let streams = Streams {
+        input: &mut std::io::empty(),
+        output: &mut output,
+        error: &mut error,
+        output_is_terminal: false,
+        error_is_terminal: false,
+    };
+    let exit = run(line.split('|').map(Into::into), streams);
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let peak = status.lines().find(|line| line.starts_with("VmHWM:"));
+    println!("{exit:?} {}", peak.expect("Linux knows the peak"));
+}
+
+/// How the command ended, and its peak of resident memory in KiB.
+fn exit_and_peak(args: &[&str]) -> (String, usize) {
+    let output = Command::new(std::env::current_exe().expect("this test"))
+        .args(["memory::child", "--exact", "--nocapture"])
+        .env(CHILD, args.join("|"))
+        .output()
+        .expect("this test can be run");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{said}");
+    let line = said.lines().find(|line| line.contains("VmHWM:"));
+    let words: Vec<&str> = line
+        .expect("the child says so")
+        .split_whitespace()
+        .collect();
+    let at = words.iter().position(|&word| word == "VmHWM:");
+    let at = at.expect("it is in this line");
+    let peak = words[at + 1].parse().expect("a number of KiB");
+    (words[at - 1].to_owned(), peak)
+}
+
+#[test]
+fn a_refused_file_takes_no_more_memory_than_promised() {
+    if !cfg!(target_os = "linux") {
+        let said = writeln!(stderr(), "skipped: peaks of memory, which only Linux tells");
+        said.expect("standard error is open");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("refused.obj");
+    let path = path.to_str().expect("a plain name");
+    let nine = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nv 2 0 1\nv 0 2 1\nv 2 2 0\nv 3 1 0\nv 1 3 0\n";
+    for (name, faces) in [
+        ("nonagons", "f 1 2 3 4 5 6 7 8 9\n"),
+        ("a bow-tie of pentagons", "f 1 2 3 4 5\nf 1 6 7 8 9\n"),
+    ] {
+        let file = nine.to_owned() + &faces.repeat((12 << 20) / faces.len());
+        std::fs::write(path, &file).expect("a temporary file");
+        let allowed = 12 * file.len() / 1024;
+        for verb in ["check", "cut"] {
+            let rays = ["--rays", "0.1,0,5:0,0,-1", "0.2,1,5:0,0,-1", "--dry-run"];
+            let rays = if verb == "cut" { &rays[..] } else { &[] };
+            let (exit, peak) = exit_and_peak(&[&["tearmesh", verb, path], rays].concat());
+            println!("{verb:5} {name:24} {exit}, peak {peak:7} KiB of {allowed:7}");
+            assert_eq!(exit, if verb == "cut" { "Input" } else { "NothingCut" });
+            assert!(peak <= allowed, "{verb} {name}: {peak} KiB of {allowed}");
+        }
+    }
+}
