@@ -31,6 +31,7 @@ mod sheet;
 mod solver;
 mod stability;
 mod stiff;
+mod strain;
 mod system;
 mod verlet;
 mod xpbd;
