@@ -108,7 +108,8 @@ fn no_direction_is_stretched_more_than_the_principal_one() {
 fn a_face_without_area_at_rest_is_a_thread() {
     let mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a face");
     let positions = Positions::new([[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]]).expect("points");
-    let masses = Masses::half(&mesh, vec![1.0; 3]).expect("masses");
+    let spread = Positions::new([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).expect("points");
+    let masses = Masses::area(&mesh, &spread, 1.0).expect("masses");
     let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(1.0)).expect("a cloth");
     let f = FaceId::new(0).expect("a face");
     assert_eq!(cloth.principal_stretch(f), 1.0);
