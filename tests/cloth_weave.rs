@@ -33,7 +33,7 @@ pub(crate) fn strip(rows: usize, mass: f64, stiffness: f64, rest: f64, apart: Ve
                 .triangle(
                     corners,
                     corners.map(at),
-                    [0.7 * modulus, modulus, 0.3 * modulus],
+                    [0.1 * modulus, modulus, 0.05 * modulus],
                 )
                 .expect("a triangle");
         }
@@ -66,8 +66,6 @@ fn r1_a_row_oscillates_as_a_mass_on_a_spring() {
     let (dt, mut system) = (0.01, oscillator());
     let z = omega * dt;
     let discrete = (1.0 - z * z / 2.0).acos();
-    // Shear and weft are stiffer than that mode, and the watch knows.
-    system.when_unstable(Unstable::Allow);
     for i in 1..=100 {
         run(&mut system, Verlet::new(), dt, 1);
         for p in &system.positions()[2..] {
@@ -186,7 +184,7 @@ fn r7_a_row_at_its_threshold_holds_the_energy_of_its_link() {
 
 /// The modulus of a piece of cloth in homogeneous small strain, by (εx, εy, γ) along these axes,
 /// from uᵀ K u of affine displacements.
-fn moduli(cloth: &mut Cloth, area: f64, [e, f]: [Vector; 2]) -> [[f64; 3]; 3] {
+pub(crate) fn moduli(cloth: &mut Cloth, area: f64, [e, f]: [Vector; 2]) -> [[f64; 3]; 3] {
     let points = cloth.positions().to_vec();
     let affine = |mode: usize| -> Vec<Vector> {
         let of = |p: &Point| match mode {
@@ -258,7 +256,7 @@ fn r8_moduli_are_those_asked_for_whatever_the_mesh() {
     }
 }
 
-fn weave() -> Weave {
+pub(crate) fn weave() -> Weave {
     Weave {
         warp_n_per_m: 120.0,
         weft_n_per_m: 80.0,
@@ -331,7 +329,7 @@ fn r10_a_rotating_strip_keeps_its_radius_and_energy() {
 }
 
 /// A sheet in a frame, sagging, with this weave.
-fn framed(n: u32, weave: Weave) -> Cloth {
+pub(crate) fn framed(n: u32, weave: Weave) -> Cloth {
     let (mesh, positions, mut cloth) = sheet(n, weave);
     for v in mesh.vertices() {
         let p = positions.at(v);
@@ -481,13 +479,13 @@ fn explicit_methods_are_held_to_the_limit_of_triangles() {
     let dt = 1.8 / rest;
     cloth.step(&mut Verlet::new(), dt).expect("a step");
 
-    // Stretched three times its shear is stiffer by far: the same step is refused.
+    // Stretched eight times its shear is stiffer by far: the same step is refused.
     for p in cloth.system_mut().state_mut().0 {
-        p.x *= 3.0;
-        p.y *= 3.0;
+        p.x *= 8.0;
+        p.y *= 8.0;
     }
     let stretched = omega(&mut cloth);
-    assert!(stretched > 1.3 * rest, "{stretched} {rest}");
+    assert!(stretched > 3.0 * rest, "{stretched} {rest}");
     let error = cloth
         .step(&mut Verlet::new(), dt)
         .expect_err("too long now");

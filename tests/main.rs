@@ -9,6 +9,7 @@ mod cloth_failures;
 mod cloth_follow;
 mod cloth_stiff;
 mod cloth_strain;
+mod cloth_tables;
 mod cloth_weave;
 mod cut_mend;
 mod exact;
