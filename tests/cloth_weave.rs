@@ -6,7 +6,8 @@ use tearmesh::cloth::{
     Cloth, ClothError, Culprit, Fabric, ImplicitCloth, Loads, Pbd, Provot, Rk4, Solver, StepError,
     System, SystemError, Unstable, Verlet, Weave, Xpbd, warp_of_texture,
 };
-use tearmesh::{Masses, Mesh, Point, Positions, Vector, VertexId, shapes};
+use tearmesh::subdivide::Plan;
+use tearmesh::{Edits, FaceId, Masses, Mesh, Point, Positions, Vector, VertexId, shapes};
 
 use crate::cloth_answers::{G, gravity, near, run};
 use crate::random::Random;
@@ -667,6 +668,22 @@ fn warp_may_be_named_face_by_face_by_texture_coordinates() {
         near(weft, 2.0, 1e-12);
         near(cloth.principal_stretch(f), 2.0, 1e-12);
     }
+    // Children inherit the warp of their face, though the sides of the tube look every way.
+    let (mut mesh, mut edits) = (mesh, Edits::new());
+    let energy = cloth.system().elastic_energy_j();
+    for f in [0, 3, 5, 8] {
+        let mut plan = Plan::new();
+        plan.in_face(FaceId::new(f).expect("a face"), [0.5, 0.3, 0.2]);
+        plan.apply(&mut mesh, &mut edits).expect("an insertion");
+    }
+    edits.replay(&mut cloth);
+    assert!(mesh.face_count() > 28);
+    for f in mesh.faces() {
+        let [warp, weft] = cloth.warp_weft_stretch(f);
+        near(warp, 1.0, 1e-12);
+        near(weft, 2.0, 1e-12);
+    }
+    near(cloth.system().elastic_energy_j(), energy, 1e-12 * energy);
 }
 
 #[test]
