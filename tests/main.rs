@@ -7,6 +7,7 @@ mod cloth_answers;
 mod cloth_cost;
 mod cloth_failures;
 mod cloth_follow;
+mod cloth_limiter;
 mod cloth_stiff;
 mod cloth_strain;
 mod cloth_tables;
