@@ -23,6 +23,7 @@
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
 mod constraint;
+mod fabric;
 mod follow;
 pub mod implicit;
 mod kernel;
@@ -43,11 +44,12 @@ mod weave;
 mod xpbd;
 
 pub use constraint::{Constraint, ConstraintId, Constraints};
+pub use fabric::{Copies, Fabric, Unbend};
 pub use load::{Collider, Loads, Path, Wind};
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use rk4::Rk4;
-pub use sheet::{Cloth, ClothError, Copies, Effect, EnergyLedger, Fabric, Unbend};
+pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
 pub use solver::{Culprit, Solver, StepError, StepReport};
 pub use stability::Frequency;
 pub use stiff::ImplicitCloth;

@@ -12,6 +12,7 @@ mod cloth_stiff;
 mod cloth_strain;
 mod cloth_tables;
 mod cloth_weave;
+mod cloth_weave_limits;
 mod cut_mend;
 mod exact;
 mod exhaustive;

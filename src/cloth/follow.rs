@@ -2,7 +2,8 @@
 //! and the bound of frequencies where they are, and nowhere else.
 
 use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::sheet::{Cloth, Copies, Effect, NO_BEND, Unbend};
+use super::fabric::{Copies, Unbend};
+use super::sheet::{Cloth, Effect, NO_BEND};
 use crate::edit::{Child, Edit, Follower, Insert, Merge, Slide, Source, Split};
 use crate::geometry::{Point, between, length};
 use crate::id::{HalfEdgeId, VertexId};
