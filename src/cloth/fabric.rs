@@ -8,8 +8,8 @@ use super::weave::Weave;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
     /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
-    /// 2/√3 of it. Zero with a [`Weave`]: edges are measured ([`Cloth::overstretched`]), and pull at
-    /// nothing.
+    /// 2/√3 of it. Zero with a [`Weave`]: edges are measured, for
+    /// [`Cloth::overstretched`](super::Cloth::overstretched), and pull at nothing.
     pub stretch_n_per_m: f64,
     /// Triangles that resist stretch and shear; `None` for none.
     pub weave: Option<Weave>,
@@ -87,7 +87,7 @@ pub enum Copies {
     #[default]
     Halved,
     /// All of it each, as in the paper (Souza et al. 2014 §IV-A): a split makes ½ k (l − L)² an
-    /// edge, which the [`EnergyLedger`] says.
+    /// edge, which the [`EnergyLedger`](super::EnergyLedger) says.
     Whole,
 }
 
