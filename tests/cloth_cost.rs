@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use tearmesh::cloth::{Cloth, Fabric, Loads, Pbd, Solver, Unstable, Verlet, Xpbd};
+use tearmesh::cloth::{Cloth, Fabric, ImplicitCloth, Loads, Pbd, Solver, Unstable, Verlet, Xpbd};
 use tearmesh::{Edits, Masses, Mesh, Vector, shapes, split};
 
 /// A sheet of n × n cells that hangs by its upper edge.
@@ -100,6 +100,28 @@ fn times_of_projections_steps_and_splits() {
             step(&mut Pbd::new(10), 1e-4) / 10.0,
             step(&mut Xpbd::new(10, 1), 1e-4) / 10.0,
             step(&mut Verlet::new(), 1e-6),
+        );
+    }
+    for n in [16, 32, 64] {
+        let (_, mut springs) = hanging(n, 1e3);
+        let (_, _, mut woven) = crate::cloth_weave::sheet(n, crate::cloth_weave::weave());
+        let [spring, triangle] = [&mut springs, &mut woven].map(|cloth| {
+            cloth.system_mut().when_unstable(Unstable::Allow);
+            let faces = cloth.indices().len() as f64 / 3.0;
+            let mut step = |solver: &mut dyn Solver| {
+                cloth.step(solver, 1e-6).expect("a step");
+                fastest(|| {
+                    cloth.step(solver, 1e-6).expect("a step");
+                }) / faces
+            };
+            [
+                step(&mut Verlet::new()),
+                step(&mut ImplicitCloth::default()),
+            ]
+        });
+        println!(
+            "{n}²: ns a face: Verlet on springs {:.1}, on triangles {:.1}; implicit {:.0} and {:.0}",
+            spring[0], triangle[0], spring[1], triangle[1]
         );
     }
     for n in [64, 128, 256] {

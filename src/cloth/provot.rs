@@ -3,8 +3,8 @@
 //! Springs along edges and, if there are bend constraints, across them; gravity, drag and wind;
 //! symplectic Euler. Then a *limiter* shortens what is stretched by more than 10 %, by moving
 //! ends, and velocities are rewritten to what was really moved (Provot 1995, §4–5). Without that
-//! rewrite a limited system blows up below the limit of its springs: at 0.755 of 2/ω with
-//! one pass and at 0.400 with twenty.
+//! rewrite a load that the limit cannot carry makes every step unstable, however short: positions are
+//! held while velocities go on to grow.
 //!
 //! Look for edges to tear between the two ([`Provot::unlimited`], then [`Provot::limit`]), or
 //! nothing ever tears.
@@ -140,6 +140,10 @@ impl Provot {
 impl Solver for Provot {
     fn frequency_limit(&self) -> Option<f64> {
         Some(2.0)
+    }
+
+    fn takes_triangles(&self) -> bool {
+        true
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {

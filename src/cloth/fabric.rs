@@ -1,0 +1,103 @@
+//! What a cloth is made of: springs along edges, triangles, springs across edges; and what becomes
+//! of them where it tears.
+
+use super::sheet::ClothError;
+use super::weave::Weave;
+
+/// What a cloth is made of, and what becomes of constraints when it tears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fabric {
+    /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
+    /// 2/√3 of it. Zero with a [`Weave`]: edges are measured, for
+    /// [`Cloth::overstretched`](super::Cloth::overstretched), and pull at nothing.
+    pub stretch_n_per_m: f64,
+    /// Triangles that resist stretch and shear; `None` for none.
+    pub weave: Option<Weave>,
+    /// The stiffness of a spring across each interior edge, in N/m; `None` for no such springs.
+    pub bend_n_per_m: Option<f64>,
+    /// What a torn edge's two constraints have.
+    pub copies: Copies,
+    /// Which bend constraints a split takes away.
+    pub unbend: Unbend,
+}
+
+impl Fabric {
+    /// A fabric whose edges have this stiffness in N/m, without bending, and with the rules that
+    /// keep energy.
+    #[must_use]
+    pub fn new(stretch_n_per_m: f64) -> Fabric {
+        Fabric {
+            stretch_n_per_m,
+            weave: None,
+            bend_n_per_m: None,
+            copies: Copies::default(),
+            unbend: Unbend::default(),
+        }
+    }
+
+    /// A fabric of triangles alone, without springs along edges and without bending.
+    ///
+    /// ```
+    /// use tearmesh::cloth::{implicit, Cloth, Fabric, ImplicitCloth, Pbd, StepError, Weave};
+    /// use tearmesh::{shapes, Masses, Vector};
+    ///
+    /// let weave = Weave {
+    ///     warp_n_per_m: 800.0,
+    ///     weft_n_per_m: 500.0,
+    ///     shear_n_per_m: 40.0,
+    ///     warp: Vector::y(),
+    /// };
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let masses = Masses::area(&mesh, &positions, 0.15)?;
+    /// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::woven(weave))?;
+    /// cloth.step(&mut ImplicitCloth::new(implicit::Settings::default()), 1.0 / 60.0)?;
+    ///
+    /// // What projects springs alone would leave it without force, and is refused.
+    /// let error = cloth.step(&mut Pbd::default(), 1.0 / 60.0).unwrap_err();
+    /// assert_eq!(error, StepError::Triangles { count: 32 });
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn woven(weave: Weave) -> Fabric {
+        Fabric {
+            weave: Some(weave),
+            ..Fabric::new(0.0)
+        }
+    }
+}
+
+impl Fabric {
+    pub(super) fn check(&self) -> Result<(), ClothError> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let none = self.stretch_n_per_m == 0.0 && self.weave.is_some();
+        let stretch = none || positive(self.stretch_n_per_m);
+        let weave = self.weave.is_none_or(|weave| weave.is_usable());
+        if stretch && weave && self.bend_n_per_m.is_none_or(positive) {
+            Ok(())
+        } else {
+            Err(ClothError::Stiffness)
+        }
+    }
+}
+
+/// The stiffness of the two constraints that a torn edge has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Copies {
+    /// Half each: a split changes no energy.
+    #[default]
+    Halved,
+    /// All of it each, as in the paper (Souza et al. 2014 §IV-A): a split makes ½ k (l − L)² an
+    /// edge, which the [`EnergyLedger`](super::EnergyLedger) says.
+    Whole,
+}
+
+/// Which bend constraints a split takes away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Unbend {
+    /// Those across the edges that it tears.
+    #[default]
+    Seam,
+    /// Those, and all of the vertex that is split (Souza et al. 2014 §IV-A). A merge does not bring
+    /// these back.
+    Vertex,
+}
