@@ -1,0 +1,292 @@
+//! The state of a cloth that tears, and one step of it.
+
+use super::follow::BELOW;
+use super::{Tearing, TearingError};
+use crate::attribute::PerVertex;
+use crate::cloth::sheet::Cloth;
+use crate::edit::{Edits, Follower};
+use crate::geometry::{Plane, dot, length};
+use crate::id::{HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::split;
+use crate::tear;
+
+/// A cloth that tears: strengths of vertices, clocks of edges.
+///
+/// One more follower of the log: what is cut, mended or subdivided between two steps is replayed
+/// by `edits.replay(&mut (&mut cloth, &mut tear))`, or by the next [`Tear::apply`].
+#[derive(Clone, Debug)]
+pub struct Tear {
+    tearing: Tearing,
+    pub(super) strengths: PerVertex<f64>,
+    /// Factors on the strengths, by tears nearby.
+    pub(super) weakenings: PerVertex<f64>,
+    /// By half-edge: the seconds since its edge was first found above its threshold, or
+    /// [`BELOW`].
+    pub(super) clocks: Vec<f64>,
+    due: Vec<Due>,
+    /// By vertex: whether it was split in this step.
+    is_fresh: Vec<bool>,
+}
+
+/// An edge that may tear in this step.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    edge: HalfEdgeId,
+    /// The other half-edge, when the edge was found.
+    pair: Option<HalfEdgeId>,
+    load: f64,
+    /// The load over the smaller strength.
+    severity: f64,
+}
+
+/// What one step of tearing did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TearReport {
+    /// Vertices that were split.
+    pub splits: usize,
+    /// Edges that were at or above their threshold before.
+    pub overstretched: usize,
+    /// Of these, the edges whose delay is not over yet.
+    pub waiting: usize,
+    /// Of these, the edges that were relieved by a split at one of their ends.
+    pub relieved: usize,
+    /// Of these, the edges with no end that can be split: held, or with all faces on one side.
+    pub refused: usize,
+    /// Whether the cap left an edge that would have torn.
+    pub cap_hit: bool,
+    /// The edge with the largest load over strength, and that: above 1 it tears. `None` for a cloth
+    /// without a stretched edge.
+    pub worst: Option<(HalfEdgeId, f64)>,
+    /// What the splits took from the elastic energy, in joules, by the cloth's ledger: that of
+    /// bend constraints across the tear. Negative where copies by the paper's rule made
+    /// energy, and 0 with halved ones and no bending.
+    pub energy_released_j: f64,
+    /// The elastic energy of the edges that tore, in joules: what becomes motion.
+    pub edge_energy_j: f64,
+    /// The rest length of the edges that came apart, in metres.
+    pub tear_length_m: f64,
+}
+
+impl Tear {
+    /// A cloth that is about to tear, with the strength 1 everywhere.
+    ///
+    /// # Errors
+    ///
+    /// [`TearingError`]: a number cannot be used.
+    pub fn new(cloth: &Cloth, tearing: Tearing) -> Result<Tear, TearingError> {
+        tearing.check()?;
+        let ones = || {
+            let ones = vec![1.0; cloth.positions().len()];
+            PerVertex::new(ones).starting_at(cloth.next_edit())
+        };
+        Ok(Tear {
+            tearing,
+            strengths: ones(),
+            weakenings: ones(),
+            clocks: vec![BELOW; cloth.indices().len()],
+            due: Vec::new(),
+            is_fresh: Vec::new(),
+        })
+    }
+
+    /// The same with a strength for each vertex, as a multiple of the threshold.
+    ///
+    /// # Errors
+    ///
+    /// [`TearingError`]: there is not one for each vertex, or one is not positive.
+    pub fn with_strengths(self, strengths: Vec<f64>) -> Result<Tear, TearingError> {
+        let vertices = self.strengths.as_slice().len();
+        if strengths.len() != vertices {
+            return Err(TearingError::Strengths {
+                given: strengths.len(),
+                vertices,
+            });
+        }
+        let unusable = |&strength: &f64| !(strength > 0.0 && strength.is_finite());
+        if let Some(vertex) = strengths.iter().position(unusable) {
+            let given = strengths[vertex];
+            return Err(TearingError::Strength { vertex, given });
+        }
+        let next_edit = self.next_edit();
+        Ok(Tear {
+            strengths: PerVertex::new(strengths).starting_at(next_edit),
+            ..self
+        })
+    }
+
+    /// How it tears.
+    #[must_use]
+    pub fn tearing(&self) -> &Tearing {
+        &self.tearing
+    }
+
+    /// The strength of a vertex now, weakened by tears nearby.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn strength(&self, v: VertexId) -> f64 {
+        self.strengths[v] * self.weakenings[v]
+    }
+
+    /// Tears what is overstretched now, after a step of `dt_s` seconds. Mesh and log advance, and
+    /// the cloth and this follow them; other followers replay the log when it suits them.
+    ///
+    /// Edits by others that are in the log are followed first. Cost: linear in edges, and a walk
+    /// round the ends of each overstretched edge.
+    ///
+    /// # Panics
+    ///
+    /// If cloth or tear are not in step with the mesh, or records that they have not seen were
+    /// cleared.
+    pub fn apply(
+        &mut self,
+        mesh: &mut Mesh,
+        cloth: &mut Cloth,
+        edits: &mut Edits,
+        dt_s: f64,
+    ) -> TearReport {
+        edits.replay(&mut (&mut *cloth, &mut *self));
+        let mut report = self.find(mesh, cloth, dt_s);
+        self.is_fresh.clear();
+        self.is_fresh.resize(mesh.vertex_count(), false);
+        let energy = cloth.ledger().split_elastic_j;
+        let cap = self.tearing.splits_per_step_max.unwrap_or(usize::MAX);
+        let due = std::mem::take(&mut self.due);
+        for due in &due {
+            let ends = [mesh.origin(due.edge), mesh.target(due.edge)];
+            if mesh.pair(due.edge) != due.pair || ends.iter().any(|v| self.is_fresh[v.index()]) {
+                report.relieved += 1;
+                continue;
+            }
+            let Some((vertex, plane)) = self.candidate(mesh, cloth, due) else {
+                report.refused += 1;
+                continue;
+            };
+            if report.splits >= cap {
+                report.cap_hit = true;
+                break;
+            }
+            let id = cloth.stretch(due.edge);
+            report.edge_energy_j += cloth.system().elastic_of(id);
+            report.tear_length_m += self.split(mesh, cloth, edits, vertex, &plane);
+            report.splits += 1;
+        }
+        self.due = due;
+        report.energy_released_j = energy - cloth.ledger().split_elastic_j;
+        report
+    }
+
+    /// Finds the edges that may tear, the worst first, and advances clocks.
+    fn find(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
+        let mut report = TearReport::default();
+        self.due.clear();
+        for edge in mesh.edges() {
+            let pair = mesh.pair(edge);
+            let load = self.tearing.threshold.edge_load(mesh, cloth, edge);
+            let load = load.unwrap_or(f64::NEG_INFINITY);
+            let strength = [mesh.origin(edge), mesh.target(edge)].map(|v| self.strength(v));
+            let severity = load / strength[0].min(strength[1]);
+            if severity > report.worst.map_or(0.0, |(_, worst)| worst) {
+                report.worst = Some((edge, severity));
+            }
+            let clock = if severity >= 1.0 {
+                (self.clocks[edge.index()] + dt_s).max(0.0)
+            } else {
+                BELOW
+            };
+            for h in [Some(edge), pair].into_iter().flatten() {
+                self.clocks[h.index()] = clock;
+            }
+            if clock == BELOW {
+                continue;
+            }
+            report.overstretched += 1;
+            if clock < self.tearing.delay_s {
+                report.waiting += 1;
+                continue;
+            }
+            self.due.push(Due {
+                edge,
+                pair,
+                load,
+                severity,
+            });
+        }
+        let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
+        self.due
+            .sort_unstable_by(|one, other| worse(one, other).then(one.edge.cmp(&other.edge)));
+        report
+    }
+
+    /// The vertex that the rule splits, of those that do not bear the load.
+    fn candidate(&self, mesh: &Mesh, cloth: &Cloth, due: &Due) -> Option<(VertexId, Plane)> {
+        let mass = |v: VertexId| {
+            let free = self.tearing.tears_held || !cloth.system().is_held(v.index());
+            (free && due.load >= self.strength(v)).then(|| cloth.masses().at(v))
+        };
+        tear::candidate(mesh, due.edge, cloth, mass)
+    }
+
+    /// Splits a vertex; the length that came apart.
+    fn split(
+        &mut self,
+        mesh: &mut Mesh,
+        cloth: &mut Cloth,
+        edits: &mut Edits,
+        vertex: VertexId,
+        plane: &Plane,
+    ) -> f64 {
+        let along = match self.tearing.weakening {
+            Some(_) => along_plane(mesh, cloth, vertex, plane),
+            None => [None; 2],
+        };
+        let mut length_m = 0.0;
+        if let Some(split) = split::by_plane(mesh, vertex, plane, &*cloth, edits) {
+            for link in split.torn {
+                let constraint = cloth.system().stretches().get(cloth.stretch(link.stayed));
+                length_m += constraint.rest_length_m;
+            }
+        }
+        edits.replay(&mut (&mut *cloth, &mut *self));
+        self.is_fresh[vertex.index()] = true;
+        self.is_fresh.resize(mesh.vertex_count(), true);
+        if let Some(weakening) = self.tearing.weakening {
+            for neighbour in along.into_iter().flatten() {
+                self.weakenings[neighbour] = self.weakenings[neighbour].min(weakening);
+            }
+        }
+        length_m
+    }
+}
+
+/// The two neighbours of a vertex that lie best along a plane through it, the second on the other
+/// side of the vertex than the first. Lower ids break ties.
+fn along_plane(mesh: &Mesh, cloth: &Cloth, v: VertexId, plane: &Plane) -> [Option<VertexId>; 2] {
+    let x = cloth.positions();
+    let at = x[v.index()];
+    let neighbours = || {
+        let faces = mesh.corners_of(v);
+        faces.flat_map(|h| [mesh.target(h), mesh.origin(h.prev())])
+    };
+    let best = |away_from: Option<VertexId>| {
+        let mut best: Option<(f64, VertexId)> = None;
+        for neighbour in neighbours() {
+            let d = x[neighbour.index()] - at;
+            if away_from.is_some_and(|first| dot(d, x[first.index()] - at) >= 0.0) {
+                continue;
+            }
+            let slope = (dot(plane.normal(), d) / length(d)).abs();
+            let better =
+                |(least, id): (f64, VertexId)| slope < least || (slope == least && neighbour < id);
+            if slope.is_finite() && best.is_none_or(better) {
+                best = Some((slope, neighbour));
+            }
+        }
+        best.map(|(_, neighbour)| neighbour)
+    };
+    let first = best(None);
+    [first, first.and_then(|first| best(Some(first)))]
+}
