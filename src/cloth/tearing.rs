@@ -108,10 +108,12 @@ pub struct Tearing {
     pub threshold: Threshold,
     /// At most this many splits a step, the worst first. `None`: no cap.
     pub splits_per_step_max: Option<usize>,
-    /// The factor on the strength of the two neighbours that lie best along the splitting plane,
-    /// one on each side of the vertex: above 0, at most 1. It counts once, however often a vertex
-    /// is such a neighbour. A tear then runs on where it is instead of starting anew
-    /// elsewhere. `None`: they are as strong as before.
+    /// The factor on the strength of the tips of a tear, above 0 and at most 1. Tips are the
+    /// vertices to which a split tore links; of those, the one that lies best along the splitting
+    /// plane, and the best on the other side where the vertex was whole before. A tip is weak
+    /// against edges that pull across the tear (within 45° at rest), until it is split
+    /// itself. A tear then runs on where it is instead of starting anew elsewhere. `None`:
+    /// tips are as strong as before.
     pub weakening: Option<f64>,
     /// The seconds that an edge has to stay at or above its threshold. 0: it tears at once.
     pub delay_s: f64,
@@ -120,14 +122,14 @@ pub struct Tearing {
 }
 
 impl Tearing {
-    /// Tearing at this threshold, with neighbours weakened by a half, at once, without a cap, and
-    /// held vertices holding.
+    /// Tearing at this threshold as in the paper: at once, without a cap, all tips as strong as
+    /// before, and held vertices holding.
     #[must_use]
     pub fn new(threshold: Threshold) -> Tearing {
         Tearing {
             threshold,
             splits_per_step_max: None,
-            weakening: Some(0.5),
+            weakening: None,
             delay_s: 0.0,
             tears_held: false,
         }
