@@ -32,6 +32,7 @@ mod sheet;
 mod solver;
 mod stability;
 mod stiff;
+mod strain;
 mod system;
 mod tearing;
 mod verlet;

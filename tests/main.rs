@@ -8,6 +8,7 @@ mod cloth_cost;
 mod cloth_failures;
 mod cloth_follow;
 mod cloth_stiff;
+mod cloth_strain;
 mod cut_mend;
 mod exact;
 mod exhaustive;
