@@ -99,6 +99,10 @@ pub enum Threshold {
     /// ([`System::force_n`](super::System::force_n)). A torn edge's copy of half the
     /// stiffness bears half of it.
     Force(f64),
+    /// When the largest stretch of a face in any direction is this many times that at rest
+    /// ([`Cloth::principal_stretch`](super::Cloth::principal_stretch)), above 1: for triangles
+    /// rather than springs. The face's most stretched edge is the one that tears.
+    PrincipalStretch(f64),
 }
 
 /// How a cloth tears.
@@ -149,7 +153,7 @@ impl Tearing {
             }
         };
         match self.threshold {
-            Threshold::Stretch(ratio) => above(ratio, 1.0)?,
+            Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above(ratio, 1.0)?,
             Threshold::WarpWeft { warp, weft, axis } => {
                 above(warp, 1.0)?;
                 above(weft, 1.0)?;

@@ -274,10 +274,9 @@ impl Tear {
         let mut length_m = 0.0;
         self.ahead.clear();
         for link in split.torn {
-            let constraint = cloth.system.model.stretch.get(cloth.stretch(link.stayed));
-            length_m += constraint.rest_length_m;
-            let far = constraint.ends[0] + constraint.ends[1] - vertex.index();
-            self.ahead.push(VertexId::from_u32(far as u32));
+            let ends = [mesh.origin(link.stayed), mesh.target(link.stayed)];
+            length_m += cloth.rest_length(ends.map(VertexId::index));
+            self.ahead.push(ends[usize::from(ends[0] == vertex)]);
         }
         edits.replay(&mut (&mut *cloth, &mut *self));
         self.is_fresh[vertex.index()] = true;

@@ -25,7 +25,7 @@ impl Threshold {
                 Some(strain(system, id) / bears)
             }
             Threshold::Force(newtons) => Some(system.force_n(id) / newtons),
-            Threshold::WarpWeft { .. } => None,
+            Threshold::WarpWeft { .. } | Threshold::PrincipalStretch(_) => None,
         }
     }
 
@@ -57,8 +57,24 @@ impl Threshold {
                 };
                 Some(strain(system, id) / (ratio - 1.0))
             }
+            Threshold::PrincipalStretch(ratio) => {
+                let sides = [Some(h), mesh.pair(h)].into_iter().flatten();
+                let torn_first = sides.filter(|&side| is_most_stretched(cloth, side));
+                let stretch = torn_first.map(|side| cloth.principal_stretch(side.face()));
+                let most = stretch.max_by(f64::total_cmp)?;
+                Some((most - 1.0) / (ratio - 1.0))
+            }
         }
     }
+}
+
+/// Whether no other edge of a face is stretched more; the one with the lowest id, of equals.
+fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
+    let ratio = |h: HalfEdgeId| cloth.system().stretch_ratio(cloth.stretch(h));
+    [h.next(), h.prev()].into_iter().all(|other| {
+        let (own, others) = (ratio(h), ratio(other));
+        own > others || (own == others && h < other)
+    })
 }
 
 /// l / L − 1, before a limiter.
