@@ -107,7 +107,7 @@ fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
 }
 
 /// Σ m v of all that is free, exactly.
-fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
+pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
     let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
     let system = cloth.system();
     for (m, v) in system.masses().iter().zip(system.velocities()) {
