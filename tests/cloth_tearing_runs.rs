@@ -246,7 +246,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
     let mut random = Random(seed);
     let (mut mesh, positions) = sheet(7, 7, seed);
     let fabric = Fabric {
-        bend_n_per_m: (seed % 2 == 0).then_some(1.0),
+        bend_n_per_m: seed.is_multiple_of(2).then_some(1.0),
         copies: [Copies::Halved, Copies::Whole][(seed / 2) as usize % 2],
         unbend: [Unbend::Seam, Unbend::Vertex][(seed / 4) as usize % 2],
         ..Fabric::new(40.0)
@@ -264,7 +264,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
     };
     let tearing = Tearing {
         splits_per_step_max: [None, Some(1), Some(4)][seed as usize % 3],
-        weakening: (seed % 3 > 0).then_some(0.7),
+        weakening: (!seed.is_multiple_of(3)).then_some(0.7),
         delay_s: [0.0, 0.01][seed as usize % 2],
         tears_held: seed % 4 == 3,
         ..Tearing::new(threshold)
@@ -318,8 +318,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
                 let h = HalfEdgeId::new(below(mesh.half_edge_count())).expect("a half-edge");
                 let t = 0.01 + 0.1 * below(100) as f64 / 100.0;
                 let [v, toward] = [mesh.origin(h), mesh.target(h)];
-                counts[3] +=
-                    usize::from(slide::toward(&mut mesh, v, toward, t, &mut edits).is_ok());
+                counts[3] += usize::from(slide::toward(&mesh, v, toward, t, &mut edits).is_ok());
             }
             5..=8 => {
                 let stitches = mend::stitches(&mesh, |_| true);

@@ -132,7 +132,7 @@ impl Tear {
         self.strengths[v]
     }
 
-    /// Whether a vertex is the tip of a tear, and so weakened across it.
+    /// Whether a vertex is the tip of a tear, which [`Tearing::weakening`] is for.
     ///
     /// # Panics
     ///
@@ -206,38 +206,34 @@ impl Tear {
     fn find(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
         let mut report = TearReport::default();
         self.due.clear();
+        let mut worst = 0.0;
+        let least = self.least_strength();
+        let watches_clocks = self.tearing.delay_s > 0.0;
         for edge in mesh.edges() {
-            let pair = mesh.pair(edge);
             let load = self.tearing.threshold.edge_load(mesh, cloth, edge);
             let load = load.unwrap_or(f64::NEG_INFINITY);
-            let (ends, along) = at_rest(mesh, cloth, edge);
-            let [a, b] = ends.map(|v| self.strength_along(v, along));
-            let severity = load / a.min(b);
-            if severity > report.worst.map_or(0.0, |(_, worst)| worst) {
+            // Most edges bear their load wherever they are.
+            let mut severity = load / least;
+            if severity >= 1.0 || severity > worst {
+                severity = self.severity(mesh, cloth, edge, load);
+            }
+            if severity > worst {
+                worst = severity;
                 report.worst = Some((edge, severity));
             }
-            let clock = if severity >= 1.0 {
-                (self.clocks[edge.index()] + dt_s).max(0.0)
-            } else {
-                BELOW
-            };
-            for h in [Some(edge), pair].into_iter().flatten() {
-                self.clocks[h.index()] = clock;
-            }
-            if clock == BELOW {
-                continue;
-            }
-            report.overstretched += 1;
-            if clock < self.tearing.delay_s {
+            let pair = mesh.pair(edge);
+            let is_over = severity >= 1.0;
+            report.overstretched += usize::from(is_over);
+            if watches_clocks && self.waits(edge, pair, is_over, dt_s) {
                 report.waiting += 1;
-                continue;
+            } else if is_over {
+                self.due.push(Due {
+                    edge,
+                    pair,
+                    load,
+                    severity,
+                });
             }
-            self.due.push(Due {
-                edge,
-                pair,
-                load,
-                severity,
-            });
         }
         let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
         self.due
@@ -245,9 +241,43 @@ impl Tear {
         report
     }
 
+    /// A load over the smaller strength of an edge's ends.
+    fn severity(&self, mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId, load: f64) -> f64 {
+        let along = at_rest(mesh, cloth, edge);
+        let ends = [mesh.origin(edge), mesh.target(edge)];
+        let [a, b] = ends.map(|v| self.strength_along(v, along));
+        load / a.min(b)
+    }
+
+    /// What every vertex bears.
+    fn least_strength(&self) -> f64 {
+        let strengths = self.strengths.as_slice().iter();
+        let least = strengths.fold(f64::INFINITY, |least, &strength| least.min(strength));
+        least * self.tearing.weakening.unwrap_or(1.0)
+    }
+
+    /// Advances the clock of an edge; whether it is over its threshold and has to wait.
+    fn waits(
+        &mut self,
+        edge: HalfEdgeId,
+        pair: Option<HalfEdgeId>,
+        is_over: bool,
+        dt_s: f64,
+    ) -> bool {
+        let clock = if is_over {
+            (self.clocks[edge.index()] + dt_s).max(0.0)
+        } else {
+            BELOW
+        };
+        for h in [Some(edge), pair].into_iter().flatten() {
+            self.clocks[h.index()] = clock;
+        }
+        is_over && clock < self.tearing.delay_s
+    }
+
     /// The vertex that the rule splits, of those that do not bear the load.
     fn candidate(&self, mesh: &Mesh, cloth: &Cloth, due: &Due) -> Option<(VertexId, Plane)> {
-        let (_, along) = at_rest(mesh, cloth, due.edge);
+        let along = at_rest(mesh, cloth, due.edge);
         let mass = |v: VertexId| {
             let free = self.tearing.tears_held || !cloth.system().is_held(v.index());
             let bears = due.load < self.strength_along(v, along);
@@ -265,7 +295,7 @@ impl Tear {
         edge: HalfEdgeId,
         (vertex, plane): (VertexId, Plane),
     ) -> f64 {
-        let (_, across) = at_rest(mesh, cloth, edge);
+        let across = at_rest(mesh, cloth, edge);
         let mut edges = mesh.corners_of(vertex).flat_map(|h| [h, h.prev()]);
         let is_whole = edges.all(|h| mesh.pair(h).is_some());
         let Some(split) = split::by_plane(mesh, vertex, &plane, &*cloth, edits) else {
@@ -289,11 +319,10 @@ impl Tear {
     }
 }
 
-/// The ends of an edge, and the way from one to the other at rest.
-fn at_rest(mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId) -> ([VertexId; 2], Vector) {
-    let ends = [mesh.origin(edge), mesh.target(edge)];
-    let [a, b] = ends.map(|v| cloth.rest_positions().at(v));
-    (ends, b - a)
+/// The way from one end of an edge to the other, at rest.
+fn at_rest(mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId) -> Vector {
+    let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| cloth.rest_positions().at(v));
+    b - a
 }
 
 /// The neighbours of a vertex that lie best along a plane through it: one, and another one on the
