@@ -2,8 +2,8 @@
 
 use tearmesh::cloth::implicit::{Settings, Tolerance};
 use tearmesh::cloth::{
-    Cloth, Fabric, ImplicitSprings, Loads, Path, Pbd, Provot, Rk4, Solver, System, Verlet, Wind,
-    Xpbd,
+    Cloth, Fabric, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver, System, Verlet, Weave,
+    Wind, Xpbd,
 };
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 
@@ -25,7 +25,7 @@ fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
         ("Provot", &mut Provot::default(), 0.008),
         ("PBD", &mut Pbd::new(400), 0.02),
         ("XPBD", &mut Xpbd::new(1, 400), 0.02),
-        ("implicit", &mut ImplicitSprings::new(settings), 0.1),
+        ("implicit", &mut ImplicitCloth::new(settings), 0.1),
     ];
     for (name, solver, dt) in methods {
         let mut chain = chain(4.0);
@@ -69,34 +69,42 @@ fn the_limiter_leaves_behind_how_long_a_link_would_be() {
 #[test]
 fn a_free_particle_lacks_what_accelerates_it() {
     let (mesh, positions) = shapes::grid(4, 4);
-    let masses = Masses::area(&mesh, &positions, 0.3).expect("masses");
-    let fabric = Fabric {
+    let springs = Fabric {
         bend_n_per_m: Some(2.0),
         ..Fabric::new(30.0)
     };
-    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let woven = Fabric::woven(Weave {
+        warp_n_per_m: 40.0,
+        weft_n_per_m: 30.0,
+        shear_n_per_m: 10.0,
+        warp: Vector::x(),
+    });
     let mut random = Random(7);
-    let system = cloth.system_mut();
-    let wind = Wind {
-        velocity_m_per_s: Vector::new(1.0, 2.0, 5.0),
-        coefficient: 0.4,
-    };
-    let loads = Loads {
-        wind: Some(wind),
-        ..gravity(0.0)
-    };
-    system.set_loads(loads).expect("loads");
-    let (points, velocities) = system.state_mut();
-    for (x, v) in points.iter_mut().zip(velocities) {
-        let mut next = || random.next() - 0.5;
-        *x += 0.1 * Vector::new(next(), next(), next());
-        *v = Vector::new(next(), next(), next());
-    }
-    let mut accelerations = Vec::new();
-    system.accelerations(&mut accelerations);
-    for (i, a) in accelerations.iter().enumerate() {
-        let miss = system.reaction_n(i) + a * system.masses()[i];
-        near(miss.norm(), 0.0, 1e-13);
+    for fabric in [springs, woven] {
+        let masses = Masses::area(&mesh, &positions, 0.3).expect("masses");
+        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+        let system = cloth.system_mut();
+        let wind = Wind {
+            velocity_m_per_s: Vector::new(1.0, 2.0, 5.0),
+            coefficient: 0.4,
+        };
+        let loads = Loads {
+            wind: Some(wind),
+            ..gravity(0.0)
+        };
+        system.set_loads(loads).expect("loads");
+        let (points, velocities) = system.state_mut();
+        for (x, v) in points.iter_mut().zip(velocities) {
+            let mut next = || random.next() - 0.5;
+            *x += 0.1 * Vector::new(next(), next(), next());
+            *v = Vector::new(next(), next(), next());
+        }
+        let mut accelerations = Vec::new();
+        system.accelerations(&mut accelerations);
+        for (i, a) in accelerations.iter().enumerate() {
+            let miss = system.reaction_n(i) + a * system.masses()[i];
+            near(miss.norm(), 0.0, 1e-13);
+        }
     }
 }
 

@@ -32,8 +32,9 @@ impl Cloth {
     /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
     /// lengths at rest: for thresholds apart from each other. Shear does not enter.
     ///
-    /// Warp runs along the x-axis, projected onto the face at rest; along the y-axis in
-    /// faces whose normal lies nearer to the x-axis than to the others. Weft is across it.
+    /// Warp runs where [`Weave::warp`](super::Weave::warp) or [`Cloth::with_warps`] says, projected
+    /// onto the face at rest, and weft across it. Where nothing says, warp runs along the x-axis;
+    /// along the y-axis in faces whose normal lies nearer to the x-axis than to the others.
     ///
     /// A face without area at rest has the largest ratio of its edges, twice.
     ///
@@ -50,9 +51,7 @@ impl Cloth {
 
     /// `w_u` and `w_v` of a face; `None` where it has no area at rest.
     fn derivatives(&self, f: FaceId) -> Option<[Vector; 2]> {
-        let rest = self.rest_corners(f);
-        let material = material(rest, default_warp(rest))?;
-        derivatives(material, self.corners(f))
+        derivatives(self.material(f)?, self.corners(f))
     }
 
     fn corners(&self, f: FaceId) -> [Point; 3] {

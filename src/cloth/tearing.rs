@@ -91,13 +91,15 @@ pub enum Threshold {
         axis: Vector,
     },
     /// At the strain √(2 G / (E h)) for an energy G per length of tear, in J/m: h is the
-    /// rest length of the edge, and E the [`Fabric::stretch_n_per_m`](super::Fabric) of its
-    /// cloth (of a link without a mesh, its own stiffness). Then ½ k (l − L)² is G h where
-    /// k is E.
+    /// rest length of the edge, and E the modulus of the fabric: its
+    /// [`stretch_n_per_m`](super::Fabric), the mean of warp and weft of its
+    /// [`Weave`](super::Weave), or their sum; of a link without a mesh, its own stiffness.
+    /// Then ½ E (l − L)² is G h.
     Toughness(f64),
     /// When its force reaches this, in newtons, by the method of the last step
     /// ([`System::force_n`](super::System::force_n)). A torn edge's copy of half the
-    /// stiffness bears half of it.
+    /// stiffness bears half of it. For springs: the edges of a [`Weave`](super::Weave) have no force
+    /// but under a method that projects.
     Force(f64),
     /// When the largest stretch of a face in any direction is this many times that at rest
     /// ([`Cloth::principal_stretch`](super::Cloth::principal_stretch)), above 1: for triangles

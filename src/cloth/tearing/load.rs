@@ -42,7 +42,7 @@ impl Threshold {
             Threshold::Stretch(_) => self.load(system, id),
             Threshold::Toughness(g) => {
                 let length = system.stretches().get(id).rest_length_m;
-                let bears = strain_borne(g, cloth.fabric.stretch_n_per_m, length);
+                let bears = strain_borne(g, modulus(cloth), length);
                 Some(strain(system, id) / bears)
             }
             Threshold::Force(newtons) => {
@@ -80,6 +80,16 @@ fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
 /// l / L − 1, before a limiter.
 fn strain(system: &System, id: ConstraintId) -> f64 {
     system.unlimited_ratio(id) - 1.0
+}
+
+/// What a cloth's strain is multiplied by for its tension, in N/m: of springs and, the mean of
+/// warp and weft, of triangles.
+fn modulus(cloth: &Cloth) -> f64 {
+    let woven = cloth
+        .fabric
+        .weave
+        .map_or(0.0, |weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0);
+    cloth.fabric.stretch_n_per_m + woven
 }
 
 /// √(2 G / (E h)).
