@@ -12,6 +12,8 @@ mod cloth_stiff;
 mod cloth_strain;
 mod cloth_tables;
 mod cloth_tearing;
+mod cloth_tearing_links;
+mod cloth_tearing_order;
 mod cloth_tearing_runs;
 mod cloth_weave;
 mod cut_mend;

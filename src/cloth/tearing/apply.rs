@@ -36,8 +36,6 @@ pub struct Tear {
 #[derive(Clone, Copy, Debug)]
 struct Due {
     edge: HalfEdgeId,
-    /// The other half-edge, when the edge was found.
-    pair: Option<HalfEdgeId>,
     load: f64,
     /// The load over the smaller strength.
     severity: f64,
@@ -180,7 +178,8 @@ impl Tear {
         let due = std::mem::take(&mut self.due);
         for due in &due {
             let ends = [mesh.origin(due.edge), mesh.target(due.edge)];
-            if mesh.pair(due.edge) != due.pair || ends.iter().any(|v| self.is_fresh[v.index()]) {
+            // Among them are the edges that came apart: two lips now, for the next step to judge.
+            if ends.iter().any(|v| self.is_fresh[v.index()]) {
                 report.relieved += 1;
                 continue;
             }
@@ -221,15 +220,13 @@ impl Tear {
                 worst = severity;
                 report.worst = Some((edge, severity));
             }
-            let pair = mesh.pair(edge);
             let is_over = severity >= 1.0;
             report.overstretched += usize::from(is_over);
-            if watches_clocks && self.waits(edge, pair, is_over, dt_s) {
+            if watches_clocks && self.waits(mesh, edge, is_over, dt_s) {
                 report.waiting += 1;
             } else if is_over {
                 self.due.push(Due {
                     edge,
-                    pair,
                     load,
                     severity,
                 });
@@ -257,19 +254,13 @@ impl Tear {
     }
 
     /// Advances the clock of an edge; whether it is over its threshold and has to wait.
-    fn waits(
-        &mut self,
-        edge: HalfEdgeId,
-        pair: Option<HalfEdgeId>,
-        is_over: bool,
-        dt_s: f64,
-    ) -> bool {
+    fn waits(&mut self, mesh: &Mesh, edge: HalfEdgeId, is_over: bool, dt_s: f64) -> bool {
         let clock = if is_over {
             (self.clocks[edge.index()] + dt_s).max(0.0)
         } else {
             BELOW
         };
-        for h in [Some(edge), pair].into_iter().flatten() {
+        for h in [Some(edge), mesh.pair(edge)].into_iter().flatten() {
             self.clocks[h.index()] = clock;
         }
         is_over && clock < self.tearing.delay_s
