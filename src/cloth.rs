@@ -2,7 +2,8 @@
 //!
 //! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A [`Solver`] advances
 //! it; [`System::step`] watches over stability, notices blow-up, and keeps the last good state. A
-//! [`Cloth`] is a system made of a mesh, and a follower of its log.
+//! [`Cloth`] is a system made of a mesh, and a follower of its log. [`Tear`] is what tears it
+//! where it is overstretched, by a [`Tearing`] with a [`Threshold`].
 //!
 //! | method | what it is for | a step costs |
 //! |---|---|---|
@@ -38,6 +39,7 @@ mod stability;
 mod stiff;
 mod strain;
 mod system;
+mod tearing;
 mod triangles;
 mod verlet;
 mod weave;
@@ -54,6 +56,7 @@ pub use solver::{Culprit, Solver, StepError, StepReport};
 pub use stability::Frequency;
 pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};
+pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
 pub use verlet::Verlet;
 pub use weave::{Weave, warp_of_texture};
 pub use xpbd::Xpbd;

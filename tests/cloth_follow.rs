@@ -142,7 +142,7 @@ fn check_triangles(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
 }
 
 /// Σ m v of all that is free, exactly.
-fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
+pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
     let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
     let system = cloth.system();
     for (m, v) in system.masses().iter().zip(system.velocities()) {

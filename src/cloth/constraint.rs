@@ -73,7 +73,17 @@ struct Colour {
     rest: Vec<f64>,
     stiffness: Vec<f64>,
     multipliers: Vec<f64>,
+    ratios: Vec<f64>,
     ids: Vec<u32>,
+}
+
+/// What a step leaves behind in a constraint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Memory {
+    /// Minus the force of the method, in newtons: λ/Δt².
+    pub(crate) multiplier: f64,
+    /// The length as a multiple of the rest length, before a limiter shortened it.
+    pub(crate) ratio: f64,
 }
 
 impl Constraints {
@@ -171,9 +181,32 @@ impl Constraints {
         })
     }
 
-    pub(crate) fn multiplier(&self, id: ConstraintId) -> f64 {
+    /// The colours with the ratios before a limiter, to be written.
+    pub(crate) fn ratios_mut(&mut self) -> impl Iterator<Item = (Batch<'_>, &mut [f64])> {
+        self.colours.iter_mut().map(|colour| {
+            let batch = Batch {
+                ends: &colour.ends,
+                rest: &colour.rest,
+                stiffness: &colour.stiffness,
+            };
+            (batch, &mut colour.ratios[..])
+        })
+    }
+
+    pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
         let (colour, i) = self.slot(id);
-        self.colours[colour].multipliers[i]
+        let colour = &self.colours[colour];
+        Memory {
+            multiplier: colour.multipliers[i],
+            ratio: colour.ratios[i],
+        }
+    }
+
+    pub(crate) fn remember(&mut self, id: ConstraintId, memory: Memory) {
+        let (colour, i) = self.slot(id);
+        let colour = &mut self.colours[colour];
+        colour.multipliers[i] = memory.multiplier;
+        colour.ratios[i] = memory.ratio;
     }
 
     pub(crate) fn add(&mut self, constraint: Constraint) -> ConstraintId {
@@ -182,7 +215,7 @@ impl Constraints {
             self.next.push([NONE; 2]);
             self.slots.len() as u32 - 1
         });
-        self.attach(id, constraint, 0.0);
+        self.attach(id, constraint, Memory::default());
         ConstraintId(id)
     }
 
@@ -196,13 +229,13 @@ impl Constraints {
     /// Gives the end `from` of a constraint to another particle. The constraint keeps its
     /// colour if that is free there.
     pub(crate) fn repoint(&mut self, id: ConstraintId, from: usize, to: usize) {
-        let (mut constraint, multiplier) = self.detach(id);
+        let (mut constraint, memory) = self.detach(id);
         for end in &mut constraint.ends {
             if *end == from {
                 *end = to;
             }
         }
-        self.attach(id.0, constraint, multiplier);
+        self.attach(id.0, constraint, memory);
     }
 
     pub(crate) fn set_stiffness(&mut self, id: ConstraintId, stiffness_n_per_m: f64) {
@@ -252,7 +285,7 @@ impl Constraints {
         free.expect("one colour more than there are is free")
     }
 
-    fn attach(&mut self, id: u32, constraint: Constraint, multiplier: f64) {
+    fn attach(&mut self, id: u32, constraint: Constraint, memory: Memory) {
         let chosen = self.free_colour(constraint.ends);
         if chosen == self.colours.len() {
             self.colours.push(Colour::default());
@@ -263,7 +296,8 @@ impl Constraints {
         colour.ends.push(ends);
         colour.rest.push(constraint.rest_length_m);
         colour.stiffness.push(constraint.stiffness_n_per_m);
-        colour.multipliers.push(multiplier);
+        colour.multipliers.push(memory.multiplier);
+        colour.ratios.push(memory.ratio);
         colour.ids.push(id);
         for (side, end) in constraint.ends.into_iter().enumerate() {
             self.next[id as usize][side] = self.first[end];
@@ -271,7 +305,7 @@ impl Constraints {
         }
     }
 
-    fn detach(&mut self, id: ConstraintId) -> (Constraint, f64) {
+    fn detach(&mut self, id: ConstraintId) -> (Constraint, Memory) {
         let constraint = self.get(id);
         for (side, end) in constraint.ends.into_iter().enumerate() {
             let (gone, after) = (2 * id.0 + side as u32, self.next[id.index()][side]);
@@ -295,11 +329,14 @@ impl Constraints {
         colour.rest.swap_remove(i);
         colour.stiffness.swap_remove(i);
         colour.ids.swap_remove(i);
-        let multiplier = colour.multipliers.swap_remove(i);
+        let memory = Memory {
+            multiplier: colour.multipliers.swap_remove(i),
+            ratio: colour.ratios.swap_remove(i),
+        };
         if let Some(&moved) = colour.ids.get(i) {
             self.slots[moved as usize][1] = i as u32;
         }
-        (constraint, multiplier)
+        (constraint, memory)
     }
 }
 

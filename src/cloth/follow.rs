@@ -70,17 +70,21 @@ impl Cloth {
         for link in split.torn {
             let id = self.stretch(link.stayed);
             let mut copy = self.system.model.stretch.get(id);
+            let mut memory = self.system.model.stretch.memory(id);
             let before = energy(&copy, &self.system.positions);
             if self.fabric.copies == Copies::Halved {
                 copy.stiffness_n_per_m *= 0.5;
+                memory.multiplier *= 0.5;
                 let half = copy.stiffness_n_per_m;
                 self.system.model.stretch.set_stiffness(id, half);
+                self.system.model.stretch.remember(id, memory);
             }
             let each = energy(&copy, &self.system.positions);
             gained += 2.0 * each - before;
             let far = copy.ends[0] + copy.ends[1] - old;
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
             let copied = self.system.model.stretch.add(copy);
+            self.system.model.stretch.remember(copied, memory);
             self.join(link.stayed, id);
             self.join(link.moved, copied);
             self.system.touched(&[far]);
@@ -453,7 +457,7 @@ struct Piece {
 }
 
 /// Whether a corner of a child lies on this edge of its parent.
-fn lies_on(source: &Source, h: HalfEdgeId) -> bool {
+pub(super) fn lies_on(source: &Source, h: HalfEdgeId) -> bool {
     match *source {
         Source::Corner(corner) => corner == h || corner == h.next(),
         Source::Edge { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),

@@ -128,23 +128,26 @@ pub(crate) fn triangle_stiffness_times(
 }
 
 /// Moves the ends of each constraint by the part `fraction` of the way to its rest length, by
-/// inverse mass (Müller et al. 2007, §3.3).
+/// inverse mass (Müller et al. 2007, §3.3). Multipliers accumulate, as in
+/// [`project_compliant`] without compliance.
 #[must_use]
 pub(crate) fn project(
     batch: Batch<'_>,
+    multipliers: &mut [f64],
     inverse_masses: &[f64],
     fraction: f64,
     ratio_max: f64,
     positions: &mut [Point],
 ) -> bool {
     let mut sane = true;
-    for ([a, b], rest, _) in batch.iter() {
+    for (([a, b], rest, _), multiplier) in batch.iter().zip(multipliers) {
         let d = positions[b] - positions[a];
         let length = dot(d, d).sqrt();
         sane &= length <= ratio_max * rest;
         let (wa, wb) = (inverse_masses[a], inverse_masses[b]);
         let w = wa + wb;
         if w > 0.0 && length > 0.0 {
+            *multiplier -= fraction * (length - rest) / w;
             let step = d * (fraction * (length - rest) / (length * w));
             positions[a] += step * wa;
             positions[b] -= step * wb;
@@ -184,28 +187,39 @@ pub(crate) fn project_compliant(
 }
 
 /// Shortens each constraint that is longer than `ratio` times its rest length to that length
-/// (Provot 1995, §4), and returns the largest l / L that it met.
+/// (Provot 1995, §4), and returns the largest l / L that it met. Multipliers accumulate, as in
+/// [`project`].
 #[must_use]
 pub(crate) fn limit(
     batch: Batch<'_>,
+    multipliers: &mut [f64],
     inverse_masses: &[f64],
     ratio: f64,
     positions: &mut [Point],
 ) -> f64 {
     let mut largest = 0.0_f64;
-    for ([a, b], rest, _) in batch.iter() {
+    for (([a, b], rest, _), multiplier) in batch.iter().zip(multipliers) {
         let d = positions[b] - positions[a];
         let length = dot(d, d).sqrt();
         largest = largest.max(length / rest);
         let (wa, wb) = (inverse_masses[a], inverse_masses[b]);
         let w = wa + wb;
         if length > ratio * rest && w > 0.0 {
+            *multiplier -= (length - ratio * rest) / w;
             let step = d * ((length - ratio * rest) / (length * w));
             positions[a] += step * wa;
             positions[b] -= step * wb;
         }
     }
     largest
+}
+
+/// Writes the length of each constraint as a multiple of its rest length.
+pub(crate) fn ratios(batch: Batch<'_>, positions: &[Point], ratios: &mut [f64]) {
+    for (([a, b], rest, _), ratio) in batch.iter().zip(ratios) {
+        let d = positions[b] - positions[a];
+        *ratio = dot(d, d).sqrt() / rest;
+    }
 }
 
 /// Adds the force of wind on faces: pressure c n·(u − v), where v is the mean velocity of the

@@ -8,7 +8,7 @@
 
 use super::kernel;
 use super::solver::Solver;
-use super::system::System;
+use super::system::{Forces, System};
 use crate::geometry::{Point, Vector};
 
 /// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
@@ -58,12 +58,14 @@ impl Solver for Pbd {
             ..
         } = system;
         let mut sane = true;
+        model.clear_multipliers();
         for _ in 0..self.sweeps {
-            for (family, fraction) in [(&model.stretch, stretch), (&model.bend, bend)] {
-                for batch in family.batches() {
+            for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
+                for (batch, multipliers) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
                     sane &= kernel::project(
                         batch,
+                        multipliers,
                         &model.inverse_masses,
                         fraction,
                         model.stretch_ratio_max,
@@ -72,6 +74,8 @@ impl Solver for Pbd {
                 }
             }
         }
+        model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
+        model.forces = Forces::Multipliers;
         finish(system, dt_s);
         sane
     }

@@ -6,12 +6,14 @@
 //! rewrite a load that the limit cannot carry makes every step unstable, however short: positions are
 //! held while velocities go on to grow.
 //!
-//! Look for edges to tear between the two ([`Provot::unlimited`], then [`Provot::limit`]), or
-//! nothing ever tears.
+//! A threshold of stretch has to be held against lengths before the limiter, or nothing ever
+//! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
+//! with what it did itself the force that each constraint carried ([`System::force_n`]).
+//! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
 use super::kernel;
 use super::solver::Solver;
-use super::system::System;
+use super::system::{Forces, System};
 use super::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
@@ -103,15 +105,21 @@ impl Provot {
             ..
         } = system;
         scratch.before.clone_from(positions);
+        for (batch, ratios) in model.stretch.ratios_mut() {
+            kernel::ratios(batch, positions, ratios);
+        }
+        model.is_limited = true;
+        model.clear_multipliers();
         let ratio_max = limiter.stretch_ratio_max;
         let mut report = LimiterReport::default();
         let (mut largest, mut last) = (f64::INFINITY, f64::INFINITY);
         while report.passes < limiter.passes_max && largest > ratio_max {
             last = largest;
             largest = 0.0;
-            for batch in model.stretch.batches() {
+            for (batch, multipliers) in model.stretch.batches_mut() {
                 counters.projections += batch.ends.len() as u64;
-                let met = kernel::limit(batch, &model.inverse_masses, ratio_max, positions);
+                let masses = &model.inverse_masses;
+                let met = kernel::limit(batch, multipliers, masses, ratio_max, positions);
                 largest = largest.max(met);
             }
             if report.passes == 0 {
@@ -125,6 +133,8 @@ impl Provot {
                 *v += (x - before) / dt_s;
             }
         }
+        model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
+        model.forces = Forces::Both;
         if largest > ratio_max {
             let stretches = system.stretches().iter();
             let longest = stretches.map(|id| system.stretch_ratio(id));

@@ -157,6 +157,7 @@ impl System {
         let report = self.admit(solver.frequency_limit(), dt_s)?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
+        self.model.forget();
         let began_s = self.elapsed_s;
         let substep_s = dt_s / f64::from(report.substeps);
         for _ in 0..report.substeps {
@@ -167,6 +168,7 @@ impl System {
                 std::mem::swap(&mut self.positions, &mut self.scratch.positions);
                 std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
                 self.scratch.is_fresh = false;
+                self.model.forget();
                 self.elapsed_s = began_s;
                 return Err(StepError::BlowUp {
                     elapsed_s: began_s,

@@ -5,8 +5,10 @@
 //! that resist stretch and shear. A chain, a net or a cloth is one. Units are SI throughout: metres, kilograms, seconds, newtons.
 
 mod error;
+mod force;
 
 pub use error::SystemError;
+pub(crate) use force::Forces;
 
 use super::constraint::{Constraint, ConstraintId, Constraints};
 use super::implicit::{Triangle, triangle};
@@ -71,6 +73,10 @@ pub(crate) struct Model {
     /// Particles and their paths.
     pub(crate) grabbed: Vec<(u32, u32)>,
     pub(crate) stretch_ratio_max: f64,
+    /// Where the forces of the last step are to be read.
+    pub(crate) forces: Forces,
+    /// Whether a limiter left ratios behind.
+    pub(crate) is_limited: bool,
 }
 
 /// Room for a step, so that none allocates.
@@ -173,6 +179,8 @@ impl System {
                 paths: Vec::new(),
                 grabbed: Vec::new(),
                 stretch_ratio_max: 100.0,
+                forces: Forces::default(),
+                is_limited: false,
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),
@@ -295,6 +303,23 @@ impl System {
         Ok(())
     }
 
+    /// Takes away a stretch constraint, as where a link of a chain tears. Later constraints may get
+    /// its id.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint, or the system is that of a cloth, whose constraints follow
+    /// the mesh.
+    pub fn cut(&mut self, id: ConstraintId) -> Constraint {
+        assert!(
+            self.model.faces.is_empty(),
+            "the constraints of a cloth follow its mesh"
+        );
+        let constraint = self.model.stretch.remove(id);
+        self.touched(&constraint.ends);
+        constraint
+    }
+
     /// Pins a particle where it is.
     ///
     /// # Panics
@@ -377,10 +402,12 @@ impl System {
     }
 
     /// Positions and velocities, to be set. Those that are not finite are noticed by the next
-    /// step.
+    /// step. What the last step left behind in constraints ([`System::force_n`],
+    /// [`System::unlimited_ratio`]) no longer counts.
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
+        self.model.forget();
         (&mut self.positions, &mut self.velocities)
     }
 
@@ -453,30 +480,7 @@ impl System {
         self.length_m(&constraint) / constraint.rest_length_m
     }
 
-    /// The force in a stretch constraint by its length, k (l − L), in newtons; tension is
-    /// positive.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    #[must_use]
-    pub fn tension_n(&self, id: ConstraintId) -> f64 {
-        let constraint = self.model.stretch.get(id);
-        constraint.stiffness_n_per_m * (self.length_m(&constraint) - constraint.rest_length_m)
-    }
-
-    /// The force in a stretch constraint by the multiplier of the last step of
-    /// [`Xpbd`](super::Xpbd), −λ/Δt², in newtons; tension is positive. Zero before one.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    #[must_use]
-    pub fn multiplier_n(&self, id: ConstraintId) -> f64 {
-        -self.model.stretch.multiplier(id)
-    }
-
-    fn length_m(&self, constraint: &Constraint) -> f64 {
+    pub(crate) fn length_m(&self, constraint: &Constraint) -> f64 {
         let [a, b] = constraint.ends.map(|end| self.positions[end]);
         let d = b - a;
         dot(d, d).sqrt()
@@ -493,6 +497,13 @@ impl System {
         triangles.fold(springs, |sum, t| {
             sum + triangle::energy(t, triangle::corners(t, &self.positions))
         })
+    }
+
+    /// The elastic energy of a stretch constraint, in joules.
+    pub(crate) fn elastic_of(&self, id: ConstraintId) -> f64 {
+        let constraint = self.model.stretch.get(id);
+        let extension = self.length_m(&constraint) - constraint.rest_length_m;
+        0.5 * constraint.stiffness_n_per_m * extension * extension
     }
 
     /// The kinetic energy of the particles that are not held, in joules.

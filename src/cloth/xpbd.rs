@@ -15,7 +15,7 @@
 use super::kernel;
 use super::pbd::{finish, predict};
 use super::solver::Solver;
-use super::system::System;
+use super::system::{Forces, System};
 use crate::geometry::{Vector, dot};
 
 /// XPBD: so many substeps a step, and sweeps a substep. Always stable.
@@ -54,11 +54,7 @@ impl Xpbd {
         } = system;
         let scale = (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s);
         let mut sane = true;
-        for family in [&mut model.stretch, &mut model.bend] {
-            for (_, multipliers) in family.batches_mut() {
-                multipliers.fill(0.0);
-            }
-        }
+        model.clear_multipliers();
         for _ in 0..self.sweeps {
             for family in [&mut model.stretch, &mut model.bend] {
                 for (batch, multipliers) in family.batches_mut() {
@@ -74,11 +70,8 @@ impl Xpbd {
                 }
             }
         }
-        for family in [&mut model.stretch, &mut model.bend] {
-            for (_, multipliers) in family.batches_mut() {
-                multipliers.iter_mut().for_each(|lambda| *lambda *= scale);
-            }
-        }
+        model.scale_multipliers(scale);
+        model.forces = Forces::Multipliers;
         finish(system, dt_s);
         sane
     }
@@ -97,7 +90,7 @@ impl Xpbd {
                 let length = dot(d, d).sqrt();
                 if length > 0.0 {
                     let force = constraint.stiffness_n_per_m * (length - constraint.rest_length_m);
-                    let miss = d * ((force + family.multiplier(id)) / length);
+                    let miss = d * ((force + family.memory(id).multiplier) / length);
                     residual[a] += miss;
                     residual[b] -= miss;
                 }
