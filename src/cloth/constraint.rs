@@ -72,6 +72,8 @@ struct Colour {
     ends: Vec<[u32; 2]>,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
+    /// The inverse of the stiffness: a division less in each projection.
+    compliance: Vec<f64>,
     multipliers: Vec<f64>,
     ids: Vec<u32>,
 }
@@ -166,6 +168,7 @@ impl Constraints {
                 ends: &colour.ends,
                 rest: &colour.rest,
                 stiffness: &colour.stiffness,
+                compliance: &colour.compliance,
             };
             (batch, &mut colour.multipliers[..])
         })
@@ -207,7 +210,9 @@ impl Constraints {
 
     pub(crate) fn set_stiffness(&mut self, id: ConstraintId, stiffness_n_per_m: f64) {
         let (colour, i) = self.slot(id);
-        self.colours[colour].stiffness[i] = stiffness_n_per_m;
+        let colour = &mut self.colours[colour];
+        colour.stiffness[i] = stiffness_n_per_m;
+        colour.compliance[i] = 1.0 / stiffness_n_per_m;
     }
 
     pub(crate) fn set_rest_length(&mut self, id: ConstraintId, rest_length_m: f64) {
@@ -263,6 +268,7 @@ impl Constraints {
         colour.ends.push(ends);
         colour.rest.push(constraint.rest_length_m);
         colour.stiffness.push(constraint.stiffness_n_per_m);
+        colour.compliance.push(1.0 / constraint.stiffness_n_per_m);
         colour.multipliers.push(multiplier);
         colour.ids.push(id);
         for (side, end) in constraint.ends.into_iter().enumerate() {
@@ -294,6 +300,7 @@ impl Constraints {
         colour.ends.swap_remove(i);
         colour.rest.swap_remove(i);
         colour.stiffness.swap_remove(i);
+        colour.compliance.swap_remove(i);
         colour.ids.swap_remove(i);
         let multiplier = colour.multipliers.swap_remove(i);
         if let Some(&moved) = colour.ids.get(i) {
@@ -309,6 +316,7 @@ impl Colour {
             ends: &self.ends,
             rest: &self.rest,
             stiffness: &self.stiffness,
+            compliance: &self.compliance,
         }
     }
 }
