@@ -329,11 +329,11 @@ mod tests {
         Constraint {
             ends: [a, b],
             rest_length_m: (a + 10 * b) as f64,
-            stiffness_n_per_m: 1.0,
+            stiffness_n_per_m: (3 + a) as f64,
         }
     }
 
-    /// No colour has a particle twice, and the lists of particles hold their constraints.
+    /// No colour has a particle twice, each compliance is that of its stiffness, and the lists of particles hold their constraints.
     fn check(constraints: &Constraints, expected: &[(ConstraintId, [usize; 2])]) {
         assert_eq!(constraints.len(), expected.len());
         for &(id, ends) in expected {
@@ -349,6 +349,10 @@ mod tests {
             .sum();
         assert_eq!(listed, 2 * expected.len());
         assert_eq!(constraints.iter().count(), expected.len());
+        for batch in constraints.batches() {
+            let inverse = batch.stiffness.iter().map(|k| 1.0 / k);
+            assert_eq!(batch.compliance, inverse.collect::<Vec<_>>());
+        }
     }
 
     #[test]
@@ -362,6 +366,10 @@ mod tests {
             }
         }
         assert!(constraints.colour_count() <= 9);
+        for (id, [a, b]) in &expected {
+            constraints.set_stiffness(*id, (7 + a * b) as f64);
+        }
+        check(&constraints, &expected);
         // Every third goes, and comes back with another end.
         for i in (0..expected.len()).rev().step_by(3) {
             let (id, ends) = expected.swap_remove(i);
