@@ -346,8 +346,8 @@ mod tests {
         {
             let mut expected = pairs.positions.clone();
             let mut expected_multipliers = Vec::new();
-            for i in 0..COUNT {
-                let before = if first { 0.0 } else { multipliers[i] };
+            for (i, &multiplier) in multipliers.iter().enumerate() {
+                let before = if first { 0.0 } else { multiplier };
                 let (length, w) = (pairs.length(i), pairs.weight(i));
                 let compliance = scale * (1.0 / pairs.stiffness[i]);
                 let error = length - pairs.rest[i] + compliance * before;
@@ -374,7 +374,7 @@ mod tests {
         for far in 0..COUNT {
             let mut pairs = Pairs::new();
             let ratio_max = 100.0;
-            let mut sweep = |pairs: &Pairs| {
+            let sweep = |pairs: &Pairs| {
                 let (batch, w) = (pairs.batch(), &pairs.inverse_masses);
                 let mut multipliers = vec![0.0; COUNT];
                 let mut x = pairs.positions.clone();
