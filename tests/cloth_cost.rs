@@ -2,8 +2,10 @@
 
 use std::time::Instant;
 
-use tearmesh::cloth::{Cloth, Fabric, ImplicitCloth, Loads, Pbd, Solver, Unstable, Verlet, Xpbd};
-use tearmesh::{Edits, Masses, Mesh, Vector, shapes, split};
+use tearmesh::cloth::{
+    Cloth, Collider, Fabric, ImplicitCloth, Loads, Pbd, Solver, Unstable, Verlet, Xpbd,
+};
+use tearmesh::{Edits, Masses, Mesh, Plane, Point, Vector, shapes, split};
 
 /// A sheet of n × n cells that hangs by its upper edge.
 fn hanging(n: u32, stiffness: f64) -> (Mesh, Cloth) {
@@ -44,6 +46,38 @@ fn ten_substeps_of_one_sweep_strain_less_than_one_step_of_ten_sweeps() {
     assert_eq!([of_small, of_small], [of_large, of_pbd]);
     assert!(large > 5.0 * small && pbd > 5.0 * small);
     assert!(small < 0.2, "{small}");
+}
+
+/// Without colliders, the end of a substep and the begin of the next are one pass.
+#[test]
+fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {
+    let (_, mut free) = hanging(12, 1e4);
+    let mut loads = free.system().loads().clone();
+    let floor = Plane::new(Point::new(0.0, -1e3, 0.0), Vector::y()).expect("a plane");
+    loads.colliders.push(Collider::Plane(floor));
+    let mut above = free.clone();
+    above.system_mut().set_loads(loads).expect("loads");
+    for _ in 0..20 {
+        for cloth in [&mut free, &mut above] {
+            cloth
+                .step(&mut Xpbd::new(5, 2), 1.0 / 60.0)
+                .expect("a step");
+        }
+        assert_eq!(free.positions(), above.positions());
+        assert_eq!(free.system().velocities(), above.system().velocities());
+    }
+    assert_eq!(above.system().counters().collider_passes, 20 * 5);
+}
+
+#[test]
+fn no_substeps_and_no_sweeps_are_one() {
+    let (_, cloth) = hanging(6, 1e4);
+    let [one, none] = [Xpbd::new(1, 1), Xpbd::new(0, 0)].map(|solver| {
+        let mut cloth = cloth.clone();
+        run(&mut cloth, solver, 10);
+        (cloth.positions().to_vec(), cloth.system().counters())
+    });
+    assert_eq!(one, none);
 }
 
 #[test]

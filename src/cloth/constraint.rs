@@ -72,6 +72,8 @@ struct Colour {
     ends: Vec<[u32; 2]>,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
+    /// The inverse of the stiffness: a division less in each projection.
+    compliance: Vec<f64>,
     multipliers: Vec<f64>,
     ratios: Vec<f64>,
     ids: Vec<u32>,
@@ -176,6 +178,7 @@ impl Constraints {
                 ends: &colour.ends,
                 rest: &colour.rest,
                 stiffness: &colour.stiffness,
+                compliance: &colour.compliance,
             };
             (batch, &mut colour.multipliers[..])
         })
@@ -188,6 +191,7 @@ impl Constraints {
                 ends: &colour.ends,
                 rest: &colour.rest,
                 stiffness: &colour.stiffness,
+                compliance: &colour.compliance,
             };
             (batch, &mut colour.ratios[..])
         })
@@ -240,7 +244,9 @@ impl Constraints {
 
     pub(crate) fn set_stiffness(&mut self, id: ConstraintId, stiffness_n_per_m: f64) {
         let (colour, i) = self.slot(id);
-        self.colours[colour].stiffness[i] = stiffness_n_per_m;
+        let colour = &mut self.colours[colour];
+        colour.stiffness[i] = stiffness_n_per_m;
+        colour.compliance[i] = 1.0 / stiffness_n_per_m;
     }
 
     pub(crate) fn set_rest_length(&mut self, id: ConstraintId, rest_length_m: f64) {
@@ -296,6 +302,7 @@ impl Constraints {
         colour.ends.push(ends);
         colour.rest.push(constraint.rest_length_m);
         colour.stiffness.push(constraint.stiffness_n_per_m);
+        colour.compliance.push(1.0 / constraint.stiffness_n_per_m);
         colour.multipliers.push(memory.multiplier);
         colour.ratios.push(memory.ratio);
         colour.ids.push(id);
@@ -328,6 +335,7 @@ impl Constraints {
         colour.ends.swap_remove(i);
         colour.rest.swap_remove(i);
         colour.stiffness.swap_remove(i);
+        colour.compliance.swap_remove(i);
         colour.ids.swap_remove(i);
         let memory = Memory {
             multiplier: colour.multipliers.swap_remove(i),
@@ -346,6 +354,7 @@ impl Colour {
             ends: &self.ends,
             rest: &self.rest,
             stiffness: &self.stiffness,
+            compliance: &self.compliance,
         }
     }
 }
@@ -358,11 +367,11 @@ mod tests {
         Constraint {
             ends: [a, b],
             rest_length_m: (a + 10 * b) as f64,
-            stiffness_n_per_m: 1.0,
+            stiffness_n_per_m: (3 + a) as f64,
         }
     }
 
-    /// No colour has a particle twice, and the lists of particles hold their constraints.
+    /// No colour has a particle twice, each compliance is that of its stiffness, and the lists of particles hold their constraints.
     fn check(constraints: &Constraints, expected: &[(ConstraintId, [usize; 2])]) {
         assert_eq!(constraints.len(), expected.len());
         for &(id, ends) in expected {
@@ -378,6 +387,10 @@ mod tests {
             .sum();
         assert_eq!(listed, 2 * expected.len());
         assert_eq!(constraints.iter().count(), expected.len());
+        for batch in constraints.batches() {
+            let inverse = batch.stiffness.iter().map(|k| 1.0 / k);
+            assert_eq!(batch.compliance, inverse.collect::<Vec<_>>());
+        }
     }
 
     #[test]
@@ -391,6 +404,10 @@ mod tests {
             }
         }
         assert!(constraints.colour_count() <= 9);
+        for (id, [a, b]) in &expected {
+            constraints.set_stiffness(*id, (7 + a * b) as f64);
+        }
+        check(&constraints, &expected);
         // Every third goes, and comes back with another end.
         for i in (0..expected.len()).rev().step_by(3) {
             let (id, ends) = expected.swap_remove(i);

@@ -8,7 +8,7 @@
 
 use super::kernel;
 use super::solver::Solver;
-use super::system::{Forces, System};
+use super::system::{Forces, Model, System};
 use crate::geometry::{Point, Vector};
 
 /// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
@@ -81,7 +81,8 @@ impl Solver for Pbd {
     }
 }
 
-/// Moves all particles as if there were no constraint, and keeps where they were.
+/// Moves all particles as if there were no constraint, and keeps where they were. Velocities stay
+/// those of before: [`finish`] takes new ones from the positions.
 pub(crate) fn predict(system: &mut System, dt_s: f64) {
     let System {
         positions,
@@ -92,29 +93,83 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
         ..
     } = system;
     scratch.is_fresh = false;
-    scratch.before.clone_from(positions);
+    scratch.before.resize(positions.len(), Point::origin());
     let accelerations = &mut scratch.accelerations;
-    accelerations.resize(positions.len(), Vector::zeros());
-    accelerations.fill(Vector::zeros());
-    model.external(positions, velocities, accelerations, counters);
-    let fade = 1.0 + dt_s * model.drag_per_s();
-    let particles = positions.iter_mut().zip(velocities).zip(accelerations);
-    for (((x, v), a), &w) in particles.zip(&model.inverse_masses) {
-        if w > 0.0 {
-            *v = (*v + *a * dt_s) / fade;
+    if model.loads.wind.is_some() {
+        accelerations.clear();
+        accelerations.resize(positions.len(), Vector::zeros());
+        model.external(positions, velocities, accelerations, counters);
+    }
+    let flight = Flight::new(model, dt_s);
+    let particles = positions.iter_mut().zip(&mut scratch.before);
+    let particles = particles.zip(&*velocities).zip(&model.inverse_masses);
+    if model.loads.wind.is_some() {
+        for ((((x, before), v), &w), &a) in particles.zip(&*accelerations) {
+            *before = *x;
+            *x += flight.moved(*v, a, w);
         }
-        *x += *v * dt_s;
+    } else {
+        // Without wind, all accelerations are one.
+        for (((x, before), v), &w) in particles {
+            *before = *x;
+            *x += flight.moved(*v, flight.gravity, w);
+        }
     }
 }
 
 /// Takes as velocity what was moved, then lets colliders push.
 pub(crate) fn finish(system: &mut System, dt_s: f64) {
-    let moved = |(x, before): (&Point, &Point)| (x - before) / dt_s;
+    let per_s = 1.0 / dt_s;
     let moves = system.positions.iter().zip(&system.scratch.before);
-    for (v, moves) in system.velocities.iter_mut().zip(moves) {
-        *v = moved(moves);
+    for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
+        *v = (x - before) * per_s;
     }
     system.collide();
+}
+
+/// [`finish`], and [`predict`] of the next substep: in one pass where nobody asks for velocities in
+/// between.
+pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
+    if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
+        finish(system, dt_s);
+        predict(system, dt_s);
+        return;
+    }
+    let per_s = 1.0 / dt_s;
+    let flight = Flight::new(&system.model, dt_s);
+    let particles = system.positions.iter_mut().zip(&mut system.scratch.before);
+    for ((x, before), &w) in particles.zip(&system.model.inverse_masses) {
+        let v = (*x - *before) * per_s;
+        *before = *x;
+        *x += flight.moved(v, flight.gravity, w);
+    }
+}
+
+/// A substep without constraints.
+struct Flight {
+    gravity: Vector,
+    /// The part of a velocity that drag leaves.
+    keep: f64,
+    dt_s: f64,
+}
+
+impl Flight {
+    fn new(model: &Model, dt_s: f64) -> Flight {
+        Flight {
+            gravity: model.gravity(),
+            keep: 1.0 / (1.0 + dt_s * model.drag_per_s()),
+            dt_s,
+        }
+    }
+
+    /// How far a particle flies.
+    fn moved(&self, v: Vector, acceleration: Vector, inverse_mass: f64) -> Vector {
+        if inverse_mass > 0.0 {
+            (v + acceleration * self.dt_s) * self.keep * self.dt_s
+        } else {
+            v * self.dt_s
+        }
+    }
 }
 
 /// The n-th root of a number from 0 to 1, by Newton's iteration from above.

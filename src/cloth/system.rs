@@ -608,6 +608,10 @@ impl Model {
         self.loads.drag_per_s.unwrap_or(0.0)
     }
 
+    pub(crate) fn gravity(&self) -> Vector {
+        self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros)
+    }
+
     /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have none. False
     /// where a spring has blown up.
     #[must_use]
@@ -672,7 +676,7 @@ impl Model {
                 accelerations,
             );
         }
-        let gravity = self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros);
+        let gravity = self.gravity();
         for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
             *a = if w > 0.0 {
                 *a * w + gravity

@@ -13,9 +13,9 @@
 //! wrong by just that factor.
 
 use super::kernel;
-use super::pbd::{finish, predict};
+use super::pbd::{finish, finish_and_predict, predict};
 use super::solver::Solver;
-use super::system::{Forces, System};
+use super::system::{Forces, Model, System};
 use crate::geometry::{Vector, dot};
 
 /// XPBD: so many substeps a step, and sweeps a substep. Always stable.
@@ -23,7 +23,7 @@ use crate::geometry::{Vector, dot};
 pub struct Xpbd {
     /// Substeps a step; at least one.
     pub substeps: u32,
-    /// Sweeps over all constraints a substep; one is best.
+    /// Sweeps over all constraints a substep; at least one, and one is best.
     pub sweeps: u32,
 }
 
@@ -44,22 +44,25 @@ impl Xpbd {
         Xpbd { substeps, sweeps }
     }
 
-    fn substep(&self, system: &mut System, dt_s: f64) -> bool {
-        predict(system, dt_s);
+    /// The sweeps of a substep, after the particles have flown.
+    fn sweep(&self, system: &mut System, dt_s: f64) -> bool {
         let System {
             positions,
             model,
             counters,
             ..
         } = system;
-        let scale = (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s);
+        let scale = scale(model, dt_s);
         let mut sane = true;
-        model.clear_multipliers();
-        for _ in 0..self.sweeps {
+        for sweep in 0..self.sweeps.max(1) {
+            let project = match sweep {
+                0 => kernel::project_compliant::<true>,
+                _ => kernel::project_compliant::<false>,
+            };
             for family in [&mut model.stretch, &mut model.bend] {
                 for (batch, multipliers) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
-                    sane &= kernel::project_compliant(
+                    sane &= project(
                         batch,
                         multipliers,
                         &model.inverse_masses,
@@ -70,9 +73,6 @@ impl Xpbd {
                 }
             }
         }
-        model.scale_multipliers(scale);
-        model.forces = Forces::Multipliers;
-        finish(system, dt_s);
         sane
     }
 
@@ -106,6 +106,24 @@ impl Xpbd {
 impl Solver for Xpbd {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
         let substeps = self.substeps.max(1);
-        (0..substeps).all(|_| self.substep(system, dt_s / f64::from(substeps)))
+        let substep_s = dt_s / f64::from(substeps);
+        predict(system, substep_s);
+        let sane = (0..substeps).all(|substep| {
+            if substep > 0 {
+                finish_and_predict(system, substep_s);
+            }
+            self.sweep(system, substep_s)
+        });
+        finish(system, substep_s);
+        // Who asks for forces asks for those of the last substep.
+        let model = &mut system.model;
+        model.scale_multipliers(scale(model, substep_s));
+        model.forces = Forces::Multipliers;
+        sane
     }
+}
+
+/// What makes a compliance one of a step, and a multiplier a force.
+fn scale(model: &Model, dt_s: f64) -> f64 {
+    (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s)
 }

@@ -195,7 +195,7 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
         let median = median_seconds(times).expect("there is a round");
         let ratio = fastest.map_or(String::new(), |time| format!("{:.2}", time / median));
         let note = match rival {
-            Some((_, Some(rival))) => format!("{}: {}", rival.version, contestant.note),
+            Some((_, Some(rival))) => format!("{}: {}", rival.version(), contestant.note),
             _ => contestant.note.to_owned(),
         };
         let [ms, least] = [median, times[0].as_secs_f64()].map(|s| format!("{:.2}", s * 1e3));

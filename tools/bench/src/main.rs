@@ -4,12 +4,14 @@
 //! $ cargo run --release --manifest-path tools/bench/Cargo.toml -- read
 //! $ cargo run --release --manifest-path tools/bench/Cargo.toml -- write --rounds 9 --record
 //! $ taskset -c 1 cargo run --release --manifest-path tools/bench/Cargo.toml -- cut --python PATH
+//! $ taskset -c 1 cargo run --release --manifest-path tools/bench/Cargo.toml -- cloth --record
 //! ```
 //!
 //! | subcommand | measures |
 //! |---|---|
 //! | `read` | OBJ bytes in memory to a document in memory, beside five crates and a plain loop |
 //! | `write` | a document to OBJ bytes in memory, beside `{}` and shortest digits |
+//! | `cloth` | a step of a hanging sheet, beside Bullet; what size and splits cost |
 //! | `cut` | a plane through a sheet, both sides kept, beside three Python packages |
 //!
 //! | option | meaning |
@@ -31,11 +33,20 @@
 //! round; what it measures is the cutting call alone. `cut` counts CPU time, all threads of a
 //! process together, and confines the rivals to one core; `taskset` gives ours the same one. Its
 //! other tables (snap against quality, methods) are of ours alone, on a smaller sheet.
+//!
+//! `cloth` has Bullet as its rival: `apt-get install libbullet-dev pkg-config g++`. A program of a
+//! hundred lines (`rivals/bullet.cpp`) is compiled against it, gets the same net, and steps it;
+//! where it cannot be compiled, the table says so. CPU time here, too. A projection is timed by the
+//! difference of a run with eleven times the iterations; `of bullet` is the part of the time of
+//! Bullet with its links in the order of the mesh. `longest` is the largest length of an edge in
+//! the end, as a multiple of its rest length. `--faces` does not concern it.
 
+mod cloth;
 mod cut;
 mod irregular;
 mod measure;
 mod options;
+mod process;
 mod read;
 mod record;
 mod rivals;
@@ -51,11 +62,12 @@ fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let subcommand = arguments.next().unwrap_or_default();
     let run: fn(&Options) -> String = match &*subcommand {
+        "cloth" => cloth::run,
         "cut" => cut::run,
         "read" => read::run,
         "write" => write::run,
         _ => {
-            eprintln!("expected a subcommand: cut, read or write (see the top of main.rs)");
+            eprintln!("expected a subcommand: cloth, cut, read or write (see the top of main.rs)");
             return ExitCode::FAILURE;
         }
     };

@@ -1,13 +1,14 @@
 //! Rivals that cut in Python, each in a process of its own: `rivals/cut.py`.
 
-use std::cell::RefCell;
 use std::fs;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::Command;
 use std::time::Duration;
 
 use tearmesh::{Mesh, Plane, Positions};
+
+use crate::process::Process;
 
 /// A mesh and a plane as files, which are removed in the end.
 pub(super) struct Handover {
@@ -41,16 +42,7 @@ impl Drop for Handover {
 }
 
 /// A rival that is ready to cut.
-pub(super) struct Rival {
-    pub(super) version: String,
-    process: RefCell<Process>,
-}
-
-struct Process {
-    child: Child,
-    asked: ChildStdin,
-    said: BufReader<ChildStdout>,
-}
+pub(super) struct Rival(Process);
 
 /// What a rival's result is like.
 pub(super) struct Facts {
@@ -71,26 +63,21 @@ impl Rival {
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("rivals/cut.py");
         let mut command = Command::new(python);
         command.arg(script).arg(name).arg(&handover.folder);
-        command.stdin(Stdio::piped()).stdout(Stdio::piped());
-        let mut child = command.spawn().ok()?;
-        let asked = child.stdin.take().expect("it is piped");
-        let said = BufReader::new(child.stdout.take().expect("it is piped"));
-        let mut process = Process { child, asked, said };
-        let version = process.line()?.strip_prefix("ready ")?.to_owned();
-        Some(Rival {
-            version,
-            process: RefCell::new(process),
-        })
+        Process::start(&mut command, "").map(Rival)
+    }
+
+    pub(super) fn version(&self) -> &str {
+        &self.0.version
     }
 
     /// How long the rival takes for a cut.
     pub(super) fn cut(&self) -> Duration {
-        let seconds = self.ask("cut").parse().expect("a number of seconds");
+        let seconds = self.0.ask("cut").parse().expect("a number of seconds");
         Duration::from_secs_f64(seconds)
     }
 
     pub(super) fn check(&self) -> Facts {
-        let answer = self.ask("check");
+        let answer = self.0.ask("check");
         let number = |key: &str| -> f64 {
             let mut words = answer.split_ascii_whitespace();
             let value = words.find_map(|word| word.strip_prefix(key)?.strip_prefix('='));
@@ -104,30 +91,5 @@ impl Rival {
             deviation: number("deviation"),
             area: number("area"),
         }
-    }
-
-    fn ask(&self, what: &str) -> String {
-        let mut process = self.process.borrow_mut();
-        writeln!(process.asked, "{what}").expect("a rival that is ready listens");
-        process.line().expect("a rival answers every line")
-    }
-}
-
-impl Process {
-    /// The next line of the answer; `None` if the process has ended.
-    fn line(&mut self) -> Option<String> {
-        let mut line = String::new();
-        match self.said.read_line(&mut line) {
-            Ok(0) | Err(_) => None,
-            Ok(_) => Some(line.trim_end().to_owned()),
-        }
-    }
-}
-
-impl Drop for Process {
-    fn drop(&mut self) {
-        // It would end by itself with its input; a mesh of its memory need not wait for that.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }

@@ -1,0 +1,136 @@
+//! Bullet's soft body, in a process of its own: `rivals/bullet.cpp`.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tearmesh::Point;
+use tearmesh::cloth::System;
+
+use super::Run;
+use super::sheet::{GRAVITY_M_PER_S2, STEP_S};
+use crate::process::Process;
+
+/// The program, compiled against the library that is installed. Removed in the end.
+pub(super) struct Program {
+    folder: PathBuf,
+}
+
+impl Program {
+    /// Compiles it; or why that cannot be.
+    pub(super) fn compile() -> Result<Program, String> {
+        let flags = said(Command::new("pkg-config").args(["--cflags", "--libs", "bullet"]));
+        let Some(flags) = flags.filter(|output| output.status.success()) else {
+            return Err("not installed (libbullet-dev, pkg-config)".to_owned());
+        };
+        let flags = String::from_utf8_lossy(&flags.stdout).into_owned();
+        let folder = std::env::temp_dir().join(format!("tearmesh-bench-{}", std::process::id()));
+        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        let program = Program { folder };
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("rivals/bullet.cpp");
+        let mut compiler = Command::new("c++");
+        compiler.args(["-std=c++17", "-O3"]).arg(source);
+        compiler.args(flags.split_ascii_whitespace());
+        compiler.arg("-o").arg(program.path());
+        match said(&mut compiler) {
+            Some(output) if output.status.success() => Ok(program),
+            Some(output) => {
+                eprint!("{}", String::from_utf8_lossy(&output.stderr));
+                Err("does not compile (see above)".to_owned())
+            }
+            None => Err("not compiled: there is no c++".to_owned()),
+        }
+    }
+
+    fn path(&self) -> PathBuf {
+        self.folder.join("bullet")
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        // What cannot be removed is the system's to clear away.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+fn said(command: &mut Command) -> Option<Output> {
+    command.stdin(Stdio::null()).output().ok()
+}
+
+/// The order in which Bullet has its links.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// That of the mesh.
+    Mesh,
+    /// That of the mesh, after Bullet's own `ReoptimizeLinkOrder`.
+    Reoptimised,
+    /// That of our colours.
+    Colours,
+}
+
+/// A body that is ready to be stepped.
+pub(super) struct Bullet {
+    process: Process,
+    links: usize,
+}
+
+impl Bullet {
+    pub(super) fn start(program: &Program, system: &System, order: Order) -> io::Result<Bullet> {
+        let constraints = system.stretches();
+        let mut ids: Vec<_> = constraints.iter().collect();
+        if order != Order::Colours {
+            ids.sort_unstable();
+        }
+        let mut sheet = format!(
+            "particles {} links {} gravity {GRAVITY_M_PER_S2}\n",
+            system.positions().len(),
+            ids.len()
+        );
+        for (particle, p) in system.positions().iter().enumerate() {
+            let held = system.is_held(particle);
+            let mass = if held { 0.0 } else { system.masses()[particle] };
+            writeln!(sheet, "{} {} {} {mass:e}", p.x, p.y, p.z).expect("a string takes all");
+        }
+        for &id in &ids {
+            let [a, b] = constraints.get(id).ends;
+            writeln!(sheet, "{a} {b}").expect("a string takes all");
+        }
+        let mut command = Command::new(program.path());
+        if order == Order::Reoptimised {
+            command.arg("reoptimised");
+        }
+        let process = Process::start(&mut command, &sheet);
+        let process = process.ok_or_else(|| io::Error::other("it does not start"))?;
+        let links = ids.len();
+        Ok(Bullet { process, links })
+    }
+
+    pub(super) fn version(&self) -> &str {
+        &self.process.version
+    }
+
+    /// Steps the body from rest.
+    pub(super) fn run(&self, iterations: u32, steps: u32) -> Run {
+        let answer = self
+            .process
+            .ask(&format!("run {iterations} {steps} {STEP_S}"));
+        let words = answer.split_ascii_whitespace();
+        let mut numbers = words.map(|word| word.parse().expect("a rival answers with numbers"));
+        let seconds = numbers.next().expect("a number of seconds");
+        let coordinates: Vec<f64> = numbers.collect();
+        let (points, []) = coordinates.as_chunks::<3>() else {
+            panic!("a point has three coordinates");
+        };
+        Run {
+            seconds,
+            projections: self.links as u64 * u64::from(iterations) * u64::from(steps),
+            positions: points
+                .iter()
+                .map(|&[x, y, z]| Point::new(x, y, z))
+                .collect(),
+        }
+    }
+}

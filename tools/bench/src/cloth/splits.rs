@@ -1,0 +1,143 @@
+//! A step with a hundred splits in it beside one with none: of ours alone.
+
+use tearmesh::cloth::{Cloth, Pbd, Solver, Verlet, Xpbd};
+use tearmesh::{Edits, Mesh, VertexId, split};
+
+use super::median;
+use super::sheet::{STEP_S, hanging};
+use crate::measure::timed_on_cpu;
+use crate::options::Options;
+use crate::table::{line, table};
+
+const SPLITS: usize = 100;
+
+/// A method, and what makes it.
+type Method = (&'static str, fn() -> Box<dyn Solver>);
+
+const METHODS: [Method; 3] = [
+    ("xpbd", || Box::new(Xpbd::new(10, 1))),
+    ("pbd", || Box::new(Pbd::new(10))),
+    ("verlet", || Box::new(Verlet::new())),
+];
+
+/// What was measured in a round, in µs.
+#[derive(Clone, Copy)]
+struct Times {
+    /// A step.
+    none: f64,
+    /// A hundred splits of the mesh.
+    splits: f64,
+    /// The cloth follows them.
+    follow: f64,
+    /// The step after.
+    after: f64,
+}
+
+/// One line a method and size.
+pub(super) fn run(options: &Options) -> String {
+    let names: Vec<&str> = METHODS.iter().map(|(name, _)| *name).collect();
+    let mut lines = vec![line([
+        "",
+        "sheet",
+        "none",
+        "with splits",
+        "ratio",
+        "mesh",
+        "cloth",
+        "step after",
+        "us a split",
+    ])];
+    for n in [64, 256] {
+        let (mesh, cloth) = hanging(n);
+        let all: Vec<Vec<Times>> = rounds(&mesh, &cloth, options);
+        for ((name, _), times) in METHODS.iter().zip(all) {
+            if !options.picks(name, &names) {
+                continue;
+            }
+            let of = |part: fn(&Times) -> f64| {
+                let parts: Vec<f64> = times.iter().map(part).collect();
+                median(&parts).expect("there is a round")
+            };
+            let with = of(|times| times.splits + times.follow + times.after);
+            let micros = |us: f64| format!("{us:.0}");
+            lines.push(line([
+                name,
+                &format!("{n} x {n}"),
+                &micros(of(|times| times.none)),
+                &micros(with),
+                &format!("{:.2}", with / of(|times| times.none)),
+                &micros(of(|times| times.splits)),
+                &micros(of(|times| times.follow)),
+                &micros(of(|times| times.after)),
+                &format!(
+                    "{:.2}",
+                    of(|times| times.splits + times.follow) / SPLITS as f64
+                ),
+            ]));
+        }
+    }
+    format!(
+        "a step with {SPLITS} splits in it, us; CPU time of {} rounds\n{}",
+        options.rounds,
+        table(&lines)
+    )
+}
+
+fn rounds(mesh: &Mesh, cloth: &Cloth, options: &Options) -> Vec<Vec<Times>> {
+    let mut all = vec![Vec::new(); METHODS.len()];
+    for _ in 0..options.rounds {
+        for ((_, solver), times) in METHODS.iter().zip(&mut all) {
+            times.push(measured(&mut *solver(), mesh.clone(), cloth.clone()));
+        }
+    }
+    all
+}
+
+fn measured(solver: &mut dyn Solver, mut mesh: Mesh, mut cloth: Cloth) -> Times {
+    let step_s = match solver.frequency_limit() {
+        // Splits may raise the bound.
+        Some(limit) => 0.5 * limit / cloth.system_mut().frequency_bound(),
+        None => STEP_S,
+    };
+    let inner = mesh.vertices().filter(|&v| {
+        let is_held = cloth.system().is_held(v.index());
+        !is_held && mesh.faces_of(v).count() == 6
+    });
+    let inner: Vec<VertexId> = inner.collect();
+    // Two hundred, even over the sheet; every second of them is split before the clock runs, so
+    // that arrays have grown.
+    let stride = inner.len() / (2 * SPLITS);
+    let chosen = inner.into_iter().step_by(stride).take(2 * SPLITS);
+    let (before, later): (Vec<_>, Vec<_>) = chosen.enumerate().partition(|(i, _)| i % 2 == 0);
+    let mut edits = Edits::new();
+    split_all(&before, &mut mesh, &mut edits);
+    edits.replay(&mut cloth);
+    for _ in 0..5 {
+        cloth.step(solver, step_s).expect("a step");
+    }
+    let (step, none) = timed_on_cpu(|| cloth.step(solver, step_s));
+    step.expect("a step");
+    edits.clear();
+    let ((), splits) = timed_on_cpu(|| split_all(&later, &mut mesh, &mut edits));
+    assert_eq!(edits.len(), SPLITS, "every vertex is split");
+    let ((), follow) = timed_on_cpu(|| edits.replay(&mut cloth));
+    let (step, after) = timed_on_cpu(|| cloth.step(solver, step_s));
+    step.expect("a step");
+    assert_eq!(cloth.indices(), mesh.indices(), "the cloth is in step");
+    let [none, splits, follow, after] =
+        [none, splits, follow, after].map(|t| t.as_secs_f64() * 1e6);
+    Times {
+        none,
+        splits,
+        follow,
+        after,
+    }
+}
+
+/// Gives one face of each vertex to a copy of it.
+fn split_all(vertices: &[(usize, VertexId)], mesh: &mut Mesh, edits: &mut Edits) {
+    for &(_, v) in vertices {
+        let face = mesh.faces_of(v).next().expect("it has faces");
+        split::faces(mesh, v, &[face], edits).expect("one of six faces");
+    }
+}

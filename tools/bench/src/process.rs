@@ -1,0 +1,62 @@
+//! Rivals that are processes of their own: asked a line, they answer a line.
+
+use std::cell::RefCell;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+/// A rival that is ready.
+pub(crate) struct Process {
+    pub(crate) version: String,
+    pipes: RefCell<Pipes>,
+}
+
+struct Pipes {
+    child: Child,
+    asked: ChildStdin,
+    said: BufReader<ChildStdout>,
+}
+
+impl Process {
+    /// Starts a rival, tells it something, and waits until it says `ready` and its version; `None`
+    /// if it cannot be run, or says anything else.
+    pub(crate) fn start(command: &mut Command, told: &str) -> Option<Process> {
+        command.stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().ok()?;
+        let asked = child.stdin.take().expect("it is piped");
+        let said = BufReader::new(child.stdout.take().expect("it is piped"));
+        let mut pipes = Pipes { child, asked, said };
+        pipes.asked.write_all(told.as_bytes()).ok()?;
+        pipes.asked.flush().ok()?;
+        let version = pipes.line()?.strip_prefix("ready ")?.to_owned();
+        Some(Process {
+            version,
+            pipes: RefCell::new(pipes),
+        })
+    }
+
+    /// The answer to a line.
+    pub(crate) fn ask(&self, what: &str) -> String {
+        let mut pipes = self.pipes.borrow_mut();
+        writeln!(pipes.asked, "{what}").expect("a rival that is ready listens");
+        pipes.line().expect("a rival answers every line")
+    }
+}
+
+impl Pipes {
+    /// The next line of the answer; `None` if the process has ended.
+    fn line(&mut self) -> Option<String> {
+        let mut line = String::new();
+        match self.said.read_line(&mut line) {
+            Ok(0) | Err(_) => None,
+            Ok(_) => Some(line.trim_end().to_owned()),
+        }
+    }
+}
+
+impl Drop for Pipes {
+    fn drop(&mut self) {
+        // It would end by itself with its input; a mesh of its memory need not wait for that.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
