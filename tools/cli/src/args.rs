@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use tearmesh::Point;
 
-/// Cuts triangle meshes in OBJ files, and verifies what it does.
+/// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
 #[command(name = "tearmesh", version, disable_help_subcommand = true)]
 pub(crate) struct Args {
@@ -18,6 +18,7 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Cut(Box<CutArgs>),
+    Tear(Box<TearArgs>),
     Mend(MendArgs),
     Check(CheckArgs),
 }
@@ -135,6 +136,112 @@ pub(crate) struct CutArgs {
     /// Succeed, and write the mesh, even if nothing was cut.
     #[arg(long)]
     pub(crate) allow_miss: bool,
+
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
+}
+
+const TEAR_EXAMPLES: &str = "\
+Examples:
+  tearmesh tear flag.obj --scene rip -o torn.obj
+      hangs a patch by two corners, grabs its middle, and drags it down until it rips
+  tearmesh tear flag.obj --scene flag --frames frames --frames-topology final
+      a flag in the wind, cut in two while it waves: 30 OBJ files a second
+
+";
+
+/// Simulate a cloth, and tear it.
+///
+/// The mesh is the cloth at rest, in metres; y is up unless --up says otherwise. Upright, its
+/// height is up and its width the longer of the other two axes; one that lies flat is seen from
+/// above. Corners and edges of scenes are those of its bounding box.
+#[derive(Debug, Parser)]
+#[command(after_long_help = format!("{TEAR_EXAMPLES}{}", crate::scene::schema()))]
+pub(crate) struct TearArgs {
+    /// hang, flag, rip, trouser, or a scene file in TOML.
+    ///
+    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung like
+    /// that, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
+    /// apart. A scene file can start from one of these; its keys are listed below.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: String,
+
+    /// The method: provot, pbd, verlet, xpbd (default) or implicit.
+    #[arg(long, value_enum, value_name = "METHOD", hide_possible_values = true)]
+    pub(crate) solver: Option<SolverName>,
+
+    /// Tear edges longer than this many times their rest length (default 1.5).
+    ///
+    /// The paper's rule. The finer the mesh, the easier it tears: compare forces only with
+    /// --toughness.
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, conflicts_with_all = ["toughness", "threshold_newton"])]
+    pub(crate) threshold: Option<f64>,
+
+    /// Tear by energy for each metre of tear, in J/m: nearly the same force on every mesh.
+    #[arg(
+        long,
+        value_name = "J_PER_M",
+        allow_negative_numbers = true,
+        conflicts_with = "threshold_newton"
+    )]
+    pub(crate) toughness: Option<f64>,
+
+    /// Tear edges that pull harder than this, in newtons.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub(crate) threshold_newton: Option<f64>,
+
+    /// Multiply thresholds by a strength for each vertex: a file of lines `vertex strength`.
+    ///
+    /// Vertices count from 1, as in OBJ; those not named have strength 1. `#` begins a comment.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) strength: Option<PathBuf>,
+
+    /// How long, in seconds (default: the scene's; hang 2, flag and rip 3, trouser 4).
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) seconds: Option<f64>,
+
+    /// The step in seconds (default: one that suits the method and the mesh).
+    ///
+    /// Provot and Verlet: 0.7 of the stability limit; pbd and xpbd: 2 h/c a sweep, with
+    /// edges of length h in which a pull travels at c; implicit: 1/240; at most 1/120. A step
+    /// given here is refused where it is not stable.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) dt: Option<f64>,
+
+    /// Which way is up: x, y, z, -x, -y or -z (default y).
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
+    pub(crate) up: Option<tearmesh::cloth::Axis>,
+
+    /// Cut between two rays, instead of what the scene cuts; may be given repeatedly.
+    #[arg(long, value_name = "A B", requires = "cut_at")]
+    pub(crate) rays: Vec<String>,
+
+    /// When to cut, in seconds.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "rays",
+        allow_negative_numbers = true
+    )]
+    pub(crate) cut_at: Option<f64>,
+
+    /// Write the mesh into this folder, 30 times a second: frame_00000.obj and so on.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) frames: Option<PathBuf>,
+
+    /// Whether each frame has its own faces, or all have those of the last one.
+    ///
+    /// final: a vertex that is not yet born stands where its ancestor is, so one index buffer
+    /// serves all frames. Refused where a cut inserts vertices: those have no ancestor.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "own|final",
+        hide_possible_values = true,
+        default_value_t,
+        requires = "frames"
+    )]
+    pub(crate) frames_topology: Topology,
 
     #[command(flatten)]
     pub(crate) files: FileArgs,
@@ -267,6 +374,24 @@ impl Tips {
             Tips::Midpoint => "midpoint",
         }
     }
+}
+
+/// A method of simulation, as it is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolverName {
+    Provot,
+    Pbd,
+    Verlet,
+    Xpbd,
+    Implicit,
+}
+
+/// Whose faces a frame has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Topology {
+    #[default]
+    Own,
+    Final,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
