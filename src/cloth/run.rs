@@ -18,7 +18,7 @@ use super::scene::{Breeze, Frame, Scene, TimedCut};
 use super::sheet::{Cloth, ClothError};
 use super::solver::{Culprit, StepError};
 use super::system::Unstable;
-use super::tearing::{Tear, TearReport, TearingError};
+use super::tearing::{Tear, TearReport, Tearing, TearingError};
 use crate::edit::Edits;
 use crate::geometry::{Vector, length};
 use crate::id::VertexId;
@@ -135,7 +135,7 @@ impl Run {
             .map(scissor)
             .collect::<Result<_, _>>()?;
         let tear = match scene.tearing {
-            Some(tearing) => Some(Tear::new(&cloth, tearing).map_err(RunError::Tearing)?),
+            Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
             None => None,
         };
         let step_s = match scene.step_s {
@@ -175,7 +175,7 @@ impl Run {
     /// The most steps that a run may take.
     pub const STEPS_MAX: u64 = 1 << 40;
 
-    /// Gives each vertex a strength, which its edges' threshold is multiplied by.
+    /// Gives each vertex a strength, as a multiple of the threshold, in the place of the scene's.
     ///
     /// # Errors
     ///
@@ -400,6 +400,27 @@ impl Run {
         });
         torn.sum::<f64>() / 2.0
     }
+}
+
+/// A tear with the strengths of its scene.
+fn strong(
+    tearing: Tearing,
+    scene: &Scene,
+    cloth: &Cloth,
+    mesh: &Mesh,
+    frame: &Frame,
+) -> Result<Tear, RunError> {
+    let tear = Tear::new(cloth, tearing).map_err(RunError::Tearing)?;
+    if scene.strengths.is_empty() {
+        return Ok(tear);
+    }
+    let mut strengths = vec![1.0; mesh.vertex_count()];
+    for (region, strength) in &scene.strengths {
+        for v in region.vertices(mesh, cloth.positions(), frame) {
+            strengths[v.index()] = *strength;
+        }
+    }
+    tear.with_strengths(strengths).map_err(RunError::Tearing)
 }
 
 /// The momentum, and the sum of its parts' sizes, in kg m/s.

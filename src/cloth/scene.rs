@@ -49,6 +49,9 @@ pub struct Scene {
     pub cuts: Vec<TimedCut>,
     /// When edges tear by themselves; `None` for never.
     pub tearing: Option<super::Tearing>,
+    /// Where vertices bear so many times the threshold; elsewhere 1. The last that holds a vertex
+    /// counts.
+    pub strengths: Vec<(Region, f64)>,
 }
 
 /// A method to advance a cloth with, and its settings.

@@ -104,6 +104,9 @@ impl SceneFile {
             self.hold(table)
         });
         self.fill(&mut scene.cuts, "cut", &mut faults, |table| self.cut(table));
+        self.fill(&mut scene.strengths, "strength", &mut faults, |table| {
+            self.strength(table)
+        });
         scene.cuts.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
         if let Some(table) = self.first("tear") {
             match self.tear(table, frame) {
@@ -235,22 +238,11 @@ impl SceneFile {
         }
         match (table.point("centre"), table.number("radius_m")) {
             (Some(centre), Some(radius_m)) => Ok(Collider::Sphere { centre, radius_m }),
-            _ => Err(self.missing(table, "collider", "centre")),
+            _ => Err(self.missing(table, "collider", "the other key of its two")),
         }
     }
 
     fn hold(&self, table: &Table) -> Result<Hold, Box<Fault>> {
-        self.one_of(
-            table,
-            "a hold",
-            &[
-                &["near", "radius"],
-                &["across", "along"],
-                &["from", "to"],
-                &["centre", "radius_m"],
-                &["vertices"],
-            ],
-        )?;
         let row = |row: &Vec<f64>| (row[0], Vector::new(row[1], row[2], row[3]));
         let from_s = table.number("from_s").unwrap_or(0.0);
         if table.number("until_s").is_some_and(|until| until <= from_s) {
@@ -258,7 +250,7 @@ impl SceneFile {
             return Err(self.fault(table, "until_s", "E-SCENE-RANGE", message));
         }
         Ok(Hold {
-            region: self.region(table)?,
+            region: self.region(table, "hold")?,
             from_s,
             until_s: table.number("until_s"),
             moves: table
@@ -268,7 +260,25 @@ impl SceneFile {
         })
     }
 
-    fn region(&self, table: &Table) -> Result<Region, Box<Fault>> {
+    fn strength(&self, table: &Table) -> Result<(Region, f64), Box<Fault>> {
+        match table.number("factor") {
+            Some(factor) => Ok((self.region(table, "strength")?, factor)),
+            None => Err(self.missing(table, "strength", "factor")),
+        }
+    }
+
+    fn region(&self, table: &Table, name: &str) -> Result<Region, Box<Fault>> {
+        self.one_of(
+            table,
+            &format!("a {name}"),
+            &[
+                &["near", "radius"],
+                &["across", "along"],
+                &["from", "to"],
+                &["centre", "radius_m"],
+                &["vertices"],
+            ],
+        )?;
         if let Some(at) = table.pair("near") {
             let radius = table.number("radius").unwrap_or(0.0);
             return Ok(Region::Near { at, radius });
@@ -289,7 +299,7 @@ impl SceneFile {
         }
         match (table.point("from"), table.point("to")) {
             (Some(from), Some(to)) => Ok(Region::Box { from, to }),
-            _ => Err(self.missing(table, "hold", "near")),
+            _ => Err(self.missing(table, name, other_half(table))),
         }
     }
 
@@ -404,6 +414,21 @@ impl SceneFile {
         let span = span.unwrap_or_else(|| table.span.clone());
         Box::new(self.source.fault(code, message, &span, ""))
     }
+}
+
+/// What a region begun with one key lacks.
+fn other_half(table: &Table) -> &'static str {
+    for (one, other) in [
+        ("radius", "near"),
+        ("from", "to"),
+        ("to", "from"),
+        ("centre", "radius_m"),
+    ] {
+        if table.values.contains_key(one) {
+            return other;
+        }
+    }
+    "centre"
 }
 
 fn provot(table: &Table, limiter: &mut Limiter) {

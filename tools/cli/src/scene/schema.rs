@@ -85,14 +85,14 @@ pub(crate) const NAMES: [&str; 5] = ["hang", "flag", "rip", "trouser", "fall"];
 pub(crate) const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
 /// The tables that may stand more than once, as in `[[hold]]`.
-pub(crate) const LISTS: [&str; 3] = ["collider", "hold", "cut"];
+pub(crate) const LISTS: [&str; 4] = ["collider", "hold", "cut", "strength"];
 
 const METHODS: &[&str] = &["provot", "pbd", "verlet", "xpbd", "implicit"];
 const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
 
 /// All keys, table by table.
 #[rustfmt::skip]
-pub(crate) const KEYS: [Key; 54] = [
+pub(crate) const KEYS: [Key; 64] = [
     key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
     key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
     key("", "up", Kind::Word(&AXES), "which way is up; y"),
@@ -154,6 +154,17 @@ pub(crate) const KEYS: [Key; 54] = [
     key("tear", "weakening", Kind::Part, "what is left of the strength beside a split, above 0; 0.5"),
     key("tear", "delay_s", Kind::NotNegative, "how long an edge is too long before it tears; 0"),
     key("tear", "tears_held", Kind::Bool, "whether held vertices tear too; false"),
+
+    key("strength", "factor", Kind::Positive, "required: how many times the threshold vertices bear"),
+    key("strength", "near", Kind::Pair, "a place in parts of width and height: the nearest vertex"),
+    key("strength", "radius", Kind::NotNegative, "and all so near it, in parts of the larger extent; 0"),
+    key("strength", "across", Kind::Range, "between these parts of the width"),
+    key("strength", "along", Kind::Range, "and these of the height; [0, 1] each"),
+    key("strength", "from", Kind::Vector, "in a box, from this corner"),
+    key("strength", "to", Kind::Vector, "to this one"),
+    key("strength", "centre", Kind::Vector, "in a ball"),
+    key("strength", "radius_m", Kind::NotNegative, "of this radius"),
+    key("strength", "vertices", Kind::Numbers, "these, counted from 1 as in OBJ"),
 ];
 
 /// The keys of a table.

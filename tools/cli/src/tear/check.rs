@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tearmesh::Scissor;
-use tearmesh::cloth::{ClothError, Frame, Method, Region, Run, RunError, TimedCut};
+use tearmesh::cloth::{ClothError, Frame, Method, Run, RunError, TimedCut};
 
 use super::words::two_digits;
 use crate::Exit;
@@ -139,8 +139,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
     for (number, hold) in run.scene().holds.iter().enumerate() {
         let is_still = hold.moves.is_empty();
         let is_point = run.hold_size(number) == 1;
-        let is_small = matches!(hold.region, Region::Near { .. } | Region::Vertices(_));
-        if is_still && is_point && is_small {
+        if is_still && is_point {
             let message = format!(
                 "hold {} pins a single vertex, whose strain grows as the mesh gets finer: it may \
                  tear where a clamp would not",
