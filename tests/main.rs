@@ -7,6 +7,7 @@ mod cloth_answers;
 mod cloth_cost;
 mod cloth_failures;
 mod cloth_follow;
+mod cloth_scenes;
 mod cloth_stiff;
 mod cut_mend;
 mod exact;

@@ -202,9 +202,9 @@ pub(crate) struct TearArgs {
 
     /// The step in seconds (default: one that suits the method and the mesh).
     ///
-    /// Provot and Verlet: 0.7 of the stability limit; pbd and xpbd: 2 h/c a sweep, with
-    /// edges of length h in which a pull travels at c; implicit: 1/240; at most 1/120. A step
-    /// given here is refused where it is not stable.
+    /// Provot and verlet: 0.7 of the stability limit; xpbd: h/c, the time in which a pull travels
+    /// an edge; pbd: 3.2 of that; implicit: 1/240; at most 1/120. A step given here is refused where
+    /// it is not stable.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) dt: Option<f64>,
 

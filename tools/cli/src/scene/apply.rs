@@ -115,10 +115,10 @@ impl SceneFile {
             }
         }
         if faults.is_empty() {
-            Ok(scene)
-        } else {
-            Err(faults)
+            return Ok(scene);
         }
+        super::read::sort(&mut faults);
+        Err(faults)
     }
 
     /// Where a file has any tables of a kind, they stand for those of the base.
@@ -238,7 +238,7 @@ impl SceneFile {
         }
         match (table.point("centre"), table.number("radius_m")) {
             (Some(centre), Some(radius_m)) => Ok(Collider::Sphere { centre, radius_m }),
-            _ => Err(self.missing(table, "collider", "the other key of its two")),
+            _ => Err(self.missing(table, "collider", other_half(table))),
         }
     }
 
@@ -423,6 +423,8 @@ fn other_half(table: &Table) -> &'static str {
         ("from", "to"),
         ("to", "from"),
         ("centre", "radius_m"),
+        ("point", "normal"),
+        ("normal", "point"),
     ] {
         if table.values.contains_key(one) {
             return other;

@@ -135,8 +135,13 @@ pub(crate) fn file(path: &str, text: &str) -> Result<SceneFile, Vec<Fault>> {
             tables: read,
         });
     }
-    faults.sort_by_key(|fault| fault.excerpt.as_ref().map(|at| (at.line, at.span.start)));
+    sort(&mut faults);
     Err(faults)
+}
+
+/// In the order of the text.
+pub(super) fn sort(faults: &mut [Fault]) {
+    faults.sort_by_key(|fault| fault.excerpt.as_ref().map(|at| (at.line, at.span.start)));
 }
 
 struct Reader<'s> {
@@ -237,6 +242,7 @@ impl Reader<'_> {
         let fault = |code| {
             let message = format!("`{}` is {}", key.name, key.kind.name());
             let label = match code {
+                "E-SCENE-TYPE" if value.is_array() => "these are others".to_owned(),
                 "E-SCENE-TYPE" => format!("this is {}", kind_of(value)),
                 _ => "out of range".to_owned(),
             };

@@ -103,11 +103,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
             let fault = Fault::error("E-SIM-MESH", message).help(help);
             return Stop::new(Exit::Input, fault);
         }
-        RunError::Cloth(ClothError::Mass(_)) => (
-            Exit::Input,
-            "E-MASS",
-            Some("the faces have no area that could have mass"),
-        ),
+        RunError::Cloth(ClothError::Mass(_)) => (Exit::Input, "E-MASS", None),
         RunError::Cloth(_) => (Exit::Input, "E-SIM-MESH", None),
         RunError::NothingHeld { .. } => (
             Exit::Usage,
@@ -126,10 +122,10 @@ pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
 pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
     let mut warnings = Vec::new();
     let size = frame.size_m();
-    if !(0.01..=30.0).contains(&size) {
+    if !(0.01..=8.0).contains(&size) {
         let size = short(size);
         let message =
-            format!("the mesh is {size} m across; the fabric is one for garments and flags");
+            format!("the mesh is {size} m across, and the fabric is one for garments and flags");
         let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
         warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
     }
@@ -156,8 +152,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
 /// Few sweeps or large steps leave a cloth softer than its fabric, and it tears of its own weight.
 fn coarse(run: &Run) -> Option<Fault> {
     let wanted_s = run.step_wanted_s()?;
-    // Half as stiff as wanted is no reason to worry yet.
-    if run.step_s() <= 2.0 * wanted_s {
+    if run.step_s() <= wanted_s {
         return None;
     }
     let times = run.step_s() / wanted_s;
