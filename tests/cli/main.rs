@@ -7,5 +7,6 @@ mod files;
 mod fuzz;
 mod harness;
 mod in_process;
+mod tear;
 mod through;
 mod transcripts;

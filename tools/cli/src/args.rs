@@ -21,6 +21,7 @@ pub(crate) enum Verb {
     Tear(Box<TearArgs>),
     Mend(MendArgs),
     Check(CheckArgs),
+    Chart(ChartArgs),
 }
 
 /// Where a verb reads and writes, and how it says what it did.
@@ -332,6 +333,48 @@ pub(crate) struct CheckArgs {
     /// Show everything there is to say of each file, with the text of the lines.
     #[arg(short, long)]
     pub(crate) verbose: bool,
+}
+
+const CHART_EXAMPLES: &str = "\
+Examples:
+  tearmesh chart tear -o tear.svg
+      the force that tears strips of three meshes, by stretch ratio and by toughness
+  tearmesh chart tear -o tear.svg --csv tear.csv --json tear.json
+      the figures as well, as a table and as JSON";
+
+/// Make an experiment, and draw its chart.
+#[derive(Debug, Parser)]
+#[command(after_long_help = CHART_EXAMPLES)]
+pub(crate) struct ChartArgs {
+    /// Which: tear (force to tear, against displacement and mesh size).
+    #[arg(value_enum, value_name = "WHAT", hide_possible_values = true)]
+    pub(crate) what: What,
+
+    /// Where to write the chart, as SVG; `-` is standard output.
+    #[arg(short, long, value_name = "X.svg")]
+    pub(crate) output: PathBuf,
+
+    /// Write the figures as a table.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+
+    /// Write the figures as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+
+    /// When to use colours on the screen.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// An experiment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum What {
+    Tear,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

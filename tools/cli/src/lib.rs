@@ -2,13 +2,14 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`, `mend` and `check` carry out
-//! the verbs, `session` is what all but the last have in common, `report` is their JSON, `defects` shows
+//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`, `mend`, `check` and `chart` carry
+//! out the verbs, `session` is what the first three have in common, `report` is their JSON, `defects` shows
 //! what is wrong with a mesh, `say` puts diagnostics on a screen, `output` writes files whole or not
 //! at all, `files` says where, `bug` writes a reproducer when an invariant broke.
 
 mod args;
 mod bug;
+mod chart;
 mod check;
 mod cut;
 mod defects;
@@ -100,6 +101,9 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Args {
             verb: Verb::Check(check),
         }) => check::run(&check, &mut streams),
+        Ok(Args {
+            verb: Verb::Chart(chart),
+        }) => chart::run(&chart, &mut streams),
         Err(help) if !help.use_stderr() => {
             let text = help.render();
             let shown = if streams.output_is_terminal {
