@@ -1,5 +1,6 @@
 //! The methods of scenes, behind one solver.
 
+use crate::cloth::implicit::StepError;
 use crate::cloth::scene::Method;
 use crate::cloth::{ImplicitSprings, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
@@ -24,6 +25,16 @@ impl Engine {
             Method::Implicit(settings) => {
                 Engine::Implicit(Box::new(ImplicitSprings::new(settings)))
             }
+        }
+    }
+}
+
+impl Engine {
+    /// Why an implicit step failed, where that is known.
+    pub(super) fn error(&self) -> Option<StepError> {
+        match self {
+            Engine::Implicit(implicit) => implicit.error(),
+            Engine::Provot(_) | Engine::Pbd(_) | Engine::Verlet(_) | Engine::Xpbd(_) => None,
         }
     }
 }

@@ -171,14 +171,16 @@ pub(crate) struct TearArgs {
     #[arg(long, value_enum, value_name = "METHOD", hide_possible_values = true)]
     pub(crate) solver: Option<SolverName>,
 
-    /// Tear edges longer than this many times their rest length (default 1.5).
+    /// Tear edges at this many times their rest length (1.5).
     ///
     /// The paper's rule. The finer the mesh, the easier it tears: compare forces only with
     /// --toughness.
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true, conflicts_with_all = ["toughness", "threshold_newton"])]
     pub(crate) threshold: Option<f64>,
 
-    /// Tear by energy for each metre of tear, in J/m: nearly the same force on every mesh.
+    /// Tear by energy, in joules for each metre.
+    ///
+    /// Nearly the same force on every mesh.
     #[arg(
         long,
         value_name = "J_PER_M",
@@ -191,17 +193,19 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     pub(crate) threshold_newton: Option<f64>,
 
-    /// Multiply thresholds by a strength for each vertex: a file of lines `vertex strength`.
+    /// A file of lines `vertex strength`.
     ///
-    /// Vertices count from 1, as in OBJ; those not named have strength 1. `#` begins a comment.
+    /// Thresholds are multiplied by the strength.     /// Vertices count from 1, as in OBJ; those not named have strength 1. `#` begins a comment.
     #[arg(long, value_name = "FILE")]
     pub(crate) strength: Option<PathBuf>,
 
-    /// How long, in seconds (default: the scene's; hang 2, flag and rip 3, trouser 4).
+    /// How long, in seconds (default: as the scene says).
+    ///
+    /// hang 2, flag and rip 3, trouser 4.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seconds: Option<f64>,
 
-    /// The step in seconds (default: one that suits the method and the mesh).
+    /// The step in seconds (default: one that suits).
     ///
     /// Provot and verlet: 0.7 of the stability limit; xpbd: h/c, the time in which a pull travels
     /// an edge; pbd: 3.2 of that; implicit: 1/240; at most 1/120. A step given here is refused where
@@ -213,7 +217,9 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
     pub(crate) up: Option<tearmesh::cloth::Axis>,
 
-    /// Cut between two rays, instead of what the scene cuts; may be given repeatedly.
+    /// Cut between two rays, at the time --cut-at.
+    ///
+    /// In the place of what the scene cuts; may be given repeatedly.
     #[arg(long, value_name = "A B", requires = "cut_at")]
     pub(crate) rays: Vec<String>,
 
@@ -226,14 +232,16 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) cut_at: Option<f64>,
 
-    /// Write the mesh into this folder, 30 times a second: frame_00000.obj and so on.
+    /// Write frames into this folder, 30 a second.
+    ///
+    /// frame_00000.obj and so on; vertices keep their order, and new ones are appended.
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
 
-    /// Whether each frame has its own faces, or all have those of the last one.
+    /// Whether frames have their own faces, or the last one's.
     ///
-    /// final: a vertex that is not yet born stands where its ancestor is, so one index buffer
-    /// serves all frames. Refused where a cut inserts vertices: those have no ancestor.
+    /// final: a vertex that is not yet born stands where its ancestor is, or where it will be
+    /// inserted on its edge, so one index buffer serves all frames.
     #[arg(
         long,
         value_enum,

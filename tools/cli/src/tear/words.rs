@@ -91,6 +91,10 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                  rad/s{at}){after}"
             )
         }
+        StepError::BlowUp { .. } if run.implicit_error().is_some() => {
+            let why = run.implicit_error().map(|error| error.to_string());
+            format!("{}{after}", why.unwrap_or_default())
+        }
         StepError::BlowUp { at, .. } => match at {
             Culprit::Constraint {
                 ends,
@@ -113,6 +117,10 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
             // What is torn later may need still shorter steps.
             let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
             format!("--dt {}, or --solver xpbd", two_digits(limit_s * part))
+        }
+        _ if run.implicit_error().is_some() => {
+            let shorter = two_digits(run.step_s() / 2.0);
+            format!("--dt {shorter}, or --solver xpbd")
         }
         _ if is_step_chosen => {
             let shorter = two_digits(run.step_s() / 2.0);
