@@ -234,7 +234,7 @@ pub(crate) struct TearArgs {
 
     /// Write frames into this folder, 30 a second.
     ///
-    /// frame_00000.obj and so on; vertices keep their order, and new ones are appended.
+    /// `frame_00000.obj` and so on; vertices keep their order, and new ones are appended.
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
 

@@ -244,3 +244,56 @@ fn strip(cells: u32) -> Option<(Mesh, Positions)> {
     let mesh = Mesh::build((n * (rows + 1)) as usize, &triangles).ok()?;
     Some((mesh, Positions::new(points).ok()?))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn small() -> Study {
+        let study = study(&[6, 12], |_| true).expect("no bug");
+        study.expect("nobody stopped it")
+    }
+
+    #[test]
+    fn the_stretch_ratio_depends_on_the_mesh_and_toughness_hardly() {
+        let study = small();
+        let [stretch, toughness] = study.slopes_largest;
+        println!("{:?} {:?}", study.slopes_largest, study.slopes_mean);
+        assert!((0.6..1.4).contains(&stretch), "{stretch}");
+        assert!(
+            toughness < 0.6 * stretch && toughness.abs() < 0.6,
+            "{toughness}"
+        );
+        for test in &study.tests {
+            assert!(test.splits > 3 && test.force_mean_n > 0.0);
+            assert!(test.force_mean_n < test.force_largest_n);
+        }
+        // Both rules mean the same on the finer mesh, which is the one in the middle of two.
+        assert_eq!(study.tests[1].splits, study.tests[3].splits);
+        assert!(study.conclusion.contains("--toughness"));
+    }
+
+    #[test]
+    fn the_chart_and_the_table_say_what_the_study_says_and_always_the_same() {
+        let study = small();
+        let (chart, table) = (svg(&study).expect("a chart"), csv(&study));
+        let again = small();
+        assert_eq!(Some(&chart), svg(&again).as_ref());
+        assert_eq!(table, csv(&again));
+        assert!(chart.starts_with("<svg ") && chart.contains("slope"));
+        let points: usize = study.tests.iter().map(|test| test.curve.len() + 2).sum();
+        assert_eq!(table.lines().count(), 1 + points);
+        let largest = format!("{}", study.tests[0].force_largest_n);
+        assert!(
+            table
+                .lines()
+                .nth(1)
+                .is_some_and(|line| line.ends_with(&largest))
+        );
+    }
+
+    #[test]
+    fn a_study_can_be_stopped() {
+        assert!(study(&[4, 6], |_| false).expect("no bug").is_none());
+    }
+}

@@ -157,7 +157,7 @@ impl Reader<'_> {
             DeValue::Table(table) if !is_list => vec![self.table(name, table, at)],
             DeValue::Array(array) if is_list => {
                 let mut tables = Vec::new();
-                for element in array.iter() {
+                for element in array {
                     if let DeValue::Table(table) = element.get_ref() {
                         tables.push(self.table(name, table, element.span()));
                     } else {
