@@ -4,9 +4,9 @@
 use tearmesh::cloth::implicit::Settings;
 use tearmesh::cloth::{
     Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Pbd, Region, Run, RunError, Scene,
-    StepError, Tearing, Threshold, Wind, Xpbd,
+    StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
-use tearmesh::{Mesh, Plane, Point, Positions, Vector, VertexId};
+use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId};
 
 /// A square of one metre in so many cells, the diagonals in turn.
 fn square(cells: u32) -> (Mesh, Positions) {
@@ -219,6 +219,43 @@ fn what_is_held_is_taken_led_and_let_go_in_time() {
     }
     assert!(led > 10 && free > 10);
     assert!((run.cloth().positions()[40] - begun).norm() > 0.01);
+}
+
+#[test]
+fn copies_of_what_is_held_are_held_and_let_go_with_it() {
+    let ray = |y: f64| {
+        let ray = Ray::new(Point::new(0.5, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+        ray.expect("a ray")
+    };
+    let mut run = run(8, |frame| Scene {
+        duration_s: 0.5,
+        holds: vec![Hold {
+            until_s: Some(0.3),
+            ..Hold::still(Region::Patch {
+                across: [0.0, 1.0],
+                along: [1.0, 1.0],
+            })
+        }],
+        cuts: vec![TimedCut {
+            at_s: 0.1,
+            rays: [ray(-1.0), ray(2.0)],
+            through: true,
+            method: tearmesh::Method::Partition,
+        }],
+        tearing: None,
+        ..Scene::fall(frame.up)
+    });
+    let mut most = 0;
+    while !run.is_over() {
+        run.step().expect("a step");
+        let system = run.cloth().system();
+        let held = (0..system.positions().len()).filter(|&v| system.is_held(v));
+        let count = held.count();
+        assert_eq!(count, run.held(0).len());
+        most = most.max(count);
+    }
+    assert_eq!((most, run.held(0).len()), (10, 0));
+    assert_eq!(run.mesh().components().count(), 2);
 }
 
 #[test]
