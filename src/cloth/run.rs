@@ -205,7 +205,7 @@ impl Run {
         self.cloth.step(&mut self.engine, self.step_s)?;
         self.tally.steps += 1;
         self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
-        let tear = self.tear();
+        let tear = self.tear_overstretched();
         self.held
             .iter_mut()
             .for_each(|held| held.follow(&self.edits));
@@ -261,7 +261,7 @@ impl Run {
         set.expect("wind between two usable winds is usable");
     }
 
-    fn tear(&mut self) -> Option<TearReport> {
+    fn tear_overstretched(&mut self) -> Option<TearReport> {
         let tear = self.tear.as_mut()?;
         let momentum = momentum(&self.cloth);
         let report = tear.apply(

@@ -258,7 +258,6 @@ mod tests {
     fn the_stretch_ratio_depends_on_the_mesh_and_toughness_hardly() {
         let study = small();
         let [stretch, toughness] = study.slopes_largest;
-        println!("{:?} {:?}", study.slopes_largest, study.slopes_mean);
         assert!((0.6..1.4).contains(&stretch), "{stretch}");
         assert!(
             toughness < 0.6 * stretch && toughness.abs() < 0.6,
