@@ -1,6 +1,6 @@
 //! Cloth, as thin as can be: particles, constraints, solvers, and a follower of the log.
 //!
-//! A [`System`] is particles and springs over slices, with no mesh in sight. A [`Solver`] advances
+//! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A [`Solver`] advances
 //! it; [`System::step`] watches over stability, notices blow-up, and keeps the last good state. A
 //! [`Cloth`] is a system made of a mesh, and a follower of its log. [`Tear`] is what tears it
 //! where it is overstretched, by a [`Tearing`] with a [`Threshold`].
@@ -11,10 +11,14 @@
 //! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
 //! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
 //! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
-//! | [`ImplicitSprings`] | stiff and accurate at once, one sliver among good faces | conjugate gradients; triangles in [`implicit`] |
+//! | [`ImplicitCloth`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
 //! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
+//!
+//! What resists stretch is springs along edges, or triangles with a modulus for warp, weft and shear
+//! ([`Weave`]), or both. [`Pbd`] and [`Xpbd`] project springs alone, and are refused where there are
+//! triangles.
 //!
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
@@ -34,9 +38,12 @@ mod sheet;
 mod solver;
 mod stability;
 mod stiff;
+mod strain;
 mod system;
 mod tearing;
+mod triangles;
 mod verlet;
+mod weave;
 mod xpbd;
 
 pub use constraint::{Constraint, ConstraintId, Constraints};
@@ -49,8 +56,9 @@ pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Copies, Effect, EnergyLedger, Fabric, Unbend};
 pub use solver::{Culprit, Solver, StepError, StepReport};
 pub use stability::Frequency;
-pub use stiff::ImplicitSprings;
+pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};
 pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
 pub use verlet::Verlet;
+pub use weave::{Weave, warp_of_texture};
 pub use xpbd::Xpbd;

@@ -134,3 +134,59 @@ fn steps_of_a_cloth_do_not_allocate() {
         assert_eq!(taken, 0);
     }
 }
+
+#[test]
+fn steps_of_a_cloth_of_triangles_do_not_allocate() {
+    use tearmesh::cloth::{Cloth, Fabric, ImplicitCloth, Rk4, Solver, Unstable, Verlet, Weave};
+
+    let (mesh, positions) = shapes::grid(10, 10);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let fabric = Fabric::woven(Weave {
+        warp_n_per_m: 50.0,
+        weft_n_per_m: 40.0,
+        shear_n_per_m: 5.0,
+        warp: Vector::x(),
+    });
+    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let system = cloth.system_mut();
+    system.hold(0);
+    system.state_mut().1[60] = Vector::new(0.1, 0.1, 0.3);
+    system.when_unstable(Unstable::Substep);
+    let (mut implicit, mut rk4) = (ImplicitCloth::default(), Rk4::new());
+    let methods: [&mut dyn Solver; 3] = [&mut Verlet::new(), &mut rk4, &mut implicit];
+    for method in methods {
+        // The first step makes room.
+        cloth.step(&mut *method, 0.005).expect("a step");
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                cloth.step(&mut *method, 0.005).expect("a step");
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}
+
+#[test]
+fn looking_for_tears_allocates_nothing() {
+    use tearmesh::cloth::{Cloth, Fabric, Tear, Tearing, Threshold};
+
+    let (mut mesh, positions) = shapes::grid(10, 10);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    for x in cloth.system_mut().state_mut().0 {
+        x.x *= 1.2;
+    }
+    let mut edits = Edits::new();
+    for threshold in [Threshold::Stretch(1.5), Threshold::PrincipalStretch(1.5)] {
+        let mut tear = Tear::new(&cloth, Tearing::new(threshold)).expect("a tear");
+        // The first look makes room.
+        tear.apply(&mut mesh, &mut cloth, &mut edits, 0.01);
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                let report = tear.apply(&mut mesh, &mut cloth, &mut edits, 0.01);
+                assert_eq!((report.splits, report.worst.is_some()), (0, true));
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}

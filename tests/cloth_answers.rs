@@ -302,7 +302,7 @@ fn half_net(n: usize, mass: f64, h: f64, length: impl Fn(f64) -> f64) -> [f64; 2
 }
 
 /// A chain between two nails one metre apart.
-fn catenary(n: usize, mass: f64, stiffness: f64, rest: f64, drag: f64) -> System {
+pub(crate) fn catenary(n: usize, mass: f64, stiffness: f64, rest: f64, drag: f64) -> System {
     let points = (0..=n).map(|i| {
         let x = i as f64 / n as f64;
         Point::new(x, 0.0, -2.0 * x * (1.0 - x))
@@ -414,7 +414,7 @@ fn r7_the_top_link_reaches_its_threshold_first_and_at_the_right_force() {
 
 /// The stiffness of a net in the plane, in N/m: xx, yy, xy, shear, and x with shear, from uᵀ K u
 /// of the affine displacements of a cell's springs.
-fn modulus(cell_area: f64, springs: &[[f64; 2]], k: f64) -> [f64; 5] {
+pub(crate) fn modulus(cell_area: f64, springs: &[[f64; 2]], k: f64) -> [f64; 5] {
     let energy = |f: &dyn Fn([f64; 2]) -> [f64; 2]| -> f64 {
         let of = |&spring: &[f64; 2]| {
             let d = Vector::new(spring[0], spring[1], 0.0);
@@ -557,7 +557,7 @@ pub(crate) fn framed(n: usize, stiffness: f64, drag: f64) -> System {
 
 /// Statics with no dynamics and no code in common: particle by particle, each goes the way of its
 /// force until none has any.
-fn relaxed(net: &System) -> Vec<Point> {
+pub(crate) fn relaxed(net: &System) -> Vec<Point> {
     let springs = net.stretches();
     let springs: Vec<_> = springs.iter().map(|id| springs.get(id)).collect();
     let mut points = net.positions().to_vec();

@@ -2,7 +2,7 @@
 //! edits of a running cloth.
 
 use tearmesh::cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh::cloth::{Cloth, Fabric, ImplicitSprings, Loads, Path, System};
+use tearmesh::cloth::{Cloth, Fabric, ImplicitCloth, Loads, Path, System};
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
 
 const G: f64 = 9.81;
@@ -14,8 +14,8 @@ fn falling() -> Loads {
     }
 }
 
-fn exact(method: Method) -> ImplicitSprings {
-    ImplicitSprings::new(Settings {
+fn exact(method: Method) -> ImplicitCloth {
+    ImplicitCloth::new(Settings {
         method,
         tolerance: Tolerance::Fixed(1e-11),
         newton_iterations_max: 30,
@@ -88,7 +88,7 @@ fn a_grabbed_particle_keeps_to_its_path() {
             ..falling()
         })
         .expect("loads");
-    let mut solver = ImplicitSprings::default();
+    let mut solver = ImplicitCloth::default();
     for step in 1..=300 {
         system.step(&mut solver, 0.01).expect("a step");
         let x = (f64::from(step) * 0.02).min(2.0);

@@ -1,5 +1,5 @@
-//! A cloth follows the log: splits, insertions and merges change particles, constraints and the
-//! bound of frequencies where they are, and nowhere else.
+//! A cloth follows the log: splits, insertions and merges change particles, constraints, triangles
+//! and the bound of frequencies where they are, and nowhere else.
 
 use super::constraint::{Constraint, ConstraintId, Constraints};
 use super::sheet::{Cloth, Copies, Effect, NO_BEND, Unbend};
@@ -21,7 +21,7 @@ impl Follower for Cloth {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let bound_before_rad_per_s = self.system.frequency_bound();
+        let bound_before_rad_per_s = self.system.bound_within_reach();
         let vertex = match edit {
             Edit::Split(split) => {
                 self.split(split, edit);
@@ -44,7 +44,7 @@ impl Follower for Cloth {
             number: edit.number(),
             vertex,
             bound_before_rad_per_s,
-            bound_after_rad_per_s: self.system.frequency_bound(),
+            bound_after_rad_per_s: self.system.bound_within_reach(),
         });
         self.next_edit = edit.number() + 1;
     }
@@ -111,6 +111,7 @@ impl Cloth {
                 }
             }
         }
+        self.split_triangles(split);
         self.ledger.split_elastic_j += gained;
         self.system.touched(&[old, new]);
     }
@@ -122,6 +123,7 @@ impl Cloth {
         for &corner in merge.corners {
             self.system.model.faces[corner.index()] = kept as u32;
         }
+        self.merge_triangles(merge);
         for link in merge.sewn {
             let (id, copied) = (self.stretch(link.stayed), self.stretch(link.moved));
             let stretch = &mut self.system.model.stretch;
@@ -180,7 +182,7 @@ impl Cloth {
         self.ledger.slide_elastic_j += self.elastic_at(particle) - elastic;
     }
 
-    /// Takes new rest lengths for the constraints of a particle whose place at rest has changed.
+    /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
     /// Stretch constraints keep k L, as the parts of a divided edge do.
     fn measure_again(&mut self, particle: usize) {
         let mut ids = std::mem::take(&mut self.room.ids);
@@ -207,6 +209,7 @@ impl Cloth {
         }
         self.system.touched(&[particle]);
         self.room.ids = ids;
+        self.weave_again(particle);
     }
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
@@ -301,6 +304,7 @@ impl Cloth {
                 self.put(edge)
             };
         }
+        gained += self.insert_triangles(insert);
         self.ledger.insert_elastic_j += gained;
         self.system.touched(&room.vertices);
         self.room = room;
@@ -425,7 +429,7 @@ impl Cloth {
                 .map(|id| energy(&family.get(id), &self.system.positions));
             energies.sum()
         };
-        of(&model.stretch) + of(&model.bend)
+        of(&model.stretch) + of(&model.bend) + self.triangle_energy_at(particle)
     }
 }
 

@@ -5,6 +5,7 @@
 //! one colour share a particle, so the loops have no chain of writes that wait for each other,
 //! and the result does not depend on the order within a colour.
 
+use super::implicit::{Triangle, triangle};
 use crate::geometry::{Point, Vector, cross, dot};
 
 /// The constraints of one colour.
@@ -85,6 +86,45 @@ pub(crate) fn pull(d: Vector, rest: f64, stiffness: f64, u: Vector) -> Vector {
     let across = (1.0 - rest / square.sqrt()).max(0.0);
     let along = d * (dot(d, u) / square);
     (along + (u - along) * across) * stiffness
+}
+
+/// Adds the forces of triangles to those of their corners. False where warp or weft of one is
+/// longer than `ratio_max` times its rest length, or not a number.
+#[must_use]
+pub(crate) fn triangle_forces(
+    triangles: &[Triangle],
+    positions: &[Point],
+    ratio_max: f64,
+    forces: &mut [Vector],
+) -> bool {
+    let mut sane = true;
+    for t in triangles {
+        let corners = triangle::corners(t, positions);
+        let [w_u, w_v] = t.derivatives(corners);
+        let square = ratio_max * ratio_max;
+        sane &= dot(w_u, w_u) <= square && dot(w_v, w_v) <= square;
+        let pulls = triangle::forces(t, corners);
+        for (v, pull) in t.vertices.into_iter().zip(pulls) {
+            forces[v as usize] += pull;
+        }
+    }
+    sane
+}
+
+/// Adds K u of triangles, as [`stiffness_times`] does that of springs.
+pub(crate) fn triangle_stiffness_times(
+    triangles: &[Triangle],
+    positions: &[Point],
+    u: &[Vector],
+    product: &mut [Vector],
+) {
+    for t in triangles {
+        let moved = t.vertices.map(|v| u[v as usize]);
+        let changes = triangle::stiffness_times(t, triangle::corners(t, positions), moved);
+        for (v, change) in t.vertices.into_iter().zip(changes) {
+            product[v as usize] += change;
+        }
+    }
 }
 
 /// Moves the ends of each constraint by the part `fraction` of the way to its rest length, by

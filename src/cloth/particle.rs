@@ -19,6 +19,7 @@ impl System {
             .push(like.is_some_and(|particle| model.held[particle]));
         model.stretch.push_particle();
         model.bend.push_particle();
+        model.triangles.push_particle();
         let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;
         if let Some(&(_, path)) = model.grabbed.iter().find(led) {
             model.grabbed.push((new, path));
@@ -46,6 +47,7 @@ impl System {
         model.held.swap_remove(gone);
         model.stretch.swap_remove_particle(gone);
         model.bend.swap_remove_particle(gone);
+        model.triangles.swap_remove_particle(gone);
         let led = |particle: usize| move |&(led, _): &(u32, u32)| led as usize == particle;
         if model.grabbed.iter().any(led(kept)) {
             model.grabbed.retain(|entry| !led(gone)(entry));

@@ -152,6 +152,10 @@ impl Solver for Provot {
         Some(2.0)
     }
 
+    fn takes_triangles(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
         let sane = accelerate(system);
         let System {

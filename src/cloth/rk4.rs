@@ -30,6 +30,10 @@ impl Solver for Rk4 {
         Some(2.0 * std::f64::consts::SQRT_2)
     }
 
+    fn takes_triangles(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
         let System {
             positions,

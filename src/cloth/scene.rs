@@ -65,7 +65,7 @@ pub enum Method {
     Verlet,
     /// [`Xpbd`].
     Xpbd(Xpbd),
-    /// [`ImplicitSprings`](super::ImplicitSprings).
+    /// [`ImplicitCloth`](super::ImplicitCloth).
     Implicit(Settings),
 }
 

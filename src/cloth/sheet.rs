@@ -6,8 +6,9 @@ use super::constraint::{Constraint, ConstraintId};
 use super::follow::Room;
 use super::solver::{Solver, StepError, StepReport};
 use super::system::System;
-use crate::geometry::{Point, length};
-use crate::id::{HalfEdgeId, VertexId};
+use super::weave::Weave;
+use crate::geometry::{Point, Vector, length};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mass::{MassError, Masses};
 use crate::mesh::Mesh;
 use crate::place::{Place, Positions};
@@ -16,8 +17,11 @@ use crate::place::{Place, Positions};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
     /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
-    /// 2/√3 of it.
+    /// 2/√3 of it. Zero with a [`Weave`]: edges are measured ([`Cloth::overstretched`]), and pull at
+    /// nothing.
     pub stretch_n_per_m: f64,
+    /// Triangles that resist stretch and shear; `None` for none.
+    pub weave: Option<Weave>,
     /// The stiffness of a spring across each interior edge, in N/m; `None` for no such springs.
     pub bend_n_per_m: Option<f64>,
     /// What a torn edge's two constraints have.
@@ -33,9 +37,54 @@ impl Fabric {
     pub fn new(stretch_n_per_m: f64) -> Fabric {
         Fabric {
             stretch_n_per_m,
+            weave: None,
             bend_n_per_m: None,
             copies: Copies::default(),
             unbend: Unbend::default(),
+        }
+    }
+
+    /// A fabric of triangles alone, without springs along edges and without bending.
+    ///
+    /// ```
+    /// use tearmesh::cloth::{implicit, Cloth, Fabric, ImplicitCloth, Pbd, StepError, Weave};
+    /// use tearmesh::{shapes, Masses, Vector};
+    ///
+    /// let weave = Weave {
+    ///     warp_n_per_m: 800.0,
+    ///     weft_n_per_m: 500.0,
+    ///     shear_n_per_m: 40.0,
+    ///     warp: Vector::y(),
+    /// };
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let masses = Masses::area(&mesh, &positions, 0.15)?;
+    /// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::woven(weave))?;
+    /// cloth.step(&mut ImplicitCloth::new(implicit::Settings::default()), 1.0 / 60.0)?;
+    ///
+    /// // What projects springs alone would leave it without force, and is refused.
+    /// let error = cloth.step(&mut Pbd::default(), 1.0 / 60.0).unwrap_err();
+    /// assert_eq!(error, StepError::Triangles { count: 32 });
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn woven(weave: Weave) -> Fabric {
+        Fabric {
+            weave: Some(weave),
+            ..Fabric::new(0.0)
+        }
+    }
+}
+
+impl Fabric {
+    fn check(&self) -> Result<(), ClothError> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let none = self.stretch_n_per_m == 0.0 && self.weave.is_some();
+        let stretch = none || positive(self.stretch_n_per_m);
+        let weave = self.weave.is_none_or(|weave| weave.is_usable());
+        if stretch && weave && self.bend_n_per_m.is_none_or(positive) {
+            Ok(())
+        } else {
+            Err(ClothError::Stiffness)
         }
     }
 }
@@ -68,7 +117,7 @@ pub struct EnergyLedger {
     /// Elastic energy by splits: copies by the paper's rule, less what bend constraints held.
     pub split_elastic_j: f64,
     /// Elastic energy by insertions: new edges inside strained faces. The parts of a divided
-    /// edge hold what it held.
+    /// edge hold what it held, as those of a divided triangle do.
     pub insert_elastic_j: f64,
     /// Kinetic energy by insertions: velocities are interpolated, so momentum stays and
     /// differences between corners are partly lost.
@@ -108,7 +157,8 @@ pub struct Effect {
     pub bound_after_rad_per_s: f64,
 }
 
-/// A system with a particle for each vertex and a stretch constraint for each edge of a mesh.
+/// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
+/// with a [`Weave`] a triangle for each face.
 ///
 /// The mesh stays with the caller; this is one more [`Follower`](crate::Follower) of the log. A
 /// split, an insertion or a merge in a running simulation costs what the valence of its vertices
@@ -163,6 +213,8 @@ pub struct Cloth {
     /// Where the vertices are at rest.
     pub(super) rest: Positions,
     pub(super) fabric: Fabric,
+    /// By face: the direction of warp at rest. Empty where the fabric has one for all.
+    pub(super) warps: Vec<Vector>,
     /// By half-edge: the constraint of its edge.
     pub(super) stretch_of: Vec<ConstraintId>,
     /// By constraint: a half-edge of its edge.
@@ -186,17 +238,33 @@ impl Cloth {
     /// # Errors
     ///
     /// [`ClothError`]: a stiffness is not positive, an edge (or, with bending, the distance across
-    /// one) has no length, or there are not as many masses and positions as vertices.
+    /// one) has no length, a face of triangles has no area or no warp, or there are not as many
+    /// masses and positions as vertices.
     pub fn new(
         mesh: &Mesh,
         positions: &Positions,
         masses: Masses,
         fabric: Fabric,
     ) -> Result<Cloth, ClothError> {
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        if !positive(fabric.stretch_n_per_m) || !fabric.bend_n_per_m.is_none_or(positive) {
-            return Err(ClothError::Stiffness);
-        }
+        Cloth::with_warps(mesh, positions, masses, fabric, Vec::new())
+    }
+
+    /// The same with the direction of warp for each face, in space where the cloth is at rest: for
+    /// garments, whose texture coordinates have it ([`warp_of_texture`](super::warp_of_texture)).
+    /// It takes the place of [`Weave::warp`]; children of a face inherit it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Cloth::new`]; and where there is not one direction a face, or one has no
+    /// projection onto its face.
+    pub fn with_warps(
+        mesh: &Mesh,
+        positions: &Positions,
+        masses: Masses,
+        fabric: Fabric,
+        warps: Vec<Vector>,
+    ) -> Result<Cloth, ClothError> {
+        fabric.check()?;
         let count = mesh.vertex_count();
         if masses.len() != count || positions.len() != count {
             return Err(ClothError::Counts {
@@ -216,6 +284,7 @@ impl Cloth {
             masses: masses.starting_at(next_edit),
             rest: positions.clone(),
             fabric,
+            warps,
             stretch_of: vec![NO_BEND; half_edges],
             edge_of: Vec::new(),
             bend_of: Vec::new(),
@@ -247,6 +316,7 @@ impl Cloth {
                 }
             }
         }
+        cloth.weave()?;
         cloth.system.frequency_bound();
         Ok(cloth)
     }
@@ -454,6 +524,20 @@ pub enum ClothError {
         /// The rest length, in metres.
         given: f64,
     },
+    /// A face that is to be a triangle has no area at rest, or its warp no direction in it.
+    Face {
+        /// The face.
+        face: FaceId,
+        /// The direction of warp.
+        warp: Vector,
+    },
+    /// There is not one direction of warp for each face.
+    Warps {
+        /// The number of faces.
+        faces: usize,
+        /// The number of directions.
+        warps: usize,
+    },
     /// There are not as many positions and masses as vertices.
     Counts {
         /// The number of vertices.
@@ -480,6 +564,14 @@ impl fmt::Display for ClothError {
                 ends: [a, b],
                 given,
             } => write!(f, "the edge {a}-{b} has the rest length {given} m"),
+            ClothError::Face { face, warp } => write!(
+                f,
+                "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
+                warp.x, warp.y, warp.z
+            ),
+            ClothError::Warps { faces, warps } => {
+                write!(f, "{faces} faces have {warps} directions of warp")
+            }
             ClothError::Counts {
                 vertices,
                 positions,

@@ -5,8 +5,10 @@
 
 use std::fmt;
 
+use super::implicit::triangle;
 use super::stability::Frequency;
 use super::system::{System, Unstable};
+use crate::geometry::length;
 
 /// A method that advances a system.
 ///
@@ -35,6 +37,12 @@ pub trait Solver {
     fn frequency_limit(&self) -> Option<f64> {
         None
     }
+
+    /// Whether the method takes in the forces of [`System::triangles`]. One that does not is
+    /// refused where there are any.
+    fn takes_triangles(&self) -> bool {
+        false
+    }
 }
 
 impl<S: Solver + ?Sized> Solver for &mut S {
@@ -44,6 +52,10 @@ impl<S: Solver + ?Sized> Solver for &mut S {
 
     fn frequency_limit(&self) -> Option<f64> {
         (**self).frequency_limit()
+    }
+
+    fn takes_triangles(&self) -> bool {
+        (**self).takes_triangles()
     }
 }
 
@@ -66,6 +78,11 @@ pub enum StepError {
         /// The step as given.
         given_s: f64,
     },
+    /// The method knows springs alone, and would leave the triangles without force.
+    Triangles {
+        /// How many there are.
+        count: usize,
+    },
     /// An explicit method would be unstable.
     Unstable {
         /// The step as given.
@@ -86,7 +103,7 @@ pub enum StepError {
     BlowUp {
         /// The seconds simulated until the last good state, where the system still is.
         elapsed_s: f64,
-        /// The first particle that is not finite, or the ends of the constraint that is
+        /// The first particle that is not finite, or the constraint or triangle that is
         /// longest for its rest length.
         at: Culprit,
     },
@@ -103,6 +120,13 @@ pub enum Culprit {
         /// Its particles.
         ends: [usize; 2],
         /// Its length as a multiple of its rest length.
+        stretch_ratio: f64,
+    },
+    /// A triangle.
+    Triangle {
+        /// Its particles.
+        corners: [usize; 3],
+        /// The length of its warp or weft as a multiple of the rest length.
         stretch_ratio: f64,
     },
 }
@@ -125,6 +149,10 @@ impl System {
     ) -> Result<StepReport, StepError> {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return Err(StepError::Step { given_s: dt_s });
+        }
+        let count = self.triangles().len();
+        if count > 0 && !solver.takes_triangles() {
+            return Err(StepError::Triangles { count });
         }
         let report = self.admit(solver.frequency_limit(), dt_s)?;
         self.scratch.positions.clone_from(&self.positions);
@@ -220,10 +248,23 @@ impl System {
                 worst = (self.model.stretch.get(id).ends, ratio);
             }
         }
-        Culprit::Constraint {
+        let mut culprit = Culprit::Constraint {
             ends: worst.0,
             stretch_ratio: worst.1,
+        };
+        for t in self.triangles() {
+            let derivatives = t.derivatives(triangle::corners(t, &self.positions));
+            let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
+            if stretch_ratio > worst.1 {
+                worst.1 = stretch_ratio;
+                let corners = t.vertices.map(|v| v as usize);
+                culprit = Culprit::Triangle {
+                    corners,
+                    stretch_ratio,
+                };
+            }
         }
+        culprit
     }
 }
 
@@ -233,6 +274,10 @@ impl fmt::Display for StepError {
             StepError::Step { given_s } => {
                 write!(f, "dt {given_s} s is not a positive finite step")
             }
+            StepError::Triangles { count } => write!(
+                f,
+                "the method knows springs alone, and {count} triangles resist stretch"
+            ),
             StepError::Unstable {
                 given_s,
                 limit_s,
@@ -268,6 +313,14 @@ impl fmt::Display for StepError {
                     } => write!(
                         f,
                         "edge {a}-{b} has {} times its rest length",
+                        Digits(*stretch_ratio)
+                    )?,
+                    Culprit::Triangle {
+                        corners: [a, b, c],
+                        stretch_ratio,
+                    } => write!(
+                        f,
+                        "triangle {a}-{b}-{c} has {} times its size at rest",
                         Digits(*stretch_ratio)
                     )?,
                 }

@@ -11,11 +11,17 @@
 //!   with a margin. It is made only where the bound does not clear the step, starts from the
 //!   vector it found last, and is kept until topology, a mass or a stiffness change.
 //!
+//! A triangle counts as two springs with three ends, along warp and along weft. Its shear gets stiffer
+//! as it is stretched, so with shear the bound holds as long as |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|
+//! of no triangle is beyond a *reach*; where a step finds that one is, the reach is doubled and
+//! the bound made anew.
+//!
 //! The rows of K itself, which are cheaper, give 0.657 of the true limit or less.
 
 use super::constraint::{ConstraintId, Constraints};
+use super::implicit::{Triangle, triangle};
 use super::kernel;
-use super::system::{Model, System};
+use super::system::{Counters, Model, System};
 use crate::geometry::{Point, Vector, dot};
 
 /// The largest frequency of a system.
@@ -30,21 +36,41 @@ pub struct Frequency {
 }
 
 /// What is known about frequencies.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Spectrum {
     /// A bound of ω²; `None` until it is asked for.
     bound: Option<f64>,
     measured: Option<Frequency>,
+    /// How far triangles may be stretched for the bound to hold; see [`triangle::shear_growth`].
+    reach: f64,
+    /// How far they were when the frequency was measured.
+    measured_reach: f64,
     /// The vector that the power iteration found last.
     vector: Vec<Vector>,
     product: Vec<Vector>,
+}
+
+impl Default for Spectrum {
+    /// At rest a triangle takes up 2 of the reach, at 1.4 times its size 4.
+    fn default() -> Spectrum {
+        Spectrum {
+            bound: None,
+            measured: None,
+            reach: 4.0,
+            measured_reach: 0.0,
+            vector: Vec::new(),
+            product: Vec::new(),
+        }
+    }
 }
 
 impl Spectrum {
     pub(crate) fn touched(&mut self, model: &Model, particles: &[usize]) {
         self.measured = None;
         if let Some(bound) = self.bound {
-            let rows = particles.iter().map(|&particle| rows_at(model, particle));
+            let rows = particles
+                .iter()
+                .map(|&particle| rows_at(model, particle, self.reach));
             self.bound = Some(rows.fold(bound, f64::max));
         }
     }
@@ -64,46 +90,105 @@ impl Spectrum {
     }
 }
 
-/// The sum of √k over the springs of a particle.
-fn root_sum(model: &Model, particle: usize) -> f64 {
+/// How much the extensions along warp and along weft, times √(A k), change with each corner: what
+/// √k is of a spring.
+fn triangle_roots(triangle: &Triangle, reach: f64) -> [[f64; 3]; 2] {
+    let [k_u, k_v, k_s] = triangle.stiffness;
+    let [g_u, g_v] = triangle.weights();
+    let along = |k: f64, weights: [f64; 3]| {
+        let root = (triangle.area * (k + k_s * reach)).sqrt();
+        weights.map(|weight| root * weight.abs())
+    };
+    [along(k_u, g_u), along(k_v, g_v)]
+}
+
+/// The larger row of a triangle, with the product of inverse mass and sum of each corner.
+fn triangle_row(triangle: &Triangle, reach: f64, sums: [f64; 3]) -> f64 {
+    let row = |roots: [f64; 3]| -> f64 { roots.into_iter().zip(sums).map(|(r, s)| r * s).sum() };
+    let [along_u, along_v] = triangle_roots(triangle, reach).map(row);
+    along_u.max(along_v)
+}
+
+/// The sum of √k over the springs of a particle, and of the like over its triangles.
+fn root_sum(model: &Model, particle: usize, reach: f64) -> f64 {
     let of = |family: &Constraints| -> f64 {
         let root = |id: ConstraintId| family.get(id).stiffness_n_per_m.sqrt();
         family.of(particle).map(root).sum()
     };
-    of(&model.stretch) + of(&model.bend)
+    let springs = of(&model.stretch) + of(&model.bend);
+    let triangles = model.triangles.of(particle).map(|(t, corner)| {
+        let [along_u, along_v] = triangle_roots(&model.triangles.as_slice()[t], reach);
+        along_u[corner] + along_v[corner]
+    });
+    triangles.fold(springs, |sum, roots| sum + roots)
 }
 
-/// The largest row among the springs of the neighbours of a particle and its own: all rows that
+/// The largest row among the springs and triangles of the neighbours of a particle and its own: all rows that
 /// its mass and springs have a part in.
-fn rows_at(model: &Model, particle: usize) -> f64 {
+fn rows_at(model: &Model, particle: usize, reach: f64) -> f64 {
     let mut largest = 0.0_f64;
-    let own = model.inverse_masses[particle] * root_sum(model, particle);
+    let weighed =
+        |particle: usize| model.inverse_masses[particle] * root_sum(model, particle, reach);
+    let own = weighed(particle);
     for family in [&model.stretch, &model.bend] {
         for id in family.of(particle) {
             let constraint = family.get(id);
             let [a, b] = constraint.ends;
             let other = a + b - particle;
-            let far = model.inverse_masses[other] * root_sum(model, other);
-            largest = largest.max(constraint.stiffness_n_per_m.sqrt() * (own + far));
+            largest = largest.max(constraint.stiffness_n_per_m.sqrt() * (own + weighed(other)));
         }
+    }
+    for (t, _) in model.triangles.of(particle) {
+        let triangle = &model.triangles.as_slice()[t];
+        let sums = triangle.vertices.map(|v| weighed(v as usize));
+        largest = largest.max(triangle_row(triangle, reach, sums));
     }
     largest
 }
 
 impl System {
-    /// A bound of ω, in rad/s, that holds in every configuration. Linear the first time, then
-    /// known.
+    /// A bound of ω, in rad/s, that holds in every configuration, or with triangles that shear in the
+    /// present one and all that are stretched no more. Linear the first time, then known; with
+    /// triangles their stretch is looked at each time.
     pub fn frequency_bound(&mut self) -> f64 {
+        let growth = self.shear_growth();
+        // A state that is not finite is for the step to find.
+        if growth > self.spectrum.reach && growth.is_finite() {
+            self.spectrum.reach = 2.0 * growth;
+            self.spectrum.bound = None;
+        }
+        self.bound_within_reach()
+    }
+
+    /// How far the triangles that shear are stretched at most; zero without any.
+    fn shear_growth(&mut self) -> f64 {
+        let triangles = self.model.triangles.as_slice();
+        if triangles.is_empty() {
+            return 0.0;
+        }
+        self.counters.triangle_evaluations += 1;
+        let sheared = triangles.iter().filter(|t| t.stiffness[2] > 0.0);
+        let growths =
+            sheared.map(|t| triangle::shear_growth(t, triangle::corners(t, &self.positions)));
+        growths.fold(0.0, f64::max)
+    }
+
+    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
+    pub(crate) fn bound_within_reach(&mut self) -> f64 {
         if self.spectrum.bound.is_none() {
-            let model = &self.model;
+            let (model, reach) = (&self.model, self.spectrum.reach);
             let sums: Vec<f64> = (0..self.positions.len())
-                .map(|particle| model.inverse_masses[particle] * root_sum(model, particle))
+                .map(|particle| model.inverse_masses[particle] * root_sum(model, particle, reach))
                 .collect();
             let mut bound = 0.0_f64;
             for batch in model.batches() {
                 for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
                     bound = bound.max(k.sqrt() * (sums[a as usize] + sums[b as usize]));
                 }
+            }
+            for triangle in model.triangles.as_slice() {
+                let sums = triangle.vertices.map(|v| sums[v as usize]);
+                bound = bound.max(triangle_row(triangle, reach, sums));
             }
             self.spectrum.bound = Some(bound);
         }
@@ -117,13 +202,18 @@ impl System {
     }
 
     /// The largest frequency in the present configuration, to 1 % of ω², kept until topology,
-    /// a mass or a stiffness change.
+    /// a mass or a stiffness change, or triangles that shear are stretched by more than then.
     pub fn frequency(&mut self) -> Frequency {
-        if let Some(frequency) = self.spectrum.measured {
+        let growth = self.shear_growth();
+        if let Some(frequency) = self.spectrum.measured
+            && growth <= self.spectrum.measured_reach
+        {
             return frequency;
         }
         let frequency = self.measure_frequency(0.01, 200);
         self.spectrum.measured = Some(frequency);
+        // The margin of the watch takes in that much more.
+        self.spectrum.measured_reach = growth * 1.0625;
         frequency
     }
 
@@ -147,8 +237,7 @@ impl System {
                 return frequency;
             }
             u.iter_mut().for_each(|u| *u /= norm);
-            self.counters.matrix_products += 1;
-            accelerations_by(model, x, u, product);
+            accelerations_by(model, x, u, product, &mut self.counters);
             let square = inner(model, u, product);
             let misses = product.iter().zip(u.iter()).zip(&model.masses);
             let miss = misses.map(|((&p, &u), m)| {
@@ -203,17 +292,22 @@ fn inner(model: &Model, u: &[Vector], v: &[Vector]) -> f64 {
 }
 
 /// M⁻¹ K u.
-fn accelerations_by(model: &Model, x: &[Point], u: &[Vector], product: &mut [Vector]) {
+fn accelerations_by(
+    model: &Model,
+    x: &[Point],
+    u: &[Vector],
+    product: &mut [Vector],
+    counters: &mut Counters,
+) {
     product.fill(Vector::zeros());
-    for batch in model.batches() {
-        kernel::stiffness_times(batch, x, u, product);
-    }
+    model.stiffness_times(x, u, product, counters);
     for (p, &w) in product.iter_mut().zip(&model.inverse_masses) {
         *p *= w;
     }
 }
 
-/// The ends of the constraint with the most energy in a vector.
+/// The ends of the constraint with the most energy in a vector; of a triangle, those of the edge
+/// that changes most.
 fn busiest(model: &Model, x: &[Point], u: &[Vector]) -> Option<[usize; 2]> {
     let mut most = None;
     for batch in model.batches() {
@@ -224,6 +318,20 @@ fn busiest(model: &Model, x: &[Point], u: &[Vector]) -> Option<[usize; 2]> {
             if most.is_none_or(|(largest, _)| energy > largest) {
                 most = Some((energy, [a, b]));
             }
+        }
+    }
+    for t in model.triangles.as_slice() {
+        let corners = t.vertices.map(|v| v as usize);
+        let moved = corners.map(|v| u[v]);
+        let forces = triangle::stiffness_times(t, triangle::corners(t, x), moved);
+        let energy = (0..3).fold(0.0, |sum, i| sum + dot(moved[i], forces[i]));
+        if most.is_none_or(|(largest, _)| energy > largest) {
+            let apart = |i: usize| {
+                let between = moved[(i + 1) % 3] - moved[i];
+                dot(between, between)
+            };
+            let edge = (1..3).fold(0, |most, i| if apart(i) > apart(most) { i } else { most });
+            most = Some((energy, [corners[edge], corners[(edge + 1) % 3]]));
         }
     }
     most.map(|(_, ends)| ends)

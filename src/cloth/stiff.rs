@@ -1,8 +1,8 @@
-//! A system's springs, stepped implicitly.
+//! A system, stepped implicitly.
 //!
 //! The adapter between [`System`] and [`implicit`](super::implicit): it hands the particles,
-//! the springs of both families, gravity, wind and drag over as slices, and takes back positions
-//! and velocities. Triangles and Choi and Ko's bends are no part of a system; who needs them
+//! the springs of both families, the triangles, gravity, wind and drag over as slices, and takes
+//! back positions and velocities. Choi and Ko's bends are no part of a system; who needs them
 //! uses [`implicit`](super::implicit) itself.
 
 use super::implicit::{self, Filter, Implicit, Settings, Spring};
@@ -14,7 +14,7 @@ use crate::geometry::Vector;
 ///
 /// ```
 /// use tearmesh::cloth::implicit::{Settings, Tolerance};
-/// use tearmesh::cloth::{ImplicitSprings, Loads, System};
+/// use tearmesh::cloth::{ImplicitCloth, Loads, System};
 /// use tearmesh::{Point, Vector};
 ///
 /// let mut spring = System::new([Point::origin(), Point::new(0.0, 0.0, -1.0)], vec![0.1; 2])?;
@@ -23,7 +23,7 @@ use crate::geometry::Vector;
 /// let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -9.81));
 /// spring.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
 /// let tolerance = Tolerance::Fixed(1e-10);
-/// let mut solver = ImplicitSprings::new(Settings { tolerance, ..Settings::default() });
+/// let mut solver = ImplicitCloth::new(Settings { tolerance, ..Settings::default() });
 /// for _ in 0..200 {
 ///     spring.step(&mut solver, 0.5)?; // Far beyond the limit of an explicit method.
 /// }
@@ -31,7 +31,7 @@ use crate::geometry::Vector;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct ImplicitSprings {
+pub struct ImplicitCloth {
     /// How to take a step.
     pub settings: Settings,
     solver: Implicit,
@@ -41,13 +41,13 @@ pub struct ImplicitSprings {
     error: Option<implicit::StepError>,
 }
 
-impl ImplicitSprings {
+impl ImplicitCloth {
     /// The method with these settings.
     #[must_use]
-    pub fn new(settings: Settings) -> ImplicitSprings {
-        ImplicitSprings {
+    pub fn new(settings: Settings) -> ImplicitCloth {
+        ImplicitCloth {
             settings,
-            ..ImplicitSprings::default()
+            ..ImplicitCloth::default()
         }
     }
 
@@ -81,6 +81,8 @@ impl ImplicitSprings {
         self.springs.clear();
         for family in [&model.stretch, &model.bend] {
             let springs = family.iter().map(|id| family.get(id));
+            // Edges of a cloth of triangles alone are measured, and pull at nothing.
+            let springs = springs.filter(|constraint| constraint.stiffness_n_per_m > 0.0);
             self.springs.extend(springs.map(|constraint| Spring {
                 ends: constraint.ends.map(|end| end as u32),
                 rest_length: constraint.rest_length_m,
@@ -91,7 +93,11 @@ impl ImplicitSprings {
     }
 }
 
-impl Solver for ImplicitSprings {
+impl Solver for ImplicitCloth {
+    fn takes_triangles(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
         self.gather(system);
         system.scratch.is_fresh = false;
@@ -100,6 +106,7 @@ impl Solver for ImplicitSprings {
             filters: &self.filters,
             accelerations: &self.accelerations,
             springs: &self.springs,
+            triangles: system.model.triangles.as_slice(),
             drag_per_s: system.model.drag_per_s(),
             ..implicit::Model::default()
         };
@@ -113,6 +120,11 @@ impl Solver for ImplicitSprings {
                 self.error = None;
                 system.counters.force_evaluations += report.work.force_evaluations;
                 system.counters.matrix_products += report.work.matrix_products;
+                if !system.model.triangles.as_slice().is_empty() {
+                    system.counters.triangle_evaluations += report.work.force_evaluations
+                        + report.work.hessian_evaluations
+                        + report.work.energy_evaluations;
+                }
                 system.collide();
                 true
             }

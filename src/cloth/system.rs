@@ -1,8 +1,8 @@
 //! Particles and constraints, with no mesh in sight.
 //!
 //! A [`System`] is a list of particles and two families of springs between them: *stretch*
-//! constraints, and *bend* constraints that reach across something. A chain, a net or a cloth
-//! is one. Units are SI throughout: metres, kilograms, seconds, newtons.
+//! constraints, and *bend* constraints that reach across something; and triangles of particles
+//! that resist stretch and shear. A chain, a net or a cloth is one. Units are SI throughout: metres, kilograms, seconds, newtons.
 
 mod error;
 mod force;
@@ -11,9 +11,11 @@ pub use error::SystemError;
 pub(crate) use force::Forces;
 
 use super::constraint::{Constraint, ConstraintId, Constraints};
+use super::implicit::{Triangle, triangle};
 use super::kernel;
 use super::load::{Loads, Path};
 use super::stability::Spectrum;
+use super::triangles::Triangles;
 use crate::geometry::{Point, Vector, check_point, dot};
 
 /// Particles, constraints and loads.
@@ -63,6 +65,7 @@ pub(crate) struct Model {
     pub(crate) held: Vec<bool>,
     pub(crate) stretch: Constraints,
     pub(crate) bend: Constraints,
+    pub(crate) triangles: Triangles,
     /// The corners of faces, three each, where wind may blow.
     pub(crate) faces: Vec<u32>,
     pub(crate) loads: Loads,
@@ -98,6 +101,9 @@ pub struct Counters {
     pub projections: u64,
     /// Products of the stiffness matrix with a vector.
     pub matrix_products: u64,
+    /// Sums over all triangles: of forces, of products with the stiffness matrix, of energy for
+    /// line searches, and of stretch for the bound of frequencies.
+    pub triangle_evaluations: u64,
     /// Sums of wind over all faces.
     pub wind_evaluations: u64,
     /// Tests of all particles against one collider.
@@ -167,6 +173,7 @@ impl System {
                 held: vec![false; count],
                 stretch: Constraints::new(count),
                 bend: Constraints::new(count),
+                triangles: Triangles::default(),
                 faces: Vec::new(),
                 loads: Loads::default(),
                 paths: Vec::new(),
@@ -212,6 +219,40 @@ impl System {
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
         self.connect(Family::Bend, ends, rest_length_m, stiffness_n_per_m)
+    }
+
+    /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4): its particles,
+    /// their places (u, v) in the material in metres, and the stiffness along u, along v and in
+    /// shear in N/m. Returns its index.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Triangle`]: a stiffness is negative, a number is not finite, the places
+    /// span no area, or the corners are not three particles.
+    pub fn triangle(
+        &mut self,
+        corners: [usize; 3],
+        material_m: [[f64; 2]; 3],
+        stiffness_n_per_m: [f64; 3],
+    ) -> Result<usize, SystemError> {
+        let [a, b, c] = corners;
+        let distinct = a != b && b != c && c != a && a.max(b).max(c) < self.positions.len();
+        let triangle = Triangle::new(
+            corners.map(|corner| corner as u32),
+            material_m,
+            stiffness_n_per_m,
+        );
+        match triangle.filter(|_| distinct) {
+            Some(triangle) => Ok(self.push_triangle(triangle)),
+            None => Err(SystemError::Triangle { corners }),
+        }
+    }
+
+    pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
+        let index = self.model.triangles.as_slice().len();
+        self.model.triangles.push(self.positions.len(), triangle);
+        self.touched(&triangle.vertices.map(|corner| corner as usize));
+        index
     }
 
     fn connect(
@@ -404,6 +445,12 @@ impl System {
         &self.model.bend
     }
 
+    /// The triangles that resist stretch and shear, by index.
+    #[must_use]
+    pub fn triangles(&self) -> &[Triangle] {
+        self.model.triangles.as_slice()
+    }
+
     /// What acts from outside.
     #[must_use]
     pub fn loads(&self) -> &Loads {
@@ -439,13 +486,17 @@ impl System {
         dot(d, d).sqrt()
     }
 
-    /// The elastic energy of all constraints, in joules.
+    /// The elastic energy of all constraints and triangles, in joules.
     #[must_use]
     pub fn elastic_energy_j(&self) -> f64 {
         let batches = self.model.batches();
-        batches
+        let springs: f64 = batches
             .map(|batch| kernel::energy(batch, &self.positions))
-            .sum()
+            .sum();
+        let triangles = self.triangles().iter();
+        triangles.fold(springs, |sum, t| {
+            sum + triangle::energy(t, triangle::corners(t, &self.positions))
+        })
     }
 
     /// The elastic energy of a stretch constraint, in joules.
@@ -507,10 +558,8 @@ impl System {
             "one displacement a particle"
         );
         let mut product = vec![Vector::zeros(); displacements.len()];
-        self.counters.matrix_products += 1;
-        for batch in self.model.batches() {
-            kernel::stiffness_times(batch, &self.positions, displacements, &mut product);
-        }
+        let (model, counters) = (&self.model, &mut self.counters);
+        model.stiffness_times(&self.positions, displacements, &mut product, counters);
         product
     }
 
@@ -559,7 +608,7 @@ impl Model {
         self.loads.drag_per_s.unwrap_or(0.0)
     }
 
-    /// Fills in the accelerations by springs, wind and gravity; held particles have none. False
+    /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have none. False
     /// where a spring has blown up.
     #[must_use]
     pub(crate) fn accelerate(
@@ -575,8 +624,33 @@ impl Model {
         for batch in self.batches() {
             sane &= kernel::forces(batch, positions, self.stretch_ratio_max, accelerations);
         }
+        let triangles = self.triangles.as_slice();
+        if !triangles.is_empty() {
+            counters.triangle_evaluations += 1;
+            let ratio_max = self.stretch_ratio_max;
+            sane &= kernel::triangle_forces(triangles, positions, ratio_max, accelerations);
+        }
         self.external(positions, velocities, accelerations, counters);
         sane
+    }
+
+    /// Adds K u; see [`System::stiffness_times`].
+    pub(crate) fn stiffness_times(
+        &self,
+        positions: &[Point],
+        displacements: &[Vector],
+        product: &mut [Vector],
+        counters: &mut Counters,
+    ) {
+        counters.matrix_products += 1;
+        for batch in self.batches() {
+            kernel::stiffness_times(batch, positions, displacements, product);
+        }
+        let triangles = self.triangles.as_slice();
+        if !triangles.is_empty() {
+            counters.triangle_evaluations += 1;
+            kernel::triangle_stiffness_times(triangles, positions, displacements, product);
+        }
     }
 
     /// Adds the force of wind, and makes accelerations of forces, with gravity.

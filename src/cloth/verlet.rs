@@ -24,6 +24,10 @@ impl Solver for Verlet {
         Some(2.0)
     }
 
+    fn takes_triangles(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
         let half = dt_s / 2.0;
         let fade = half * system.model.drag_per_s();

@@ -2,7 +2,7 @@
 
 use super::{Scene, order, spring};
 use crate::random::Random;
-use tearmesh::cloth::implicit::{Bend, Hessian, Layout, Model, Triangle};
+use tearmesh::cloth::implicit::{Bend, Hessian, Layout, Model, Triangle, triangle};
 use tearmesh::{Point, Vector};
 
 /// Models of one constraint each, in a general position: name and scene.
@@ -190,6 +190,30 @@ fn clamped_jacobians_are_semidefinite_where_exact_ones_are_not() {
     }
     println!("{indefinite} indefinite of 3300, {clamps} terms clamped");
     assert!(indefinite > 500);
+}
+
+#[test]
+fn a_triangles_product_is_that_of_its_clamped_matrix() {
+    let mut random = Random(9);
+    let mut next = || 2.0 * random.next() - 1.0;
+    for _ in 0..200 {
+        let mut scene = Scene::particles((0..3).map(|_| [next(), next(), next()]), 1.0);
+        let material = [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]];
+        let one = Triangle::new([0, 1, 2], material, [3.0, 2.0, 0.7]).expect("it has area");
+        scene.triangles.push(one);
+        let (matrix, _) = dense(&scene.model(), &scene.x, true);
+        let u = [0; 3].map(|_| Vector::new(next(), next(), next()));
+        let corners = [scene.x[0], scene.x[1], scene.x[2]];
+        let product = triangle::stiffness_times(&one, corners, u);
+        let flat: Vec<f64> = u.iter().flat_map(|u| [u.x, u.y, u.z]).collect();
+        for (i, row) in matrix.iter().enumerate() {
+            let entry: f64 = row.iter().zip(&flat).map(|(a, b)| a * b).sum();
+            assert!(
+                (product[i / 3][i % 3] - entry).abs() < 1e-12,
+                "{product:?} {entry}"
+            );
+        }
+    }
 }
 
 #[test]

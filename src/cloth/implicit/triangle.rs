@@ -80,8 +80,18 @@ impl Triangle {
         bad.copied()
     }
 
+    /// One that resists nothing, in the place of one without area.
+    pub(crate) fn slack(vertices: [u32; 3]) -> Triangle {
+        Triangle {
+            vertices,
+            rest_inverse: [[0.0; 2]; 2],
+            area: f64::MIN_POSITIVE,
+            stiffness: [0.0; 3],
+        }
+    }
+
     /// How `w_u` and `w_v` change with each corner.
-    fn weights(&self) -> [[f64; 3]; 2] {
+    pub(crate) fn weights(&self) -> [[f64; 3]; 2] {
         let d = &self.rest_inverse;
         [0, 1].map(|c| [-(d[0][c] + d[1][c]), d[0][c], d[1][c]])
     }
@@ -94,6 +104,13 @@ impl Triangle {
         let d = &self.rest_inverse;
         [0, 1].map(|c| a * d[0][c] + b * d[1][c])
     }
+}
+
+/// Where the corners are.
+#[inline]
+#[must_use]
+pub(crate) fn corners(triangle: &Triangle, positions: &[Point]) -> [Point; 3] {
+    triangle.vertices.map(|v| positions[v as usize])
 }
 
 /// The energy, in J, with the corners at these points.
@@ -119,6 +136,44 @@ pub fn forces(triangle: &Triangle, corners: [Point; 3]) -> [Vector; 3] {
     let d = &triangle.rest_inverse;
     let [f1, f2] = [0, 1].map(|e| (p_u * d[e][0] + p_v * d[e][1]) * -triangle.area);
     [-(f1 + f2), f1, f2]
+}
+
+/// The change of the forces on the corners when these move by `u`, negated, to first order: what
+/// [`hessian`] with `clamp` gives, without the matrix.
+#[inline]
+#[must_use]
+pub fn stiffness_times(triangle: &Triangle, corners: [Point; 3], u: [Vector; 3]) -> [Vector; 3] {
+    let [w_u, w_v] = triangle.derivatives(corners);
+    let [k_u, k_v, k_s] = triangle.stiffness;
+    let (a, b) = (u[1] - u[0], u[2] - u[0]);
+    let d = &triangle.rest_inverse;
+    let [d_u, d_v] = [0, 1].map(|c| a * d[0][c] + b * d[1][c]);
+    let along = |w: Vector, k: f64, change: Vector| {
+        let square = dot(w, w);
+        if square == 0.0 {
+            return Vector::zeros();
+        }
+        let across = stretch(w).max(0.0);
+        let part = w * (dot(w, change) / square);
+        (part + (change - part) * across) * k
+    };
+    let shear = dot(w_u, w_v);
+    let sheared = dot(w_v, d_u) + dot(w_u, d_v);
+    let both = d_u * shear.abs() + d_v * shear;
+    let sign = if shear < 0.0 { -1.0 } else { 1.0 };
+    let p_u = along(w_u, k_u, d_u) + (w_v * sheared + both * 0.5) * k_s;
+    let p_v = along(w_v, k_v, d_v) + (w_u * sheared + both * (0.5 * sign)) * k_s;
+    let [f1, f2] = [0, 1].map(|e| (p_u * d[e][0] + p_v * d[e][1]) * triangle.area);
+    [-(f1 + f2), f1, f2]
+}
+
+/// |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|: `k_s` times this bounds the second derivative of the shear
+/// term by `w_u` and `w_v`. It is 2 at rest.
+#[inline]
+#[must_use]
+pub(crate) fn shear_growth(triangle: &Triangle, corners: [Point; 3]) -> f64 {
+    let [w_u, w_v] = triangle.derivatives(corners);
+    dot(w_u, w_u) + dot(w_v, w_v) + dot(w_u, w_v).abs()
 }
 
 /// 1 − 1/|w|, which is zero for a w of zero, since that has no direction.

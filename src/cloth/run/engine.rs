@@ -2,7 +2,7 @@
 
 use crate::cloth::implicit::StepError;
 use crate::cloth::scene::Method;
-use crate::cloth::{ImplicitSprings, Pbd, Provot, Solver, System, Verlet, Xpbd};
+use crate::cloth::{ImplicitCloth, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
 /// A method with its state.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub(super) enum Engine {
     Pbd(Pbd),
     Verlet(Verlet),
     Xpbd(Xpbd),
-    Implicit(Box<ImplicitSprings>),
+    Implicit(Box<ImplicitCloth>),
 }
 
 impl Engine {
@@ -22,9 +22,7 @@ impl Engine {
             Method::Pbd(pbd) => Engine::Pbd(pbd),
             Method::Verlet => Engine::Verlet(Verlet::new()),
             Method::Xpbd(xpbd) => Engine::Xpbd(xpbd),
-            Method::Implicit(settings) => {
-                Engine::Implicit(Box::new(ImplicitSprings::new(settings)))
-            }
+            Method::Implicit(settings) => Engine::Implicit(Box::new(ImplicitCloth::new(settings))),
         }
     }
 }

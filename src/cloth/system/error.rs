@@ -36,6 +36,12 @@ pub enum SystemError {
         /// The constraint as given.
         given: Constraint,
     },
+    /// A stiffness of a triangle is negative, a number is not finite, its places in the material
+    /// span no area, or its corners are not three particles.
+    Triangle {
+        /// The corners as given.
+        corners: [usize; 3],
+    },
     /// A load has a number that is not finite, or negative.
     Loads,
 }
@@ -64,6 +70,11 @@ impl fmt::Display for SystemError {
                     given.rest_length_m, given.stiffness_n_per_m
                 )
             }
+            SystemError::Triangle { corners: [a, b, c] } => write!(
+                f,
+                "a triangle of the particles {a}, {b} and {c} cannot have that stiffness and \
+                 those places in the material"
+            ),
             SystemError::Loads => {
                 write!(f, "a load has a number that is not finite, or negative")
             }

@@ -11,6 +11,7 @@
 
 use super::{Model, System};
 use crate::cloth::constraint::{Constraint, ConstraintId, Constraints};
+use crate::cloth::implicit::triangle;
 use crate::cloth::kernel;
 use crate::geometry::{Vector, dot};
 
@@ -79,7 +80,7 @@ impl System {
     }
 
     /// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum
-    /// of the constraints' forces ([`System::force_n`]), gravity, wind and drag. Of a grabbed
+    /// of the constraints' forces ([`System::force_n`]), those of triangles, gravity, wind and drag. Of a grabbed
     /// particle that is a force probe; for a free one it is minus the force that
     /// accelerates it, which vanishes at rest. Inertia of a path's corners is not in it, nor are
     /// colliders. Costs the valence; linear with wind.
@@ -119,6 +120,10 @@ impl System {
                     sum += d * (self.force_of(family, id) / length);
                 }
             }
+        }
+        for (t, corner) in model.triangles.of(particle) {
+            let woven = &model.triangles.as_slice()[t];
+            sum += triangle::forces(woven, triangle::corners(woven, &self.positions))[corner];
         }
         let gravity = model.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros);
         let drag = self.velocities[particle] * model.drag_per_s();

@@ -5,7 +5,7 @@ use super::{Tearing, TearingError};
 use crate::attribute::PerVertex;
 use crate::cloth::sheet::Cloth;
 use crate::edit::{Edits, Follower};
-use crate::geometry::{Plane, dot, length};
+use crate::geometry::{Plane, Vector, dot, length};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::split;
@@ -19,12 +19,15 @@ use crate::tear;
 pub struct Tear {
     tearing: Tearing,
     pub(super) strengths: PerVertex<f64>,
-    /// Factors on the strengths, by tears nearby.
-    pub(super) weakenings: PerVertex<f64>,
+    /// Where a tear may run on, and the direction across it at rest: zero for vertices that are no
+    /// tips.
+    pub(super) tips: PerVertex<Vector>,
     /// By half-edge: the seconds since its edge was first found above its threshold, or
     /// [`BELOW`].
     pub(super) clocks: Vec<f64>,
     due: Vec<Due>,
+    /// The far ends of the links that a split tore.
+    ahead: Vec<VertexId>,
     /// By vertex: whether it was split in this step.
     is_fresh: Vec<bool>,
 }
@@ -33,8 +36,6 @@ pub struct Tear {
 #[derive(Clone, Copy, Debug)]
 struct Due {
     edge: HalfEdgeId,
-    /// The other half-edge, when the edge was found.
-    pair: Option<HalfEdgeId>,
     load: f64,
     /// The load over the smaller strength.
     severity: f64,
@@ -76,16 +77,14 @@ impl Tear {
     /// [`TearingError`]: a number cannot be used.
     pub fn new(cloth: &Cloth, tearing: Tearing) -> Result<Tear, TearingError> {
         tearing.check()?;
-        let ones = || {
-            let ones = vec![1.0; cloth.positions().len()];
-            PerVertex::new(ones).starting_at(cloth.next_edit())
-        };
+        let (count, next) = (cloth.positions().len(), cloth.next_edit());
         Ok(Tear {
             tearing,
-            strengths: ones(),
-            weakenings: ones(),
+            strengths: PerVertex::new(vec![1.0; count]).starting_at(next),
+            tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(next),
             clocks: vec![BELOW; cloth.indices().len()],
             due: Vec::new(),
+            ahead: Vec::new(),
             is_fresh: Vec::new(),
         })
     }
@@ -121,14 +120,36 @@ impl Tear {
         &self.tearing
     }
 
-    /// The strength of a vertex now, weakened by tears nearby.
+    /// The strength of a vertex, as given; not weakened.
     ///
     /// # Panics
     ///
     /// If there is no such vertex.
     #[must_use]
     pub fn strength(&self, v: VertexId) -> f64 {
-        self.strengths[v] * self.weakenings[v]
+        self.strengths[v]
+    }
+
+    /// Whether a vertex is the tip of a tear, which [`Tearing::weakening`] is for.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn is_tip(&self, v: VertexId) -> bool {
+        self.tips[v] != Vector::zeros()
+    }
+
+    /// The strength of a vertex against a pull along `edge` at rest: weakened at a tip, if that is
+    /// within 45° of the direction across its tear.
+    fn strength_along(&self, v: VertexId, edge: Vector) -> f64 {
+        let tip = self.tips[v];
+        let cosine = dot(tip, edge);
+        let across = self.is_tip(v) && 2.0 * cosine * cosine >= dot(tip, tip) * dot(edge, edge);
+        match self.tearing.weakening {
+            Some(factor) if across => self.strengths[v] * factor,
+            _ => self.strengths[v],
+        }
     }
 
     /// Tears what is overstretched now, after a step of `dt_s` seconds. Mesh and log advance, and
@@ -157,11 +178,12 @@ impl Tear {
         let due = std::mem::take(&mut self.due);
         for due in &due {
             let ends = [mesh.origin(due.edge), mesh.target(due.edge)];
-            if mesh.pair(due.edge) != due.pair || ends.iter().any(|v| self.is_fresh[v.index()]) {
+            // Among them are the edges that came apart: two lips now, for the next step to judge.
+            if ends.iter().any(|v| self.is_fresh[v.index()]) {
                 report.relieved += 1;
                 continue;
             }
-            let Some((vertex, plane)) = self.candidate(mesh, cloth, due) else {
+            let Some(candidate) = self.candidate(mesh, cloth, due) else {
                 report.refused += 1;
                 continue;
             };
@@ -171,7 +193,7 @@ impl Tear {
             }
             let id = cloth.stretch(due.edge);
             report.edge_energy_j += cloth.system().elastic_of(id);
-            report.tear_length_m += self.split(mesh, cloth, edits, vertex, &plane);
+            report.tear_length_m += self.split(mesh, cloth, edits, due.edge, candidate);
             report.splits += 1;
         }
         self.due = due;
@@ -183,37 +205,32 @@ impl Tear {
     fn find(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
         let mut report = TearReport::default();
         self.due.clear();
+        let mut worst = 0.0;
+        let least = self.least_strength();
+        let watches_clocks = self.tearing.delay_s > 0.0;
         for edge in mesh.edges() {
-            let pair = mesh.pair(edge);
             let load = self.tearing.threshold.edge_load(mesh, cloth, edge);
             let load = load.unwrap_or(f64::NEG_INFINITY);
-            let strength = [mesh.origin(edge), mesh.target(edge)].map(|v| self.strength(v));
-            let severity = load / strength[0].min(strength[1]);
-            if severity > report.worst.map_or(0.0, |(_, worst)| worst) {
+            // Most edges bear their load wherever they are.
+            let mut severity = load / least;
+            if severity >= 1.0 || severity > worst {
+                severity = self.severity(mesh, cloth, edge, load);
+            }
+            if severity > worst {
+                worst = severity;
                 report.worst = Some((edge, severity));
             }
-            let clock = if severity >= 1.0 {
-                (self.clocks[edge.index()] + dt_s).max(0.0)
-            } else {
-                BELOW
-            };
-            for h in [Some(edge), pair].into_iter().flatten() {
-                self.clocks[h.index()] = clock;
-            }
-            if clock == BELOW {
-                continue;
-            }
-            report.overstretched += 1;
-            if clock < self.tearing.delay_s {
+            let is_over = severity >= 1.0;
+            report.overstretched += usize::from(is_over);
+            if watches_clocks && self.waits(mesh, edge, is_over, dt_s) {
                 report.waiting += 1;
-                continue;
+            } else if is_over {
+                self.due.push(Due {
+                    edge,
+                    load,
+                    severity,
+                });
             }
-            self.due.push(Due {
-                edge,
-                pair,
-                load,
-                severity,
-            });
         }
         let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
         self.due
@@ -221,61 +238,99 @@ impl Tear {
         report
     }
 
+    /// A load over the smaller strength of an edge's ends.
+    fn severity(&self, mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId, load: f64) -> f64 {
+        let along = at_rest(mesh, cloth, edge);
+        let ends = [mesh.origin(edge), mesh.target(edge)];
+        let [a, b] = ends.map(|v| self.strength_along(v, along));
+        load / a.min(b)
+    }
+
+    /// What every vertex bears.
+    fn least_strength(&self) -> f64 {
+        let strengths = self.strengths.as_slice().iter();
+        let least = strengths.fold(f64::INFINITY, |least, &strength| least.min(strength));
+        least * self.tearing.weakening.unwrap_or(1.0)
+    }
+
+    /// Advances the clock of an edge; whether it is over its threshold and has to wait.
+    fn waits(&mut self, mesh: &Mesh, edge: HalfEdgeId, is_over: bool, dt_s: f64) -> bool {
+        let clock = if is_over {
+            (self.clocks[edge.index()] + dt_s).max(0.0)
+        } else {
+            BELOW
+        };
+        for h in [Some(edge), mesh.pair(edge)].into_iter().flatten() {
+            self.clocks[h.index()] = clock;
+        }
+        is_over && clock < self.tearing.delay_s
+    }
+
     /// The vertex that the rule splits, of those that do not bear the load.
     fn candidate(&self, mesh: &Mesh, cloth: &Cloth, due: &Due) -> Option<(VertexId, Plane)> {
+        let along = at_rest(mesh, cloth, due.edge);
         let mass = |v: VertexId| {
             let free = self.tearing.tears_held || !cloth.system().is_held(v.index());
-            (free && due.load >= self.strength(v)).then(|| cloth.masses().at(v))
+            let bears = due.load < self.strength_along(v, along);
+            (free && !bears).then(|| cloth.masses().at(v))
         };
         tear::candidate(mesh, due.edge, cloth, mass)
     }
 
-    /// Splits a vertex; the length that came apart.
+    /// Splits a vertex because of an edge; the length that came apart.
     fn split(
         &mut self,
         mesh: &mut Mesh,
         cloth: &mut Cloth,
         edits: &mut Edits,
-        vertex: VertexId,
-        plane: &Plane,
+        edge: HalfEdgeId,
+        (vertex, plane): (VertexId, Plane),
     ) -> f64 {
-        let along = match self.tearing.weakening {
-            Some(_) => along_plane(mesh, cloth, vertex, plane),
-            None => [None; 2],
+        let across = at_rest(mesh, cloth, edge);
+        let mut edges = mesh.corners_of(vertex).flat_map(|h| [h, h.prev()]);
+        let is_whole = edges.all(|h| mesh.pair(h).is_some());
+        let Some(split) = split::by_plane(mesh, vertex, &plane, &*cloth, edits) else {
+            return 0.0;
         };
         let mut length_m = 0.0;
-        if let Some(split) = split::by_plane(mesh, vertex, plane, &*cloth, edits) {
-            for link in split.torn {
-                let constraint = cloth.system().stretches().get(cloth.stretch(link.stayed));
-                length_m += constraint.rest_length_m;
-            }
+        self.ahead.clear();
+        for link in split.torn {
+            let ends = [mesh.origin(link.stayed), mesh.target(link.stayed)];
+            length_m += cloth.rest_length(ends.map(VertexId::index));
+            self.ahead.push(ends[usize::from(ends[0] == vertex)]);
         }
         edits.replay(&mut (&mut *cloth, &mut *self));
         self.is_fresh[vertex.index()] = true;
         self.is_fresh.resize(mesh.vertex_count(), true);
-        if let Some(weakening) = self.tearing.weakening {
-            for neighbour in along.into_iter().flatten() {
-                self.weakenings[neighbour] = self.weakenings[neighbour].min(weakening);
-            }
+        let tips = along_plane(cloth, vertex, &plane, &self.ahead);
+        for tip in tips.take(if is_whole { 2 } else { 1 }) {
+            self.tips[tip] = across;
         }
         length_m
     }
 }
 
-/// The two neighbours of a vertex that lie best along a plane through it, the second on the other
-/// side of the vertex than the first. Lower ids break ties.
-fn along_plane(mesh: &Mesh, cloth: &Cloth, v: VertexId, plane: &Plane) -> [Option<VertexId>; 2] {
+/// The way from one end of an edge to the other, at rest.
+fn at_rest(mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId) -> Vector {
+    let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| cloth.rest_positions().at(v));
+    b - a
+}
+
+/// The neighbours of a vertex that lie best along a plane through it: one, and another one on the
+/// other side of the vertex. Lower ids break ties.
+fn along_plane(
+    cloth: &Cloth,
+    v: VertexId,
+    plane: &Plane,
+    neighbours: &[VertexId],
+) -> impl Iterator<Item = VertexId> + use<> {
     let x = cloth.positions();
-    let at = x[v.index()];
-    let neighbours = || {
-        let faces = mesh.corners_of(v);
-        faces.flat_map(|h| [mesh.target(h), mesh.origin(h.prev())])
-    };
-    let best = |away_from: Option<VertexId>| {
+    let to = |other: VertexId| x[other.index()] - x[v.index()];
+    let best = |opposite: Option<VertexId>| {
         let mut best: Option<(f64, VertexId)> = None;
-        for neighbour in neighbours() {
-            let d = x[neighbour.index()] - at;
-            if away_from.is_some_and(|first| dot(d, x[first.index()] - at) >= 0.0) {
+        for &neighbour in neighbours {
+            let d = to(neighbour);
+            if opposite.is_some_and(|first| dot(d, to(first)) >= 0.0) {
                 continue;
             }
             let slope = (dot(plane.normal(), d) / length(d)).abs();
@@ -288,5 +343,6 @@ fn along_plane(mesh: &Mesh, cloth: &Cloth, v: VertexId, plane: &Plane) -> [Optio
         best.map(|(_, neighbour)| neighbour)
     };
     let first = best(None);
-    [first, first.and_then(|first| best(Some(first)))]
+    let second = first.and_then(|first| best(Some(first)));
+    first.into_iter().chain(second)
 }

@@ -4,6 +4,7 @@
 use super::apply::Tear;
 use crate::cloth::follow::lies_on;
 use crate::edit::{Edit, Follower, Insert, Merge};
+use crate::geometry::Vector;
 
 /// The clock of an edge below its threshold.
 pub(super) const BELOW: f64 = f64::NEG_INFINITY;
@@ -15,10 +16,15 @@ impl Follower for Tear {
 
     fn follow(&mut self, edit: &Edit<'_>) {
         self.strengths.follow(edit);
-        self.weakenings.follow(edit);
+        self.tips.follow(edit);
         match edit {
-            // Both halves of a torn link go on with the clock of the edge.
-            Edit::Split(_) | Edit::Slide(_) => {}
+            // Both halves of a torn link go on with the clock of its edge. The tear has gone
+            // through the vertex, which is a tip no more.
+            Edit::Split(split) => {
+                self.tips[split.old] = Vector::zeros();
+                self.tips[split.new] = Vector::zeros();
+            }
+            Edit::Slide(_) => {}
             Edit::Insert(insert) => self.insert(insert),
             Edit::Merge(merge) => self.merge(merge),
         }

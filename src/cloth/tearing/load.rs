@@ -25,7 +25,7 @@ impl Threshold {
                 Some(strain(system, id) / bears)
             }
             Threshold::Force(newtons) => Some(system.force_n(id) / newtons),
-            Threshold::WarpWeft { .. } => None,
+            Threshold::WarpWeft { .. } | Threshold::PrincipalStretch(_) => None,
         }
     }
 
@@ -42,7 +42,7 @@ impl Threshold {
             Threshold::Stretch(_) => self.load(system, id),
             Threshold::Toughness(g) => {
                 let length = system.stretches().get(id).rest_length_m;
-                let bears = strain_borne(g, cloth.fabric.stretch_n_per_m, length);
+                let bears = strain_borne(g, modulus(cloth), length);
                 Some(strain(system, id) / bears)
             }
             Threshold::Force(newtons) => {
@@ -57,13 +57,39 @@ impl Threshold {
                 };
                 Some(strain(system, id) / (ratio - 1.0))
             }
+            Threshold::PrincipalStretch(ratio) => {
+                let sides = [Some(h), mesh.pair(h)].into_iter().flatten();
+                let torn_first = sides.filter(|&side| is_most_stretched(cloth, side));
+                let stretch = torn_first.map(|side| cloth.principal_stretch(side.face()));
+                let most = stretch.max_by(f64::total_cmp)?;
+                Some((most - 1.0) / (ratio - 1.0))
+            }
         }
     }
+}
+
+/// Whether no other edge of a face is stretched more; the one with the lowest id, of equals.
+fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
+    let ratio = |h: HalfEdgeId| cloth.system().stretch_ratio(cloth.stretch(h));
+    [h.next(), h.prev()].into_iter().all(|other| {
+        let (own, others) = (ratio(h), ratio(other));
+        own > others || (own == others && h < other)
+    })
 }
 
 /// l / L − 1, before a limiter.
 fn strain(system: &System, id: ConstraintId) -> f64 {
     system.unlimited_ratio(id) - 1.0
+}
+
+/// What a cloth's strain is multiplied by for its tension, in N/m: of springs and, the mean of
+/// warp and weft, of triangles.
+fn modulus(cloth: &Cloth) -> f64 {
+    let woven = cloth
+        .fabric
+        .weave
+        .map_or(0.0, |weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0);
+    cloth.fabric.stretch_n_per_m + woven
 }
 
 /// √(2 G / (E h)).
