@@ -2,8 +2,8 @@
 
 use tearmesh::cloth::implicit::{Settings, Tolerance};
 use tearmesh::cloth::{
-    Cloth, Fabric, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver, System, Verlet, Weave,
-    Wind, Xpbd,
+    Cloth, Fabric, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver, System, Threshold, Verlet,
+    Weave, Wind, Xpbd,
 };
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 
@@ -144,6 +144,12 @@ fn copies_of_a_torn_link_share_its_multiplier() {
         .map(|h| cloth.system().force_n(cloth.stretch(h)))
         .collect();
     assert!(forces.iter().any(|f| f.abs() > 1e-4));
+    // So each copy is as near to tearing as the link was.
+    let threshold = Threshold::Force(2.0);
+    let loads: Vec<Option<f64>> = mesh
+        .half_edges()
+        .map(|h| threshold.edge_load(&mesh, &cloth, h))
+        .collect();
     let mut edits = tearmesh::Edits::new();
     tearmesh::split::faces(&mut mesh, centre, &faces, &mut edits).expect("a split");
     edits.replay(&mut cloth);
@@ -155,5 +161,7 @@ fn copies_of_a_torn_link_share_its_multiplier() {
         };
         let force = cloth.system().force_n(cloth.stretch(h));
         assert_eq!(force, share * forces[h.index()], "{h}");
+        let load = threshold.edge_load(&mesh, &cloth, h);
+        assert_eq!(load, loads[h.index()], "{h}");
     }
 }

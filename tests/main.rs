@@ -9,6 +9,7 @@ mod cloth_failures;
 mod cloth_follow;
 mod cloth_limiter;
 mod cloth_reaction;
+mod cloth_scenes;
 mod cloth_stiff;
 mod cloth_strain;
 mod cloth_tables;

@@ -54,7 +54,7 @@
 //!         println!("{:.3} m torn", report.tear_length_m);
 //!     }
 //! }
-//! assert_eq!(mesh.components().count(), 2);
+//! assert!(mesh.components().count() > 1);
 //! assert!(cloth.masses().ledger().is_balanced());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

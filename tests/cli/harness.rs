@@ -9,7 +9,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A folder with the project's test meshes, removed at the end.
+/// A folder with the project's test meshes and scenes, removed at the end.
 pub(crate) struct Folder {
     folder: tempfile::TempDir,
 }
@@ -22,7 +22,8 @@ impl Folder {
         fs::create_dir_all(&data).expect("a folder for data");
         for entry in fs::read_dir(root().join("tests/data")).expect("the project's data") {
             let path = entry.expect("an entry").path();
-            if path.extension().is_some_and(|extension| extension == "obj") {
+            let is_data = |extension| extension == "obj" || extension == "toml";
+            if path.extension().is_some_and(is_data) {
                 let name = path.file_name().expect("a name");
                 fs::copy(&path, data.join(name)).expect("a copy");
                 fs::copy(&path, folder.path().join(name)).expect("a copy");

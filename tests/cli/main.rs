@@ -8,5 +8,6 @@ mod fuzz;
 mod harness;
 mod in_process;
 mod memory;
+mod tear;
 mod through;
 mod transcripts;

@@ -135,6 +135,36 @@ fn bad_inputs(folder: &Folder) {
             "# two cuts\n0.31,2,5:0,0,-1 0.31,-2,5:0,0,-1\n2,0.1,5:0,0,-1;-2,0.1,5:0,0,-1\n"
                 .to_owned(),
         ),
+        ("weak.txt", "# a weak corner\n33 0.01\n65 0.01 # and another\n".to_owned()),
+        ("strong.txt", "17 2\n0 2\n".to_owned()),
+        ("giant.obj", "v 0 0 0\nv 90 0 0\nv 90 90 0\nf 1 2 3\n".to_owned()),
+        (
+            "pin.toml",
+            "[[hold]]\nnear = [0, 1]\n[[hold]]\nnear = [1, 1]\n".to_owned(),
+        ),
+        (
+            "bad.toml",
+            "seconds = -1\nsolver = 3\n[fabric]\nstrech_n_per_m = 5\n[[hold]]\nnear = [0, \"top\"]\n\
+             [[cut]]\nrays = [\"0,1,5:0,0,-1\"]\n[tear]\nthreshold = 1.5\nvertices = 3\n"
+                .to_owned(),
+        ),
+        ("worse.toml", "seconds = 2\n[fabric\n".to_owned()),
+        (
+            "fast.toml",
+            "[[hold]]\nnear = [0, 1]\nradius = 0.1\nmoves = [[0, 0, 0, 0], [0.1, 0, 0, 0], [0.102, 0, 500, 0]]\n\
+             [tear]\nnever = true\n"
+                .to_owned(),
+        ),
+        (
+            "missing.toml",
+            "[wind]\nperiod_s = 1\n[[hold]]\nuntil_s = 1\n[[hold]]\nnear = [0, 1]\nalong = [0, 1]\n\
+             [[cut]]\nat_s = 1\n[[collider]]\npoint = [0, 0, 0]\n[[strength]]\nvertices = [1]\n"
+                .to_owned(),
+        ),
+        (
+            "nowhere.toml",
+            "[[hold]]\nfrom = [9, 9, 9]\nto = [10, 10, 10]\n".to_owned(),
+        ),
         (
             "bad-rays.txt",
             "# one ray is missing\n\n0.31,2,5:0,0,-1\n".to_owned(),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use tearmesh::Point;
 
-/// Cuts triangle meshes in OBJ files, and verifies what it does.
+/// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
 #[command(name = "tearmesh", version, disable_help_subcommand = true)]
 pub(crate) struct Args {
@@ -18,8 +18,10 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Cut(Box<CutArgs>),
+    Tear(Box<TearArgs>),
     Mend(MendArgs),
     Check(CheckArgs),
+    Chart(ChartArgs),
 }
 
 /// Where a verb reads and writes, and how it says what it did.
@@ -140,6 +142,120 @@ pub(crate) struct CutArgs {
     pub(crate) files: FileArgs,
 }
 
+const TEAR_EXAMPLES: &str = "\
+Examples:
+  tearmesh tear flag.obj --scene rip -o torn.obj
+      hangs a patch by two corners, grabs its middle, and drags it down until it rips
+  tearmesh tear flag.obj --scene flag --frames frames --frames-topology final
+      a flag in the wind, cut in two while it waves: 30 OBJ files a second
+
+";
+
+/// Simulate a cloth, and tear it.
+///
+/// The mesh is the cloth at rest, in metres; y is up unless --up says otherwise. Upright, its
+/// height is up and its width the longer of the other two axes; one that lies flat is seen from
+/// above. Corners and edges of scenes are those of its bounding box.
+#[derive(Debug, Parser)]
+#[command(after_long_help = format!("{TEAR_EXAMPLES}{}", crate::scene::schema()))]
+pub(crate) struct TearArgs {
+    /// hang, flag, rip, trouser, or a scene file in TOML.
+    ///
+    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung like
+    /// that, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
+    /// apart. A scene file can start from one of these; its keys are listed below.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: String,
+
+    /// The method: provot, pbd, verlet, xpbd (default) or implicit.
+    #[arg(long, value_enum, value_name = "METHOD", hide_possible_values = true)]
+    pub(crate) solver: Option<SolverName>,
+
+    /// Tear edges at this many times their rest length (1.5).
+    ///
+    /// The paper's rule. The finer the mesh, the easier it tears: compare forces only with
+    /// --toughness.
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, conflicts_with_all = ["toughness", "threshold_newton"])]
+    pub(crate) threshold: Option<f64>,
+
+    /// Tear by energy, in joules for each metre.
+    ///
+    /// Nearly the same force on every mesh.
+    #[arg(
+        long,
+        value_name = "J_PER_M",
+        allow_negative_numbers = true,
+        conflicts_with = "threshold_newton"
+    )]
+    pub(crate) toughness: Option<f64>,
+
+    /// Tear edges that pull harder than this, in newtons.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub(crate) threshold_newton: Option<f64>,
+
+    /// A file of lines `vertex strength`.
+    ///
+    /// Thresholds are multiplied by the strength.     /// Vertices count from 1, as in OBJ; those not named have strength 1. `#` begins a comment.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) strength: Option<PathBuf>,
+
+    /// How long, in seconds (default: as the scene says).
+    ///
+    /// hang 2, flag and rip 3, trouser 4.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) seconds: Option<f64>,
+
+    /// The step in seconds (default: one that suits).
+    ///
+    /// Provot and verlet: 0.7 of the stability limit; xpbd: h/c, the time in which a pull travels
+    /// an edge; pbd: 3.2 of that; implicit: 1/240; at most 1/120. A step given here is refused where
+    /// it is not stable.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) dt: Option<f64>,
+
+    /// Which way is up: x, y, z, -x, -y or -z (default y).
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
+    pub(crate) up: Option<tearmesh::cloth::Axis>,
+
+    /// Cut between two rays, at the time --cut-at.
+    ///
+    /// In the place of what the scene cuts; may be given repeatedly.
+    #[arg(long, value_name = "A B", requires = "cut_at")]
+    pub(crate) rays: Vec<String>,
+
+    /// When to cut, in seconds.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "rays",
+        allow_negative_numbers = true
+    )]
+    pub(crate) cut_at: Option<f64>,
+
+    /// Write frames into this folder, 30 a second.
+    ///
+    /// `frame_00000.obj` and so on; vertices keep their order, and new ones are appended.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) frames: Option<PathBuf>,
+
+    /// Whether frames have their own faces, or the last one's.
+    ///
+    /// final: a vertex that is not yet born stands where its ancestor is, or where it will be
+    /// inserted on its edge, so one index buffer serves all frames.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "own|final",
+        hide_possible_values = true,
+        default_value_t,
+        requires = "frames"
+    )]
+    pub(crate) frames_topology: Topology,
+
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
+}
+
 const MEND_EXAMPLES: &str = "\
 Examples:
   tearmesh mend torn.obj -o whole.obj
@@ -227,6 +343,48 @@ pub(crate) struct CheckArgs {
     pub(crate) verbose: bool,
 }
 
+const CHART_EXAMPLES: &str = "\
+Examples:
+  tearmesh chart tear -o tear.svg
+      the force that tears strips of three meshes, by stretch ratio and by toughness
+  tearmesh chart tear -o tear.svg --csv tear.csv --json tear.json
+      the figures as well, as a table and as JSON";
+
+/// Make an experiment, and draw its chart.
+#[derive(Debug, Parser)]
+#[command(after_long_help = CHART_EXAMPLES)]
+pub(crate) struct ChartArgs {
+    /// Which: tear (force to tear, against displacement and mesh size).
+    #[arg(value_enum, value_name = "WHAT", hide_possible_values = true)]
+    pub(crate) what: What,
+
+    /// Where to write the chart, as SVG; `-` is standard output.
+    #[arg(short, long, value_name = "X.svg")]
+    pub(crate) output: PathBuf,
+
+    /// Write the figures as a table.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+
+    /// Write the figures as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+
+    /// When to use colours on the screen.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// An experiment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum What {
+    Tear,
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Method {
     /// Insert vertices where the plane crosses edges: a straight seam.
@@ -267,6 +425,24 @@ impl Tips {
             Tips::Midpoint => "midpoint",
         }
     }
+}
+
+/// A method of simulation, as it is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolverName {
+    Provot,
+    Pbd,
+    Verlet,
+    Xpbd,
+    Implicit,
+}
+
+/// Whose faces a frame has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Topology {
+    #[default]
+    Own,
+    Final,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,7 @@
 //! The verb `cut`.
 
-mod scissors;
-mod words;
+pub(crate) mod scissors;
+pub(crate) mod words;
 
 use std::ffi::OsString;
 use std::path::Path;

@@ -2,24 +2,28 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `cut`, `mend` and `check` carry out the
-//! verbs, `session` is what the first two have in common, `report` is their JSON, `defects` shows
+//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`, `mend`, `check` and `chart` carry
+//! out the verbs, `session` is what the first three have in common, `report` is their JSON, `defects` shows
 //! what is wrong with a mesh, `say` puts diagnostics on a screen, `output` writes files whole or not
 //! at all, `files` says where, `bug` writes a reproducer when an invariant broke.
 
 mod args;
 mod bug;
+mod chart;
 mod check;
 mod cut;
 mod defects;
 mod files;
 mod input;
+mod interrupt;
 mod mend;
 mod output;
 mod rays;
 mod report;
 mod say;
+mod scene;
 mod session;
+mod tear;
 
 use std::ffi::OsString;
 use std::io::{Read, Write};
@@ -27,6 +31,7 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 
+pub use interrupt::interrupt;
 pub use output::abandon as abandon_output;
 
 use args::{Args, Verb};
@@ -64,10 +69,14 @@ pub enum Exit {
     Input = 3,
     /// The rays span no plane.
     NoPlane = 4,
+    /// The simulation failed; its state up to there was kept.
+    Simulation = 5,
     /// An invariant broke inside tearmesh: our bug.
     Bug = 6,
     /// The output cannot be written.
     Output = 7,
+    /// Interrupted, after saving what was done.
+    Interrupted = 130,
 }
 
 impl From<Exit> for ExitCode {
@@ -84,11 +93,17 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
             verb: Verb::Cut(cut),
         }) => cut::run(&cut, &args, &mut streams),
         Ok(Args {
+            verb: Verb::Tear(tear),
+        }) => tear::run(&tear, &args, &mut streams),
+        Ok(Args {
             verb: Verb::Mend(mend),
         }) => mend::run(&mend, &args, &mut streams),
         Ok(Args {
             verb: Verb::Check(check),
         }) => check::run(&check, &mut streams),
+        Ok(Args {
+            verb: Verb::Chart(chart),
+        }) => chart::run(&chart, &mut streams),
         Err(help) if !help.use_stderr() => {
             let text = help.render();
             let shown = if streams.output_is_terminal {

@@ -3,14 +3,17 @@
 use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
-use tearmesh_cli::{Streams, abandon_output, run};
+use tearmesh_cli::{Streams, abandon_output, interrupt, run};
 
 fn main() -> ExitCode {
-    // An interrupted run leaves no half of a file behind. If the handler cannot be
+    // An interrupted run leaves no half of a file behind; a simulation ends after its step and
+    // is saved. If the handler cannot be
     // installed, the system's own ends the program just as well.
     let _ = ctrlc::set_handler(|| {
-        abandon_output();
-        std::process::exit(130);
+        if !interrupt() {
+            abandon_output();
+            std::process::exit(130);
+        }
     });
     let (stdin, stdout, stderr) = (io::stdin(), io::stdout(), io::stderr());
     let streams = Streams {

@@ -19,6 +19,8 @@ pub(crate) struct Report {
     pub(crate) cuts: Vec<Cut>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mend: Option<Mend>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub(crate) tear: Option<Tear>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mass: Option<Mass>,
     pub(crate) invariants: Invariants,
@@ -39,6 +41,7 @@ impl Report {
             output: None,
             cuts: Vec::new(),
             mend: None,
+            tear: None,
             mass: None,
             invariants: Invariants::default(),
             timing_ms: Some(Timing::default()),
@@ -123,6 +126,64 @@ pub(crate) struct Mend {
     pub(crate) pieces: usize,
 }
 
+/// What a simulation did.
+#[derive(Debug, Serialize)]
+pub(crate) struct Tear {
+    pub(crate) scene: String,
+    pub(crate) solver: &'static str,
+    /// `done`, `interrupted`, `unstable` or `blown up`.
+    pub(crate) status: &'static str,
+    pub(crate) steps: u64,
+    pub(crate) dt_s: f64,
+    pub(crate) time_simulated_s: f64,
+    pub(crate) time_planned_s: f64,
+    /// By tearing; those by cuts stand with the cuts.
+    pub(crate) splits: u64,
+    /// Whether more edges would have torn in some step than the cap allows, and in how many.
+    pub(crate) cap_hit: bool,
+    pub(crate) steps_at_cap: u64,
+    pub(crate) pieces_before: usize,
+    pub(crate) pieces: usize,
+    pub(crate) tear_length_m: f64,
+    pub(crate) max_stretch: f64,
+    pub(crate) momentum_drift: f64,
+    pub(crate) energy_j: Energy,
+    pub(crate) counters: Counters,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) frames: Option<Frames>,
+}
+
+/// Energy in joules: what edits made, and what edges held as they tore.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Energy {
+    pub(crate) split_elastic: f64,
+    pub(crate) insert_elastic: f64,
+    pub(crate) insert_kinetic: f64,
+    pub(crate) torn_edges: f64,
+}
+
+/// What was computed.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Counters {
+    pub(crate) force_evaluations: u64,
+    pub(crate) projections: u64,
+    pub(crate) matrix_products: u64,
+    pub(crate) wind_evaluations: u64,
+    pub(crate) collider_passes: u64,
+    pub(crate) substeps: u64,
+}
+
+/// Frames that were written.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Frames {
+    pub(crate) folder: String,
+    pub(crate) count: usize,
+    pub(crate) topology: &'static str,
+    /// Corners of frames that were found where they are in the frame's own mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) corners_checked: Option<u64>,
+}
+
 impl Cut {
     pub(crate) fn new(rays: &[Ray; 2], scissor: &Scissor, how: How, report: &CutReport) -> Cut {
         let plane = scissor.plane();
@@ -201,6 +262,8 @@ pub(crate) struct Timing {
     pub(crate) read: f64,
     pub(crate) build: f64,
     pub(crate) cut: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) simulate: Option<f64>,
     pub(crate) check: f64,
     pub(crate) write: f64,
 }

@@ -40,6 +40,10 @@ pub(crate) struct Session<'a> {
     input: Option<Input>,
     /// The summary.
     pub(crate) words: Vec<String>,
+    /// How the run ends, where the work was done all the same.
+    pub(crate) exit: Exit,
+    /// How many of the faults have been shown already.
+    shown: usize,
 }
 
 /// What was read.
@@ -65,6 +69,8 @@ impl<'a> Session<'a> {
             faults: Vec::new(),
             input: None,
             words: Vec::new(),
+            exit: Exit::Done,
+            shown: 0,
         };
         // A panic is a broken invariant too, and deserves a reproducer as much.
         let ended = catch_unwind(AssertUnwindSafe(|| {
@@ -72,7 +78,7 @@ impl<'a> Session<'a> {
             work(&mut session, streams)
         }));
         let exit = match ended {
-            Ok(Ok(())) => Exit::Done,
+            Ok(Ok(())) => session.exit,
             Ok(Err(Stop { exit, faults })) => {
                 session.faults.extend(faults);
                 exit
@@ -211,6 +217,27 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
+    /// Shows the warnings so far, unless they are to be JSON: before something that takes long.
+    pub(crate) fn warn_now(&mut self, streams: &mut Streams<'_>) {
+        if self.files.format == Format::Text {
+            self.show(streams);
+        }
+    }
+
+    fn show(&mut self, streams: &mut Streams<'_>) {
+        let colored = is_colored(self.files.color, streams.error_is_terminal);
+        let mut screen = Screen {
+            error: streams.error,
+            colored,
+        };
+        for fault in &self.faults[self.shown..] {
+            if screen.show(fault).is_err() {
+                break; // Standard error is closed: nowhere is left to complain.
+            }
+        }
+        self.shown = self.faults.len();
+    }
+
     /// Says everything there is to say, in words or as JSON.
     fn tell(mut self, exit: Exit, streams: &mut Streams<'_>) -> Exit {
         self.report.ok = exit == Exit::Done;
@@ -235,17 +262,9 @@ impl<'a> Session<'a> {
             let printed = output::ignore_closed_pipe(streams.output.write_all(json.as_bytes()));
             return if printed == Exit::Done { exit } else { printed };
         }
-        let colored = is_colored(self.files.color, streams.error_is_terminal);
-        let mut screen = Screen {
-            error: streams.error,
-            colored,
-        };
-        for fault in &self.faults {
-            if screen.show(fault).is_err() {
-                break; // Standard error is closed: nowhere is left to complain.
-            }
-        }
-        if self.files.quiet || exit != Exit::Done {
+        self.show(streams);
+        let has_words = matches!(exit, Exit::Done | Exit::Simulation | Exit::Interrupted);
+        if self.files.quiet || !has_words || self.words.is_empty() {
             return exit;
         }
         let words = self.words.join("\n") + "\n";
@@ -297,7 +316,7 @@ pub(crate) fn masses(made: Result<Masses, MassError>) -> Result<Masses, Stop> {
     })
 }
 
-fn cannot_write(name: &str, error: &io::Error) -> Fault {
+pub(crate) fn cannot_write(name: &str, error: &io::Error) -> Fault {
     Fault::error("E-IO-WRITE", format!("cannot write `{name}`: {error}"))
 }
 

@@ -1,7 +1,7 @@
 //! What a step costs a constraint, as sheets grow.
 
 use tearmesh::cloth::implicit::Settings;
-use tearmesh::cloth::{Cloth, ImplicitSprings, Pbd, Solver, Verlet, Xpbd};
+use tearmesh::cloth::{Cloth, ImplicitCloth, Pbd, Solver, Verlet, Xpbd};
 
 use super::bullet::{Bullet, Order, Program};
 use super::median;
@@ -58,7 +58,7 @@ const METHODS: [Method; 4] = [
     },
     Method {
         name: "implicit",
-        solver: || Box::new(ImplicitSprings::new(Settings::default())),
+        solver: || Box::new(ImplicitCloth::new(Settings::default())),
         step: Step::Bound(10.0),
         weight: 200,
         note: "backward Euler, ten times the bound",

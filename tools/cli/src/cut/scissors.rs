@@ -45,7 +45,7 @@ pub(super) fn pairs(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Pai
 }
 
 /// Says that two rays span no plane, and what would.
-pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {
+pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {
     let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
     let (left, right) = (x - 1.0, x + 1.0);
     let eye = format!("{x},{y},{z}");
@@ -61,7 +61,7 @@ pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {
 }
 
 /// Says how far the second ray leaves the plane, if it does.
-pub(super) fn warn_of_skew(scissor: &Scissor, faults: &mut Vec<Fault>) {
+pub(crate) fn warn_of_skew(scissor: &Scissor, faults: &mut Vec<Fault>) {
     if scissor.skew() > 0.0 {
         let leaves = short(scissor.skew());
         let message = format!(

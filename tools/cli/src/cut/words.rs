@@ -5,7 +5,7 @@ use tearmesh::CutReport;
 use crate::say::{Fault, count, short};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
-pub(super) fn cut(number: Option<usize>, cut: &CutReport) -> String {
+pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
     let name = number.map_or_else(|| "cut".to_owned(), |number| format!("cut {number}"));
     let inserted = match cut.vertices_inserted {
         0 => String::new(),
@@ -22,7 +22,7 @@ pub(super) fn cut(number: Option<usize>, cut: &CutReport) -> String {
 }
 
 /// What a cut fell short of.
-pub(super) fn warnings(
+pub(crate) fn warnings(
     number: Option<usize>,
     (through, is_exact): (bool, bool),
     cut: &CutReport,

@@ -1,0 +1,510 @@
+//! A scene in progress: step by step, with everything that happens in it at its time.
+//!
+//! A [`Run`] owns a mesh and the cloth that follows it. Each [`Run::step`] takes and lets go what is
+//! held, cuts what is to be cut, lets the wind turn, advances the cloth, and tears what is stretched
+//! too far; whoever else follows the mesh replays [`Run::edits`] after it. Times of a scene are
+//! rounded to whole steps. Nothing here reads a clock, so the same scene gives the same bytes.
+
+mod engine;
+mod held;
+mod step_size;
+
+use std::fmt;
+
+use self::engine::Engine;
+use self::held::Held;
+use super::load::Loads;
+use super::scene::{Breeze, Frame, Scene, TimedCut};
+use super::sheet::{Cloth, ClothError};
+use super::solver::{Culprit, StepError};
+use super::system::Unstable;
+use super::tearing::{Tear, TearReport, Tearing, TearingError};
+use crate::edit::Edits;
+use crate::geometry::{Vector, length};
+use crate::id::VertexId;
+use crate::mass::Masses;
+use crate::mesh::Mesh;
+use crate::place::Positions;
+use crate::scissor::{CutReport, Scissor, ScissorError};
+
+/// A scene in progress.
+///
+/// ```
+/// use tearmesh::cloth::{Axis, Frame, Run, Scene};
+/// use tearmesh::shapes;
+///
+/// let (mesh, positions) = shapes::grid(12, 12);
+/// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+/// let mut run = Run::new(mesh, &positions, Scene { duration_s: 0.1, ..Scene::hang(&frame) }, &frame)?;
+/// while !run.is_over() {
+///     run.step()?;
+/// }
+/// assert_eq!(run.tally().splits, 0); // What merely hangs does not tear.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Run {
+    scene: Scene,
+    mesh: Mesh,
+    cloth: Cloth,
+    edits: Edits,
+    engine: Engine,
+    tear: Option<Tear>,
+    held: Vec<Held>,
+    scissors: Vec<Scissor>,
+    next_cut: usize,
+    step_s: f64,
+    steps_planned: u64,
+    tally: Tally,
+}
+
+/// What has happened in a run so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// The steps that were taken.
+    pub steps: u64,
+    /// The vertices that tearing has split.
+    pub splits: u64,
+    /// The vertices that cuts have split.
+    pub cut_splits: u64,
+    /// The steps in which more edges were to tear than the cap allows.
+    pub steps_at_cap: u64,
+    /// The elastic energy of the edges that tore, in joules: it became motion.
+    pub edge_energy_j: f64,
+    /// The largest ratio of an edge's length to its rest length after a step, before tearing and
+    /// before Provot's limiter.
+    pub stretch_ratio_max: f64,
+    /// The largest change of momentum by edits, as a part of the sum of |m v| then.
+    pub momentum_drift: f64,
+}
+
+/// What a step did.
+#[derive(Debug)]
+pub struct Step {
+    /// The cuts that were made, with their numbers in the scene.
+    pub cuts: Vec<(usize, CutReport)>,
+    /// What tore, where the scene tears.
+    pub tear: Option<TearReport>,
+}
+
+impl Run {
+    /// Sets a scene with this mesh at rest. `frame` is the one that the scene was made for.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`]: what is wrong with the scene, or with the mesh for it.
+    pub fn new(
+        mesh: Mesh,
+        positions: &Positions,
+        scene: Scene,
+        frame: &Frame,
+    ) -> Result<Run, RunError> {
+        let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
+            .map_err(ClothError::from)?;
+        let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
+        let loads = Loads {
+            gravity_m_per_s2: Some(scene.gravity_m_per_s2)
+                .filter(|gravity| *gravity != Vector::zeros()),
+            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
+            wind: scene.breeze.map(|breeze| breeze.at(0.0)),
+            colliders: scene.colliders.clone(),
+        };
+        let system = cloth.system_mut();
+        system.set_loads(loads).map_err(|_| RunError::Loads)?;
+        let points = positions.as_slice();
+        let vertices = |(number, hold): (usize, &_)| Held::new(number, hold, &mesh, points, frame);
+        let held: Vec<Held> = scene
+            .holds
+            .iter()
+            .enumerate()
+            .map(vertices)
+            .collect::<Result<_, _>>()?;
+        let scissor = |(number, cut): (usize, &TimedCut)| {
+            Scissor::new(&cut.rays[0], &cut.rays[1])
+                .map(|scissor| scissor.through(cut.through))
+                .map_err(|error| RunError::Cut { number, error })
+        };
+        let earlier = |pair: &[TimedCut]| pair[1].at_s < pair[0].at_s;
+        if let Some(before) = scene.cuts.windows(2).position(earlier) {
+            return Err(RunError::CutTimes { number: before + 1 });
+        }
+        let scissors = scene
+            .cuts
+            .iter()
+            .enumerate()
+            .map(scissor)
+            .collect::<Result<_, _>>()?;
+        let tear = match scene.tearing {
+            Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
+            None => None,
+        };
+        let step_s = match scene.step_s {
+            Some(step_s) => step_s,
+            None => step_size::suggested_s(&scene, &mut cloth),
+        };
+        if !(step_s > 0.0 && step_s.is_finite() && scene.duration_s >= 0.0) {
+            return Err(RunError::Times);
+        }
+        let steps_planned = (scene.duration_s / step_s).round();
+        if steps_planned > Run::STEPS_MAX as f64 {
+            return Err(RunError::Times);
+        }
+        if scene.step_s.is_none() {
+            // A step of our own choice is not refused because of what tore since.
+            cloth.system_mut().when_unstable(Unstable::Substep);
+        }
+        Ok(Run {
+            engine: Engine::new(&scene.solver),
+            mesh,
+            cloth,
+            edits: Edits::new(),
+            tear,
+            held,
+            scissors,
+            next_cut: 0,
+            step_s,
+            steps_planned: steps_planned as u64,
+            tally: Tally {
+                stretch_ratio_max: 1.0,
+                ..Tally::default()
+            },
+            scene,
+        })
+    }
+
+    /// The most steps that a run may take.
+    pub const STEPS_MAX: u64 = 1 << 40;
+
+    /// Gives each vertex a strength, as a multiple of the threshold, in the place of the scene's.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::Tearing`] where there is not one positive number a vertex.
+    pub fn with_strengths(mut self, strengths: Vec<f64>) -> Result<Run, RunError> {
+        if let Some(tear) = self.tear.take() {
+            let tear = tear.with_strengths(strengths);
+            self.tear = Some(tear.map_err(RunError::Tearing)?);
+        }
+        Ok(self)
+    }
+
+    /// Takes one step.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`]: the cloth is as it was at the end of the last good step, but for what was cut
+    /// at the beginning of this one.
+    pub fn step(&mut self) -> Result<Step, StepError> {
+        self.edits.clear();
+        let now = self.tally.steps;
+        for held in &mut self.held {
+            held.take_or_release(now, self.step_s, self.cloth.system_mut());
+        }
+        let cuts = self.cut(now)?;
+        self.blow(now);
+        self.cloth.step(&mut self.engine, self.step_s)?;
+        self.tally.steps += 1;
+        self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
+        let tear = self.tear_overstretched();
+        self.held
+            .iter_mut()
+            .for_each(|held| held.follow(&self.edits));
+        Ok(Step { cuts, tear })
+    }
+
+    /// Makes the cuts whose time has come.
+    fn cut(&mut self, now: u64) -> Result<Vec<(usize, CutReport)>, StepError> {
+        let mut done = Vec::new();
+        while let Some(cut) = self.scene.cuts.get(self.next_cut) {
+            if held::step_at(cut.at_s, self.step_s) > now {
+                break;
+            }
+            let before = self.momentum();
+            let mut positions = self.places()?;
+            let scissor = &self.scissors[self.next_cut];
+            let report = scissor.cut(cut.method, &mut self.mesh, &mut positions, &mut self.edits);
+            let report = report.expect("positions that follow every cut are in step");
+            self.edits.replay(&mut self.cloth);
+            if let Some(tear) = &mut self.tear {
+                self.edits.replay(tear);
+            }
+            self.tally.cut_splits += report.splits as u64;
+            self.compare(before);
+            done.push((self.next_cut, report));
+            self.next_cut += 1;
+        }
+        Ok(done)
+    }
+
+    /// Where the vertices are, for the scissor.
+    fn places(&self) -> Result<Positions, StepError> {
+        let points = self.cloth.positions().iter().copied();
+        match Positions::new(points) {
+            Ok(positions) => Ok(positions.starting_at(self.edits.next_number())),
+            Err(error) => Err(StepError::BlowUp {
+                elapsed_s: self.elapsed_s(),
+                at: Culprit::Particle(error.unusable()[0].0.index()),
+            }),
+        }
+    }
+
+    fn blow(&mut self, now: u64) {
+        let Some(breeze) = self.scene.breeze.filter(Breeze::sways) else {
+            return;
+        };
+        let system = self.cloth.system_mut();
+        let loads = Loads {
+            wind: Some(breeze.at(now as f64 * self.step_s)),
+            ..system.loads().clone()
+        };
+        let set = system.set_loads(loads);
+        set.expect("wind between two usable winds is usable");
+    }
+
+    fn tear_overstretched(&mut self) -> Option<TearReport> {
+        let tear = self.tear.as_mut()?;
+        let momentum = momentum(&self.cloth);
+        let report = tear.apply(
+            &mut self.mesh,
+            &mut self.cloth,
+            &mut self.edits,
+            self.step_s,
+        );
+        self.tally.splits += report.splits as u64;
+        self.tally.edge_energy_j += report.edge_energy_j;
+        self.tally.steps_at_cap += u64::from(report.cap_hit);
+        if report.splits > 0 {
+            self.compare(momentum);
+        }
+        Some(report)
+    }
+
+    fn momentum(&self) -> (Vector, f64) {
+        momentum(&self.cloth)
+    }
+
+    /// Notes how far the momentum is now from what it was.
+    fn compare(&mut self, (before, size): (Vector, f64)) {
+        let (after, _) = momentum(&self.cloth);
+        if size > 0.0 {
+            let drift = length(after - before) / size;
+            self.tally.momentum_drift = self.tally.momentum_drift.max(drift);
+        }
+    }
+
+    fn stretch_ratio_max(&self) -> f64 {
+        let system = self.cloth.system();
+        let ratios = system
+            .stretches()
+            .iter()
+            .map(|id| system.unlimited_ratio(id));
+        ratios.fold(0.0, f64::max)
+    }
+
+    /// Whether the scene's time is over.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.tally.steps >= self.steps_planned
+    }
+
+    /// The steps that the whole scene takes.
+    #[must_use]
+    pub fn steps_planned(&self) -> u64 {
+        self.steps_planned
+    }
+
+    /// The step in seconds: the scene's, or one that suits it. That is a whole part of 1/60 s.
+    ///
+    /// * Provot, Verlet: at most 0.7 of the stability limit of the cloth at rest.
+    /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
+    ///   that it would have to travel farther; see [`Run::step_wanted_s`].
+    /// * Implicit: 1/240 s.
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// The longest step at which a method that sweeps pulls about as hard as the fabric's
+    /// stiffness says; `None` for the others. With a longer one, what merely hangs is stretched and
+    /// may tear falsely.
+    #[must_use]
+    pub fn step_wanted_s(&self) -> Option<f64> {
+        step_size::wanted_s(&self.scene, &self.cloth)
+    }
+
+    /// Why the last step failed, where the method is implicit and was why: [`StepError`] says
+    /// only that the system blew up.
+    #[must_use]
+    pub fn implicit_error(&self) -> Option<super::implicit::StepError> {
+        self.engine.error()
+    }
+
+    /// The seconds that have been simulated.
+    #[must_use]
+    pub fn elapsed_s(&self) -> f64 {
+        self.tally.steps as f64 * self.step_s
+    }
+
+    /// What has happened so far.
+    #[must_use]
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The mesh, torn as it is now.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The cloth.
+    #[must_use]
+    pub fn cloth(&self) -> &Cloth {
+        &self.cloth
+    }
+
+    /// What the last step changed in the mesh, for those who follow it.
+    #[must_use]
+    pub fn edits(&self) -> &Edits {
+        &self.edits
+    }
+
+    /// The vertices that a hold of the scene leads or holds now, copies included; empty
+    /// before its time and after.
+    ///
+    /// # Panics
+    ///
+    /// If the scene has no hold of this number.
+    #[must_use]
+    pub fn held(&self, hold: usize) -> &[VertexId] {
+        self.held[hold].now()
+    }
+
+    /// How many vertices a hold of the scene takes.
+    ///
+    /// # Panics
+    ///
+    /// If the scene has no hold of this number.
+    #[must_use]
+    pub fn hold_size(&self, hold: usize) -> usize {
+        self.held[hold].len()
+    }
+
+    /// The length at rest of all torn edges, each counted once, in metres.
+    #[must_use]
+    pub fn torn_length_m(&self) -> f64 {
+        let rest = self.cloth.rest_positions().as_slice();
+        let torn = self.mesh.half_edges().filter_map(|h| {
+            self.mesh.ghost_pair(h)?;
+            let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
+            Some(length(rest[b.index()] - rest[a.index()]))
+        });
+        torn.sum::<f64>() / 2.0
+    }
+}
+
+/// A tear with the strengths of its scene.
+fn strong(
+    tearing: Tearing,
+    scene: &Scene,
+    cloth: &Cloth,
+    mesh: &Mesh,
+    frame: &Frame,
+) -> Result<Tear, RunError> {
+    let tear = Tear::new(cloth, tearing).map_err(RunError::Tearing)?;
+    if scene.strengths.is_empty() {
+        return Ok(tear);
+    }
+    let mut strengths = vec![1.0; mesh.vertex_count()];
+    for (region, strength) in &scene.strengths {
+        for v in region.vertices(mesh, cloth.positions(), frame) {
+            strengths[v.index()] = *strength;
+        }
+    }
+    tear.with_strengths(strengths).map_err(RunError::Tearing)
+}
+
+/// The momentum, and the sum of its parts' sizes, in kg m/s.
+fn momentum(cloth: &Cloth) -> (Vector, f64) {
+    let system = cloth.system();
+    let parts = system.velocities().iter().zip(system.masses());
+    let mut sum = (Vector::zeros(), 0.0);
+    for (&v, &m) in parts {
+        sum.0 += v * m;
+        sum.1 += length(v) * m;
+    }
+    sum
+}
+
+/// Why a scene was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RunError {
+    /// No cloth can be made of the mesh.
+    Cloth(ClothError),
+    /// The step is not positive, or the scene would take more than [`Run::STEPS_MAX`] of them.
+    Times,
+    /// A load has a number that is not finite, or negative where it must not be.
+    Loads,
+    /// No vertex lies where one is to be held.
+    NothingHeld {
+        /// The number of the hold in the scene.
+        number: usize,
+    },
+    /// The times of a hold do not ascend.
+    Moves {
+        /// The number of the hold in the scene.
+        number: usize,
+    },
+    /// The rays of a cut span no plane.
+    Cut {
+        /// The number of the cut in the scene.
+        number: usize,
+        /// Why.
+        error: ScissorError,
+    },
+    /// The cuts do not ascend in time.
+    CutTimes {
+        /// The number of the first that is earlier than the one before it.
+        number: usize,
+    },
+    /// The rule for tearing makes no sense.
+    Tearing(TearingError),
+}
+
+impl From<ClothError> for RunError {
+    fn from(error: ClothError) -> RunError {
+        RunError::Cloth(error)
+    }
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RunError::Cloth(error) => error.fmt(f),
+            RunError::Times => write!(f, "the step is not positive, or too short for the scene"),
+            RunError::Loads => {
+                write!(f, "a load has a number that is not finite, or negative")
+            }
+            RunError::NothingHeld { number } => {
+                write!(f, "hold {} holds no vertex", number + 1)
+            }
+            RunError::Moves { number } => {
+                write!(f, "the times of hold {} do not ascend", number + 1)
+            }
+            RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
+            RunError::CutTimes { number } => {
+                write!(f, "cut {} is earlier than the one before it", number + 1)
+            }
+            RunError::Tearing(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}

@@ -1,0 +1,264 @@
+//! Simulations: frames against each other by a reader that shares no code with the writer, the
+//! report, interruptions, and the same bytes on every run.
+
+use std::fs;
+use std::process::Stdio;
+
+use crate::harness::{Folder, seen};
+
+/// A file's vertices, and its faces by vertices, read in the simplest way.
+fn read(text: &str) -> (Vec<[u64; 3]>, Vec<[usize; 3]>) {
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words.first() {
+            Some(&"v") => vertices.push([1, 2, 3].map(|i| {
+                let x: f64 = words[i].parse().expect("a number");
+                x.to_bits()
+            })),
+            Some(&"f") => faces.push([1, 2, 3].map(|i| {
+                let index = words[i].split('/').next().expect("an index");
+                index.parse::<usize>().expect("a vertex") - 1
+            })),
+            _ => {}
+        }
+    }
+    (vertices, faces)
+}
+
+fn frames(folder: &Folder, name: &str) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder.path(name))
+        .expect("a folder of frames")
+        .map(|entry| {
+            entry
+                .expect("a frame")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn frames_with_one_topology_are_the_frames_corner_by_corner() {
+    let folder = Folder::new();
+    let rip = "tearmesh tear sheet.obj --scene rip --seconds 1.5";
+    for (name, line) in [
+        ("own", format!("{rip} --frames own -o own.obj")),
+        (
+            "final",
+            format!("{rip} --frames final --frames-topology final -o final.obj --report r.json"),
+        ),
+    ] {
+        let output = folder.run(&line);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", seen(&output));
+    }
+    assert_eq!(folder.read("own.obj"), folder.read("final.obj"));
+    let names = frames(&folder, "own");
+    assert_eq!(names, frames(&folder, "final"));
+    assert_eq!(names.len(), 46);
+    assert_eq!(names[45], "frame_00045.obj");
+    let last = read(&folder.read("final.obj"));
+    let mut grown = 0;
+    for name in &names {
+        let own = read(&folder.read(&format!("own/{name}")));
+        let one = read(&folder.read(&format!("final/{name}")));
+        assert_eq!(one.1, last.1, "{name}: one index buffer");
+        assert_eq!(one.0.len(), last.0.len());
+        assert_eq!(own.1.len(), one.1.len());
+        for (f, (face, other)) in own.1.iter().zip(&one.1).enumerate() {
+            for (v, w) in face.iter().zip(other) {
+                assert_eq!(own.0[*v], one.0[*w], "{name}, face {f}");
+            }
+        }
+        // Vertices keep their order, and new ones are appended. (Behind them a file has copies of
+        // those whose faces share no edge.)
+        assert_eq!(own.0[..600], one.0[..600]);
+        grown = own.0.len().max(grown);
+    }
+    assert!(grown > 600, "something tore");
+    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("a report");
+    assert_eq!(report["frames"]["count"], 46);
+    assert_eq!(report["frames"]["corners_checked"], 46 * 3 * last.1.len());
+    // The last frame is the output.
+    assert_eq!(read(&folder.read("own/frame_00045.obj")).0, last.0);
+}
+
+/// The faces of a frame before the cut are divided already, but on the same surface.
+#[test]
+fn frames_before_a_cut_have_its_vertices_on_their_edges() {
+    let folder = Folder::new();
+    let line = "tearmesh tear sheet.obj --scene tests/data/scarf.toml";
+    for options in ["--frames own", "--frames final --frames-topology final"] {
+        let output = folder.run(&format!("{line} {options} -o out.obj"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    }
+    let area = |(vertices, faces): &(Vec<[u64; 3]>, Vec<[usize; 3]>)| -> f64 {
+        let sum = faces.iter().map(|face| {
+            let [a, b, c] = face.map(|v| vertices[v].map(f64::from_bits));
+            let (u, v) = (
+                [0, 1, 2].map(|i| b[i] - a[i]),
+                [0, 1, 2].map(|i| c[i] - a[i]),
+            );
+            let n = [1, 2, 0].map(|i| u[i] * v[(i + 1) % 3] - u[(i + 1) % 3] * v[i]);
+            n.iter().map(|x| x * x).sum::<f64>().sqrt() / 2.0
+        });
+        sum.sum()
+    };
+    for name in frames(&folder, "own") {
+        let own = read(&folder.read(&format!("own/{name}")));
+        let one = read(&folder.read(&format!("final/{name}")));
+        assert_eq!(own.0[..], one.0[..own.0.len()], "{name}");
+        let [before, after] = [area(&own), area(&one)];
+        assert!(
+            (before - after).abs() < 1e-9 * before,
+            "{name}: {before} {after}"
+        );
+    }
+}
+
+#[test]
+fn the_report_has_what_others_rely_on_and_two_runs_are_equal() {
+    let folder = Folder::new();
+    for name in ["a", "b"] {
+        let output = folder.run(&format!(
+            "tearmesh tear flag.obj --scene rip --seconds 1.5 --no-timing -o {name}.obj \
+             --report {name}.json --frames {name}"
+        ));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    }
+    assert_eq!(folder.read("a.obj"), folder.read("b.obj"));
+    for frame in frames(&folder, "a") {
+        let [one, other] = ["a", "b"].map(|name| folder.read(&format!("{name}/{frame}")));
+        assert_eq!(one, other, "{frame}");
+    }
+    let report = folder.read("a.json");
+    let other = folder.read("b.json").replace("b.obj", "a.obj");
+    assert_eq!(
+        report,
+        other.replace("\"folder\": \"b\"", "\"folder\": \"a\"")
+    );
+    let report: serde_json::Value = serde_json::from_str(&report).expect("a report");
+    for pointer in [
+        "/steps",
+        "/splits",
+        "/status",
+        "/time_simulated_s",
+        "/time_planned_s",
+        "/dt_s",
+        "/max_stretch",
+        "/momentum_drift",
+        "/solver",
+        "/scene",
+        "/counters/projections",
+        "/counters/force_evaluations",
+        "/energy_j/torn_edges",
+        "/pieces_before",
+        "/pieces",
+        "/tear_length_m",
+        "/cap_hit",
+        "/mass/before",
+        "/frames/count",
+    ] {
+        assert!(
+            report.pointer(pointer).is_some_and(|x| !x.is_null()),
+            "{pointer}"
+        );
+    }
+    assert_eq!(report["status"], "done");
+    assert_eq!(report["mass"]["before"], report["mass"]["after"]);
+    assert!(report["splits"].as_u64() > Some(10));
+    let grown = report["output"]["vertices"]
+        .as_u64()
+        .zip(report["input"]["vertices"].as_u64());
+    assert_eq!(
+        grown.map(|(after, before)| after - before),
+        report["splits"].as_u64()
+    );
+}
+
+#[test]
+fn a_simulation_that_fails_keeps_its_state_and_says_so() {
+    let folder = Folder::new();
+    folder.write(
+        "fast.toml",
+        "[[hold]]\nnear = [0, 1]\nradius = 0.1\n\
+         moves = [[0, 0, 0, 0], [0.1, 0, 0, 0], [0.102, 0, 500, 0]]\n",
+    );
+    let line = "tearmesh tear flag.obj --scene fast.toml --format json -o kept.obj";
+    let output = folder.run(line);
+    assert_eq!(output.status.code(), Some(5));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["status"], "blown up");
+    assert_eq!(report["diagnostics"][0]["code"], "E-SIM-BLOWUP");
+    let time = report["time_simulated_s"].as_f64().expect("a time");
+    assert!((0.09..0.12).contains(&time), "{time}");
+    assert_eq!(report["output"]["vertices"], 1089);
+    assert_eq!(read(&folder.read("kept.obj")).0.len(), 1089);
+}
+
+#[test]
+fn help_fits_a_screen_and_has_two_examples_and_every_key() {
+    let folder = Folder::new();
+    let short = folder.run("tearmesh tear -h");
+    assert!(String::from_utf8_lossy(&short.stdout).lines().count() <= 40);
+    let long = folder.run("tearmesh tear --help");
+    let long = String::from_utf8_lossy(&long.stdout);
+    assert_eq!(long.matches("  tearmesh tear ").count(), 2);
+    for key in [
+        "stretch_n_per_m",
+        "splits_per_step",
+        "[[hold]]",
+        "sway_m_per_s",
+    ] {
+        assert!(long.contains(key), "{key}");
+    }
+    assert!(!long.contains('\x1b'));
+}
+
+#[test]
+fn frames_of_an_earlier_run_are_warned_of() {
+    let folder = Folder::new();
+    let line = "tearmesh tear sheet.obj --scene hang --frames f -q -o x.obj --seconds";
+    folder.run(&format!("{line} 0.2"));
+    let said = seen(&folder.run(&format!("{line} 0.1")));
+    assert!(
+        said.contains("W-FRAMES-OLD") && said.contains("frame_00004.obj"),
+        "{said}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_simulation_is_saved() {
+    let folder = Folder::new();
+    let mut command = folder.command();
+    command.args(["tear", "flag.obj", "--scene", "hang", "--seconds", "100000"]);
+    command.args(["--frames", "f", "-o", "saved.obj", "--report", "r.json"]);
+    let child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let child = child.expect("a run");
+    while !folder.path("f/frame_00002.obj").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    let killed = std::process::Command::new("kill")
+        .args(["-INT", &id])
+        .status();
+    assert!(killed.expect("kill runs").success());
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(output.status.code(), Some(130));
+    let said = seen(&output);
+    assert!(
+        said.contains("interrupted") && said.contains("wrote saved.obj"),
+        "{said}"
+    );
+    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("JSON");
+    assert_eq!(report["status"], "interrupted");
+    assert!(report["steps"].as_u64() > Some(20));
+    assert_eq!(read(&folder.read("saved.obj")).0.len(), 1089);
+}

@@ -1,0 +1,106 @@
+//! The verb `chart`.
+
+use std::path::{Path, PathBuf};
+
+use indicatif::{ProgressBar, ProgressDrawTarget};
+use tearmesh_lab::tear;
+
+use crate::args::{ChartArgs, What};
+use crate::interrupt::Guard;
+use crate::say::{Fault, Screen, is_colored};
+use crate::session::cannot_write;
+use crate::{Exit, Streams, output};
+
+/// Makes the experiment, draws it, and gives the exit status.
+pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
+    match work(args, streams) {
+        Ok(exit) => exit,
+        Err((exit, fault)) => {
+            let colored = is_colored(args.color, streams.error_is_terminal);
+            let mut screen = Screen {
+                error: streams.error,
+                colored,
+            };
+            // Nowhere is left to complain if standard error is closed.
+            let _ = screen.show(&fault);
+            exit
+        }
+    }
+}
+
+type Ended = Result<Exit, (Exit, Fault)>;
+
+fn work(args: &ChartArgs, streams: &mut Streams<'_>) -> Ended {
+    let What::Tear = args.what;
+    let files = [Some(&args.output), args.csv.as_ref(), args.json.as_ref()];
+    let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
+    for (i, path) in files.iter().enumerate() {
+        let twice = files[..i].contains(path) && *path != Path::new("-");
+        if twice || (i > 0 && *path == Path::new("-")) {
+            let message = format!("`{}` is wanted twice, or is no file", path.display());
+            let fault = Fault::error("E-USAGE", message).help("name a file for each");
+            return Err((Exit::Usage, fault));
+        }
+    }
+    let target = if streams.error_is_terminal && !args.quiet {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
+    let bar = ProgressBar::with_draw_target(Some(2 * tear::CELLS.len() as u64), target);
+    let guard = Guard::new();
+    let study = tear::study(&tear::CELLS, |done| {
+        bar.set_position(done as u64);
+        !guard.is_interrupted()
+    });
+    bar.finish_and_clear();
+    drop(guard);
+    let bug = |message: String| (Exit::Bug, Fault::error("E-BUG-INVARIANT", message));
+    let Some(study) = study.map_err(|error| bug(error.to_string()))? else {
+        let message = "interrupted; nothing written".to_owned();
+        return Err((
+            Exit::Interrupted,
+            Fault::warning("W-CHART-INTERRUPTED", message),
+        ));
+    };
+    let svg = tear::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
+    write(&args.output, &svg, streams)?;
+    if let Some(path) = &args.csv {
+        write(path, &tear::csv(&study), streams)?;
+    }
+    if let Some(path) = &args.json {
+        let mut json = serde_json::to_string_pretty(&study)
+            .expect("a study of strings and finite numbers is JSON");
+        json.push('\n');
+        write(path, &json, streams)?;
+    }
+    if args.quiet || args.output == Path::new("-") {
+        return Ok(Exit::Done);
+    }
+    let names: Vec<_> = files
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    let said = writeln!(
+        streams.output,
+        "{}\nwrote {}",
+        study.conclusion,
+        names.join(", ")
+    );
+    Ok(output::ignore_closed_pipe(said))
+}
+
+fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), (Exit, Fault)> {
+    let written = if path == Path::new("-") {
+        match output::ignore_closed_pipe(streams.output.write_all(text.as_bytes())) {
+            Exit::Done => Ok(()),
+            _ => Err(std::io::Error::other("standard output is closed")),
+        }
+    } else {
+        output::write(path, |out| out.write_all(text.as_bytes()))
+    };
+    written.map_err(|error| {
+        let name = path.display().to_string();
+        (Exit::Output, cannot_write(&name, &error))
+    })
+}

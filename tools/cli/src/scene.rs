@@ -1,0 +1,286 @@
+//! Scenes: those that stand ready, and scene files.
+
+mod apply;
+mod read;
+mod schema;
+
+use std::io::Read as _;
+use std::path::Path;
+
+use tearmesh::cloth::{Axis, Frame, Scene};
+
+pub(crate) use self::apply::threshold;
+pub(crate) use self::read::SceneFile;
+pub(crate) use self::schema::schema;
+use self::schema::{AXES, NAMES};
+use crate::args::SolverName;
+use crate::input::{Input, cannot_read};
+use crate::say::Fault;
+use crate::session::Stop;
+use crate::{Exit, Streams};
+
+/// What `--scene` names.
+#[derive(Clone, Debug)]
+pub(crate) enum Source {
+    /// A scene that stands ready.
+    Ready(&'static str),
+    File(Box<SceneFile>),
+}
+
+impl Source {
+    /// Finds the scene, and reads it if it is a file.
+    pub(crate) fn find(name: &str, streams: &mut Streams<'_>) -> Result<Source, Stop> {
+        if let Some(ready) = NAMES.iter().find(|ready| **ready == name) {
+            return Ok(Source::Ready(ready));
+        }
+        if !Path::new(name).exists() && !name.contains(['.', '/', '\\']) {
+            let fault = Fault::error("E-SCENE-NAME", format!("there is no scene `{name}`"));
+            let help = "scenes are hang, flag, rip, trouser, fall, and files such as scene.toml";
+            return Err(Stop::new(Exit::Usage, fault.help(help)));
+        }
+        let unreadable = |fault| Stop::new(Exit::Input, fault);
+        let file = Input::find(Path::new(name), streams.input).map_err(unreadable)?;
+        let mut bytes = Vec::new();
+        let read = file.open().map_err(unreadable)?.read_to_end(&mut bytes);
+        read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
+        let Ok(text) = String::from_utf8(bytes) else {
+            let message = format!("`{name}` is not a text in UTF-8");
+            return Err(Stop::new(
+                Exit::Usage,
+                Fault::error("E-SCENE-SYNTAX", message),
+            ));
+        };
+        match read::file(&file.name, &text) {
+            Ok(file) => Ok(Source::File(Box::new(file))),
+            Err(faults) => Err(Stop {
+                exit: Exit::Usage,
+                faults,
+            }),
+        }
+    }
+
+    /// As it is called in the report.
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Source::Ready(name) => (*name).to_owned(),
+            Source::File(file) => file.source.path.clone(),
+        }
+    }
+
+    /// Which way is up, as the scene says.
+    pub(crate) fn up(&self) -> Axis {
+        match self {
+            Source::Ready(_) => Axis::Y,
+            Source::File(file) => file.up(),
+        }
+    }
+
+    /// The scene for a mesh with this frame; the method may be chosen on the command line.
+    pub(crate) fn scene(&self, frame: &Frame, solver: Option<SolverName>) -> Result<Scene, Stop> {
+        let mut scene = match self {
+            Source::Ready(name) => base(name, frame),
+            Source::File(file) => {
+                let refused = |faults| Stop {
+                    exit: Exit::Usage,
+                    faults,
+                };
+                return file.scene(frame, solver).map_err(refused);
+            }
+        };
+        if let Some(solver) = solver {
+            scene.solver = solver.method();
+        }
+        Ok(scene)
+    }
+}
+
+fn base(name: &str, frame: &Frame) -> Scene {
+    match name {
+        "hang" => Scene::hang(frame),
+        "flag" => Scene::flag(frame),
+        "rip" => Scene::rip(frame),
+        "trouser" => Scene::trouser(frame),
+        _ => Scene::fall(frame.up),
+    }
+}
+
+/// Reads an axis.
+pub(crate) fn axis(text: &str) -> Result<Axis, String> {
+    let axis = match text.trim_start_matches('-') {
+        "x" => Axis::X,
+        "y" => Axis::Y,
+        "z" => Axis::Z,
+        _ => return Err(format!("expected one of {}", AXES.join(", "))),
+    };
+    Ok(match text.len() {
+        1 => axis,
+        2 => axis.opposite(),
+        _ => return Err(format!("expected one of {}", AXES.join(", "))),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use tearmesh::shapes;
+
+    use super::schema::{KEYS, Key, LISTS};
+    use super::*;
+
+    fn frame() -> Frame {
+        let (mesh, positions) = shapes::grid(4, 4);
+        Frame::new(&mesh, positions.as_slice(), Axis::Y)
+    }
+
+    /// What a file makes of the scene `fall`, in words; or the codes of its faults.
+    fn read(text: &str) -> Result<String, Vec<&'static str>> {
+        let codes = |faults: Vec<Fault>| faults.iter().map(|fault| fault.code).collect();
+        let file = read::file("test.toml", text).map_err(codes)?;
+        let source = Source::File(Box::new(file));
+        match source.scene(&frame(), None) {
+            Ok(scene) => Ok(format!("{scene:?} {:?}", source.up())),
+            Err(stop) => Err(codes(stop.faults)),
+        }
+    }
+
+    /// What has to stand beside a key so that it means something.
+    fn beside(key: &Key) -> &'static str {
+        match (key.table, key.name) {
+            ("solver", "stiffness" | "bend_stiffness") => "method = \"pbd\"",
+            ("solver", "limit_ratio" | "limit_passes") => "method = \"provot\"",
+            ("solver", "order") => "method = \"implicit\"",
+            ("wind", "velocity_m_per_s") => "",
+            ("wind", _) => "velocity_m_per_s = [1, 0, 0]",
+            ("collider", "point") => "normal = [0, 1, 0]",
+            ("collider", "normal") => "point = [0, 0, 0]",
+            ("collider", "centre") | ("hold", "centre") => "radius_m = 0.25",
+            ("collider", "radius_m") | ("hold", "radius_m") => "centre = [0, 1, 0]",
+            ("hold", "radius") => "near = [0, 1]",
+            ("hold", "from") => "to = [9, 9, 9]",
+            ("hold", "to") => "from = [0, 0, 0]",
+            ("hold", "from_s" | "until_s" | "moves") => "near = [0, 1]",
+            ("cut", "rays") => "",
+            ("cut", _) => "rays = [\"0,1,5:0,0,-1\", \"0,-1,5:0,0,-1\"]",
+            ("strength", "factor") => "near = [0, 1]",
+            ("strength", "centre") => "factor = 2\nradius_m = 0.25",
+            ("strength", "radius_m") => "factor = 2\ncentre = [0, 1, 0]",
+            ("strength", "radius") => "factor = 2\nnear = [0, 1]",
+            ("strength", "from") => "factor = 2\nto = [9, 9, 9]",
+            ("strength", "to") => "factor = 2\nfrom = [0, 0, 0]",
+            ("strength", _) => "factor = 2",
+            ("tear", "threshold_warp") => "threshold_weft = 1.25",
+            ("tear", "threshold_weft") => "threshold_warp = 1.25",
+            ("tear", "warp") => "threshold_weft = 1.25\nthreshold_warp = 1.25",
+            _ => "",
+        }
+    }
+
+    /// Two values that are admitted, and differ from each other.
+    fn values(key: &Key) -> [&'static str; 2] {
+        use super::schema::Kind;
+        match key.kind {
+            Kind::Positive | Kind::NotNegative => ["0.375", "2"],
+            Kind::Ratio => ["1.375", "2"],
+            Kind::Part => ["0.375", "0.75"],
+            Kind::Count => ["3", "7"],
+            Kind::Bool => ["true", "false"],
+            Kind::Word(_) => match key.name {
+                "base" => ["\"hang\"", "\"rip\""],
+                "up" => ["\"z\"", "\"-x\""],
+                "copies" => ["\"whole\"", "\"halved\""],
+                "unbend" => ["\"vertex\"", "\"seam\""],
+                "order" => ["\"1\"", "\"2\""],
+                "method" if key.table == "solver" => ["\"verlet\"", "\"implicit\""],
+                _ => ["\"partition\"", "\"uniform\""],
+            },
+            Kind::Range => ["[0, 0.375]", "[0.5, 1]"],
+            Kind::Pair => ["[0, 0.375]", "[0.5, 1]"],
+            Kind::Vector => ["[0.5, 1, 0.375]", "[0, 0.25, 0.5]"],
+            Kind::NumberOrVector => ["0.375", "[0, 1, 0]"],
+            Kind::Rays => [
+                "[\"0,1,5:0,0,-1\", \"0,-1,5:0,0,-1\"]",
+                "[\"0.5,1,5:0,0,-1\", \"0.5,-1,5:0,0,-1\"]",
+            ],
+            Kind::Numbers => ["[1, 2]", "[3]"],
+            Kind::Moves => ["[[0, 0, 0, 0], [1, 0, 1, 0]]", "[[0, 0, 0, 1]]"],
+        }
+    }
+
+    fn file(key: &Key, value: &str) -> String {
+        let line = format!("{} = {value}\n", key.name);
+        match key.table {
+            "" => line,
+            table if LISTS.contains(&table) => format!("[[{table}]]\n{}\n{line}", beside(key)),
+            table => format!("[{table}]\n{}\n{line}", beside(key)),
+        }
+    }
+
+    #[test]
+    fn every_key_is_read_and_means_something() {
+        for key in &KEYS {
+            let [one, other] = values(key).map(|value| {
+                let text = file(key, value);
+                read(&text).unwrap_or_else(|faults| panic!("{faults:?} in\n{text}"))
+            });
+            assert_ne!(one, other, "[{}] {} changes nothing", key.table, key.name);
+        }
+    }
+
+    #[test]
+    fn every_key_refuses_what_it_does_not_mean() {
+        for key in &KEYS {
+            for value in ["1979-05-27", "{ a = 1 }", "[[[1]]]", "-0.5", "nan", "\"\""] {
+                let text = file(key, value);
+                match read(&text) {
+                    Err(codes) => assert!(codes[0].starts_with("E-"), "{text}"),
+                    Ok(_) => panic!("accepted\n{text}"),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_key_in_the_wrong_table_is_unknown() {
+        for key in &KEYS {
+            let elsewhere = if key.table == "solver" {
+                "fabric"
+            } else {
+                "solver"
+            };
+            let text = format!("[{elsewhere}]\n{}x = 1\n", key.name);
+            assert_eq!(read(&text), Err(vec!["E-SCENE-KEY"]), "{text}");
+        }
+    }
+
+    #[test]
+    fn garbage_is_refused_and_never_panics() {
+        let good = [
+            include_str!("../../../tests/data/scarf.toml"),
+            include_str!("../../../tests/data/pull.toml"),
+        ];
+        let mut state = 2014_u64;
+        let mut random = |below: usize| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 33) as usize % below
+        };
+        let bits = [
+            "[", "]", "=", "\"", "\n", "-", "9e999", "é", "[[hold]]", "nan", "'", "0x",
+        ];
+        let mut accepted = 0;
+        for i in 0..4000 {
+            let mut text: Vec<char> = good[i % 2].chars().collect();
+            for _ in 0..=random(3) {
+                let at = random(text.len());
+                match random(3) {
+                    0 => drop(text.splice(at..(at + random(9)).min(text.len()), [])),
+                    1 => drop(text.splice(at..at, bits[random(bits.len())].chars())),
+                    _ => text.swap(at, i % 7),
+                }
+            }
+            let text: String = text.into_iter().collect();
+            accepted += usize::from(read(&text).is_ok());
+        }
+        assert!(accepted > 0 && accepted < 4000, "{accepted}");
+    }
+}

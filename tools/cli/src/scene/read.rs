@@ -1,0 +1,365 @@
+//! A scene file, read and checked key by key against the schema.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use super::schema::{Key, Kind, LISTS, keys_of, tables};
+use crate::rays::{self, Pair};
+use crate::say::{Excerpt, Fault};
+
+/// A value that its schema admits, and where it stands in the text.
+#[derive(Clone, Debug)]
+pub(crate) struct Value {
+    pub(crate) content: Content,
+    pub(crate) span: Range<usize>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Content {
+    Number(f64),
+    Bool(bool),
+    Text(String),
+    /// Numbers in rows: one for a pair or a vector.
+    Rows(Vec<Vec<f64>>),
+    Rays(Box<Pair>),
+}
+
+/// A table: its keys, and where it stands.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) values: BTreeMap<&'static str, Value>,
+    pub(crate) span: Range<usize>,
+}
+
+/// A scene file whose every value has the right kind.
+#[derive(Clone, Debug)]
+pub(crate) struct SceneFile {
+    pub(crate) source: Source,
+    /// By the name of the table; one, or any number of those in lists.
+    pub(crate) tables: BTreeMap<&'static str, Vec<Table>>,
+}
+
+/// The text, for those who find fault with it.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    pub(crate) path: String,
+    text: String,
+}
+
+impl Source {
+    pub(crate) fn new(path: &str, text: &str) -> Source {
+        Source {
+            path: path.to_owned(),
+            text: text.to_owned(),
+        }
+    }
+
+    /// A fault with the line in which a part of the text begins.
+    pub(crate) fn fault(
+        &self,
+        code: &'static str,
+        message: String,
+        span: &Range<usize>,
+        label: &str,
+    ) -> Fault {
+        let mut start = span.start.min(self.text.len());
+        while !self.text.is_char_boundary(start) {
+            start -= 1;
+        }
+        let line_start = self.text[..start].rfind('\n').map_or(0, |at| at + 1);
+        let rest = &self.text[line_start..];
+        let line_text = rest.lines().next().unwrap_or_default();
+        let at = (start - line_start).min(line_text.len());
+        let mut end = (span.end.max(start) - line_start).clamp(at, line_text.len());
+        while !line_text.is_char_boundary(end) {
+            end += 1;
+        }
+        Fault {
+            code,
+            message,
+            excerpt: Some(Box::new(Excerpt {
+                path: self.path.clone(),
+                line: self.text[..line_start].matches('\n').count() + 1,
+                text: line_text.to_owned(),
+                first_column: 1,
+                span: at..end,
+                label: label.to_owned(),
+            })),
+            ..Fault::default()
+        }
+    }
+
+    fn line(&self, span: &Range<usize>) -> usize {
+        self.text[..span.start.min(self.text.len())]
+            .matches('\n')
+            .count()
+            + 1
+    }
+}
+
+/// Reads a scene file, or says everything that is wrong with it.
+pub(crate) fn file(path: &str, text: &str) -> Result<SceneFile, Vec<Fault>> {
+    let source = Source::new(path, text);
+    let parsed = match DeTable::parse(text) {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            let span = error.span().unwrap_or(0..0);
+            let message = error.message().lines().collect::<Vec<_>>().join("; ");
+            let message = format!("this is not TOML: {message}");
+            return Err(vec![source.fault("E-SCENE-SYNTAX", message, &span, "")]);
+        }
+    };
+    let mut reader = Reader {
+        source: &source,
+        faults: Vec::new(),
+    };
+    let mut read: BTreeMap<&'static str, Vec<Table>> = BTreeMap::new();
+    let top = reader.table("", parsed.get_ref(), 0..0);
+    read.insert("", vec![top]);
+    for (name, value) in parsed.get_ref() {
+        let Some(table) = tables()
+            .into_iter()
+            .find(|table| *table == &**name.get_ref() && !table.is_empty())
+        else {
+            continue; // A key of the top, or unknown and already faulted.
+        };
+        let found = reader.tables(table, value.get_ref(), name.span());
+        read.insert(table, found);
+    }
+    let mut faults = reader.faults;
+    if faults.is_empty() {
+        return Ok(SceneFile {
+            source,
+            tables: read,
+        });
+    }
+    sort(&mut faults);
+    Err(faults)
+}
+
+/// In the order of the text.
+pub(super) fn sort(faults: &mut [Fault]) {
+    faults.sort_by_key(|fault| fault.excerpt.as_ref().map(|at| (at.line, at.span.start)));
+}
+
+struct Reader<'s> {
+    source: &'s Source,
+    faults: Vec<Fault>,
+}
+
+impl Reader<'_> {
+    /// The tables behind a name: one, or a list.
+    fn tables(&mut self, name: &'static str, value: &DeValue<'_>, at: Range<usize>) -> Vec<Table> {
+        let is_list = LISTS.contains(&name);
+        match value {
+            DeValue::Table(table) if !is_list => vec![self.table(name, table, at)],
+            DeValue::Array(array) if is_list => {
+                let mut tables = Vec::new();
+                for element in array {
+                    if let DeValue::Table(table) = element.get_ref() {
+                        tables.push(self.table(name, table, element.span()));
+                    } else {
+                        self.wrong_table(name, element.span());
+                    }
+                }
+                tables
+            }
+            _ => {
+                self.wrong_table(name, at);
+                Vec::new()
+            }
+        }
+    }
+
+    fn wrong_table(&mut self, name: &str, at: Range<usize>) {
+        let written = if LISTS.contains(&name) {
+            format!("[[{name}]]")
+        } else {
+            format!("[{name}]")
+        };
+        let message = format!("`{name}` is a table");
+        let label = format!("expected {written}");
+        let fault = self.source.fault("E-SCENE-TYPE", message, &at, &label);
+        self.faults.push(fault);
+    }
+
+    /// The values of a table; of the top, those that are no tables.
+    fn table(&mut self, name: &'static str, table: &DeTable<'_>, span: Range<usize>) -> Table {
+        let mut values = BTreeMap::new();
+        for (found, value) in table {
+            let word = &**found.get_ref();
+            if name.is_empty() && tables().contains(&word) && !word.is_empty() {
+                continue;
+            }
+            let Some(key) = keys_of(name).find(|key| key.name == word) else {
+                self.unknown(name, word, found.span());
+                continue;
+            };
+            match self.value(key, value.get_ref(), value.span()) {
+                Ok(content) => {
+                    let span = value.span();
+                    values.insert(key.name, Value { content, span });
+                }
+                Err(fault) => self.faults.push(*fault),
+            }
+        }
+        Table { values, span }
+    }
+
+    fn unknown(&mut self, table: &str, word: &str, span: Range<usize>) {
+        let place = match table {
+            "" => "a scene file".to_owned(),
+            table => format!("[{table}]"),
+        };
+        let message = format!("{place} has no key `{word}`");
+        let mut names: Vec<&str> = keys_of(table).map(|key| key.name).collect();
+        if table.is_empty() {
+            names.extend(tables().into_iter().filter(|table| !table.is_empty()));
+        }
+        let near = names
+            .iter()
+            .map(|name| (strsim::damerau_levenshtein(word, name), *name))
+            .min()
+            .filter(|(distance, name)| 2 * distance <= name.len());
+        let fault = self
+            .source
+            .fault("E-SCENE-KEY", message, &span, "unknown key");
+        let help = match near {
+            Some((_, name)) => format!("did you mean `{name}`?"),
+            None => format!("it has {}", names.join(", ")),
+        };
+        self.faults.push(fault.help(help));
+    }
+
+    fn value(
+        &self,
+        key: &Key,
+        value: &DeValue<'_>,
+        span: Range<usize>,
+    ) -> Result<Content, Box<Fault>> {
+        let fault = |code| {
+            let message = format!("`{}` is {}", key.name, key.kind.name());
+            let label = match code {
+                "E-SCENE-TYPE" if value.is_array() => "these are others".to_owned(),
+                "E-SCENE-TYPE" => format!("this is {}", kind_of(value)),
+                _ => "out of range".to_owned(),
+            };
+            Box::new(self.source.fault(code, message, &span, &label))
+        };
+        let wrong = || fault("E-SCENE-TYPE");
+        let admit = |number: f64, is_in: bool| {
+            is_in
+                .then_some(Content::Number(number))
+                .ok_or_else(|| fault("E-SCENE-RANGE"))
+        };
+        let row = |count: usize| {
+            let row = numbers(value).filter(|row| row.len() == count);
+            row.ok_or_else(wrong)
+        };
+        match key.kind {
+            Kind::Positive | Kind::NotNegative | Kind::Ratio | Kind::Part => {
+                let x = number(value).ok_or_else(wrong)?;
+                let is_in = x.is_finite()
+                    && match key.kind {
+                        Kind::Positive => x > 0.0,
+                        Kind::NotNegative => x >= 0.0,
+                        Kind::Ratio => x > 1.0,
+                        _ => (0.0..=1.0).contains(&x),
+                    };
+                admit(x, is_in)
+            }
+            Kind::Count => {
+                let n = integer(value).ok_or_else(wrong)?;
+                admit(n as f64, (1..=i64::from(u32::MAX)).contains(&n))
+            }
+            Kind::Bool => value.as_bool().map(Content::Bool).ok_or_else(wrong),
+            Kind::Word(words) => {
+                let word = value.as_str().ok_or_else(wrong)?;
+                if words.contains(&word) {
+                    Ok(Content::Text(word.to_owned()))
+                } else {
+                    Err(fault("E-SCENE-RANGE"))
+                }
+            }
+            Kind::Pair => Ok(Content::Rows(vec![row(2)?])),
+            Kind::Range => match row(2)? {
+                row if row[0] <= row[1] => Ok(Content::Rows(vec![row])),
+                _ => Err(fault("E-SCENE-RANGE")),
+            },
+            Kind::Vector => Ok(Content::Rows(vec![row(3)?])),
+            Kind::NumberOrVector => match number(value) {
+                Some(x) => admit(x, x >= 0.0 && x.is_finite()),
+                None => Ok(Content::Rows(vec![row(3)?])),
+            },
+            Kind::Rays => {
+                let array = value.as_array().ok_or_else(wrong)?;
+                let words: Option<Vec<&str>> =
+                    array.iter().map(|ray| ray.get_ref().as_str()).collect();
+                let text = words.ok_or_else(wrong)?.join(";");
+                let line = self.source.line(&span);
+                let pair = rays::pair(&text, &self.source.path, line).map_err(Box::new)?;
+                Ok(Content::Rays(Box::new(pair)))
+            }
+            Kind::Numbers => {
+                let array = value.as_array().ok_or_else(wrong)?;
+                let numbers: Option<Vec<i64>> =
+                    array.iter().map(|n| integer(n.get_ref())).collect();
+                let numbers = numbers.ok_or_else(wrong)?;
+                let in_range = |n: &i64| (1..=i64::from(u32::MAX)).contains(n);
+                if numbers.is_empty() || !numbers.iter().all(in_range) {
+                    return Err(fault("E-SCENE-RANGE"));
+                }
+                let row = numbers.into_iter().map(|n| n as f64).collect();
+                Ok(Content::Rows(vec![row]))
+            }
+            Kind::Moves => {
+                let array = value.as_array().ok_or_else(wrong)?;
+                let rows: Option<Vec<Vec<f64>>> = array
+                    .iter()
+                    .map(|row| numbers(row.get_ref()).filter(|row| row.len() == 4))
+                    .collect();
+                let rows = rows.ok_or_else(wrong)?;
+                let ascend = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+                if rows.is_empty() || !ascend {
+                    return Err(fault("E-SCENE-RANGE"));
+                }
+                Ok(Content::Rows(rows))
+            }
+        }
+    }
+}
+
+fn kind_of(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+/// A number, whole or not. Underscores are allowed as in TOML.
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Integer(_) => integer(value).map(|n| n as f64),
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        _ => None,
+    }
+}
+
+fn integer(value: &DeValue<'_>) -> Option<i64> {
+    let integer = value.as_integer()?;
+    i64::from_str_radix(integer.as_str(), integer.radix()).ok()
+}
+
+/// A list of finite numbers.
+fn numbers(value: &DeValue<'_>) -> Option<Vec<f64>> {
+    let finite = |x: &f64| x.is_finite();
+    let array = value.as_array()?.iter();
+    array.map(|x| number(x.get_ref()).filter(finite)).collect()
+}

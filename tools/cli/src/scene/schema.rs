@@ -1,0 +1,204 @@
+//! Every key that a scene file can have. Reading, checking, help and tests all go by this list.
+
+use std::fmt::Write as _;
+
+/// A key of a scene file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Key {
+    /// The table it stands in; empty for the top.
+    pub(crate) table: &'static str,
+    pub(crate) name: &'static str,
+    pub(crate) kind: Kind,
+    /// What holds without it, and what it means.
+    pub(crate) about: &'static str,
+}
+
+/// What a value can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// A number above zero.
+    Positive,
+    /// A number from zero up.
+    NotNegative,
+    /// A number above one.
+    Ratio,
+    /// A number from zero to one.
+    Part,
+    /// A whole number from one up.
+    Count,
+    Bool,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// Two numbers, the first not above the second.
+    Range,
+    /// Two numbers.
+    Pair,
+    /// Three numbers.
+    Vector,
+    /// A number from zero up, or three.
+    NumberOrVector,
+    /// Two rays as in --rays.
+    Rays,
+    /// Whole numbers from one up.
+    Numbers,
+    /// Fours of numbers; the first ascend.
+    Moves,
+}
+
+impl Kind {
+    /// In words.
+    pub(crate) fn name(self) -> String {
+        match self {
+            Kind::Positive => "a number above 0".to_owned(),
+            Kind::NotNegative => "a number from 0 up".to_owned(),
+            Kind::Ratio => "a number above 1".to_owned(),
+            Kind::Part => "a number from 0 to 1".to_owned(),
+            Kind::Count => "a whole number from 1 up".to_owned(),
+            Kind::Bool => "true or false".to_owned(),
+            Kind::Word(words) => format!("one of {}", words.join(", ")),
+            Kind::Range => "two ascending numbers, as in [0, 0.5]".to_owned(),
+            Kind::Pair => "two numbers, as in [0.5, 1]".to_owned(),
+            Kind::Vector => "three numbers, as in [0, 1.5, 0]".to_owned(),
+            Kind::NumberOrVector => "a number from 0 up, or three".to_owned(),
+            Kind::Rays => "two rays, as in [\"0,2,5:0,0,-1\", \"0,-2,5:0,0,-1\"]".to_owned(),
+            Kind::Numbers => "numbers of vertices from 1 up, as in [1, 33]".to_owned(),
+            Kind::Moves => "seconds and three metres each, seconds ascending, as in \
+                            [[0, 0, 0, 0], [1, 0, -0.5, 0]]"
+                .to_owned(),
+        }
+    }
+}
+
+const fn key(table: &'static str, name: &'static str, kind: Kind, about: &'static str) -> Key {
+    Key {
+        table,
+        name,
+        kind,
+        about,
+    }
+}
+
+/// The scenes that stand ready; a scene file can start from each.
+pub(crate) const NAMES: [&str; 5] = ["hang", "flag", "rip", "trouser", "fall"];
+
+/// The axes, as they are typed.
+pub(crate) const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
+
+/// The tables that may stand more than once, as in `[[hold]]`.
+pub(crate) const LISTS: [&str; 4] = ["collider", "hold", "cut", "strength"];
+
+const METHODS: &[&str] = &["provot", "pbd", "verlet", "xpbd", "implicit"];
+const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
+
+/// All keys, table by table.
+#[rustfmt::skip]
+pub(crate) const KEYS: [Key; 64] = [
+    key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
+    key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
+    key("", "up", Kind::Word(&AXES), "which way is up; y"),
+    key("", "gravity_m_per_s2", Kind::NumberOrVector, "downward, or a vector; 9.81, trouser 0"),
+    key("", "drag_per_s", Kind::NotNegative, "the rate at which velocities fade; 0.5, trouser 5"),
+
+    key("fabric", "density_kg_per_m2", Kind::Positive, "0.15"),
+    key("fabric", "stretch_n_per_m", Kind::Positive, "the stiffness of an edge; 1000"),
+    key("fabric", "bend_n_per_m", Kind::NotNegative, "of a spring across an edge; 0, none"),
+    key("fabric", "copies", Kind::Word(&["halved", "whole"]), "what both copies of a torn edge have; halved; the paper: whole"),
+    key("fabric", "unbend", Kind::Word(&["seam", "vertex"]), "which bend springs a split takes; seam; the paper: vertex"),
+
+    key("solver", "method", Kind::Word(METHODS), "xpbd"),
+    key("solver", "dt_s", Kind::Positive, "the step; see --dt"),
+    key("solver", "substeps", Kind::Count, "xpbd: substeps a step; 1"),
+    key("solver", "sweeps", Kind::Count, "xpbd, pbd: sweeps a (sub)step; 1, pbd 10"),
+    key("solver", "stiffness", Kind::Part, "pbd: the part of an error a step corrects; 1"),
+    key("solver", "bend_stiffness", Kind::Part, "pbd: the same of bends; 0.1"),
+    key("solver", "limit_ratio", Kind::Ratio, "provot: the longest the limiter leaves; 1.1"),
+    key("solver", "limit_passes", Kind::Count, "provot: passes of the limiter; 20"),
+    key("solver", "order", Kind::Word(&["1", "2"]), "implicit: backward Euler, or BDF2; \"1\""),
+
+    key("wind", "velocity_m_per_s", Kind::Vector, "required"),
+    key("wind", "coefficient", Kind::NotNegative, "the force is this times area and normal speed, kg/(m2 s); 1.5"),
+    key("wind", "sway_m_per_s", Kind::Vector, "added to and fro; none"),
+    key("wind", "period_s", Kind::Positive, "of the sway; 1"),
+
+    key("collider", "point", Kind::Vector, "of a plane"),
+    key("collider", "normal", Kind::Vector, "of a plane; the cloth stays on its side"),
+    key("collider", "centre", Kind::Vector, "of a ball"),
+    key("collider", "radius_m", Kind::Positive, "of a ball"),
+
+    key("hold", "near", Kind::Pair, "a place in parts of width and height: the nearest vertex"),
+    key("hold", "radius", Kind::NotNegative, "and all so near it, in parts of the larger extent; 0"),
+    key("hold", "across", Kind::Range, "between these parts of the width"),
+    key("hold", "along", Kind::Range, "and these of the height; [0, 1] each"),
+    key("hold", "from", Kind::Vector, "in a box, from this corner"),
+    key("hold", "to", Kind::Vector, "to this one"),
+    key("hold", "centre", Kind::Vector, "in a ball"),
+    key("hold", "radius_m", Kind::NotNegative, "of this radius"),
+    key("hold", "vertices", Kind::Numbers, "these, counted from 1 as in OBJ"),
+    key("hold", "from_s", Kind::NotNegative, "when they are taken; 0"),
+    key("hold", "until_s", Kind::Positive, "when they are let go; never"),
+    key("hold", "moves", Kind::Moves, "at these seconds, how far from where they were taken"),
+
+    key("cut", "at_s", Kind::NotNegative, "when; 0"),
+    key("cut", "rays", Kind::Rays, "required"),
+    key("cut", "through", Kind::Bool, "wherever the plane goes; false"),
+    key("cut", "method", Kind::Word(CUTS), "exact"),
+
+    key("tear", "never", Kind::Bool, "true: only cuts; false"),
+    key("tear", "threshold", Kind::Ratio, "length by rest length; 1.5"),
+    key("tear", "toughness_j_per_m", Kind::Positive, "or energy for each metre of tear"),
+    key("tear", "threshold_n", Kind::Positive, "or the pull of an edge"),
+    key("tear", "threshold_warp", Kind::Ratio, "or as threshold, along the warp"),
+    key("tear", "threshold_weft", Kind::Ratio, "and along the weft"),
+    key("tear", "warp", Kind::Vector, "the direction of the warp at rest; up"),
+    key("tear", "splits_per_step", Kind::Count, "at most, worst first; no limit"),
+    key("tear", "weakening", Kind::Part, "what is left of the strength beside a split, above 0; 0.5"),
+    key("tear", "delay_s", Kind::NotNegative, "how long an edge is too long before it tears; 0"),
+    key("tear", "tears_held", Kind::Bool, "whether held vertices tear too; false"),
+
+    key("strength", "factor", Kind::Positive, "required: how many times the threshold vertices bear"),
+    key("strength", "near", Kind::Pair, "a place in parts of width and height: the nearest vertex"),
+    key("strength", "radius", Kind::NotNegative, "and all so near it, in parts of the larger extent; 0"),
+    key("strength", "across", Kind::Range, "between these parts of the width"),
+    key("strength", "along", Kind::Range, "and these of the height; [0, 1] each"),
+    key("strength", "from", Kind::Vector, "in a box, from this corner"),
+    key("strength", "to", Kind::Vector, "to this one"),
+    key("strength", "centre", Kind::Vector, "in a ball"),
+    key("strength", "radius_m", Kind::NotNegative, "of this radius"),
+    key("strength", "vertices", Kind::Numbers, "these, counted from 1 as in OBJ"),
+];
+
+/// The keys of a table.
+pub(crate) fn keys_of(table: &str) -> impl Iterator<Item = &'static Key> {
+    KEYS.iter().filter(move |key| key.table == table)
+}
+
+/// The tables, in order.
+pub(crate) fn tables() -> Vec<&'static str> {
+    let mut tables: Vec<_> = KEYS.iter().map(|key| key.table).collect();
+    tables.dedup();
+    tables
+}
+
+/// The schema in words, for `--help`.
+pub(crate) fn schema() -> String {
+    let mut text = String::from(
+        "Scene files (TOML): all keys are optional but those marked; what stands last is the default.\n",
+    );
+    for table in tables() {
+        let title = match table {
+            "" => continue_line(),
+            list if LISTS.contains(&list) => format!("  [[{list}]] (any number)\n"),
+            table => format!("  [{table}]\n"),
+        };
+        text.push_str(&title);
+        for key in keys_of(table) {
+            writeln!(text, "    {:<18} {}", key.name, key.about).expect("a string grows");
+        }
+    }
+    text.pop();
+    text
+}
+
+fn continue_line() -> String {
+    "  at the top\n".to_owned()
+}

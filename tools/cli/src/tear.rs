@@ -1,0 +1,272 @@
+//! The verb `tear`.
+
+mod check;
+mod frames;
+mod strength;
+mod words;
+
+use std::ffi::OsString;
+use std::io::Write;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tearmesh::cloth::{Frame, Method, Run, Scene, StepError, Tearing, TimedCut};
+use tearmesh::{Positions, Scissor};
+use tearmesh_obj::TornDocument;
+
+use self::frames::Frames;
+use crate::args::TearArgs;
+use crate::interrupt::Guard;
+use crate::say::Fault;
+use crate::scene::{Source, threshold};
+use crate::session::{Clock, Opened, Session, Stop};
+use crate::{Exit, Streams, report};
+
+/// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
+pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
+    Session::run("tear", &args.files, typed, streams, |session, streams| {
+        check::usage(args)?;
+        work(args, session, streams)
+    })
+}
+
+fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
+    // What was typed is refused before a large file is read.
+    let source = Source::find(&args.scene, streams)?;
+    let cuts = check::cuts(args, &mut session.faults)?;
+    let opened = session.open(None, streams)?;
+    let up = args.up.unwrap_or_else(|| source.up());
+    let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
+    let mut scene = source.scene(&frame, args.solver)?;
+    settle(args, cuts, &mut scene);
+    let is_step_chosen = scene.step_s.is_some();
+    let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
+    let mut run = run.map_err(|error| check::refused(&error, &opened))?;
+    if let Some(path) = &args.strength {
+        let strengths = strength::read(path, run.mesh().vertex_count(), streams)?;
+        let with = run.with_strengths(strengths);
+        run = with.map_err(|error| check::refused(&error, &opened))?;
+    }
+    session.faults.extend(check::warnings(&run, &frame));
+    session.warn_now(streams);
+    let play = Play {
+        name: source.name(),
+        is_step_chosen,
+        args,
+        opened: &opened,
+    };
+    play.perform(run, session, streams)
+}
+
+/// Puts what was typed in the place of what the scene says.
+fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
+    if let Some(seconds) = args.seconds {
+        scene.duration_s = seconds;
+    }
+    scene.step_s = args.dt.or(scene.step_s);
+    if let Some(threshold) = threshold(args.threshold, args.toughness, args.threshold_newton) {
+        let tearing = scene.tearing.get_or_insert(Tearing::new(threshold));
+        tearing.threshold = threshold;
+    }
+    if !cuts.is_empty() {
+        scene.cuts = cuts;
+    }
+}
+
+/// A scene that is about to be played.
+struct Play<'a> {
+    name: String,
+    is_step_chosen: bool,
+    args: &'a TearArgs,
+    opened: &'a Opened,
+}
+
+/// How the steps ended.
+enum Ended {
+    Done,
+    Interrupted,
+    Failed(StepError),
+}
+
+impl Play<'_> {
+    fn perform(
+        &self,
+        mut run: Run,
+        session: &mut Session<'_>,
+        streams: &mut Streams<'_>,
+    ) -> Result<(), Stop> {
+        let pieces_before = run.mesh().components().count();
+        let vertices_before = run.mesh().vertex_count();
+        let torn_before_m = run.torn_length_m();
+        let mut torn = TornDocument::new(&self.opened.document);
+        let mut frames = Frames::open(self.args, &run)?;
+        let clock = Clock::start();
+        let ended = self.steps(&mut run, &mut torn, &mut frames, session, streams)?;
+        let simulated = clock.milliseconds();
+        session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
+
+        let clock = Clock::start();
+        let ledger = run.cloth().masses().ledger();
+        session.verify(run.mesh(), &ledger, words::momentum_broken(&run))?;
+        session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
+        let shot = frames.finish(&run, &torn)?;
+        session.faults.extend(shot.warning);
+
+        let pieces = run.mesh().components().count();
+        let tally = run.tally();
+        let status = match &ended {
+            Ended::Done => "done",
+            Ended::Interrupted => "interrupted",
+            Ended::Failed(StepError::BlowUp { .. }) => "blown up",
+            Ended::Failed(_) => "unstable",
+        };
+        let tear = report::Tear {
+            scene: self.name.clone(),
+            solver: name(&run.scene().solver),
+            status,
+            steps: tally.steps,
+            dt_s: run.step_s(),
+            time_simulated_s: run.elapsed_s(),
+            time_planned_s: run.scene().duration_s,
+            splits: tally.splits,
+            cap_hit: tally.steps_at_cap > 0,
+            steps_at_cap: tally.steps_at_cap,
+            pieces_before,
+            pieces,
+            tear_length_m: run.torn_length_m() - torn_before_m,
+            max_stretch: tally.stretch_ratio_max,
+            momentum_drift: tally.momentum_drift,
+            energy_j: words::energy(&run),
+            counters: words::counters(&run),
+            frames: shot.report,
+        };
+        session.words.push(words::simulation(&tear));
+        session.report.tear = Some(tear);
+        match ended {
+            Ended::Done => {}
+            Ended::Interrupted => session.exit = Exit::Interrupted,
+            Ended::Failed(error) => {
+                session.exit = Exit::Simulation;
+                let fault = words::failure(&error, &run, self.is_step_chosen);
+                session.faults.push(fault);
+                if tally.steps == 0 && run.edits().next_number() == 0 {
+                    session.words.clear();
+                    return Ok(());
+                }
+            }
+        }
+        let positions = places(&run)?;
+        let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
+        session.write(run.mesh(), fill, streams)?;
+        let mesh = run.mesh();
+        let ending = crate::files::ending(vertices_before, mesh, &ledger, &session.destination);
+        session.words.push(ending);
+        Ok(())
+    }
+
+    /// Takes all steps, or as many as can be.
+    fn steps(
+        &self,
+        run: &mut Run,
+        torn: &mut TornDocument<'_>,
+        frames: &mut Frames,
+        session: &mut Session<'_>,
+        streams: &Streams<'_>,
+    ) -> Result<Ended, Stop> {
+        let bar = self.bar(run, streams);
+        let guard = Guard::new();
+        let mut ended = Ended::Done;
+        frames.shoot(run, torn)?;
+        while !run.is_over() {
+            if guard.is_interrupted() {
+                ended = Ended::Interrupted;
+                break;
+            }
+            let step = run.step();
+            run.edits().replay(torn);
+            frames.follow(run.edits());
+            match step {
+                Ok(step) => {
+                    for (number, done) in &step.cuts {
+                        self.note_cut(run.scene(), *number, done, session);
+                        torn.next_cut();
+                    }
+                    frames.shoot(run, torn)?;
+                }
+                Err(error) => {
+                    ended = Ended::Failed(error);
+                    break;
+                }
+            }
+            bar.set_position(run.tally().steps);
+        }
+        bar.finish_and_clear();
+        Ok(ended)
+    }
+
+    fn note_cut(
+        &self,
+        scene: &Scene,
+        number: usize,
+        done: &tearmesh::CutReport,
+        session: &mut Session<'_>,
+    ) {
+        let cut = &scene.cuts[number];
+        let Ok(scissor) = Scissor::new(&cut.rays[0], &cut.rays[1]) else {
+            return; // It was made with these rays.
+        };
+        let how = report::How {
+            method: words::method(cut.method),
+            through: cut.through,
+            tips: "vertex",
+            snap: (cut.method == tearmesh::Method::Exact).then_some(Scissor::SNAP),
+            snap_move: (cut.method == tearmesh::Method::Exact).then_some(false),
+        };
+        let entry = report::Cut::new(&cut.rays, &scissor, how, done);
+        session.report.cuts.push(entry);
+        let many = (scene.cuts.len() > 1).then_some(number + 1);
+        let at = crate::say::short(cut.at_s);
+        let line = crate::cut::words::cut(many, done);
+        session.words.push(format!("{line} · at {at} s"));
+        let kind = (cut.through, cut.method == tearmesh::Method::Exact);
+        let warnings = crate::cut::words::warnings(many, kind, done);
+        session.faults.extend(warnings);
+    }
+
+    /// On a terminal only.
+    fn bar(&self, run: &Run, streams: &Streams<'_>) -> ProgressBar {
+        let files = &self.args.files;
+        let is_shown =
+            streams.error_is_terminal && !files.quiet && files.format == crate::args::Format::Text;
+        let target = if is_shown {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(Some(run.steps_planned()), target);
+        let style = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left");
+        match style {
+            Ok(style) => bar.with_style(style),
+            Err(_) => bar, // Its own style does as well.
+        }
+    }
+}
+
+/// Where the vertices are.
+fn places(run: &Run) -> Result<Positions, Stop> {
+    let points = run.cloth().positions().iter().copied();
+    Positions::new(points).map_err(|error| {
+        let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
+        Stop::new(Exit::Simulation, fault)
+    })
+}
+
+/// The method, as it is typed.
+fn name(method: &Method) -> &'static str {
+    match method {
+        Method::Provot(_) => "provot",
+        Method::Pbd(_) => "pbd",
+        Method::Verlet => "verlet",
+        Method::Xpbd(_) => "xpbd",
+        Method::Implicit(_) => "implicit",
+    }
+}

@@ -1,0 +1,173 @@
+//! What is refused before a simulation, and what is warned of.
+
+use std::path::Path;
+
+use tearmesh::Scissor;
+use tearmesh::cloth::{ClothError, Frame, Method, Run, RunError, TimedCut};
+
+use super::words::two_digits;
+use crate::Exit;
+use crate::args::TearArgs;
+use crate::cut::scissors::{no_plane, warn_of_skew};
+use crate::rays;
+use crate::say::{Fault, count, short};
+use crate::session::{Opened, Stop};
+
+/// Refuses numbers out of range, and streams that are wanted twice.
+pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
+    let from = |least: f64| move |x: f64| x >= least && x.is_finite();
+    let above = |least: f64| move |x: f64| x > least && x.is_finite();
+    range(
+        "--threshold",
+        args.threshold,
+        above(1.0),
+        "a length as a multiple of the length at rest, above 1, as in --threshold 1.5",
+    )?;
+    range(
+        "--toughness",
+        args.toughness,
+        above(0.0),
+        "joules for each metre of tear, as in --toughness 2",
+    )?;
+    range(
+        "--threshold-newton",
+        args.threshold_newton,
+        above(0.0),
+        "the pull of an edge in newtons, as in --threshold-newton 10",
+    )?;
+    range("--seconds", args.seconds, from(0.0), "as in --seconds 2")?;
+    range("--dt", args.dt, above(0.0), "as in --dt 0.001")?;
+    range(
+        "--cut-at",
+        args.cut_at,
+        from(0.0),
+        "seconds of the simulation, as in --cut-at 1.5",
+    )?;
+    let dash = Path::new("-");
+    let scene = args.scene == "-";
+    let strength = args.strength.as_deref() == Some(dash);
+    let streams = [args.files.input == dash, scene, strength];
+    if streams.into_iter().filter(|&wanted| wanted).count() > 1 {
+        let message = "two inputs both come from standard input".to_owned();
+        return refuse(message, "name a file for one of them");
+    }
+    Ok(())
+}
+
+fn range(
+    option: &str,
+    value: Option<f64>,
+    is_in: impl Fn(f64) -> bool,
+    help: &str,
+) -> Result<(), Stop> {
+    match value.filter(|&value| !is_in(value)) {
+        Some(value) => refuse(format!("`{option} {value}` is out of range"), help),
+        None => Ok(()),
+    }
+}
+
+fn refuse(message: String, help: &str) -> Result<(), Stop> {
+    let fault = Fault::error("E-USAGE", message).help(help);
+    Err(Stop::new(Exit::Usage, fault))
+}
+
+/// The cuts that were typed.
+pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<TimedCut>, Stop> {
+    let mut cuts = Vec::new();
+    for text in &args.rays {
+        let pair = rays::pair(text, "--rays", 1).map_err(|fault| Stop::new(Exit::Usage, fault))?;
+        let scissor = Scissor::new(&pair[0], &pair[1]).map_err(|error| no_plane(&pair, error))?;
+        warn_of_skew(&scissor, faults);
+        cuts.push(TimedCut {
+            at_s: args.cut_at.unwrap_or(0.0),
+            rays: pair,
+            through: false,
+            method: tearmesh::Method::Exact,
+        });
+    }
+    Ok(cuts)
+}
+
+/// Why a scene cannot be played with this mesh.
+pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
+    let (exit, code, help) = match error {
+        _ if opened.mesh.face_count() == 0 => (
+            Exit::Input,
+            "E-SIM-MESH",
+            Some("the mesh has no faces that a scene could be played with"),
+        ),
+        RunError::Cloth(ClothError::Length { ends, .. }) => {
+            let [a, b] = ends.map(|v| v.index() + 1);
+            let message = format!("the vertices {a} and {b} of an edge are at one place");
+            let help = "an edge without length has no strain: take the face out";
+            let fault = Fault::error("E-SIM-MESH", message).help(help);
+            return Stop::new(Exit::Input, fault);
+        }
+        RunError::Cloth(ClothError::Mass(_)) => (Exit::Input, "E-MASS", None),
+        RunError::Cloth(_) => (Exit::Input, "E-SIM-MESH", None),
+        RunError::NothingHeld { .. } => (
+            Exit::Usage,
+            "E-SCENE-EMPTY",
+            Some("give it a larger region, or `near` with a place"),
+        ),
+        RunError::Times => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
+        _ => (Exit::Usage, "E-SCENE-RANGE", None),
+    };
+    let mut fault = Fault::error(code, error.to_string());
+    fault.help = help.map(str::to_owned);
+    Stop::new(exit, fault)
+}
+
+/// What may tear, or not tear, for reasons that are none of the cloth's.
+pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
+    let mut warnings = Vec::new();
+    let size = frame.size_m();
+    if !(0.01..=8.0).contains(&size) {
+        let size = short(size);
+        let message =
+            format!("the mesh is {size} m across, and the fabric is one for garments and flags");
+        let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
+        warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
+    }
+    if run.scene().tearing.is_none() {
+        return warnings;
+    }
+    for (number, hold) in run.scene().holds.iter().enumerate() {
+        let is_still = hold.moves.is_empty();
+        let is_point = run.hold_size(number) == 1;
+        if is_still && is_point {
+            let message = format!(
+                "hold {} pins a single vertex, whose strain grows as the mesh gets finer: it may \
+                 tear where a clamp would not",
+                number + 1
+            );
+            let help = "give it a `radius`, such as 0.1";
+            warnings.push(Fault::warning("W-SIM-PIN", message).help(help));
+        }
+    }
+    warnings.extend(coarse(run));
+    warnings
+}
+
+/// Few sweeps or large steps leave a cloth softer than its fabric, and it tears of its own weight.
+fn coarse(run: &Run) -> Option<Fault> {
+    let wanted_s = run.step_wanted_s()?;
+    if run.step_s() <= wanted_s {
+        return None;
+    }
+    let times = run.step_s() / wanted_s;
+    let sweeps = match &run.scene().solver {
+        Method::Pbd(pbd) => pbd.sweeps,
+        Method::Xpbd(xpbd) => xpbd.substeps * xpbd.sweeps,
+        _ => 1,
+    };
+    let message = format!(
+        "a step of {} s with {} is {} times too long for a mesh so fine: what merely hangs is \
+         stretched, and may tear",
+        short(run.step_s()),
+        count(sweeps as usize, "sweep", "sweeps"),
+        short((times * 10.0).round() / 10.0),
+    );
+    let help = format!("--dt {}, or --solver implicit", two_digits(wanted_s));
+    Some(Fault::warning("W-SIM-COARSE", message).help(help))
+}

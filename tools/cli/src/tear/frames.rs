@@ -1,0 +1,263 @@
+//! Frames: numbered OBJ files of a simulation, with their own faces or those of the last one.
+//!
+//! A split adds no face, so the faces of the last frame serve all, where a vertex that is
+//! not yet born stands where its ancestor is. A vertex that a cut inserts is born on an edge or in
+//! a face: before, it stands there, on the same part of the edge, so that surfaces
+//! are the same although faces are divided.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use tearmesh::cloth::Run;
+use tearmesh::{Edit, Edits, Location, Mesh, Point, Positions, VertexId};
+use tearmesh_obj::{TornDocument, WriteSummary};
+
+use crate::args::{TearArgs, Topology};
+use crate::say::Fault;
+use crate::session::{Stop, cannot_write};
+use crate::{Exit, output, report};
+
+/// How many frames a second.
+const RATE_PER_S: f64 = 30.0;
+
+/// The frames of a run, if any are wanted.
+pub(super) struct Frames {
+    folder: Option<PathBuf>,
+    topology: Topology,
+    /// The number of frames so far.
+    count: usize,
+    /// Frames that wait for the last one's faces.
+    waiting: Vec<Shot>,
+    births: Vec<Birth>,
+    /// Faces that were divided, by their index.
+    divided: Vec<bool>,
+    /// The vertices before any birth.
+    first: usize,
+}
+
+/// A moment.
+struct Shot {
+    points: Vec<Point>,
+    /// Shared by frames between which nothing tore.
+    indices: Rc<Vec<u32>>,
+    /// How many births came before.
+    births: usize,
+}
+
+/// Where a vertex is before it is born.
+#[derive(Clone, Copy)]
+enum Birth {
+    Copy(VertexId),
+    At(Location),
+}
+
+/// What there is to say of the frames.
+#[derive(Default)]
+pub(super) struct Shown {
+    pub(super) report: Option<report::Frames>,
+    pub(super) warning: Option<Fault>,
+}
+
+impl Frames {
+    /// Makes the folder where there is none.
+    pub(super) fn open(args: &TearArgs, run: &Run) -> Result<Frames, Stop> {
+        let frames = Frames {
+            folder: args.frames.clone().filter(|_| !args.files.dry_run),
+            topology: args.frames_topology,
+            count: 0,
+            waiting: Vec::new(),
+            births: Vec::new(),
+            divided: vec![false; run.mesh().face_count()],
+            first: run.mesh().vertex_count(),
+        };
+        if let Some(folder) = &frames.folder {
+            refuse_replacing(folder, &args.files.input, "the input")?;
+            if let Some(path) = &args.files.output {
+                refuse_replacing(folder, path, "the output")?;
+            }
+            if !folder.is_dir() {
+                fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
+            }
+        }
+        Ok(frames)
+    }
+
+    /// Notes where vertices were born.
+    pub(super) fn follow(&mut self, edits: &Edits) {
+        for edit in edits.iter() {
+            match edit {
+                Edit::Split(split) => self.births.push(Birth::Copy(split.old)),
+                Edit::Insert(insert) => {
+                    let births = insert.points.iter().map(|point| Birth::At(point.at));
+                    self.births.extend(births);
+                    for child in insert.children {
+                        let face = child.face.index().max(child.parent.index());
+                        if self.divided.len() <= face {
+                            self.divided.resize(face + 1, true);
+                        }
+                        self.divided[child.parent.index()] = true;
+                    }
+                }
+                _ => {} // A simulation never merges, and a slide bears nobody.
+            }
+        }
+    }
+
+    /// Takes a frame if it is time for one.
+    pub(super) fn shoot(&mut self, run: &Run, torn: &TornDocument<'_>) -> Result<(), Stop> {
+        let step = (self.count as f64 / RATE_PER_S / run.step_s()).round();
+        if self.folder.is_none() || (run.tally().steps as f64) < step {
+            return Ok(());
+        }
+        if self.topology == Topology::Own {
+            let positions = super::places(run)?;
+            self.write(run.mesh(), &positions, torn, self.count)?;
+        } else {
+            let now = run.mesh().indices();
+            let last = self.waiting.last().filter(|shot| *shot.indices == now);
+            let indices = match last {
+                Some(last) => Rc::clone(&last.indices),
+                None => Rc::new(now.to_vec()),
+            };
+            self.waiting.push(Shot {
+                points: run.cloth().positions().to_vec(),
+                indices,
+                births: self.births.len(),
+            });
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Writes the frames that waited, each checked against its own mesh.
+    pub(super) fn finish(self, run: &Run, torn: &TornDocument<'_>) -> Result<Shown, Stop> {
+        let Some(folder) = &self.folder else {
+            return Ok(Shown::default());
+        };
+        let mut checked = 0;
+        for (number, shot) in self.waiting.iter().enumerate() {
+            let points = self.grown(shot);
+            checked += self.check(shot, &points, run.mesh()).map_err(|broken| {
+                let message = format!("frame {number} is not its own mesh: {broken}");
+                Stop::new(Exit::Bug, Fault::error("E-BUG-INVARIANT", message))
+            })?;
+            let positions = Positions::new(points).map_err(|error| {
+                let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
+                Stop::new(Exit::Simulation, fault)
+            })?;
+            self.write(run.mesh(), &positions, torn, number)?;
+        }
+        let is_final = self.topology == Topology::Final;
+        Ok(Shown {
+            warning: self.left_over(folder),
+            report: Some(report::Frames {
+                folder: folder.display().to_string(),
+                count: self.count,
+                topology: if is_final { "final" } else { "own" },
+                corners_checked: is_final.then_some(checked),
+            }),
+        })
+    }
+
+    /// The points of a frame, and of all that were born later.
+    fn grown(&self, shot: &Shot) -> Vec<Point> {
+        let mut points = shot.points.clone();
+        debug_assert_eq!(
+            points.len(),
+            self.first + shot.births,
+            "each birth a vertex"
+        );
+        for birth in &self.births[shot.births..] {
+            let at = |v: VertexId| points[v.index()];
+            points.push(match *birth {
+                Birth::Copy(ancestor) => at(ancestor),
+                Birth::At(Location::Edge { ends: [a, b], t }) => at(a) + (at(b) - at(a)) * t,
+                Birth::At(Location::Face { vertices, weights }) => {
+                    let [a, b, c] = vertices.map(|v| at(v).coords);
+                    Point::from(a * weights[0] + b * weights[1] + c * weights[2])
+                }
+            });
+        }
+        points
+    }
+
+    /// Compares a frame that has the faces of the last one with its own mesh: each corner of each
+    /// face that was never divided, to the last bit. Gives how many there were.
+    fn check(&self, shot: &Shot, points: &[Point], mesh: &Mesh) -> Result<u64, String> {
+        let own = shot.indices.as_chunks::<3>().0.iter();
+        let last = mesh.indices().as_chunks::<3>().0.iter();
+        let faces = own.zip(last).zip(&self.divided).enumerate();
+        let mut checked = 0;
+        for (face, ((own, last), _)) in faces.filter(|(_, (_, divided))| !**divided) {
+            for (&was, &is) in own.iter().zip(last) {
+                let [was, is] = [shot.points[was as usize], points[is as usize]];
+                let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
+                if bits(is) != bits(was) {
+                    return Err(format!(
+                        "a corner of face {} is at {is}, not {was}",
+                        face + 1
+                    ));
+                }
+                checked += 1;
+            }
+        }
+        Ok(checked)
+    }
+
+    fn write(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        torn: &TornDocument<'_>,
+        number: usize,
+    ) -> Result<(), Stop> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        let path = folder.join(name(number));
+        let fill = |mut out: &mut dyn Write| -> io::Result<WriteSummary> {
+            torn.write(mesh, positions, &mut out)
+        };
+        let written = output::write(&path, fill);
+        written
+            .map(|_| ())
+            .map_err(|error| unwritable(&path, &error))
+    }
+
+    /// Says that an earlier run left more frames than this one made.
+    fn left_over(&self, folder: &Path) -> Option<Fault> {
+        let next = name(self.count);
+        folder.join(&next).exists().then(|| {
+            let folder = folder.display();
+            let message = format!("`{folder}` has frames of an earlier run, from {next} on");
+            Fault::warning("W-FRAMES-OLD", message).help("write frames into a folder of their own")
+        })
+    }
+}
+
+fn name(number: usize) -> String {
+    format!("frame_{number:05}.obj")
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> Stop {
+    let name = path.display().to_string();
+    Stop::new(Exit::Output, cannot_write(&name, error))
+}
+
+/// Refuses a file that a frame would replace.
+fn refuse_replacing(folder: &Path, path: &Path, what: &str) -> Result<(), Stop> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let is_there = || {
+        let parent = path.parent().filter(|parent| *parent != Path::new(""));
+        output::is_same_file(folder, parent.unwrap_or(Path::new(".")))
+    };
+    if name.starts_with("frame_") && name.ends_with(".obj") && is_there() {
+        let message = format!("a frame would replace {what}, `{}`", path.display());
+        let fault = Fault::error("E-USAGE", message);
+        let fault = fault.help("write frames into a folder of their own");
+        return Err(Stop::new(Exit::Usage, fault));
+    }
+    Ok(())
+}

@@ -1,0 +1,68 @@
+//! A file of strengths: `vertex strength` a line, vertices counted from 1.
+
+use std::io::Read as _;
+use std::path::Path;
+
+use crate::input::{Input, cannot_read};
+use crate::say::{Excerpt, Fault};
+use crate::session::Stop;
+use crate::{Exit, Streams};
+
+/// Reads the strengths of so many vertices; those that are not named have 1.
+pub(super) fn read(
+    path: &Path,
+    vertices: usize,
+    streams: &mut Streams<'_>,
+) -> Result<Vec<f64>, Stop> {
+    let unreadable = |fault| Stop::new(Exit::Input, fault);
+    let file = Input::find(path, streams.input).map_err(unreadable)?;
+    let mut text = String::new();
+    let read = file.open().map_err(unreadable)?.read_to_string(&mut text);
+    read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
+    let mut strengths = vec![1.0; vertices];
+    for (i, line) in text.lines().enumerate() {
+        let words = line.split('#').next().unwrap_or_default();
+        if words.trim().is_empty() {
+            continue;
+        }
+        match entry(words, vertices) {
+            Ok((vertex, strength)) => strengths[vertex - 1] = strength,
+            Err(label) => {
+                let fault = Fault {
+                    code: "E-STRENGTH",
+                    message: "a line is not `vertex strength`".to_owned(),
+                    excerpt: Some(Box::new(Excerpt {
+                        path: file.name.clone(),
+                        line: i + 1,
+                        text: line.to_owned(),
+                        first_column: 1,
+                        span: 0..words.trim_end().len(),
+                        label,
+                    })),
+                    ..Fault::default()
+                };
+                let help = "as in `17 0.5`: vertex 17 bears half the threshold";
+                return Err(Stop::new(Exit::Usage, fault.help(help)));
+            }
+        }
+    }
+    Ok(strengths)
+}
+
+fn entry(words: &str, vertices: usize) -> Result<(usize, f64), String> {
+    let mut words = words.split_whitespace();
+    let (Some(vertex), Some(strength), None) = (words.next(), words.next(), words.next()) else {
+        return Err("expected two numbers".to_owned());
+    };
+    let vertex: usize = vertex
+        .parse()
+        .map_err(|_| "expected a whole number first".to_owned())?;
+    if !(1..=vertices).contains(&vertex) {
+        return Err(format!("the mesh has the vertices 1 to {vertices}"));
+    }
+    let strength = strength.parse().ok();
+    match strength.filter(|x: &f64| *x > 0.0 && x.is_finite()) {
+        Some(strength) => Ok((vertex, strength)),
+        None => Err("expected a strength above 0".to_owned()),
+    }
+}

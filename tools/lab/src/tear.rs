@@ -1,0 +1,298 @@
+//! What it takes to tear a cloth, by two rules and on meshes of several sizes.
+//!
+//! A trouser test ([`Scene::trouser`]): a strip is slit to its middle, and its two legs are pulled
+//! apart. The paper's rule tears an edge at a stretch ratio (Souza et al. 2014 §III-A), whatever
+//! its length; then the force at which an edge tears is proportional to that length, and a mesh
+//! twice as fine is a cloth half as strong. A threshold of toughness, an energy for each metre of
+//! tear, does not have that fault. Both rules are set to agree on the mesh in the middle.
+
+mod csv;
+mod svg;
+
+pub use self::csv::csv;
+pub use self::svg::svg;
+
+use serde::Serialize;
+use tearmesh::cloth::{Axis, Frame, Run, RunError, Scene, StepError, Tearing, Threshold};
+use tearmesh::{Mesh, Point, Positions};
+
+/// Width and height of the strip, in metres.
+pub const STRIP_M: [f64; 2] = [0.1, 0.2];
+
+/// Cells across the strip.
+pub const CELLS: [u32; 3] = [8, 16, 32];
+
+/// The ratio at which an edge tears by the paper's rule.
+pub const RATIO: f64 = 1.5;
+
+/// Forces are written down so many times in a test of four seconds, each as a mean.
+const SAMPLES: u64 = 240;
+
+/// Both rules on all meshes.
+#[derive(Clone, Debug, Serialize)]
+pub struct Study {
+    /// How to read the file.
+    pub schema: &'static str,
+    /// The stiffness of edges, in N/m.
+    pub stretch_n_per_m: f64,
+    /// By rule, then by mesh from coarse to fine.
+    pub tests: Vec<Test>,
+    /// By rule: the slope of the largest force over the length of edges, both as logarithms;
+    /// 1 is proportional, 0 is independent.
+    pub slopes_largest: [f64; 2],
+    /// The same of the mean force.
+    pub slopes_mean: [f64; 2],
+    /// What that means, in words.
+    pub conclusion: String,
+}
+
+/// One strip, torn.
+#[derive(Clone, Debug, Serialize)]
+pub struct Test {
+    /// `stretch` or `toughness`.
+    pub rule: &'static str,
+    /// The ratio, or the joules for each metre.
+    pub threshold: f64,
+    /// The length of the edges along the strip, in metres.
+    pub edge_m: f64,
+    /// Cells across.
+    pub cells: u32,
+    /// The vertices that were split.
+    pub splits: u64,
+    /// The largest force between the clamps in newtons, as a mean over 1/60 s.
+    pub force_largest_n: f64,
+    /// The mean force from the first tear to the last, over displacement.
+    pub force_mean_n: f64,
+    /// The distance between the clamps in metres, and the force in newtons.
+    pub curve: Vec<[f64; 2]>,
+}
+
+/// Why an experiment could not be made: our bug, as its inputs are fixed.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The scene was refused.
+    Run(RunError),
+    /// A step failed.
+    Step(StepError),
+    /// The strip was refused.
+    Strip,
+}
+
+impl std::fmt::Display for StudyError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            StudyError::Run(error) => error.fmt(f),
+            StudyError::Step(error) => error.fmt(f),
+            StudyError::Strip => f.write_str("the strip is no mesh"),
+        }
+    }
+}
+
+impl std::error::Error for StudyError {}
+
+/// Tears strips with so many cells across, at least two numbers; `watch` hears of each test that is
+/// done, and may stop the study by saying false: then there is none.
+///
+/// # Errors
+///
+/// [`StudyError`], which would be a bug.
+pub fn study(
+    cells: &[u32],
+    mut watch: impl FnMut(usize) -> bool,
+) -> Result<Option<Study>, StudyError> {
+    let k = Scene::STRETCH_N_PER_M;
+    let middle = STRIP_M[0] / f64::from(cells[cells.len() / 2]);
+    // ½ k ε² h: the energy of an edge at the ratio, on the mesh in the middle.
+    let toughness = 0.5 * k * (RATIO - 1.0) * (RATIO - 1.0) * middle;
+    let rules = [Threshold::Stretch(RATIO), Threshold::Toughness(toughness)];
+    let mut tests = Vec::new();
+    for rule in rules {
+        for &cells in cells {
+            tests.push(test(cells, rule)?);
+            if !watch(tests.len()) {
+                return Ok(None);
+            }
+        }
+    }
+    let (stretch, tough) = tests.split_at(cells.len());
+    let slopes = |of: fn(&Test) -> f64| [slope(stretch, of), slope(tough, of)];
+    let slopes_largest = slopes(|test| test.force_largest_n);
+    let slopes_mean = slopes(|test| test.force_mean_n);
+    Ok(Some(Study {
+        schema: "tearmesh.chart.tear/1",
+        stretch_n_per_m: k,
+        conclusion: conclude(stretch, tough, slopes_largest),
+        tests,
+        slopes_largest,
+        slopes_mean,
+    }))
+}
+
+fn conclude(stretch: &[Test], tough: &[Test], slopes: [f64; 2]) -> String {
+    let forces = |tests: &[Test]| {
+        let forces = tests.iter();
+        let forces = forces.map(|test| format!("{:.3}", test.force_largest_n));
+        forces.collect::<Vec<_>>().join(" / ")
+    };
+    format!(
+        "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {} N, \
+         slope {:+.2} over the edge length. By toughness it is {} N, slope {:+.2}: where forces \
+         matter, use --toughness.",
+        forces(stretch),
+        slopes[0],
+        forces(tough),
+        slopes[1],
+    )
+}
+
+/// The slope of the straight line through the logarithms, by least squares.
+fn slope(tests: &[Test], of: impl Fn(&Test) -> f64) -> f64 {
+    let count = tests.len() as f64;
+    let points = || tests.iter().map(|test| (test.edge_m.ln(), of(test).ln()));
+    let mean_x = points().map(|(x, _)| x).sum::<f64>() / count;
+    let mean_y = points().map(|(_, y)| y).sum::<f64>() / count;
+    let above: f64 = points().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let below: f64 = points().map(|(x, _)| (x - mean_x) * (x - mean_x)).sum();
+    above / below
+}
+
+/// Tears one strip.
+fn test(cells: u32, threshold: Threshold) -> Result<Test, StudyError> {
+    let (mesh, positions) = strip(cells).ok_or(StudyError::Strip)?;
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    let scene = Scene {
+        tearing: Some(Tearing::new(threshold)),
+        ..Scene::trouser(&frame)
+    };
+    let mut run = Run::new(mesh, &positions, scene, &frame).map_err(StudyError::Run)?;
+    let depth = frame.depth.vector();
+    let every = (run.steps_planned() / SAMPLES).max(1);
+    let (mut curve, mut forces) = (Vec::new(), Vec::new());
+    // The steps of the first tear and of the last.
+    let mut torn: Option<[usize; 2]> = None;
+    while !run.is_over() {
+        let splits = run.tally().splits;
+        run.step().map_err(StudyError::Step)?;
+        // Half the difference: what both clamps agree on.
+        let [left, right] = [0, 1].map(|leg| {
+            let system = run.cloth().system();
+            let held = run.held(leg).iter();
+            held.map(|v| system.reaction_n(v.index()).dot(&depth))
+                .sum::<f64>()
+        });
+        let force = (left - right) / 2.0;
+        forces.push(force);
+        if run.tally().splits > splits {
+            let last = forces.len();
+            torn = Some([torn.map_or(last - 1, |[first, _]| first), last]);
+        }
+        if run.tally().steps % every == 0 {
+            let apart = [0, 1].map(|leg| {
+                let first = run.held(leg)[0];
+                run.cloth().positions()[first.index()].coords.dot(&depth)
+            });
+            let recent = &forces[forces.len() - every as usize..];
+            curve.push([apart[0] - apart[1], mean(recent)]);
+        }
+    }
+    let tearing = torn.map_or(&forces[..0], |[first, last]| &forces[first..last]);
+    Ok(Test {
+        rule: match threshold {
+            Threshold::Stretch(_) => "stretch",
+            _ => "toughness",
+        },
+        threshold: match threshold {
+            Threshold::Stretch(x) | Threshold::Toughness(x) => x,
+            _ => f64::NAN,
+        },
+        edge_m: STRIP_M[0] / f64::from(cells),
+        cells,
+        splits: run.tally().splits,
+        force_largest_n: curve.iter().map(|[_, force]| *force).fold(0.0, f64::max),
+        force_mean_n: mean(tearing),
+        curve,
+    })
+}
+
+fn mean(forces: &[f64]) -> f64 {
+    forces.iter().sum::<f64>() / forces.len().max(1) as f64
+}
+
+/// A strip whose diagonals lie in turn; cells are square.
+fn strip(cells: u32) -> Option<(Mesh, Positions)> {
+    let [width, height] = STRIP_M;
+    let rows = (f64::from(cells) * height / width).round() as u32;
+    let n = cells + 1;
+    let points = (0..n * (rows + 1)).map(|i| {
+        let x = f64::from(i % n) / f64::from(cells) * width;
+        let y = f64::from(i / n) / f64::from(rows) * height;
+        Point::new(x, y, 0.0)
+    });
+    let mut triangles = Vec::new();
+    for j in 0..rows {
+        for i in 0..cells {
+            let a = j * n + i;
+            let (b, c, d) = (a + 1, a + n + 1, a + n);
+            if (i + j) % 2 == 0 {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                triangles.extend([[a, b, d], [b, c, d]]);
+            }
+        }
+    }
+    let mesh = Mesh::build((n * (rows + 1)) as usize, &triangles).ok()?;
+    Some((mesh, Positions::new(points).ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn small() -> Study {
+        let study = study(&[6, 12], |_| true).expect("no bug");
+        study.expect("nobody stopped it")
+    }
+
+    #[test]
+    fn the_stretch_ratio_depends_on_the_mesh_and_toughness_hardly() {
+        let study = small();
+        let [stretch, toughness] = study.slopes_largest;
+        assert!((0.6..1.4).contains(&stretch), "{stretch}");
+        assert!(
+            toughness < 0.6 * stretch && toughness.abs() < 0.6,
+            "{toughness}"
+        );
+        for test in &study.tests {
+            assert!(test.splits > 3 && test.force_mean_n > 0.0);
+            assert!(test.force_mean_n < test.force_largest_n);
+        }
+        // Both rules mean the same on the finer mesh, which is the one in the middle of two.
+        assert_eq!(study.tests[1].splits, study.tests[3].splits);
+        assert!(study.conclusion.contains("--toughness"));
+    }
+
+    #[test]
+    fn the_chart_and_the_table_say_what_the_study_says_and_always_the_same() {
+        let study = small();
+        let (chart, table) = (svg(&study).expect("a chart"), csv(&study));
+        let again = small();
+        assert_eq!(Some(&chart), svg(&again).as_ref());
+        assert_eq!(table, csv(&again));
+        assert!(chart.starts_with("<svg ") && chart.contains("slope"));
+        let points: usize = study.tests.iter().map(|test| test.curve.len() + 2).sum();
+        assert_eq!(table.lines().count(), 1 + points);
+        let largest = format!("{}", study.tests[0].force_largest_n);
+        assert!(
+            table
+                .lines()
+                .nth(1)
+                .is_some_and(|line| line.ends_with(&largest))
+        );
+    }
+
+    #[test]
+    fn a_study_can_be_stopped() {
+        assert!(study(&[4, 6], |_| false).expect("no bug").is_none());
+    }
+}

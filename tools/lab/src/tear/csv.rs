@@ -1,0 +1,26 @@
+//! The figures of a study as a table.
+
+use std::fmt::Write as _;
+
+use super::Study;
+
+/// One line for each point of each curve, and for each test a line `largest` and one `mean`.
+#[must_use]
+pub fn csv(study: &Study) -> String {
+    let mut text = String::from("rule,threshold,cells,edge_m,what,displacement_m,force_n\n");
+    for test in &study.tests {
+        let name = format!(
+            "{},{},{},{}",
+            test.rule, test.threshold, test.cells, test.edge_m
+        );
+        let mut line = |what: &str, displacement: String, force: f64| {
+            writeln!(text, "{name},{what},{displacement},{force}").expect("a string grows");
+        };
+        line("largest", String::new(), test.force_largest_n);
+        line("mean", String::new(), test.force_mean_n);
+        for [displacement, force] in &test.curve {
+            line("curve", displacement.to_string(), *force);
+        }
+    }
+    text
+}

@@ -1,0 +1,152 @@
+//! The chart of a study: force against displacement, and forces against the size of the mesh.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::{Study, Test};
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+const SIZE: (u32, u32) = (1100, 560);
+const COLOURS: [RGBColor; 3] = [
+    RGBColor(0xd9, 0x5f, 0x02),
+    RGBColor(0x1b, 0x9e, 0x77),
+    RGBColor(0x4c, 0x4f, 0xa8),
+];
+
+/// Draws a study. `None` where the drawing library fails, which a drawing in memory has no
+/// reason for.
+#[must_use]
+pub fn svg(study: &Study) -> Option<String> {
+    let mut text = String::new();
+    {
+        let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        draw(study, &root).ok()?;
+    }
+    Some(text)
+}
+
+fn draw(study: &Study, root: &Area<'_>) -> Drawn {
+    root.fill(&WHITE)?;
+    let title = "Trouser test: force to tear, by two thresholds";
+    root.draw(&Text::new(title, (20, 14), ("sans-serif", 20)))?;
+    let (top, words) = root.margin(44, 4, 8, 8).split_vertically(420);
+    let panels = top.split_evenly((1, 3));
+    let rules = [("stretch", "stretch ratio"), ("toughness", "toughness")];
+    let largest = study.tests.iter().map(|test| test.force_largest_n);
+    let highest = 1.4 * largest.fold(f64::MIN_POSITIVE, f64::max);
+    for (panel, (rule, name)) in panels.iter().zip(rules) {
+        curves(study, panel, rule, name, highest)?;
+    }
+    sizes(study, &panels[2])?;
+    for (i, line) in wrapped(&study.conclusion, 150).iter().enumerate() {
+        let at = (12, 8 + 20 * i as i32);
+        words.draw(&Text::new(line.clone(), at, ("sans-serif", 15)))?;
+    }
+    root.present()
+}
+
+/// Force against displacement, a curve for each mesh.
+fn curves(study: &Study, panel: &Area<'_>, rule: &str, name: &str, highest: f64) -> Drawn {
+    let tests = || study.tests.iter().filter(|test| test.rule == rule);
+    let ends = tests().filter_map(|test| test.curve.last());
+    let farthest = ends.map(|[x, _]| *x).fold(f64::MIN_POSITIVE, f64::max);
+    let mut chart = ChartBuilder::on(panel)
+        .caption(format!("by {name}"), ("sans-serif", 16))
+        .margin(8)
+        .x_label_area_size(36)
+        .y_label_area_size(48)
+        .build_cartesian_2d(0.0..farthest, 0.0..highest)?;
+    chart
+        .configure_mesh()
+        .x_desc("distance of the clamps, m")
+        .y_desc("force, N")
+        .x_labels(5)
+        .y_labels(6)
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    for (test, colour) in tests().zip(COLOURS.iter().cycle()) {
+        let points = test.curve.iter().map(|[x, force]| (*x, force.max(0.0)));
+        chart
+            .draw_series(LineSeries::new(points, colour.stroke_width(1)))?
+            .label(format!("edges of {:.2} mm", 1e3 * test.edge_m))
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], *colour));
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE.mix(0.8))
+        .border_style(BLACK.mix(0.3))
+        .draw()
+}
+
+/// Largest and mean force against the length of edges, both logarithmic.
+fn sizes(study: &Study, panel: &Area<'_>) -> Drawn {
+    let edges = || study.tests.iter().map(|test| 1e3 * test.edge_m);
+    let forces = || {
+        let both = |test: &Test| [test.force_largest_n, test.force_mean_n];
+        let all = study.tests.iter().flat_map(both);
+        all.filter(|force| *force > 0.0)
+    };
+    let x = 0.8 * edges().fold(f64::INFINITY, f64::min)..1.25 * edges().fold(0.0, f64::max);
+    let y = 0.7 * forces().fold(f64::INFINITY, f64::min)..3.5 * forces().fold(0.0, f64::max);
+    let mut chart = ChartBuilder::on(panel)
+        .caption("against the size of the mesh", ("sans-serif", 16))
+        .margin(8)
+        .x_label_area_size(36)
+        .y_label_area_size(48)
+        .build_cartesian_2d(x.log_scale(), y.log_scale())?;
+    chart
+        .configure_mesh()
+        .x_desc("length of edges, mm")
+        .y_desc("force, N")
+        .light_line_style(TRANSPARENT)
+        .draw()?;
+    for (i, rule) in ["stretch", "toughness"].into_iter().enumerate() {
+        let colour = COLOURS[2 * i];
+        let tests = || study.tests.iter().filter(move |test| test.rule == rule);
+        let largest = || tests().map(|test| (1e3 * test.edge_m, test.force_largest_n));
+        let mean = || {
+            let all = tests().map(|test| (1e3 * test.edge_m, test.force_mean_n));
+            all.filter(|(_, force)| *force > 0.0)
+        };
+        let (thick, faint) = (colour.stroke_width(2), colour.mix(0.5));
+        chart
+            .draw_series(LineSeries::new(largest(), thick))?
+            .label(format!(
+                "{rule}: largest, slope {:+.2}",
+                study.slopes_largest[i]
+            ))
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], thick));
+        chart.draw_series(largest().map(|at| Circle::new(at, 4, colour.filled())))?;
+        chart
+            .draw_series(LineSeries::new(mean(), faint))?
+            .label(format!("{rule}: mean, slope {:+.2}", study.slopes_mean[i]))
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], faint));
+        chart.draw_series(mean().map(|at| Circle::new(at, 3, colour)))?;
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE.mix(0.8))
+        .border_style(BLACK.mix(0.3))
+        .draw()
+}
+
+/// Lines of at most so many letters.
+fn wrapped(text: &str, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(last) if last.len() + word.len() < most => {
+                if !last.is_empty() {
+                    last.push(' ');
+                }
+                last.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
