@@ -377,6 +377,8 @@ fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
         );
         last = split.len();
     }
+    // What a tear has gone through is a tip no more.
+    assert!(torn.split().iter().all(|&v| !torn.tear.is_tip(v)));
     println!("{last} splits in a row of 10 vertices");
     let rows: Vec<f64> = torn.split().iter().map(|&v| x(v).y / 1.35).collect();
     assert!(last >= 8, "it ran from side to side: {last}");
