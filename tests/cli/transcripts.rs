@@ -162,6 +162,10 @@ fn bad_inputs(folder: &Folder) {
                 .to_owned(),
         ),
         (
+            "woven.toml",
+            "[fabric]\nwarp_n_per_m = 900\nweft_n_per_m = 600\n".to_owned(),
+        ),
+        (
             "nowhere.toml",
             "[[hold]]\nfrom = [9, 9, 9]\nto = [10, 10, 10]\n".to_owned(),
         ),

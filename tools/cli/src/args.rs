@@ -145,7 +145,7 @@ pub(crate) struct CutArgs {
 const TEAR_EXAMPLES: &str = "\
 Examples:
   tearmesh tear flag.obj --scene rip -o torn.obj
-      hangs a patch by two corners, grabs its middle, and drags it down until it rips
+      hangs a patch by its upper edge, grabs its middle, and drags it down until it rips
   tearmesh tear flag.obj --scene flag --frames frames --frames-topology final
       a flag in the wind, cut in two while it waves: 30 OBJ files a second
 
@@ -161,8 +161,8 @@ Examples:
 pub(crate) struct TearArgs {
     /// hang, flag, rip, trouser, or a scene file in TOML.
     ///
-    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung like
-    /// that, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
+    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung by
+    /// its upper edge, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
     /// apart. A scene file can start from one of these; its keys are listed below.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: String,
@@ -180,7 +180,7 @@ pub(crate) struct TearArgs {
 
     /// Tear by energy, in joules for each metre.
     ///
-    /// Nearly the same force on every mesh.
+    /// Nearly the same mean force on every mesh.
     #[arg(
         long,
         value_name = "J_PER_M",
@@ -195,7 +195,8 @@ pub(crate) struct TearArgs {
 
     /// A file of lines `vertex strength`.
     ///
-    /// Thresholds are multiplied by the strength.     /// Vertices count from 1, as in OBJ; those not named have strength 1. `#` begins a comment.
+    /// A vertex tears at so many times the load of the threshold. Vertices count from 1, as in OBJ;
+    /// those not named have strength 1. `#` begins a comment.
     #[arg(long, value_name = "FILE")]
     pub(crate) strength: Option<PathBuf>,
 

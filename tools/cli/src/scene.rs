@@ -207,6 +207,12 @@ mod tests {
 
     fn file(key: &Key, value: &str) -> String {
         let line = format!("{} = {value}\n", key.name);
+        let woven = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
+        if key.table == "fabric" && woven.contains(&key.name) {
+            let others = woven[..2].iter().filter(|&&other| other != key.name);
+            let others: String = others.map(|other| format!("{other} = 300\n")).collect();
+            return format!("[solver]\nmethod = \"implicit\"\n[fabric]\n{others}{line}");
+        }
         match key.table {
             "" => line,
             table if LISTS.contains(&table) => format!("[[{table}]]\n{}\n{line}", beside(key)),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use tearmesh::cloth::implicit::{self, Settings, Tolerance};
 use tearmesh::cloth::{
     Axis, Breeze, Collider, Copies, Frame, Hold, Limiter, Method, Pbd, Region, Scene, Tearing,
-    Threshold, TimedCut, Unbend, Wind, Xpbd,
+    Threshold, TimedCut, Unbend, Weave, Wind, Xpbd,
 };
 use tearmesh::{Plane, Point, Vector, VertexId};
 
@@ -96,6 +96,9 @@ impl SceneFile {
         let mut faults = Vec::new();
         self.world(&mut scene, frame);
         self.solver(&mut scene, solver);
+        if let Err(fault) = self.weave(&mut scene, frame) {
+            faults.push(*fault);
+        }
         self.wind(&mut scene, &mut faults);
         self.fill(&mut scene.colliders, "collider", &mut faults, |table| {
             self.collider(table)
@@ -180,6 +183,37 @@ impl SceneFile {
             Some(_) => fabric.unbend = Unbend::Seam,
             None => {}
         }
+    }
+
+    /// A fabric of triangles, which stands for springs on edges unless these are named as well.
+    fn weave(&self, scene: &mut Scene, frame: &Frame) -> Result<(), Box<Fault>> {
+        let Some(table) = self.first("fabric") else {
+            return Ok(());
+        };
+        let keys = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
+        let Some(&key) = table.those_of(&keys).first() else {
+            return Ok(());
+        };
+        let required = |key: &'static str| {
+            let modulus = table.number(key);
+            modulus.ok_or_else(|| self.missing(table, "fabric", key))
+        };
+        scene.fabric.weave = Some(Weave {
+            warp_n_per_m: required(keys[0])?,
+            weft_n_per_m: required(keys[1])?,
+            shear_n_per_m: table.number(keys[2]).unwrap_or(0.0),
+            warp: table
+                .vector(keys[3])
+                .unwrap_or_else(|| frame.along.vector()),
+        });
+        scene.fabric.stretch_n_per_m = table.number("stretch_n_per_m").unwrap_or(0.0);
+        if matches!(scene.solver, Method::Pbd(_) | Method::Xpbd(_)) {
+            let message = "pbd and xpbd move springs, and have no triangles".to_owned();
+            let fault = self.fault(table, key, "E-SCENE-CLASH", message);
+            let help = "add method = \"implicit\" to [solver]; verlet and provot do as well";
+            return Err(Box::new(fault.help(help.to_owned())));
+        }
+        Ok(())
     }
 
     fn solver(&self, scene: &mut Scene, typed: Option<SolverName>) {
@@ -331,6 +365,7 @@ impl SceneFile {
                 &["threshold"],
                 &["toughness_j_per_m"],
                 &["threshold_n"],
+                &["principal_stretch"],
                 &["threshold_warp", "threshold_weft", "warp"],
             ],
         )
@@ -356,6 +391,7 @@ impl SceneFile {
         let threshold = one("threshold", Threshold::Stretch)
             .or(one("toughness_j_per_m", Threshold::Toughness))
             .or(one("threshold_n", Threshold::Force))
+            .or(one("principal_stretch", Threshold::PrincipalStretch))
             .or(woven)
             .unwrap_or(Threshold::Stretch(Scene::STRETCH_RATIO));
         let mut tearing = Tearing::new(threshold);

@@ -92,7 +92,7 @@ const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
 
 /// All keys, table by table.
 #[rustfmt::skip]
-pub(crate) const KEYS: [Key; 64] = [
+pub(crate) const KEYS: [Key; 69] = [
     key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
     key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
     key("", "up", Kind::Word(&AXES), "which way is up; y"),
@@ -100,7 +100,11 @@ pub(crate) const KEYS: [Key; 64] = [
     key("", "drag_per_s", Kind::NotNegative, "the rate at which velocities fade; 0.5, trouser 5"),
 
     key("fabric", "density_kg_per_m2", Kind::Positive, "0.15"),
-    key("fabric", "stretch_n_per_m", Kind::Positive, "the stiffness of an edge; 1000"),
+    key("fabric", "stretch_n_per_m", Kind::Positive, "the stiffness of an edge; 1000, woven none"),
+    key("fabric", "warp_n_per_m", Kind::Positive, "woven, of triangles: the modulus along the warp"),
+    key("fabric", "weft_n_per_m", Kind::Positive, "woven: the modulus along the weft"),
+    key("fabric", "shear_n_per_m", Kind::NotNegative, "woven: the modulus of shear; 0"),
+    key("fabric", "warp", Kind::Vector, "woven: the direction of the warp at rest; up"),
     key("fabric", "bend_n_per_m", Kind::NotNegative, "of a spring across an edge; 0, none"),
     key("fabric", "copies", Kind::Word(&["halved", "whole"]), "what both copies of a torn edge have; halved; the paper: whole"),
     key("fabric", "unbend", Kind::Word(&["seam", "vertex"]), "which bend springs a split takes; seam; the paper: vertex"),
@@ -147,11 +151,12 @@ pub(crate) const KEYS: [Key; 64] = [
     key("tear", "threshold", Kind::Ratio, "length by rest length; 1.5"),
     key("tear", "toughness_j_per_m", Kind::Positive, "or energy for each metre of tear"),
     key("tear", "threshold_n", Kind::Positive, "or the pull of an edge"),
+    key("tear", "principal_stretch", Kind::Ratio, "or the stretch of a face in any direction"),
     key("tear", "threshold_warp", Kind::Ratio, "or as threshold, along the warp"),
     key("tear", "threshold_weft", Kind::Ratio, "and along the weft"),
     key("tear", "warp", Kind::Vector, "the direction of the warp at rest; up"),
     key("tear", "splits_per_step", Kind::Count, "at most, worst first; no limit"),
-    key("tear", "weakening", Kind::Part, "what is left of the strength beside a split, above 0; 0.5"),
+    key("tear", "weakening", Kind::Part, "what is left of the strength at the tips of a tear, above 0; 1"),
     key("tear", "delay_s", Kind::NotNegative, "how long an edge is too long before it tears; 0"),
     key("tear", "tears_held", Kind::Bool, "whether held vertices tear too; false"),
 
