@@ -5,6 +5,10 @@
 //! its length; then the force at which an edge tears is proportional to that length, and a mesh
 //! twice as fine is a cloth half as strong. A threshold of toughness, an energy for each metre of
 //! tear, does not have that fault. Both rules are set to agree on the mesh in the middle.
+//!
+//! In a laboratory the tear runs from the slit. So that it does here, tips are half as strong
+//! ([`Tearing::weakening`]); otherwise it also scatters, and the largest force is less the
+//! edge's and more the crowd's: slopes of +0.67 and +0.06 instead of +0.91 and +0.10.
 
 mod csv;
 mod svg;
@@ -20,10 +24,13 @@ use tearmesh::{Mesh, Point, Positions};
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];
 
 /// Cells across the strip.
-pub const CELLS: [u32; 3] = [8, 16, 32];
+pub const CELLS: [u32; 5] = [8, 12, 16, 24, 32];
 
 /// The ratio at which an edge tears by the paper's rule.
 pub const RATIO: f64 = 1.5;
+
+/// What is left of the strength at the tips of a tear.
+pub const TIP: f64 = 0.5;
 
 /// Forces are written down so many times in a test of four seconds, each as a mean.
 const SAMPLES: u64 = 240;
@@ -162,7 +169,10 @@ fn test(cells: u32, threshold: Threshold) -> Result<Test, StudyError> {
     let (mesh, positions) = strip(cells).ok_or(StudyError::Strip)?;
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let scene = Scene {
-        tearing: Some(Tearing::new(threshold)),
+        tearing: Some(Tearing {
+            weakening: Some(TIP),
+            ..Tearing::new(threshold)
+        }),
         ..Scene::trouser(&frame)
     };
     let mut run = Run::new(mesh, &positions, scene, &frame).map_err(StudyError::Run)?;
@@ -249,34 +259,34 @@ fn strip(cells: u32) -> Option<(Mesh, Positions)> {
 mod tests {
     use super::*;
 
-    fn small() -> Study {
-        let study = study(&[6, 12], |_| true).expect("no bug");
+    fn whole(cells: &[u32]) -> Study {
+        let study = study(cells, |_| true).expect("no bug");
         study.expect("nobody stopped it")
     }
 
     #[test]
     fn the_stretch_ratio_depends_on_the_mesh_and_toughness_hardly() {
-        let study = small();
-        let [stretch, toughness] = study.slopes_largest;
-        assert!((0.6..1.4).contains(&stretch), "{stretch}");
-        assert!(
-            toughness < 0.6 * stretch && toughness.abs() < 0.6,
-            "{toughness}"
-        );
+        // Far apart, since each force is that of one tear, which takes its own way.
+        let study = whole(&[8, 24]);
+        for [stretch, toughness] in [study.slopes_largest, study.slopes_mean] {
+            assert!((0.6..1.6).contains(&stretch), "{stretch}");
+            assert!(
+                toughness.abs() < 0.6 && toughness < stretch - 0.3,
+                "{toughness}"
+            );
+        }
         for test in &study.tests {
             assert!(test.splits > 3 && test.force_mean_n > 0.0);
             assert!(test.force_mean_n < test.force_largest_n);
         }
-        // Both rules mean the same on the finer mesh, which is the one in the middle of two.
-        assert_eq!(study.tests[1].splits, study.tests[3].splits);
         assert!(study.conclusion.contains("--toughness"));
     }
 
     #[test]
     fn the_chart_and_the_table_say_what_the_study_says_and_always_the_same() {
-        let study = small();
+        let study = whole(&[4, 8]);
         let (chart, table) = (svg(&study).expect("a chart"), csv(&study));
-        let again = small();
+        let again = whole(&[4, 8]);
         assert_eq!(Some(&chart), svg(&again).as_ref());
         assert_eq!(table, csv(&again));
         assert!(chart.starts_with("<svg ") && chart.contains("slope"));

@@ -9,10 +9,12 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 const SIZE: (u32, u32) = (1100, 560);
-const COLOURS: [RGBColor; 3] = [
+const COLOURS: [RGBColor; 5] = [
     RGBColor(0xd9, 0x5f, 0x02),
     RGBColor(0x1b, 0x9e, 0x77),
     RGBColor(0x4c, 0x4f, 0xa8),
+    RGBColor(0xc2, 0x1e, 0x7a),
+    RGBColor(0x55, 0x55, 0x55),
 ];
 
 /// Draws a study. `None` where the drawing library fails, which a drawing in memory has no
