@@ -250,7 +250,11 @@ fn a_diagonal_avoids_an_edge_that_exists_elsewhere() {
 fn every_colliding_diagonal_is_found_under_any_numbers() {
     let groups = 200;
     let count = 11 * groups;
-    for stride in [1, 7, 331, 1009] {
+    // With many fins a large part of all sides meets a diagonal.
+    for (stride, fins) in [1, 7, 331, 1009]
+        .into_iter()
+        .flat_map(|s| [(s, 2), (s, 12)])
+    {
         let number = |group: usize, vertex: usize| (11 * group + vertex) * stride % count;
         let places = [
             "0 0 0",
@@ -278,7 +282,10 @@ fn every_colliding_diagonal_is_found_under_any_numbers() {
             };
             quads += &face(&[0, 1, 2, 3]);
             quads += &face(&[6, 7, 8, 9]);
-            others += &(face(&[2, 0, 4]) + &face(&[0, 2, 5]) + &face(&[6, 9, 8, 10]));
+            for fin in 0..fins {
+                others += &face(&[2, 0, 4 + fin % 2]);
+            }
+            others += &face(&[6, 9, 8, 10]);
         }
         let vertices: String = vertices
             .iter()
@@ -288,7 +295,7 @@ fn every_colliding_diagonal_is_found_under_any_numbers() {
         for (group, found) in document.triangles().chunks(4).take(groups).enumerate() {
             let expected = [[0, 1, 3], [1, 2, 3], [6, 7, 9], [7, 8, 9]];
             let expected = expected.map(|corners| corners.map(|v| number(group, v) as u32));
-            assert_eq!(found, expected, "group {group}, stride {stride}");
+            assert_eq!(found, expected, "group {group}, {stride}, {fins}");
         }
     }
 }

@@ -77,9 +77,19 @@ fn colliding_polygons(
         suspected |= marks.suspect(b);
         marks.see(b);
     });
+    // The sides that may be among them, unless that is more than an eighth of all.
+    let mut sides = Vec::new();
+    let mut all_listed = true;
+    let room = polygons.vertices.len() / 8;
     for polygon in 0..polygons.len() {
         for_each_side(polygons, polygon, |[a, b]| {
-            suspected |= marks[a as usize].suspect(b);
+            if marks[a as usize].suspect(b) {
+                suspected = true;
+                all_listed &= sides.len() < room;
+                if all_listed {
+                    sides.push([a, b]);
+                }
+            }
         });
     }
     if !suspected {
@@ -94,24 +104,20 @@ fn colliding_polygons(
             colliding[pair[1].1 as usize] = true;
         }
     }
-    for (a, marks) in (0..).zip(&mut marks) {
-        *marks = Marks::default();
-        suspects.at(a).iter().for_each(|&(b, _)| marks.see(b));
-    }
-    for polygon in 0..polygons.len() {
-        for_each_side(polygons, polygon, |[a, b]| {
-            if !marks[a as usize].sees(b) {
-                return;
-            }
-            let entries = suspects.at(a);
-            let first = entries.partition_point(|entry| entry.0 < b);
-            // If there are more diagonals like this, they have collided with each other.
-            if let Some(&(end, polygon)) = entries.get(first)
-                && end == b
-            {
-                colliding[polygon as usize] = true;
-            }
-        });
+    let mut meet = |[a, b]: [u32; 2]| {
+        let entries = suspects.at(a);
+        let first = entries.partition_point(|entry| entry.0 < b);
+        // If there are more diagonals like this, they have collided with each other.
+        if let Some(&(end, polygon)) = entries.get(first)
+            && end == b
+        {
+            colliding[polygon as usize] = true;
+        }
+    };
+    if all_listed {
+        sides.into_iter().for_each(meet);
+    } else {
+        (0..polygons.len()).for_each(|polygon| for_each_side(polygons, polygon, &mut meet));
     }
     let numbers = (0..).zip(&colliding).filter(|&(_, &collides)| collides);
     numbers.map(|(polygon, _)| polygon).collect()
@@ -233,6 +239,12 @@ fn edges_among(
 
 fn for_each_side(polygons: &Polygons, polygon: usize, mut visit: impl FnMut([u32; 2])) {
     let vertices = &polygons.vertices[polygons.corners(polygon)];
+    if let [a, b, c, d] = *vertices {
+        for [from, to] in [[a, b], [b, c], [c, d], [d, a]] {
+            visit(ends(from, to));
+        }
+        return;
+    }
     let mut from = vertices[vertices.len() - 1];
     for &to in vertices {
         visit(ends(from, to));
