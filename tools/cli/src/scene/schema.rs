@@ -191,7 +191,7 @@ pub(crate) fn schema() -> String {
     );
     for table in tables() {
         let title = match table {
-            "" => continue_line(),
+            "" => "  at the top\n".to_owned(),
             list if LISTS.contains(&list) => format!("  [[{list}]] (any number)\n"),
             table => format!("  [{table}]\n"),
         };
@@ -202,8 +202,4 @@ pub(crate) fn schema() -> String {
     }
     text.pop();
     text
-}
-
-fn continue_line() -> String {
-    "  at the top\n".to_owned()
 }
