@@ -149,6 +149,62 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
     );
 }
 
+/// A light particle between two springs whose far ends are led from a right angle to one side. At a
+/// right angle each direction has one spring: ω² = k/m. Side by side both pull along one line:
+/// 2 k/m. Between them the step is stable before and unstable after.
+fn closing(unstable: Unstable) -> (System, f64) {
+    let (mass, stiffness) = (1e-3, 40.0);
+    let at = [(1.0, 0.0), (0.0, 0.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y, 0.0));
+    let mut system = System::new(at, vec![1.0, mass, 1.0]).expect("a system");
+    for end in [0, 2] {
+        system.stretch([1, end], 1.0, stiffness).expect("a spring");
+    }
+    system.hold(0);
+    let turned = Point::new(1.0, 1e-3, 0.0);
+    let corner = Point::new(1.0, 1.0, 0.0);
+    let way = [(0.0, at[2]), (1.0, corner), (2.0, turned)];
+    system.grab(2, Path::new(way).expect("a path"));
+    system.when_unstable(unstable);
+    let drag_per_s = Some(1.0);
+    let loads = Loads {
+        drag_per_s,
+        ..Loads::default()
+    };
+    system.set_loads(loads).expect("loads");
+    (system, 1.7 / (stiffness / mass).sqrt())
+}
+
+#[test]
+fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
+    let steps = |dt: f64| (4.0 / dt) as usize;
+    let (mut system, dt) = closing(Unstable::Substep);
+    let mut fastest = 0.0_f64;
+    for _ in 0..steps(dt) {
+        system.step(&mut Verlet::new(), dt).expect("a step");
+        fastest = fastest.max(system.velocities()[1].norm());
+    }
+    assert!(fastest < 10.0, "{fastest} m/s, led at 1 m/s");
+
+    let (mut system, dt) = closing(Unstable::Refuse);
+    let error = (0..steps(dt)).find_map(|_| system.step(&mut Verlet::new(), dt).err());
+    let Some(StepError::Unstable { frequency, .. }) = error else {
+        panic!("{error:?}");
+    };
+    assert!(frequency.omega_rad_per_s * dt > 1.89);
+    assert!(system.velocities()[1].norm() < 10.0);
+
+    let (mut system, dt) = closing(Unstable::Allow);
+    let mut fastest = 0.0_f64;
+    for _ in 0..steps(dt) {
+        if system.step(&mut Verlet::new(), dt).is_err() {
+            fastest = f64::INFINITY;
+            break;
+        }
+        fastest = fastest.max(system.velocities()[1].norm());
+    }
+    assert!(fastest > 30.0, "unwatched it shakes: {fastest} m/s");
+}
+
 #[test]
 fn f4_the_bound_is_cheap_and_holds_and_power_iteration_is_better() {
     for stiffness in [1e2, 1e5] {

@@ -65,7 +65,7 @@ pub struct StepReport {
     /// The substeps that the watch over stability took it in: 1 unless [`Unstable::Substep`].
     pub substeps: u32,
     /// The largest step in seconds that would have been admitted whole, by the bound or by the
-    /// measured frequency, whichever admitted this one; `None` where nothing had to be asked.
+    /// measured frequency, whichever decided; `None` where nothing had to be asked.
     pub limit_s: Option<f64>,
 }
 
@@ -182,45 +182,44 @@ impl System {
     }
 
     /// How many substeps a step takes, the cheap answer first.
+    ///
+    /// The bound holds wherever the particles go. A measured frequency is that of one
+    /// configuration: springs that turn toward each other at a light particle can raise it to the
+    /// bound within a few steps. So a step is divided by the bound, and one that is longer than
+    /// that and admitted whole is measured again and again.
     fn admit(&mut self, limit: Option<f64>, dt_s: f64) -> Result<StepReport, StepError> {
-        let whole = |limit_s| StepReport {
-            substeps: 1,
-            limit_s,
-        };
+        let admitted = |substeps, limit_s| Ok(StepReport { substeps, limit_s });
         let Some(limit) = limit.filter(|_| self.unstable != Unstable::Allow) else {
-            return Ok(whole(None));
+            return admitted(1, None);
         };
         let bound_s = limit / self.frequency_bound();
         if dt_s <= bound_s {
-            return Ok(whole(Some(bound_s)));
+            return admitted(1, Some(bound_s));
         }
-        let frequency = self.frequency();
+        if self.unstable == Unstable::Substep {
+            let substeps = (dt_s / bound_s).ceil();
+            if substeps > f64::from(StepError::SUBSTEPS_MAX) {
+                return Err(StepError::Substeps {
+                    given_s: dt_s,
+                    limit_s: bound_s,
+                });
+            }
+            return admitted(substeps as u32, Some(bound_s));
+        }
+        let frequency = self.recent_frequency();
         let limit_s = (self.margin * limit / frequency.omega_rad_per_s).max(bound_s);
         if dt_s <= limit_s {
-            return Ok(whole(Some(limit_s)));
+            return admitted(1, Some(limit_s));
         }
-        let substeps = (dt_s / limit_s).ceil();
-        if self.unstable == Unstable::Refuse {
-            Err(StepError::Unstable {
-                given_s: dt_s,
-                limit_s,
-                frequency,
-            })
-        } else if substeps > f64::from(StepError::SUBSTEPS_MAX) {
-            Err(StepError::Substeps {
-                given_s: dt_s,
-                limit_s,
-            })
-        } else {
-            Ok(StepReport {
-                substeps: substeps as u32,
-                limit_s: Some(limit_s),
-            })
-        }
+        Err(StepError::Unstable {
+            given_s: dt_s,
+            limit_s,
+            frequency,
+        })
     }
 
-    /// The largest step in seconds that the watch admits for a method with this limit of ω Δt:
-    /// 2 for [`Verlet`](super::Verlet). Measures the frequency.
+    /// The largest step in seconds that the watch admits whole in the present configuration, for
+    /// a method with this limit of ω Δt: 2 for [`Verlet`](super::Verlet). Measures the frequency.
     pub fn stable_step_s(&mut self, frequency_limit: f64) -> f64 {
         let bound_s = frequency_limit / self.frequency_bound();
         (self.margin * frequency_limit / self.frequency().omega_rad_per_s).max(bound_s)

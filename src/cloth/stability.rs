@@ -8,8 +8,15 @@
 //!   sum of √k over the springs of a particle. An edit raises it by the rows it touches, in
 //!   the time that their valence takes. It never falls on the way, so it stays a bound.
 //! * **A measure** by power iteration on M⁻¹ K in the present configuration, from below, used
-//!   with a margin. It is made only where the bound does not clear the step, starts from the
-//!   vector it found last, and is kept until topology, a mass or a stiffness change.
+//!   with a margin. It is made only where the bound does not clear a step that may not be divided,
+//!   starts from the vector it found last, and is kept until topology, a mass or a stiffness
+//!   change, or for 64 steps.
+//!
+//! On a regular net the measure is 0.72 of the bound and changes by two per cent while the net is
+//! shaken and torn. At light particles it does not stay where it is: of two springs at right angles
+//! each has its own mode, and when they have turned side by side one mode has both. After an exact
+//! cut through a waving flag of 32 × 32 cells steps that were divided by the measure blew up
+//! within 0.06 s; divided by the bound they do not.
 //!
 //! A triangle counts as two springs with three ends, along warp and along weft. Its shear gets stiffer
 //! as it is stretched, so with shear the bound holds as long as |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|
@@ -35,6 +42,11 @@ pub struct Frequency {
     pub ends: Option<[usize; 2]>,
 }
 
+/// For how many steps a measured frequency counts as that of now. The margin takes in how much it
+/// changes meanwhile, and a mode that is just unstable grows by some orders of magnitude, out of
+/// rounding.
+const RECENT: u32 = 64;
+
 /// What is known about frequencies.
 #[derive(Clone, Debug)]
 pub(crate) struct Spectrum {
@@ -45,6 +57,8 @@ pub(crate) struct Spectrum {
     reach: f64,
     /// How far they were when the frequency was measured.
     measured_reach: f64,
+    /// For how many more steps the measured frequency counts as that of now.
+    recent_for: u32,
     /// The vector that the power iteration found last.
     vector: Vec<Vector>,
     product: Vec<Vector>,
@@ -58,6 +72,7 @@ impl Default for Spectrum {
             measured: None,
             reach: 4.0,
             measured_reach: 0.0,
+            recent_for: 0,
             vector: Vec::new(),
             product: Vec::new(),
         }
@@ -215,6 +230,17 @@ impl System {
         // The margin of the watch takes in that much more.
         self.spectrum.measured_reach = growth * 1.0625;
         frequency
+    }
+
+    /// The same, measured anew every [`RECENT`] calls: once a step, in which the configuration
+    /// changes a little.
+    pub(crate) fn recent_frequency(&mut self) -> Frequency {
+        if self.spectrum.recent_for == 0 {
+            self.spectrum.measured = None;
+            self.spectrum.recent_for = RECENT;
+        }
+        self.spectrum.recent_for -= 1;
+        self.frequency()
     }
 
     /// The largest frequency in the present configuration, by power iteration until

@@ -116,10 +116,11 @@ pub struct Counters {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unstable {
-    /// Refuse it, with the limit: nothing changes.
+    /// Refuse it, with the limit: nothing changes. The limit is that of the present configuration,
+    /// with a margin.
     #[default]
     Refuse,
-    /// Divide it into as many substeps as it takes, and say how many.
+    /// Divide it into as many substeps as are stable in every configuration, and say how many.
     Substep,
     /// Take it. No frequency is computed; blow-up is still noticed.
     Allow,
