@@ -16,7 +16,7 @@ use self::held::Held;
 use super::load::Loads;
 use super::scene::{Breeze, Frame, Scene, TimedCut};
 use super::sheet::{Cloth, ClothError};
-use super::solver::{Culprit, StepError};
+use super::solver::{Culprit, Solver, StepError};
 use super::system::Unstable;
 use super::tearing::{Tear, TearReport, Tearing, TearingError};
 use crate::edit::Edits;
@@ -81,10 +81,33 @@ pub struct Tally {
 /// What a step did.
 #[derive(Debug)]
 pub struct Step {
-    /// The cuts that were made, with their numbers in the scene.
-    pub cuts: Vec<(usize, CutReport)>,
+    /// The cuts that were made.
+    pub cuts: Vec<CutMade>,
     /// What tore, where the scene tears.
     pub tear: Option<TearReport>,
+}
+
+/// A cut that was made while the cloth moved.
+#[derive(Debug)]
+pub struct CutMade {
+    /// Its number in the scene.
+    pub number: usize,
+    /// What it did to the mesh.
+    pub report: CutReport,
+    /// What it did to the steps that an explicit method may take: slivers shorten them. `None` for
+    /// the others.
+    pub stability: Option<Shortened>,
+}
+
+/// The longest stable step before a cut and after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shortened {
+    /// Before, in seconds.
+    pub before_s: f64,
+    /// After, in seconds.
+    pub after_s: f64,
+    /// The vertices of the constraint that moves most in the fastest vibration after the cut.
+    pub ends: Option<[usize; 2]>,
 }
 
 impl Run {
@@ -213,13 +236,14 @@ impl Run {
     }
 
     /// Makes the cuts whose time has come.
-    fn cut(&mut self, now: u64) -> Result<Vec<(usize, CutReport)>, StepError> {
+    fn cut(&mut self, now: u64) -> Result<Vec<CutMade>, StepError> {
         let mut done = Vec::new();
-        while let Some(cut) = self.scene.cuts.get(self.next_cut) {
+        while let Some(&cut) = self.scene.cuts.get(self.next_cut) {
             if held::step_at(cut.at_s, self.step_s) > now {
                 break;
             }
             let before = self.momentum();
+            let step_before_s = self.stable_step_s();
             let mut positions = self.places()?;
             let scissor = &self.scissors[self.next_cut];
             let report = scissor.cut(cut.method, &mut self.mesh, &mut positions, &mut self.edits);
@@ -230,10 +254,28 @@ impl Run {
             }
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
-            done.push((self.next_cut, report));
+            done.push(CutMade {
+                number: self.next_cut,
+                report,
+                stability: step_before_s.map(|before_s| self.shortened(before_s)),
+            });
             self.next_cut += 1;
         }
         Ok(done)
+    }
+
+    /// The longest stable step of an explicit method.
+    fn stable_step_s(&mut self) -> Option<f64> {
+        let limit = self.engine.frequency_limit()?;
+        Some(self.cloth.system_mut().stable_step_s(limit))
+    }
+
+    fn shortened(&mut self, before_s: f64) -> Shortened {
+        Shortened {
+            before_s,
+            after_s: self.stable_step_s().unwrap_or(before_s),
+            ends: self.cloth.system_mut().frequency().ends,
+        }
     }
 
     /// Where the vertices are, for the scissor.

@@ -86,6 +86,26 @@ fn frames_with_one_topology_are_the_frames_corner_by_corner() {
     assert_eq!(read(&folder.read("own/frame_00045.obj")).0, last.0);
 }
 
+#[test]
+fn the_report_says_how_a_cut_shortens_the_steps_of_an_explicit_method() {
+    let folder = Folder::new();
+    let line = "tearmesh tear sheet.obj --scene tests/data/scarf.toml --seconds 0.6 --dry-run";
+    for (solver, is_explicit) in [("verlet", true), ("provot", true), ("xpbd", false)] {
+        let output = folder.run(&format!("{line} --solver {solver} --report r.json"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        let report: serde_json::Value =
+            serde_json::from_str(&folder.read("r.json")).expect("a report");
+        let stable = &report["cuts"][0]["stable_step_s"];
+        assert_eq!(stable.is_object(), is_explicit, "{solver}: {stable}");
+        if is_explicit {
+            let [before, after] = ["before", "after"].map(|at| stable[at].as_f64().expect("s"));
+            assert!(0.0 < after && after < before, "{solver}: {stable}");
+            let edge = stable["edge"].as_array().expect("an edge");
+            assert!(edge.len() == 2 && edge.iter().all(|v| v.as_u64() > Some(0)));
+        }
+    }
+}
+
 /// The faces of a frame before the cut are divided already, but on the same surface.
 #[test]
 fn frames_before_a_cut_have_its_vertices_on_their_edges() {

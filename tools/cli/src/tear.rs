@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tearmesh::cloth::{Frame, Method, Run, Scene, StepError, Tearing, TimedCut};
+use tearmesh::cloth::{CutMade, Frame, Method, Run, Scene, StepError, Tearing, TimedCut};
 use tearmesh::{Positions, Scissor};
 use tearmesh_obj::TornDocument;
 
@@ -186,8 +186,8 @@ impl Play<'_> {
             frames.follow(run.edits());
             match step {
                 Ok(step) => {
-                    for (number, done) in &step.cuts {
-                        self.note_cut(run.scene(), *number, done, session);
+                    for cut in &step.cuts {
+                        self.note_cut(run.scene(), cut, session);
                         torn.next_cut();
                     }
                     frames.shoot(run, torn)?;
@@ -203,14 +203,8 @@ impl Play<'_> {
         Ok(ended)
     }
 
-    fn note_cut(
-        &self,
-        scene: &Scene,
-        number: usize,
-        done: &tearmesh::CutReport,
-        session: &mut Session<'_>,
-    ) {
-        let cut = &scene.cuts[number];
+    fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_>) {
+        let (cut, done) = (&scene.cuts[made.number], &made.report);
         let Ok(scissor) = Scissor::new(&cut.rays[0], &cut.rays[1]) else {
             return; // It was made with these rays.
         };
@@ -221,12 +215,15 @@ impl Play<'_> {
             snap: (cut.method == tearmesh::Method::Exact).then_some(Scissor::SNAP),
             snap_move: (cut.method == tearmesh::Method::Exact).then_some(false),
         };
-        let entry = report::Cut::new(&cut.rays, &scissor, how, done);
+        let mut entry = report::Cut::new(&cut.rays, &scissor, how, done);
+        entry.stable_step_s = made.stability.map(words::stable_step);
         session.report.cuts.push(entry);
-        let many = (scene.cuts.len() > 1).then_some(number + 1);
+        let many = (scene.cuts.len() > 1).then_some(made.number + 1);
         let at = crate::say::short(cut.at_s);
         let line = crate::cut::words::cut(many, done);
-        session.words.push(format!("{line} · at {at} s"));
+        let stability = made.stability.as_ref().map(words::shortened);
+        let stability = stability.unwrap_or_default();
+        session.words.push(format!("{line} · at {at} s{stability}"));
         let kind = (cut.through, cut.method == tearmesh::Method::Exact);
         let warnings = crate::cut::words::warnings(many, kind, done);
         session.faults.extend(warnings);

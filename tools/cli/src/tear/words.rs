@@ -1,6 +1,6 @@
 //! What is said of a simulation.
 
-use tearmesh::cloth::{Culprit, Run, StepError};
+use tearmesh::cloth::{Culprit, Run, Shortened, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};
@@ -26,6 +26,22 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
         count(tear.pieces, "piece", "pieces"),
         short(tear.max_stretch),
     )
+}
+
+/// What a cut did to the steps of an explicit method.
+pub(super) fn shortened(stability: &Shortened) -> String {
+    let [before, after] = [stability.before_s, stability.after_s].map(two_digits);
+    let at = stability.ends.map(edge).unwrap_or_default();
+    format!(" · stable steps {before} s -> {after} s{at}")
+}
+
+/// The same for the report.
+pub(super) fn stable_step(stability: Shortened) -> report::StableStep {
+    report::StableStep {
+        before: stability.before_s,
+        after: stability.after_s,
+        edge: stability.ends.map(|ends| ends.map(|end| end + 1)),
+    }
 }
 
 /// Momentum that edits made or lost beyond rounding: our bug.
