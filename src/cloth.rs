@@ -1,8 +1,8 @@
 //! Cloth, as thin as can be: particles, constraints, solvers, and a follower of the log.
 //!
 //! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A [`Solver`] advances
-//! it; [`System::step`] watches over stability, notices blow-up, and keeps the last good state. A
-//! [`Cloth`] is a system made of a mesh, and a follower of its log. [`Tear`] is what tears it
+//! it; [`System::step`] watches over stability, notices blow-up and steps that miss their tolerance,
+//! and keeps the last good state. A [`Cloth`] is a system made of a mesh, and a follower of its log. [`Tear`] is what tears it
 //! where it is overstretched, by a [`Tearing`] with a [`Threshold`].
 //!
 //! | method | what it is for | a step costs |
@@ -56,7 +56,7 @@ pub use rk4::Rk4;
 pub use run::{CutMade, Run, RunError, Shortened, Step, Tally};
 pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
-pub use solver::{Culprit, Solver, StepError, StepReport};
+pub use solver::{Culprit, Failure, Solver, StepError, StepReport};
 pub use stability::Frequency;
 pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};

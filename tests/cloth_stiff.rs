@@ -1,8 +1,10 @@
 //! A system's springs under the implicit solver: the reference answers that apply to it, and
 //! edits of a running cloth.
 
-use tearmesh::cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh::cloth::{Cloth, Fabric, ImplicitCloth, Loads, Path, System};
+use std::error::Error as _;
+
+use tearmesh::cloth::implicit::{self, Method, Settings, Tolerance};
+use tearmesh::cloth::{Cloth, Culprit, Fabric, ImplicitCloth, Loads, Path, StepError, System};
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
 
 const G: f64 = 9.81;
@@ -129,4 +131,62 @@ fn a_falling_cloth_keeps_its_shape_while_it_is_torn() {
     assert!(worst < 1e-9, "{worst}");
     assert!(cloth.system().strain_rms() < 1e-10);
     assert_eq!(cloth.system().positions().len(), mesh.vertex_count());
+}
+
+/// A tolerance that is missed is said, with the residual; the system is as it was, and goes on
+/// with a step that is short enough.
+#[test]
+fn a_step_that_misses_its_tolerance_is_no_blow_up() {
+    let points = [Point::origin(), Point::new(0.0, 0.0, -1.0)];
+    let mut system = System::new(points, vec![0.1; 2]).expect("two particles");
+    system.stretch([0, 1], 1.0, 500.0).expect("a spring");
+    system.hold(0);
+    system.set_loads(falling()).expect("loads");
+    system.state_mut().1[1] = Vector::new(20.0, 0.0, 0.0);
+    let settings = Settings {
+        tolerance: Tolerance::Fixed(1e-6),
+        newton_iterations_max: 2,
+        ..Settings::default()
+    };
+    let mut solver = ImplicitCloth::new(settings);
+    system.step(&mut solver, 1e-4).expect("a short step");
+    let before = (system.positions().to_vec(), system.velocities().to_vec());
+    let elapsed = system.elapsed_s();
+    let error = system.step(&mut solver, 0.1).expect_err("a long step");
+    let StepError::Implicit {
+        elapsed_s,
+        error: why,
+    } = error
+    else {
+        panic!("{error}");
+    };
+    let implicit::StepError::NotConverged {
+        residual,
+        limit,
+        newton_iterations,
+        ..
+    } = why
+    else {
+        panic!("{why}");
+    };
+    assert!(residual > limit, "{residual} {limit}");
+    assert_eq!((limit, newton_iterations), (1e-6, 2));
+    assert_eq!((elapsed_s, system.elapsed_s()), (elapsed, elapsed));
+    assert_eq!(
+        before,
+        (system.positions().to_vec(), system.velocities().to_vec())
+    );
+    let source = error.source().expect("the reason");
+    assert_eq!(source.to_string(), why.to_string());
+    assert!(error.to_string().contains(&why.to_string()), "{error}");
+    system.step(&mut solver, 1e-4).expect("a short step");
+
+    // What is nowhere before the step is a blow-up for every method.
+    system.state_mut().0[1].y = f64::NAN;
+    let error = system.step(&mut solver, 1e-4).expect_err("not a number");
+    let nowhere = Culprit::Particle(1);
+    assert!(
+        matches!(error, StepError::BlowUp { at, .. } if at == nowhere),
+        "{error}"
+    );
 }

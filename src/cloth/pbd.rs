@@ -7,7 +7,7 @@
 //! [`System::strain_rms`].
 
 use super::kernel;
-use super::solver::Solver;
+use super::solver::{Failure, Solver};
 use super::system::{Forces, Model, System};
 use crate::geometry::{Point, Vector};
 
@@ -47,7 +47,7 @@ impl Pbd {
 }
 
 impl Solver for Pbd {
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         predict(system, dt_s);
         let fraction = |stiffness: f64| 1.0 - root(1.0 - stiffness, self.sweeps);
         let (stretch, bend) = (fraction(self.stiffness), fraction(self.bend_stiffness));
@@ -77,7 +77,7 @@ impl Solver for Pbd {
         model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
         model.forces = Forces::Multipliers;
         finish(system, dt_s);
-        sane
+        Failure::unless(sane)
     }
 }
 

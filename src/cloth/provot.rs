@@ -12,7 +12,7 @@
 //! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
 use super::kernel;
-use super::solver::Solver;
+use super::solver::{Failure, Solver};
 use super::system::{Forces, System};
 use super::verlet::accelerate;
 
@@ -156,7 +156,7 @@ impl Solver for Provot {
         true
     }
 
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let sane = accelerate(system);
         let System {
             positions,
@@ -178,6 +178,6 @@ impl Solver for Provot {
         }
         self.limit(system, dt_s);
         system.collide();
-        sane
+        Failure::unless(sane)
     }
 }

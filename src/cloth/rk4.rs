@@ -1,6 +1,6 @@
 //! The classical Runge–Kutta method: the reference solution.
 
-use super::solver::Solver;
+use super::solver::{Failure, Solver};
 use super::system::System;
 use crate::geometry::{Point, Vector};
 
@@ -34,7 +34,7 @@ impl Solver for Rk4 {
         true
     }
 
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let System {
             positions,
             velocities,
@@ -85,6 +85,6 @@ impl Solver for Rk4 {
             velocities[i] += self.sped[i] * (dt_s / 6.0);
         }
         system.collide();
-        sane
+        Failure::unless(sane)
     }
 }

@@ -374,13 +374,6 @@ impl Run {
         step_size::wanted_s(&self.scene, &self.cloth)
     }
 
-    /// Why the last step failed, where the method is implicit and was why: [`StepError`] says
-    /// only that the system blew up.
-    #[must_use]
-    pub fn implicit_error(&self) -> Option<super::implicit::StepError> {
-        self.engine.error()
-    }
-
     /// The seconds that have been simulated.
     #[must_use]
     pub fn elapsed_s(&self) -> f64 {

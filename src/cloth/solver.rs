@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use super::implicit::triangle;
+use super::implicit::{self, triangle};
 use super::stability::Frequency;
 use super::system::{System, Unstable};
 use crate::geometry::length;
@@ -13,25 +13,28 @@ use crate::geometry::length;
 /// A method that advances a system.
 ///
 /// ```
-/// use tearmesh::cloth::{Solver, System};
+/// use tearmesh::cloth::{Failure, Solver, System};
 ///
 /// /// Particles that fly straight on.
 /// struct Inertia;
 ///
 /// impl Solver for Inertia {
-///     fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+///     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
 ///         let (positions, velocities) = system.state_mut();
 ///         for (x, v) in positions.iter_mut().zip(velocities) {
 ///             *x += *v * dt_s;
 ///         }
-///         true
+///         Ok(())
 ///     }
 /// }
 /// ```
 pub trait Solver {
-    /// Advances positions and velocities by this many seconds. False where the system blew up;
-    /// the caller goes back.
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool;
+    /// Advances positions and velocities by this many seconds.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`]: positions and velocities may be anything then, and [`System::step`] goes back.
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure>;
 
     /// The largest ω Δt at which the method is stable; `None` where there is none.
     fn frequency_limit(&self) -> Option<f64> {
@@ -46,7 +49,7 @@ pub trait Solver {
 }
 
 impl<S: Solver + ?Sized> Solver for &mut S {
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         (**self).advance(system, dt_s)
     }
 
@@ -56,6 +59,23 @@ impl<S: Solver + ?Sized> Solver for &mut S {
 
     fn takes_triangles(&self) -> bool {
         (**self).takes_triangles()
+    }
+}
+
+/// Why a method did not advance a system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Failure {
+    /// Something grew beyond all measure, or is not a number.
+    BlowUp,
+    /// An implicit method found no state that solves its equation as exactly as it is to.
+    Implicit(implicit::StepError),
+}
+
+impl Failure {
+    /// Blow-up, unless what a method saw was sane.
+    pub(crate) fn unless(sane: bool) -> Result<(), Failure> {
+        if sane { Ok(()) } else { Err(Failure::BlowUp) }
     }
 }
 
@@ -106,6 +126,15 @@ pub enum StepError {
         /// The first particle that is not finite, or the constraint or triangle that is
         /// longest for its rest length.
         at: Culprit,
+    },
+    /// An implicit method found no state that solves its equation as exactly as its
+    /// [`Settings`](implicit::Settings) say: no blow-up. A shorter step helps, and so do more of
+    /// Newton's iterations or another tolerance.
+    Implicit {
+        /// The seconds simulated until the last good state, where the system still is.
+        elapsed_s: f64,
+        /// What failed; also the [`source`](std::error::Error::source).
+        error: implicit::StepError,
     },
 }
 
@@ -163,22 +192,34 @@ impl System {
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
             self.drive(substep_s);
-            if !solver.advance(self, substep_s) || !self.is_finite() {
-                let at = self.culprit();
-                std::mem::swap(&mut self.positions, &mut self.scratch.positions);
-                std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
-                self.scratch.is_fresh = false;
-                self.model.forget();
-                self.elapsed_s = began_s;
-                return Err(StepError::BlowUp {
-                    elapsed_s: began_s,
-                    at,
-                });
+            let advanced = solver.advance(self, substep_s);
+            if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
+                return Err(self.go_back(failure, began_s));
             }
             self.elapsed_s += substep_s;
         }
         self.elapsed_s = began_s + dt_s;
         Ok(report)
+    }
+
+    /// Makes the system what it was before the step, and says why the step was not taken.
+    fn go_back(&mut self, failure: Failure, began_s: f64) -> StepError {
+        let error = match failure {
+            Failure::BlowUp => StepError::BlowUp {
+                elapsed_s: began_s,
+                at: self.culprit(),
+            },
+            Failure::Implicit(error) => StepError::Implicit {
+                elapsed_s: began_s,
+                error,
+            },
+        };
+        std::mem::swap(&mut self.positions, &mut self.scratch.positions);
+        std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
+        self.scratch.is_fresh = false;
+        self.model.forget();
+        self.elapsed_s = began_s;
+        error
     }
 
     /// How many substeps a step takes, the cheap answer first.
@@ -325,11 +366,22 @@ impl fmt::Display for StepError {
                 }
                 f.write_str("; the last good state is kept")
             }
+            StepError::Implicit { elapsed_s, error } => write!(
+                f,
+                "an implicit step failed after {elapsed_s} s: {error}; the last good state is kept"
+            ),
         }
     }
 }
 
-impl std::error::Error for StepError {}
+impl std::error::Error for StepError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            StepError::Implicit { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
 
 /// A number to three digits or all of those before the point.
 struct Digits(f64);

@@ -5,16 +5,16 @@
 //! back positions and velocities. Choi and Ko's bends are no part of a system; who needs them
 //! uses [`implicit`](super::implicit) itself.
 
-use super::implicit::{self, Filter, Implicit, Settings, Spring};
-use super::solver::Solver;
+use super::implicit::{self, Filter, Implicit, ModelError, Part, Settings, Spring};
+use super::solver::{Failure, Solver};
 use super::system::System;
 use crate::geometry::Vector;
 
 /// Implicit steps of a system: backward Euler or BDF2, stable at any step.
 ///
 /// ```
-/// use tearmesh::cloth::implicit::{Settings, Tolerance};
-/// use tearmesh::cloth::{ImplicitCloth, Loads, System};
+/// use tearmesh::cloth::implicit::{self, Settings, Tolerance};
+/// use tearmesh::cloth::{ImplicitCloth, Loads, StepError, System};
 /// use tearmesh::{Point, Vector};
 ///
 /// let mut spring = System::new([Point::origin(), Point::new(0.0, 0.0, -1.0)], vec![0.1; 2])?;
@@ -28,6 +28,16 @@ use crate::geometry::Vector;
 ///     spring.step(&mut solver, 0.5)?; // Far beyond the limit of an explicit method.
 /// }
 /// assert!((spring.positions()[1].z + 1.0 + 0.1 * 9.81 / 50.0).abs() < 1e-8);
+///
+/// // A step that misses its tolerance is not taken, and says by how much it misses.
+/// let (x, _) = spring.state_mut();
+/// x[1] = Point::new(0.3, 0.0, -1.0);
+/// let settings = Settings { tolerance, newton_iterations_max: 2, ..Settings::default() };
+/// let error = spring.step(&mut ImplicitCloth::new(settings), 0.5).unwrap_err();
+/// let StepError::Implicit { error, .. } = error else { unreachable!() };
+/// let implicit::StepError::NotConverged { residual, limit, .. } = error else { unreachable!() };
+/// assert!(residual > limit && limit == 1e-10);
+/// assert_eq!(spring.positions()[1], Point::new(0.3, 0.0, -1.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default)]
@@ -38,7 +48,6 @@ pub struct ImplicitCloth {
     filters: Vec<Filter>,
     accelerations: Vec<Vector>,
     springs: Vec<Spring>,
-    error: Option<implicit::StepError>,
 }
 
 impl ImplicitCloth {
@@ -49,12 +58,6 @@ impl ImplicitCloth {
             settings,
             ..ImplicitCloth::default()
         }
-    }
-
-    /// Why the last step failed, if it did: [`System::step`] says only that it blew up.
-    #[must_use]
-    pub fn error(&self) -> Option<implicit::StepError> {
-        self.error
     }
 
     /// Forgets the previous step: for BDF2, after particles were renumbered by a merge, or their
@@ -98,7 +101,7 @@ impl Solver for ImplicitCloth {
         true
     }
 
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         self.gather(system);
         system.scratch.is_fresh = false;
         let model = implicit::Model {
@@ -112,26 +115,28 @@ impl Solver for ImplicitCloth {
         };
         let (positions, velocities) = (&mut system.positions, &mut system.velocities);
         let settings = &self.settings;
-        match self
+        let step = self
             .solver
-            .step(&model, positions, velocities, dt_s, settings)
-        {
-            Ok(report) => {
-                self.error = None;
-                system.counters.force_evaluations += report.work.force_evaluations;
-                system.counters.matrix_products += report.work.matrix_products;
-                if !system.model.triangles.as_slice().is_empty() {
-                    system.counters.triangle_evaluations += report.work.force_evaluations
-                        + report.work.hessian_evaluations
-                        + report.work.energy_evaluations;
-                }
-                system.collide();
-                true
-            }
-            Err(error) => {
-                self.error = Some(error);
-                false
-            }
+            .step(&model, positions, velocities, dt_s, settings);
+        let work = step.map_err(failure)?.work;
+        system.counters.force_evaluations += work.force_evaluations;
+        system.counters.matrix_products += work.matrix_products;
+        if !system.model.triangles.as_slice().is_empty() {
+            system.counters.triangle_evaluations +=
+                work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
         }
+        system.collide();
+        Ok(())
+    }
+}
+
+/// A state that is beyond all measure already is no matter of the method.
+fn failure(error: implicit::StepError) -> Failure {
+    match error {
+        implicit::StepError::Model(ModelError::Unusable {
+            part: Part::Position | Part::Velocity,
+            ..
+        }) => Failure::BlowUp,
+        error => Failure::Implicit(error),
     }
 }

@@ -1,6 +1,6 @@
 //! Velocity Verlet: the accurate explicit method.
 
-use super::solver::Solver;
+use super::solver::{Failure, Solver};
 use super::system::System;
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
@@ -28,7 +28,7 @@ impl Solver for Verlet {
         true
     }
 
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half = dt_s / 2.0;
         let fade = half * system.model.drag_per_s();
         // The last accelerations of the step before are those of now, unless something has
@@ -69,7 +69,7 @@ impl Solver for Verlet {
         }
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
         system.collide();
-        sane
+        Failure::unless(sane)
     }
 }
 

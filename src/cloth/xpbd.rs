@@ -14,7 +14,7 @@
 
 use super::kernel;
 use super::pbd::{finish, finish_and_predict, predict};
-use super::solver::Solver;
+use super::solver::{Failure, Solver};
 use super::system::{Forces, Model, System};
 use crate::geometry::{Vector, dot};
 
@@ -104,7 +104,7 @@ impl Xpbd {
 }
 
 impl Solver for Xpbd {
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
         predict(system, substep_s);
@@ -119,7 +119,7 @@ impl Solver for Xpbd {
         let model = &mut system.model;
         model.scale_multipliers(scale(model, substep_s));
         model.forces = Forces::Multipliers;
-        sane
+        Failure::unless(sane)
     }
 }
 

@@ -156,6 +156,11 @@ fn bad_inputs(folder: &Folder) {
                 .to_owned(),
         ),
         (
+            "strict.toml",
+            "base = \"rip\"\n[solver]\nmethod = \"implicit\"\ndt_s = 0.01\nnewton_iterations = 2\ntolerance = 0.1\n"
+                .to_owned(),
+        ),
+        (
             "missing.toml",
             "[wind]\nperiod_s = 1\n[[hold]]\nuntil_s = 1\n[[hold]]\nnear = [0, 1]\nalong = [0, 1]\n\
              [[cut]]\nat_s = 1\n[[collider]]\npoint = [0, 0, 0]\n[[strength]]\nvertices = [1]\n"

@@ -124,9 +124,17 @@ fn f12_newton_converges_beyond_the_threshold_and_reports_its_halvings() {
         ..settings
     };
     let (refused, x, v) = one(&scene, 0.1, &few);
-    let Err(StepError::NotConverged { residual, limit }) = refused else {
+    let Err(StepError::NotConverged {
+        residual,
+        limit,
+        newton_iterations,
+        solver_iterations,
+    }) = refused
+    else {
         panic!("{refused:?}");
     };
+    assert_eq!(newton_iterations, 2);
+    assert!(solver_iterations >= 2);
     assert!(residual > limit && (limit - 1e-12).abs() < 1e-25);
     assert_eq!((x, v), (scene.x.clone(), scene.v.clone()));
 }

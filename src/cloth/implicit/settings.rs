@@ -108,6 +108,10 @@ pub enum StepError {
         residual: f64,
         /// The bound that was asked for, in m/s.
         limit: f64,
+        /// Newton's iterations that were spent; 1 if linearised.
+        newton_iterations: u32,
+        /// The iterations of conjugate gradients in all of them.
+        solver_iterations: u64,
     },
     /// The step would have thrown this particle to infinity.
     NotFinite {
@@ -124,9 +128,15 @@ impl fmt::Display for StepError {
             StepError::Indefinite { time_step_s } => {
                 write!(f, "the matrix is indefinite at a step of {time_step_s} s")
             }
-            StepError::NotConverged { residual, limit } => write!(
+            StepError::NotConverged {
+                residual,
+                limit,
+                newton_iterations,
+                solver_iterations,
+            } => write!(
                 f,
-                "the solver left an error of {residual} m/s, above the limit of {limit} m/s"
+                "after {newton_iterations} iterations of Newton and {solver_iterations} of conjugate \
+                 gradients an error of {residual} m/s is left, above the limit of {limit} m/s"
             ),
             StepError::NotFinite { particle } => {
                 write!(f, "particle {particle} would be thrown to infinity")

@@ -217,6 +217,8 @@ impl Implicit {
             return Err(StepError::NotConverged {
                 residual: report.residual,
                 limit: report.limit,
+                newton_iterations: report.newton_iterations,
+                solver_iterations: self.work.since(&before).solver_iterations,
             });
         }
         self.keep_momentum(model, stage);

@@ -1,8 +1,7 @@
 //! The methods of scenes, behind one solver.
 
-use crate::cloth::implicit::StepError;
 use crate::cloth::scene::Method;
-use crate::cloth::{ImplicitCloth, Pbd, Provot, Solver, System, Verlet, Xpbd};
+use crate::cloth::{Failure, ImplicitCloth, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
 /// A method with its state.
 #[derive(Clone, Debug)]
@@ -27,18 +26,8 @@ impl Engine {
     }
 }
 
-impl Engine {
-    /// Why an implicit step failed, where that is known.
-    pub(super) fn error(&self) -> Option<StepError> {
-        match self {
-            Engine::Implicit(implicit) => implicit.error(),
-            Engine::Provot(_) | Engine::Pbd(_) | Engine::Verlet(_) | Engine::Xpbd(_) => None,
-        }
-    }
-}
-
 impl Solver for Engine {
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> bool {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         match self {
             Engine::Provot(provot) => provot.advance(system, dt_s),
             Engine::Pbd(pbd) => pbd.advance(system, dt_s),

@@ -117,6 +117,7 @@ impl Play<'_> {
             Ended::Done => "done",
             Ended::Interrupted => "interrupted",
             Ended::Failed(StepError::BlowUp { .. }) => "blown up",
+            Ended::Failed(StepError::Implicit { .. }) => "unsolved",
             Ended::Failed(_) => "unstable",
         };
         let tear = report::Tear {

@@ -235,7 +235,7 @@ impl SceneFile {
                 xpbd.substeps = table.count("substeps").unwrap_or(xpbd.substeps);
                 xpbd.sweeps = table.count("sweeps").unwrap_or(xpbd.sweeps);
             }
-            Method::Implicit(settings) => set_order(table, settings),
+            Method::Implicit(settings) => set_implicit(table, settings),
         }
     }
 
@@ -484,7 +484,13 @@ fn set_pbd(table: &Table, pbd: &mut Pbd) {
     pbd.bend_stiffness = table.number("bend_stiffness").unwrap_or(pbd.bend_stiffness);
 }
 
-fn set_order(table: &Table, settings: &mut Settings) {
+fn set_implicit(table: &Table, settings: &mut Settings) {
+    if let Some(iterations) = table.count("newton_iterations") {
+        settings.newton_iterations_max = iterations;
+    }
+    if let Some(tolerance) = table.number("tolerance") {
+        settings.tolerance = Tolerance::Tied(tolerance);
+    }
     match table.word("order") {
         Some("2") => settings.method = implicit::Method::Bdf2,
         Some(_) => settings.method = implicit::Method::BackwardEuler,

@@ -92,7 +92,7 @@ const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
 
 /// All keys, table by table.
 #[rustfmt::skip]
-pub(crate) const KEYS: [Key; 69] = [
+pub(crate) const KEYS: [Key; 71] = [
     key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
     key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
     key("", "up", Kind::Word(&AXES), "which way is up; y"),
@@ -118,6 +118,8 @@ pub(crate) const KEYS: [Key; 69] = [
     key("solver", "limit_ratio", Kind::Ratio, "provot: the longest the limiter leaves; 1.1"),
     key("solver", "limit_passes", Kind::Count, "provot: passes of the limiter; 20"),
     key("solver", "order", Kind::Word(&["1", "2"]), "implicit: backward Euler, or BDF2; \"1\""),
+    key("solver", "newton_iterations", Kind::Count, "implicit: at most so many a step; 1, linearised"),
+    key("solver", "tolerance", Kind::Positive, "implicit: a step's error of velocity, by dt^(order + 1); 10"),
 
     key("wind", "velocity_m_per_s", Kind::Vector, "required"),
     key("wind", "coefficient", Kind::NotNegative, "the force is this times area and normal speed, kg/(m2 s); 1.5"),

@@ -1,6 +1,7 @@
 //! What is said of a simulation.
 
-use tearmesh::cloth::{Culprit, Run, Shortened, StepError};
+use tearmesh::cloth::implicit;
+use tearmesh::cloth::{Culprit, Method, Run, Shortened, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};
@@ -87,6 +88,7 @@ pub(super) fn method(method: tearmesh::Method) -> &'static str {
 pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fault {
     let code = match error {
         StepError::Unstable { .. } | StepError::Substeps { .. } => "E-SIM-UNSTABLE",
+        StepError::Implicit { .. } => "E-SIM-UNSOLVED",
         _ => "E-SIM-BLOWUP",
     };
     let after = match run.elapsed_s() {
@@ -107,10 +109,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                  rad/s{at}){after}"
             )
         }
-        StepError::BlowUp { .. } if run.implicit_error().is_some() => {
-            let why = run.implicit_error().map(|error| error.to_string());
-            format!("{}{after}", why.unwrap_or_default())
-        }
+        StepError::Implicit { ref error, .. } => format!("{}{after}", unsolved(error, run)),
         StepError::BlowUp { at, .. } => match at {
             Culprit::Constraint {
                 ends,
@@ -134,9 +133,12 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
             let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
             format!("--dt {}, or --solver xpbd", two_digits(limit_s * part))
         }
-        _ if run.implicit_error().is_some() => {
+        StepError::Implicit { error, .. } => {
             let shorter = two_digits(run.step_s() / 2.0);
-            format!("--dt {shorter}, or --solver xpbd")
+            format!(
+                "--dt {shorter}, --solver xpbd{}",
+                settings_that_help(&error)
+            )
         }
         _ if is_step_chosen => {
             let shorter = two_digits(run.step_s() / 2.0);
@@ -145,6 +147,52 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
         _ => "--solver implicit".to_owned(),
     };
     Fault::error(code, message).help(help)
+}
+
+/// What an implicit step left undone.
+fn unsolved(error: &implicit::StepError, run: &Run) -> String {
+    let dt = short(run.step_s());
+    match (error, &run.scene().solver) {
+        (
+            implicit::StepError::NotConverged {
+                residual,
+                limit,
+                newton_iterations,
+                solver_iterations,
+            },
+            Method::Implicit(settings),
+        ) => {
+            let newton = match *newton_iterations {
+                1 => "linearised".to_owned(),
+                n => format!(
+                    "after {n} of {} Newton iterations",
+                    settings.newton_iterations_max
+                ),
+            };
+            format!(
+                "an implicit step of {dt} s, {newton}, leaves an error of {} m/s after \
+                 {solver_iterations} iterations of the linear solver, and the tolerance allows \
+                 {} m/s",
+                short(*residual),
+                short(*limit)
+            )
+        }
+        _ => format!("an implicit step of {dt} s failed: {error}"),
+    }
+}
+
+/// The keys of a scene file that can help beside a shorter step.
+fn settings_that_help(error: &implicit::StepError) -> &'static str {
+    match error {
+        implicit::StepError::NotConverged {
+            newton_iterations: 0..=1,
+            ..
+        } => ", or a larger `tolerance` in [solver] of a scene file",
+        implicit::StepError::NotConverged { .. } => {
+            ", or more `newton_iterations` or a larger `tolerance` in [solver] of the scene file"
+        }
+        _ => "",
+    }
 }
 
 fn edge([a, b]: [usize; 2]) -> String {
