@@ -3,8 +3,8 @@
 
 use tearmesh::cloth::implicit::Settings;
 use tearmesh::cloth::{
-    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Pbd, Region, Run, RunError, Scene,
-    StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
+    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Pbd, Quality, Region, Run, RunError,
+    Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
 use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId};
 
@@ -365,6 +365,65 @@ fn a_ball_under_a_falling_cloth_is_not_entered() {
         touching += usize::from(distance < 0.301);
     }
     assert!(touching > 5);
+}
+
+/// Two edges that are led to one and a half times the distance leave no way to a limit of 1.1, and
+/// every method says what that did to its steps.
+#[test]
+fn methods_say_where_their_steps_fall_short() {
+    let led = |across: [f64; 2], x: f64| Hold {
+        moves: vec![(0.0, Vector::zeros()), (0.5, Vector::new(x, 0.0, 0.0))],
+        ..Hold::still(Region::Patch {
+            across,
+            along: [0.0, 1.0],
+        })
+    };
+    for (name, solver) in methods() {
+        let run = play(run(8, |frame| Scene {
+            solver: solver.clone(),
+            duration_s: 1.0,
+            holds: vec![led([0.0, 0.0], 0.0), led([1.0, 1.0], 0.5)],
+            tearing: None,
+            ..Scene::hang(frame)
+        }));
+        let system = run.cloth().system();
+        let substeps = system.counters().substeps;
+        match (name, run.quality()) {
+            ("provot", Some(Quality::Limited(limited))) => {
+                // From a tenth of a second on each row is 1.1 times as long or longer.
+                let short = limited.steps_short;
+                assert!(
+                    short > substeps * 89 / 100 && short < substeps,
+                    "{limited:?}"
+                );
+                assert!(limited.steps_infeasible > substeps / 2);
+                assert!(limited.steps_infeasible <= limited.steps_short);
+                assert!((0.39..2.0).contains(&limited.excess_max), "{limited:?}");
+                assert!(limited.passes >= 20 * short && limited.passes <= 20 * substeps);
+            }
+            ("pbd", Some(Quality::Strain(rms))) => {
+                let squares = run.mesh().edges().map(|h| {
+                    let at = |v: VertexId| run.cloth().positions()[v.index()];
+                    let rest = |v: VertexId| run.cloth().rest_positions().at(v);
+                    let [a, b] = [run.mesh().origin(h), run.mesh().target(h)];
+                    ((at(b) - at(a)).norm() / (rest(b) - rest(a)).norm() - 1.0).powi(2)
+                });
+                let mean = squares.clone().sum::<f64>() / squares.count() as f64;
+                assert!((rms - mean.sqrt()).abs() < 1e-12 && rms > 0.2, "{rms}");
+            }
+            ("xpbd", Some(Quality::Residual(newtons))) => {
+                assert!(newtons > 1.0, "one sweep does not converge: {newtons}");
+                assert_eq!(newtons, Xpbd::new(1, 1).residual_n(system));
+            }
+            ("implicit", Some(Quality::Solved(solved))) => {
+                assert_eq!(solved.newton_iterations, run.tally().steps);
+                assert_eq!(solved.halvings, 0);
+                assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
+            }
+            ("verlet", None) => {}
+            (name, other) => panic!("{name}: {other:?}"),
+        }
+    }
 }
 
 #[test]

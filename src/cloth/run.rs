@@ -7,12 +7,14 @@
 
 mod engine;
 mod held;
+mod quality;
 mod step_size;
 
 use std::fmt;
 
 use self::engine::Engine;
 use self::held::Held;
+pub use self::quality::{Limited, Quality, Solved};
 use super::load::Loads;
 use super::scene::{Breeze, Frame, Scene, TimedCut};
 use super::sheet::{Cloth, ClothError};
@@ -384,6 +386,13 @@ impl Run {
     #[must_use]
     pub fn tally(&self) -> Tally {
         self.tally
+    }
+
+    /// What the method says of its own steps so far; nothing by velocity Verlet. Costs up to a force
+    /// evaluation.
+    #[must_use]
+    pub fn quality(&self) -> Option<Quality> {
+        self.engine.quality(self.cloth.system())
     }
 
     /// The scene.

@@ -48,6 +48,7 @@ pub struct ImplicitCloth {
     filters: Vec<Filter>,
     accelerations: Vec<Vector>,
     springs: Vec<Spring>,
+    report: Option<implicit::StepReport>,
 }
 
 impl ImplicitCloth {
@@ -58,6 +59,12 @@ impl ImplicitCloth {
             settings,
             ..ImplicitCloth::default()
         }
+    }
+
+    /// What the last step that was taken did and cost.
+    #[must_use]
+    pub fn report(&self) -> Option<implicit::StepReport> {
+        self.report
     }
 
     /// Forgets the previous step: for BDF2, after particles were renumbered by a merge, or their
@@ -118,7 +125,9 @@ impl Solver for ImplicitCloth {
         let step = self
             .solver
             .step(&model, positions, velocities, dt_s, settings);
-        let work = step.map_err(failure)?.work;
+        let report = step.map_err(failure)?;
+        self.report = Some(report);
+        let work = report.work;
         system.counters.force_evaluations += work.force_evaluations;
         system.counters.matrix_products += work.matrix_products;
         if !system.model.triangles.as_slice().is_empty() {

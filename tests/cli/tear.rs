@@ -106,6 +106,29 @@ fn the_report_says_how_a_cut_shortens_the_steps_of_an_explicit_method() {
     }
 }
 
+#[test]
+fn the_report_says_what_the_method_says_of_its_steps() {
+    let folder = Folder::new();
+    for (solver, quality) in [
+        ("provot", &["limiter", "steps_infeasible"][..]),
+        ("pbd", &["strain_rms"]),
+        ("xpbd", &["residual_n"]),
+        ("implicit", &["implicit", "newton_iterations"]),
+        ("verlet", &[]),
+    ] {
+        let line = "tearmesh tear sheet.obj --scene rip --seconds 0.8 --dry-run --report r.json";
+        let output = folder.run(&format!("{line} --solver {solver}"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        let report: serde_json::Value =
+            serde_json::from_str(&folder.read("r.json")).expect("a report");
+        let said = quality.iter().fold(&report["quality"], |at, key| &at[*key]);
+        assert_eq!(said.is_number(), solver != "verlet", "{solver}: {said}");
+        // The hand is faster than any cloth is long, which the limiter cannot mend.
+        let warned = seen(&output).contains("W-SIM-LIMIT");
+        assert_eq!(warned, solver == "provot", "{}", seen(&output));
+    }
+}
+
 /// The faces of a frame before the cut are divided already, but on the same surface.
 #[test]
 fn frames_before_a_cut_have_its_vertices_on_their_edges() {

@@ -1,5 +1,6 @@
 //! The methods of scenes, behind one solver.
 
+use super::quality::{Limited, Quality, Solved};
 use crate::cloth::scene::Method;
 use crate::cloth::{Failure, ImplicitCloth, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
@@ -7,21 +8,33 @@ use crate::cloth::{Failure, ImplicitCloth, Pbd, Provot, Solver, System, Verlet, 
 #[derive(Clone, Debug)]
 pub(super) enum Engine {
     /// The tearing rule sees lengths as they were before the limiter.
-    Provot(Provot),
+    Provot(Provot, Limited),
     Pbd(Pbd),
     Verlet(Verlet),
     Xpbd(Xpbd),
-    Implicit(Box<ImplicitCloth>),
+    Implicit(Box<ImplicitCloth>, Solved),
 }
 
 impl Engine {
     pub(super) fn new(method: &Method) -> Engine {
         match *method {
-            Method::Provot(limiter) => Engine::Provot(Provot::new(limiter)),
+            Method::Provot(limiter) => Engine::Provot(Provot::new(limiter), Limited::default()),
             Method::Pbd(pbd) => Engine::Pbd(pbd),
             Method::Verlet => Engine::Verlet(Verlet::new()),
             Method::Xpbd(xpbd) => Engine::Xpbd(xpbd),
-            Method::Implicit(settings) => Engine::Implicit(Box::new(ImplicitCloth::new(settings))),
+            Method::Implicit(settings) => {
+                Engine::Implicit(Box::new(ImplicitCloth::new(settings)), Solved::default())
+            }
+        }
+    }
+
+    pub(super) fn quality(&self, system: &System) -> Option<Quality> {
+        match self {
+            Engine::Provot(_, limited) => Some(Quality::Limited(*limited)),
+            Engine::Pbd(_) => Some(Quality::Strain(system.strain_rms())),
+            Engine::Verlet(_) => None,
+            Engine::Xpbd(xpbd) => Some(Quality::Residual(xpbd.residual_n(system))),
+            Engine::Implicit(_, solved) => Some(Quality::Solved(*solved)),
         }
     }
 }
@@ -29,28 +42,39 @@ impl Engine {
 impl Solver for Engine {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         match self {
-            Engine::Provot(provot) => provot.advance(system, dt_s),
+            Engine::Provot(provot, limited) => {
+                provot.advance(system, dt_s)?;
+                limited.note(&provot.report());
+                Ok(())
+            }
             Engine::Pbd(pbd) => pbd.advance(system, dt_s),
             Engine::Verlet(verlet) => verlet.advance(system, dt_s),
             Engine::Xpbd(xpbd) => xpbd.advance(system, dt_s),
-            Engine::Implicit(implicit) => implicit.advance(system, dt_s),
+            Engine::Implicit(implicit, solved) => {
+                implicit.advance(system, dt_s)?;
+                implicit
+                    .report()
+                    .iter()
+                    .for_each(|report| solved.note(report));
+                Ok(())
+            }
         }
     }
 
     fn takes_triangles(&self) -> bool {
         match self {
-            Engine::Provot(provot) => provot.takes_triangles(),
+            Engine::Provot(provot, _) => provot.takes_triangles(),
             Engine::Verlet(verlet) => verlet.takes_triangles(),
-            Engine::Implicit(implicit) => implicit.takes_triangles(),
+            Engine::Implicit(implicit, _) => implicit.takes_triangles(),
             Engine::Pbd(_) | Engine::Xpbd(_) => false,
         }
     }
 
     fn frequency_limit(&self) -> Option<f64> {
         match self {
-            Engine::Provot(provot) => provot.frequency_limit(),
+            Engine::Provot(provot, _) => provot.frequency_limit(),
             Engine::Verlet(verlet) => verlet.frequency_limit(),
-            Engine::Pbd(_) | Engine::Xpbd(_) | Engine::Implicit(_) => None,
+            Engine::Pbd(_) | Engine::Xpbd(_) | Engine::Implicit(..) => None,
         }
     }
 }

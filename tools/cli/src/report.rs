@@ -162,6 +162,8 @@ pub(crate) struct Tear {
     pub(crate) max_stretch: f64,
     pub(crate) momentum_drift: f64,
     pub(crate) energy_j: Energy,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) quality: Option<Quality>,
     pub(crate) counters: Counters,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) frames: Option<Frames>,
@@ -174,6 +176,27 @@ pub(crate) struct Energy {
     pub(crate) insert_elastic: f64,
     pub(crate) insert_kinetic: f64,
     pub(crate) torn_edges: f64,
+}
+
+/// What the method says of its own steps; see [`tearmesh::cloth::Quality`].
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Quality {
+    Limiter {
+        passes: u64,
+        steps_short: u64,
+        steps_infeasible: u64,
+        excess_max: f64,
+    },
+    StrainRms(f64),
+    ResidualN(f64),
+    Implicit {
+        newton_iterations: u64,
+        halvings: u64,
+        indefinite: u64,
+        clamped: u64,
+        residual_max_m_per_s: f64,
+    },
 }
 
 /// What was computed.

@@ -137,9 +137,11 @@ impl Play<'_> {
             max_stretch: tally.stretch_ratio_max,
             momentum_drift: tally.momentum_drift,
             energy_j: words::energy(&run),
+            quality: words::quality(&run),
             counters: words::counters(&run),
             frames: shot.report,
         };
+        session.faults.extend(words::infeasible(&run));
         session.words.push(words::simulation(&tear));
         session.report.tear = Some(tear);
         match ended {

@@ -1,7 +1,7 @@
 //! What is said of a simulation.
 
 use tearmesh::cloth::implicit;
-use tearmesh::cloth::{Culprit, Method, Run, Shortened, StepError};
+use tearmesh::cloth::{Culprit, Method, Quality, Run, Shortened, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};
@@ -60,6 +60,53 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         insert_kinetic: ledger.insert_kinetic_j,
         torn_edges: run.tally().edge_energy_j,
     }
+}
+
+pub(super) fn quality(run: &Run) -> Option<report::Quality> {
+    match run.quality()? {
+        Quality::Limited(limited) => Some(report::Quality::Limiter {
+            passes: limited.passes,
+            steps_short: limited.steps_short,
+            steps_infeasible: limited.steps_infeasible,
+            excess_max: limited.excess_max,
+        }),
+        Quality::Strain(rms) => Some(report::Quality::StrainRms(rms)),
+        Quality::Residual(newtons) => Some(report::Quality::ResidualN(newtons)),
+        Quality::Solved(solved) => Some(report::Quality::Implicit {
+            newton_iterations: solved.newton_iterations,
+            halvings: solved.halvings,
+            indefinite: solved.indefinite,
+            clamped: solved.clamped,
+            residual_max_m_per_s: solved.residual_max_m_per_s,
+        }),
+        _ => None,
+    }
+}
+
+/// What Provot's limiter could not hold.
+pub(super) fn infeasible(run: &Run) -> Option<Fault> {
+    let (Some(Quality::Limited(limited)), Method::Provot(limiter)) =
+        (run.quality(), &run.scene().solver)
+    else {
+        return None;
+    };
+    if limited.steps_infeasible == 0 {
+        return None;
+    }
+    let message = format!(
+        "in {} of {} what is held was too far apart for the limiter, and edges stayed up to {} \
+         times as long as at rest, above its limit of {}",
+        limited.steps_infeasible,
+        count(
+            run.cloth().system().counters().substeps as usize,
+            "step",
+            "steps"
+        ),
+        short(limiter.stretch_ratio_max + limited.excess_max),
+        limiter.stretch_ratio_max,
+    );
+    let help = "a larger limit_ratio in [solver] of a scene file, or --solver xpbd";
+    Some(Fault::warning("W-SIM-LIMIT", message).help(help))
 }
 
 pub(super) fn counters(run: &Run) -> report::Counters {
