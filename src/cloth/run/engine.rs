@@ -46,6 +46,15 @@ impl Solver for Engine {
         }
     }
 
+    fn takes_buckling(&self) -> bool {
+        match self {
+            Engine::Provot(provot) => provot.takes_buckling(),
+            Engine::Verlet(verlet) => verlet.takes_buckling(),
+            Engine::Implicit(implicit) => implicit.takes_buckling(),
+            Engine::Pbd(_) | Engine::Xpbd(_) => false,
+        }
+    }
+
     fn frequency_limit(&self) -> Option<f64> {
         match self {
             Engine::Provot(provot) => provot.frequency_limit(),
