@@ -17,12 +17,14 @@
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
 //! What resists stretch is springs along edges, or triangles with a modulus for warp, weft and shear
-//! ([`Weave`]), or both. [`Pbd`] and [`Xpbd`] project springs alone, and are refused where there are
-//! triangles.
+//! ([`Weave`]), or both. What resists bending is springs across edges, or arcs that buckle
+//! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused where there are
+//! triangles or arcs.
 //!
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
+mod buckle;
 mod constraint;
 mod fabric;
 mod follow;
@@ -48,7 +50,7 @@ mod weave;
 mod xpbd;
 
 pub use constraint::{Constraint, ConstraintId, Constraints};
-pub use fabric::{Copies, Fabric, Unbend};
+pub use fabric::{Bending, Copies, Fabric, Unbend};
 pub use load::{Collider, Loads, Path, Wind};
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};

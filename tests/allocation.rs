@@ -97,12 +97,16 @@ fn walks_do_not_allocate() {
 
 #[test]
 fn steps_of_a_cloth_do_not_allocate() {
-    use tearmesh::cloth::{Cloth, Fabric, Loads, Pbd, Provot, Rk4, Solver, Unstable, Verlet, Xpbd};
+    use tearmesh::cloth::{
+        Bending, Cloth, Fabric, Loads, Pbd, Provot, Rk4, Solver, Unstable, Verlet, Xpbd,
+    };
 
     let (mesh, positions) = shapes::grid(10, 10);
     let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let fabric = Fabric {
-        bend_n_per_m: Some(1.0),
+        bend: Some(Bending::Spring {
+            stiffness_n_per_m: 1.0,
+        }),
         ..Fabric::new(50.0)
     };
     let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use tearmesh::cloth::implicit::Buckling;
 use tearmesh::cloth::{
-    Cloth, ClothError, Copies, Fabric, Loads, Rk4, Unbend, Unstable, Verlet, Weave, Xpbd,
+    Bending, Cloth, ClothError, Constraint, Copies, Fabric, Loads, Rk4, Unbend, Unstable, Verlet,
+    Weave, Xpbd,
 };
 use tearmesh::subdivide::Plan;
 use tearmesh::{
@@ -141,6 +143,30 @@ fn check_triangles(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
     triangles.len()
 }
 
+/// Bends, bit for bit those of a cloth that is made anew of the mesh and the rest positions.
+fn check_bends(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
+    let (rest, masses) = (cloth.rest_positions(), cloth.masses().clone());
+    let anew = Cloth::new(mesh, rest, masses, fabric).expect("a cloth made anew");
+    let all = |cloth: &Cloth| {
+        let bends = cloth.system().bends();
+        let of = |id| {
+            let Constraint {
+                mut ends,
+                rest_length_m,
+                stiffness_n_per_m,
+            } = bends.get(id);
+            ends.sort_unstable();
+            (ends, rest_length_m.to_bits(), stiffness_n_per_m.to_bits())
+        };
+        let mut all: Vec<_> = bends.iter().map(of).collect();
+        all.sort_unstable();
+        all
+    };
+    assert_eq!(cloth.system().buckling(), anew.system().buckling());
+    assert_eq!(all(cloth), all(&anew));
+    all(cloth).len()
+}
+
 /// Σ m v of all that is free, exactly.
 pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
     let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
@@ -161,7 +187,9 @@ fn energy(cloth: &Cloth) -> f64 {
 
 fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
     Fabric {
-        bend_n_per_m: bend.then_some(3.0),
+        bend: bend.then_some(Bending::Spring {
+            stiffness_n_per_m: 3.0,
+        }),
         copies,
         unbend,
         ..Fabric::new(50.0)
@@ -257,8 +285,8 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
 #[test]
 fn a_running_cloth_follows_every_edit_as_if_made_anew() {
     let mut counts = [0; 4];
-    let mut triangles = 0;
-    for seed in 0..90 {
+    let (mut triangles, mut bends) = (0, 0);
+    for seed in 0..130 {
         let mut random = Random(seed);
         let (mut mesh, positions) = match seed % 4 {
             0 => shapes::grid(3, 3),
@@ -278,8 +306,8 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             Unbend::Seam
         };
         let mut fabric = fabric(copies, unbend, with_bends);
-        // The last thirty are of triangles, every second of them without springs along edges.
-        if seed >= 60 {
+        // Thirty are of triangles, every second of them without springs along edges.
+        if (60..90).contains(&seed) {
             fabric.weave = Some(Weave {
                 warp_n_per_m: 60.0,
                 weft_n_per_m: 35.0,
@@ -287,6 +315,13 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 warp: Vector::new(1.0, 0.3, 0.15),
             });
             fabric.stretch_n_per_m *= f64::from(u32::from(seed % 2 == 0));
+        }
+        // The last forty buckle where they bend.
+        if seed >= 90 && with_bends {
+            fabric.bend = Some(Bending::Buckling {
+                flexural_n_m2: 1e-3,
+                law: Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
+            });
         }
         let triangles_alone = fabric.stretch_n_per_m == 0.0 && !with_bends;
         let mut cloth = shaken(&mesh, &positions, fabric, &mut random);
@@ -302,6 +337,9 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             edits.replay(&mut cloth);
             check(&mesh, &cloth);
             triangles += check_triangles(&mesh, &cloth, fabric);
+            if with_bends && unbend == Unbend::Seam {
+                bends += check_bends(&mesh, &cloth, fabric);
+            }
             let now = momentum(&cloth);
             match done {
                 Done::Nothing => continue,
@@ -340,7 +378,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             let measured = cloth.system().clone().measure_frequency(1e-3, 500);
             assert!(measured.omega_rad_per_s <= known * (1.0 + 1e-12));
             if random.next() < 0.3 {
-                if fabric.weave.is_some() {
+                if fabric.weave.is_some() || cloth.system().buckling().is_some() {
                     cloth.step(&mut Rk4::new(), 1e-3).expect("a step");
                 } else {
                     cloth.step(&mut Xpbd::new(1, 1), 1e-3).expect("a step");
@@ -351,8 +389,10 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         cloth.system_mut().when_unstable(Unstable::Substep);
         assert!(mesh.check().is_empty());
     }
-    println!("{counts:?} splits, insertions, merges and slides; {triangles} triangles seen");
-    assert!(triangles > 10_000, "{triangles}");
+    println!(
+        "{counts:?} splits, insertions, merges and slides; {triangles} triangles and {bends} bends seen"
+    );
+    assert!(triangles > 10_000 && bends > 10_000, "{triangles} {bends}");
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
 

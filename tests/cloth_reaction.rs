@@ -2,8 +2,8 @@
 
 use tearmesh::cloth::implicit::{Settings, Tolerance};
 use tearmesh::cloth::{
-    Cloth, Fabric, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver, System, Threshold, Verlet,
-    Weave, Wind, Xpbd,
+    Bending, Cloth, Fabric, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver, System,
+    Threshold, Verlet, Weave, Wind, Xpbd,
 };
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 
@@ -70,7 +70,9 @@ fn the_limiter_leaves_behind_how_long_a_link_would_be() {
 fn a_free_particle_lacks_what_accelerates_it() {
     let (mesh, positions) = shapes::grid(4, 4);
     let springs = Fabric {
-        bend_n_per_m: Some(2.0),
+        bend: Some(Bending::Spring {
+            stiffness_n_per_m: 2.0,
+        }),
         ..Fabric::new(30.0)
     };
     let woven = Fabric::woven(Weave {

@@ -2,7 +2,7 @@
 //! time step changes, what must not tear, and everything at random.
 
 use tearmesh::cloth::{
-    Copies, Fabric, Loads, Path, Tear, Tearing, Threshold, Unbend, Unstable, Verlet, Xpbd,
+    Bending, Copies, Fabric, Loads, Path, Tear, Tearing, Threshold, Unbend, Unstable, Verlet, Xpbd,
 };
 use tearmesh::subdivide::Plan;
 use tearmesh::{
@@ -246,7 +246,9 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
     let mut random = Random(seed);
     let (mut mesh, positions) = sheet(7, 7, seed);
     let fabric = Fabric {
-        bend_n_per_m: seed.is_multiple_of(2).then_some(1.0),
+        bend: seed.is_multiple_of(2).then_some(Bending::Spring {
+            stiffness_n_per_m: 1.0,
+        }),
         copies: [Copies::Halved, Copies::Whole][(seed / 2) as usize % 2],
         unbend: [Unbend::Seam, Unbend::Vertex][(seed / 4) as usize % 2],
         ..Fabric::new(40.0)

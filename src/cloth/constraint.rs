@@ -45,7 +45,8 @@ pub struct Constraint {
     pub ends: [usize; 2],
     /// The length at rest, in metres; positive.
     pub rest_length_m: f64,
-    /// The stiffness k, in newtons per metre; positive. The energy is ½ k (l − L)².
+    /// The stiffness k, in newtons per metre; positive. The energy is ½ k (l − L)², but for bends
+    /// that buckle: those have it against compression, until they do.
     pub stiffness_n_per_m: f64,
 }
 

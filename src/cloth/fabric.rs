@@ -1,6 +1,7 @@
-//! What a cloth is made of: springs along edges, triangles, springs across edges; and what becomes
-//! of them where it tears.
+//! What a cloth is made of: springs along edges, triangles, springs or arcs across edges; and what
+//! becomes of them where it tears.
 
+use super::implicit::Buckling;
 use super::sheet::ClothError;
 use super::weave::Weave;
 
@@ -13,8 +14,8 @@ pub struct Fabric {
     pub stretch_n_per_m: f64,
     /// Triangles that resist stretch and shear; `None` for none.
     pub weave: Option<Weave>,
-    /// The stiffness of a spring across each interior edge, in N/m; `None` for no such springs.
-    pub bend_n_per_m: Option<f64>,
+    /// What resists bending, across each interior edge; `None` for nothing.
+    pub bend: Option<Bending>,
     /// What a torn edge's two constraints have.
     pub copies: Copies,
     /// Which bend constraints a split takes away.
@@ -29,7 +30,7 @@ impl Fabric {
         Fabric {
             stretch_n_per_m,
             weave: None,
-            bend_n_per_m: None,
+            bend: None,
             copies: Copies::default(),
             unbend: Unbend::default(),
         }
@@ -72,11 +73,77 @@ impl Fabric {
         let none = self.stretch_n_per_m == 0.0 && self.weave.is_some();
         let stretch = none || positive(self.stretch_n_per_m);
         let weave = self.weave.is_none_or(|weave| weave.is_usable());
-        if stretch && weave && self.bend_n_per_m.is_none_or(positive) {
+        let bend = self.bend.is_none_or(|bend| positive(bend.number()));
+        if stretch && weave && bend {
             Ok(())
         } else {
             Err(ClothError::Stiffness)
         }
+    }
+}
+
+/// What resists bending, between the two vertices opposite an interior edge.
+///
+/// ```
+/// use tearmesh::cloth::implicit::{Buckling, Settings};
+/// use tearmesh::cloth::{Bending, Cloth, Fabric, ImplicitCloth, StepError, Xpbd};
+/// use tearmesh::{shapes, Masses};
+///
+/// let bend = Bending::Buckling { flexural_n_m2: 1e-6, law: Buckling::new(0.95).unwrap() };
+/// let fabric = Fabric { bend: Some(bend), ..Fabric::new(500.0) };
+/// let (mesh, positions) = shapes::grid(4, 4);
+/// let masses = Masses::area(&mesh, &positions, 0.15)?;
+/// let mut cloth = Cloth::new(&mesh, &positions, masses, fabric)?;
+/// cloth.step(&mut ImplicitCloth::new(Settings::default()), 1.0 / 60.0)?;
+///
+/// // What projects springs would take arcs for such, and is refused.
+/// let error = cloth.step(&mut Xpbd::default(), 1.0 / 60.0).unwrap_err();
+/// assert_eq!(error, StepError::Buckling { count: 40 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bending {
+    /// A spring of the same stiffness across every edge (the flexion springs of Provot 1995, §2).
+    Spring {
+        /// The stiffness, in N/m; positive.
+        stiffness_n_per_m: f64,
+    },
+    /// A strip of the same flexural stiffness across every edge, which buckles into an arc when it
+    /// is pushed together (Choi and Ko 2002 §4.2). Its stiffness against compression, before it
+    /// does, follows from its length: the shorter, the stiffer, by the third power.
+    Buckling {
+        /// The flexural stiffness k, in N m²: the bending moment is k times the curvature.
+        /// Positive.
+        flexural_n_m2: f64,
+        /// Where it buckles.
+        law: Buckling,
+    },
+}
+
+impl Bending {
+    fn number(&self) -> f64 {
+        match *self {
+            Bending::Spring { stiffness_n_per_m } => stiffness_n_per_m,
+            Bending::Buckling { flexural_n_m2, .. } => flexural_n_m2,
+        }
+    }
+
+    pub(super) fn law(&self) -> Option<Buckling> {
+        match *self {
+            Bending::Spring { .. } => None,
+            Bending::Buckling { law, .. } => Some(law),
+        }
+    }
+
+    /// The stiffness of a bend constraint of this length. `None` where it is beyond all numbers.
+    pub(super) fn stiffness_n_per_m(&self, rest_length_m: f64) -> Option<f64> {
+        let stiffness = match *self {
+            Bending::Spring { stiffness_n_per_m } => stiffness_n_per_m,
+            Bending::Buckling { flexural_n_m2, law } => {
+                law.compression_n_per_m(flexural_n_m2, rest_length_m)
+            }
+        };
+        (stiffness > 0.0 && stiffness.is_finite()).then_some(stiffness)
     }
 }
 

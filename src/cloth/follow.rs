@@ -150,7 +150,7 @@ impl Cloth {
         if !self.bend_of.is_empty() {
             for link in merge.sewn {
                 if let Some(id) = self.bend_across([link.stayed, link.moved]) {
-                    across += energy(&self.system.model.bend.get(id), &self.system.positions);
+                    across += self.bend_energy(id);
                 }
             }
         }
@@ -204,9 +204,7 @@ impl Cloth {
         ids.clear();
         ids.extend(self.system.model.bend.of(particle));
         for &id in &ids {
-            let ends = self.system.model.bend.get(id).ends;
-            let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
-            self.system.model.bend.set_rest_length(id, rest_length_m);
+            self.measure_bend(id);
         }
         self.system.touched(&[particle]);
         self.room.ids = ids;
@@ -296,7 +294,7 @@ impl Cloth {
         room.ids.dedup();
         for &id in &room.ids {
             let gone = self.system.model.bend.remove(id);
-            gained -= energy(&gone, &self.system.positions);
+            gained -= self.system.bend_energy_of(&gone);
         }
         for edge in room.pieces.chunk_by(|one, other| one.ends == other.ends) {
             gained += if edge[0].is_kept {
@@ -320,16 +318,13 @@ impl Cloth {
             if id == NO_BEND {
                 continue;
             }
-            let bend = &mut self.system.model.bend;
-            gained -= energy(&bend.get(id), &self.system.positions);
+            gained -= self.bend_energy(id);
             if piece.apex_before != piece.apex {
+                let bend = &mut self.system.model.bend;
                 bend.repoint(id, piece.apex_before, piece.apex);
             }
-            let ends = bend.get(id).ends;
-            let rest_length_m = self.rest_length(ends);
-            let bend = &mut self.system.model.bend;
-            bend.set_rest_length(id, rest_length_m.max(f64::MIN_POSITIVE));
-            gained += energy(&bend.get(id), &self.system.positions);
+            self.measure_bend(id);
+            gained += self.bend_energy(id);
             self.bend_of[piece.half_edge.index()] = id;
             for h in &mut self.bent_edge[id.index()] {
                 if *h == piece.half_edge_before {
@@ -359,7 +354,7 @@ impl Cloth {
         if let ([one, other], false) = (edge, self.bend_of.is_empty())
             && let Some(id) = self.bend_across([one.half_edge, other.half_edge])
         {
-            gained += energy(&self.system.model.bend.get(id), &self.system.positions);
+            gained += self.bend_energy(id);
         }
         gained
     }
@@ -375,7 +370,13 @@ impl Cloth {
         for h in self.bent_edge[id.index()] {
             self.bend_of[h.index()] = NO_BEND;
         }
-        energy(&self.system.model.bend.remove(id), &self.system.positions)
+        let gone = self.system.model.bend.remove(id);
+        self.system.bend_energy_of(&gone)
+    }
+
+    fn bend_energy(&self, id: ConstraintId) -> f64 {
+        let bend = self.system.model.bend.get(id);
+        self.system.bend_energy_of(&bend)
     }
 
     /// The edge of a child that starts at this corner.
@@ -424,13 +425,10 @@ impl Cloth {
 
     fn elastic_at(&self, particle: usize) -> f64 {
         let model = &self.system.model;
-        let of = |family: &Constraints| -> f64 {
-            let energies = family
-                .of(particle)
-                .map(|id| energy(&family.get(id), &self.system.positions));
-            energies.sum()
-        };
-        of(&model.stretch) + of(&model.bend) + self.triangle_energy_at(particle)
+        let stretches = model.stretch.of(particle);
+        let stretches = stretches.map(|id| energy(&model.stretch.get(id), &self.system.positions));
+        let bends = model.bend.of(particle).map(|id| self.bend_energy(id));
+        stretches.sum::<f64>() + bends.sum::<f64>() + self.triangle_energy_at(particle)
     }
 }
 

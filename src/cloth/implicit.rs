@@ -56,7 +56,7 @@ pub mod triangle;
 use crate::geometry::{Point, Vector, check_point, dot};
 use std::fmt;
 
-pub use bend::{Bend, BendError};
+pub use bend::{Bend, BendError, Buckling};
 pub use layout::Layout;
 pub use matrix::{Block, Hessian};
 pub use pcg::Filter;

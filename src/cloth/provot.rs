@@ -156,6 +156,10 @@ impl Solver for Provot {
         true
     }
 
+    fn takes_buckling(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let sane = accelerate(system);
         let System {

@@ -34,6 +34,10 @@ impl Solver for Rk4 {
         true
     }
 
+    fn takes_buckling(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let System {
             positions,

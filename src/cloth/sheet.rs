@@ -139,7 +139,7 @@ impl Cloth {
     ///
     /// # Errors
     ///
-    /// [`ClothError`]: a stiffness is not positive, an edge (or, with bending, the distance across
+    /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the distance across
     /// one) has no length, a face of triangles has no area or no warp, or there are not as many
     /// masses and positions as vertices.
     pub fn new(
@@ -208,13 +208,17 @@ impl Cloth {
                 cloth.stretch_of[pair.index()] = id;
             }
         }
-        if let Some(stiffness) = fabric.bend_n_per_m {
+        if let Some(bend) = fabric.bend {
+            cloth.system.model.buckling = bend.law();
             cloth.bend_of = vec![NO_BEND; half_edges];
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
                     let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
-                    cloth.constraint(apexes, stiffness)?;
-                    cloth.bend_across([h, pair]);
+                    let length_m = cloth.rest_length(apexes.map(VertexId::index));
+                    let stiffness = bend.stiffness_n_per_m(length_m);
+                    cloth.constraint(apexes, stiffness.unwrap_or(0.0))?;
+                    let id = cloth.bend_across([h, pair]);
+                    id.ok_or(ClothError::Stiffness)?;
                 }
             }
         }
@@ -382,14 +386,29 @@ impl Cloth {
         self.edge_of[id.index()] = h;
     }
 
+    /// Gives a bend constraint the length that the rest positions of its ends have now, and the
+    /// stiffness that goes with it: none where rounding left no length for one.
+    pub(super) fn measure_bend(&mut self, id: ConstraintId) {
+        let ends = self.system.model.bend.get(id).ends;
+        let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
+        let stiffness = self
+            .fabric
+            .bend
+            .and_then(|bend| bend.stiffness_n_per_m(rest_length_m));
+        let bend = &mut self.system.model.bend;
+        bend.set_rest_length(id, rest_length_m);
+        bend.set_stiffness(id, stiffness.unwrap_or(0.0));
+        self.system.touched(&ends);
+    }
+
     /// Adds the bend constraint across an edge, unless there is no distance across it.
     pub(super) fn bend_across(&mut self, edge: [HalfEdgeId; 2]) -> Option<ConstraintId> {
         let apexes = edge.map(|h| self.system.model.faces[h.prev().index()] as usize);
         let rest_length_m = self.rest_length(apexes);
-        let stiffness_n_per_m = self.fabric.bend_n_per_m?;
         if rest_length_m <= 0.0 {
             return None;
         }
+        let stiffness_n_per_m = self.fabric.bend?.stiffness_n_per_m(rest_length_m)?;
         let id = self.system.model.bend.add(Constraint {
             ends: apexes,
             rest_length_m,
@@ -401,6 +420,7 @@ impl Cloth {
             self.bent_edge.resize(id.index() + 1, edge);
         }
         self.bent_edge[id.index()] = edge;
+        self.system.touched(&apexes);
         Some(id)
     }
 }

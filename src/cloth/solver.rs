@@ -46,6 +46,12 @@ pub trait Solver {
     fn takes_triangles(&self) -> bool {
         false
     }
+
+    /// Whether the method takes in the forces of bends that buckle, where
+    /// [`System::set_buckling`] says that they do. One that does not is refused then.
+    fn takes_buckling(&self) -> bool {
+        false
+    }
 }
 
 impl<S: Solver + ?Sized> Solver for &mut S {
@@ -59,6 +65,10 @@ impl<S: Solver + ?Sized> Solver for &mut S {
 
     fn takes_triangles(&self) -> bool {
         (**self).takes_triangles()
+    }
+
+    fn takes_buckling(&self) -> bool {
+        (**self).takes_buckling()
     }
 }
 
@@ -100,6 +110,11 @@ pub enum StepError {
     },
     /// The method knows springs alone, and would leave the triangles without force.
     Triangles {
+        /// How many there are.
+        count: usize,
+    },
+    /// The method knows springs alone, and would take bends that buckle for such.
+    Buckling {
         /// How many there are.
         count: usize,
     },
@@ -182,6 +197,10 @@ impl System {
         let count = self.triangles().len();
         if count > 0 && !solver.takes_triangles() {
             return Err(StepError::Triangles { count });
+        }
+        let count = self.model.bend.len();
+        if count > 0 && self.model.buckling.is_some() && !solver.takes_buckling() {
+            return Err(StepError::Buckling { count });
         }
         let report = self.admit(solver.frequency_limit(), dt_s)?;
         self.scratch.positions.clone_from(&self.positions);
@@ -317,6 +336,10 @@ impl fmt::Display for StepError {
             StepError::Triangles { count } => write!(
                 f,
                 "the method knows springs alone, and {count} triangles resist stretch"
+            ),
+            StepError::Buckling { count } => write!(
+                f,
+                "the method knows springs alone, and {count} bends buckle"
             ),
             StepError::Unstable {
                 given_s,

@@ -18,6 +18,9 @@
 //! cut through a waving flag of 32 × 32 cells steps that were divided by the measure blew up
 //! within 0.06 s; divided by the bound they do not.
 //!
+//! A bend that buckles counts as a spring with the largest stiffness that it has at any length, also
+//! where the frequency is measured: a flat cloth has none to bends, and has it once it folds.
+//!
 //! A triangle counts as two springs with three ends, along warp and along weft. Its shear gets stiffer
 //! as it is stretched, so with shear the bound holds as long as |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|
 //! of no triangle is beyond a *reach*; where a step finds that one is, the reach is doubled and
@@ -25,10 +28,11 @@
 //!
 //! The rows of K itself, which are cheaper, give 0.657 of the true limit or less.
 
-use super::constraint::{ConstraintId, Constraints};
+use super::buckle::Slope;
+use super::constraint::ConstraintId;
 use super::implicit::{Triangle, triangle};
 use super::kernel;
-use super::system::{Counters, Model, System};
+use super::system::{Counters, Family, Model, System};
 use crate::geometry::{Point, Vector, dot};
 
 /// The largest frequency of a system.
@@ -80,6 +84,12 @@ impl Default for Spectrum {
 }
 
 impl Spectrum {
+    /// All of the stiffness has changed.
+    pub(crate) fn forget(&mut self) {
+        self.bound = None;
+        self.measured = None;
+    }
+
     pub(crate) fn touched(&mut self, model: &Model, particles: &[usize]) {
         self.measured = None;
         if let Some(bound) = self.bound {
@@ -126,11 +136,12 @@ fn triangle_row(triangle: &Triangle, reach: f64, sums: [f64; 3]) -> f64 {
 
 /// The sum of √k over the springs of a particle, and of the like over its triangles.
 fn root_sum(model: &Model, particle: usize, reach: f64) -> f64 {
-    let of = |family: &Constraints| -> f64 {
-        let root = |id: ConstraintId| family.get(id).stiffness_n_per_m.sqrt();
-        family.of(particle).map(root).sum()
+    let of = |family: Family| -> f64 {
+        let (constraints, stiffest) = (model.family(family), model.stiffest(family));
+        let root = |id: ConstraintId| (constraints.get(id).stiffness_n_per_m * stiffest).sqrt();
+        constraints.of(particle).map(root).sum()
     };
-    let springs = of(&model.stretch) + of(&model.bend);
+    let springs = of(Family::Stretch) + of(Family::Bend);
     let triangles = model.triangles.of(particle).map(|(t, corner)| {
         let [along_u, along_v] = triangle_roots(&model.triangles.as_slice()[t], reach);
         along_u[corner] + along_v[corner]
@@ -145,12 +156,14 @@ fn rows_at(model: &Model, particle: usize, reach: f64) -> f64 {
     let weighed =
         |particle: usize| model.inverse_masses[particle] * root_sum(model, particle, reach);
     let own = weighed(particle);
-    for family in [&model.stretch, &model.bend] {
-        for id in family.of(particle) {
-            let constraint = family.get(id);
+    for family in [Family::Stretch, Family::Bend] {
+        let (constraints, stiffest) = (model.family(family), model.stiffest(family));
+        for id in constraints.of(particle) {
+            let constraint = constraints.get(id);
             let [a, b] = constraint.ends;
             let other = a + b - particle;
-            largest = largest.max(constraint.stiffness_n_per_m.sqrt() * (own + weighed(other)));
+            let root = (constraint.stiffness_n_per_m * stiffest).sqrt();
+            largest = largest.max(root * (own + weighed(other)));
         }
     }
     for (t, _) in model.triangles.of(particle) {
@@ -196,9 +209,13 @@ impl System {
                 .map(|particle| model.inverse_masses[particle] * root_sum(model, particle, reach))
                 .collect();
             let mut bound = 0.0_f64;
-            for batch in model.batches() {
-                for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
-                    bound = bound.max(k.sqrt() * (sums[a as usize] + sums[b as usize]));
+            for family in [Family::Stretch, Family::Bend] {
+                let stiffest = model.stiffest(family);
+                for batch in model.family(family).batches() {
+                    for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
+                        let root = (k * stiffest).sqrt();
+                        bound = bound.max(root * (sums[a as usize] + sums[b as usize]));
+                    }
                 }
             }
             for triangle in model.triangles.as_slice() {
@@ -326,7 +343,7 @@ fn accelerations_by(
     counters: &mut Counters,
 ) {
     product.fill(Vector::zeros());
-    model.stiffness_times(x, u, product, counters);
+    model.stiffness_times(Slope::Steepest, x, u, product, counters);
     for (p, &w) in product.iter_mut().zip(&model.inverse_masses) {
         *p *= w;
     }
@@ -336,14 +353,24 @@ fn accelerations_by(
 /// that changes most.
 fn busiest(model: &Model, x: &[Point], u: &[Vector]) -> Option<[usize; 2]> {
     let mut most = None;
-    for batch in model.batches() {
+    let mut weigh = |ends: [u32; 2], pull: &dyn Fn(Vector, Vector) -> Vector| {
+        let [a, b] = ends.map(|end| end as usize);
+        let between = u[b] - u[a];
+        let energy = dot(between, pull(x[b] - x[a], between));
+        if most.is_none_or(|(largest, _)| energy > largest) {
+            most = Some((energy, [a, b]));
+        }
+    };
+    for batch in model.springs() {
         for ((&ends, &rest), &k) in batch.ends.iter().zip(batch.rest).zip(batch.stiffness) {
-            let [a, b] = ends.map(|end| end as usize);
-            let between = u[b] - u[a];
-            let energy = dot(between, kernel::pull(x[b] - x[a], rest, k, between));
-            if most.is_none_or(|(largest, _)| energy > largest) {
-                most = Some((energy, [a, b]));
-            }
+            weigh(ends, &|d, between| kernel::pull(d, rest, k, between));
+        }
+    }
+    for bends in model.buckles() {
+        for bend in bends.iter() {
+            weigh(bend.ends(), &|d, between| {
+                bends.pull(&bend, Slope::Steepest, d, between)
+            });
         }
     }
     for t in model.triangles.as_slice() {

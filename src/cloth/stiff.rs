@@ -1,11 +1,10 @@
 //! A system, stepped implicitly.
 //!
 //! The adapter between [`System`] and [`implicit`](super::implicit): it hands the particles,
-//! the springs of both families, the triangles, gravity, wind and drag over as slices, and takes
-//! back positions and velocities. Choi and Ko's bends are no part of a system; who needs them
-//! uses [`implicit`](super::implicit) itself.
+//! the springs of both families, the bends that buckle, the triangles, gravity, wind and drag over as
+//! slices, and takes back positions and velocities.
 
-use super::implicit::{self, Filter, Implicit, ModelError, Part, Settings, Spring};
+use super::implicit::{self, Bend, Filter, Implicit, ModelError, Part, Settings, Spring};
 use super::solver::{Failure, Solver};
 use super::system::System;
 use crate::geometry::Vector;
@@ -48,6 +47,7 @@ pub struct ImplicitCloth {
     filters: Vec<Filter>,
     accelerations: Vec<Vector>,
     springs: Vec<Spring>,
+    bends: Vec<Bend>,
     report: Option<implicit::StepReport>,
 }
 
@@ -89,22 +89,31 @@ impl ImplicitCloth {
         self.filters.clear();
         self.filters.extend(model.inverse_masses.iter().map(filter));
         self.springs.clear();
-        for family in [&model.stretch, &model.bend] {
-            let springs = family.iter().map(|id| family.get(id));
+        for batch in model.springs() {
+            let numbers = batch.ends.iter().zip(batch.rest).zip(batch.stiffness);
             // Edges of a cloth of triangles alone are measured, and pull at nothing.
-            let springs = springs.filter(|constraint| constraint.stiffness_n_per_m > 0.0);
-            self.springs.extend(springs.map(|constraint| Spring {
-                ends: constraint.ends.map(|end| end as u32),
-                rest_length: constraint.rest_length_m,
-                stiffness: constraint.stiffness_n_per_m,
-                tension_only: false,
-            }));
+            let springs = numbers.filter(|(_, stiffness)| **stiffness > 0.0);
+            self.springs
+                .extend(springs.map(|((&ends, &rest_length), &stiffness)| Spring {
+                    ends,
+                    rest_length,
+                    stiffness,
+                    tension_only: false,
+                }));
+        }
+        self.bends.clear();
+        for bends in model.buckles() {
+            self.bends.extend(bends.iter());
         }
     }
 }
 
 impl Solver for ImplicitCloth {
     fn takes_triangles(&self) -> bool {
+        true
+    }
+
+    fn takes_buckling(&self) -> bool {
         true
     }
 
@@ -116,9 +125,9 @@ impl Solver for ImplicitCloth {
             filters: &self.filters,
             accelerations: &self.accelerations,
             springs: &self.springs,
+            bends: &self.bends,
             triangles: system.model.triangles.as_slice(),
             drag_per_s: system.model.drag_per_s(),
-            ..implicit::Model::default()
         };
         let (positions, velocities) = (&mut system.positions, &mut system.velocities);
         let settings = &self.settings;

@@ -1,7 +1,7 @@
 //! Particles and constraints, with no mesh in sight.
 //!
 //! A [`System`] is a list of particles and two families of springs between them: *stretch*
-//! constraints, and *bend* constraints that reach across something; and triangles of particles
+//! constraints, and *bend* constraints that reach across something, which may buckle instead; and triangles of particles
 //! that resist stretch and shear. A chain, a net or a cloth is one. Units are SI throughout: metres, kilograms, seconds, newtons.
 
 mod error;
@@ -10,8 +10,9 @@ mod force;
 pub use error::SystemError;
 pub(crate) use force::Forces;
 
+use super::buckle::{self, Bends, Slope};
 use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::implicit::{Triangle, triangle};
+use super::implicit::{Buckling, Triangle, triangle};
 use super::kernel;
 use super::load::{Loads, Path};
 use super::stability::Spectrum;
@@ -65,6 +66,8 @@ pub(crate) struct Model {
     pub(crate) held: Vec<bool>,
     pub(crate) stretch: Constraints,
     pub(crate) bend: Constraints,
+    /// The law of all bend constraints; `None` where they are springs.
+    pub(crate) buckling: Option<Buckling>,
     pub(crate) triangles: Triangles,
     /// The corners of faces, three each, where wind may blow.
     pub(crate) faces: Vec<u32>,
@@ -174,6 +177,7 @@ impl System {
                 held: vec![false; count],
                 stretch: Constraints::new(count),
                 bend: Constraints::new(count),
+                buckling: None,
                 triangles: Triangles::default(),
                 faces: Vec::new(),
                 loads: Loads::default(),
@@ -220,6 +224,42 @@ impl System {
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
         self.connect(Family::Bend, ends, rest_length_m, stiffness_n_per_m)
+    }
+
+    /// Makes all bend constraints buckle by this law, those that are there and those to come, or
+    /// makes them springs again. Below its rest length a bend then has, in the place of a spring's
+    /// force, that of an arc ([`Bend`](super::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
+    /// it none; its stiffness is the one against compression before it buckles.
+    /// [`Pbd`](super::Pbd) and [`Xpbd`](super::Xpbd), which project springs, are refused then.
+    ///
+    /// ```
+    /// use tearmesh::cloth::implicit::Buckling;
+    /// use tearmesh::cloth::System;
+    /// use tearmesh::Point;
+    ///
+    /// let points = [Point::origin(), Point::new(0.06, 0.0, 0.0)];
+    /// let mut system = System::new(points, vec![1.0; 2])?;
+    /// system.bend([0, 1], 0.1, 2.0)?;
+    /// assert_eq!(system.elastic_energy_j(), 0.5 * 2.0 * (0.1_f64 - 0.06).powi(2));
+    /// let spring = system.reaction_n(0).x;
+    /// system.set_buckling(Buckling::new(0.95));
+    /// // Once it has buckled it pushes less than the spring, and than the load that buckled it.
+    /// assert!(system.reaction_n(0).x > 0.0);
+    /// assert!(system.reaction_n(0).x < 0.3 * spring);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If the system is that of a cloth, whose bends follow its fabric.
+    pub fn set_buckling(&mut self, buckling: Option<Buckling>) {
+        assert!(
+            self.model.faces.is_empty(),
+            "the bends of a cloth follow its fabric"
+        );
+        self.model.buckling = buckling;
+        self.scratch.is_fresh = false;
+        self.spectrum.forget();
     }
 
     /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4): its particles,
@@ -446,6 +486,12 @@ impl System {
         &self.model.bend
     }
 
+    /// The law by which bend constraints buckle; `None` where they are springs.
+    #[must_use]
+    pub fn buckling(&self) -> Option<Buckling> {
+        self.model.buckling
+    }
+
     /// The triangles that resist stretch and shear, by index.
     #[must_use]
     pub fn triangles(&self) -> &[Triangle] {
@@ -490,14 +536,22 @@ impl System {
     /// The elastic energy of all constraints and triangles, in joules.
     #[must_use]
     pub fn elastic_energy_j(&self) -> f64 {
-        let batches = self.model.batches();
-        let springs: f64 = batches
+        let springs = self.model.springs();
+        let springs: f64 = springs
             .map(|batch| kernel::energy(batch, &self.positions))
             .sum();
+        let bends = self.model.buckles();
+        let constraints = bends.fold(springs, |sum, bends| sum + bends.energy(&self.positions));
         let triangles = self.triangles().iter();
-        triangles.fold(springs, |sum, t| {
+        triangles.fold(constraints, |sum, t| {
             sum + triangle::energy(t, triangle::corners(t, &self.positions))
         })
+    }
+
+    /// The elastic energy of a bend constraint, in joules, whether it is one of this system or
+    /// was.
+    pub(crate) fn bend_energy_of(&self, constraint: &Constraint) -> f64 {
+        self.model.bend_axial(constraint, self.length_m(constraint))[0]
     }
 
     /// The elastic energy of a stretch constraint, in joules.
@@ -546,7 +600,8 @@ impl System {
 
     /// The product K u of the stiffness matrix with displacements in metres, in newtons: minus
     /// the change of forces, to first order. Negative stiffness, which springs under
-    /// compression have across, counts as zero (the indefinite terms are dropped).
+    /// compression have across, counts as zero (the indefinite terms are dropped); that of bends
+    /// which buckle does as well.
     ///
     /// # Panics
     ///
@@ -560,7 +615,8 @@ impl System {
         );
         let mut product = vec![Vector::zeros(); displacements.len()];
         let (model, counters) = (&self.model, &mut self.counters);
-        model.stiffness_times(&self.positions, displacements, &mut product, counters);
+        let x = &self.positions;
+        model.stiffness_times(Slope::Now, x, displacements, &mut product, counters);
         product
     }
 
@@ -593,6 +649,13 @@ pub(crate) enum Family {
 }
 
 impl Model {
+    pub(crate) fn family(&self, family: Family) -> &Constraints {
+        match family {
+            Family::Stretch => &self.stretch,
+            Family::Bend => &self.bend,
+        }
+    }
+
     pub(crate) fn family_mut(&mut self, family: Family) -> &mut Constraints {
         match family {
             Family::Stretch => &mut self.stretch,
@@ -600,9 +663,40 @@ impl Model {
         }
     }
 
-    /// The constraints of both families, colour by colour.
-    pub(crate) fn batches(&self) -> impl Iterator<Item = kernel::Batch<'_>> {
-        self.stretch.batches().chain(self.bend.batches())
+    /// The springs of both families, colour by colour.
+    pub(crate) fn springs(&self) -> impl Iterator<Item = kernel::Batch<'_>> {
+        let bends = self.bend.batches().filter(|_| self.buckling.is_none());
+        self.stretch.batches().chain(bends)
+    }
+
+    /// The bends that buckle, colour by colour.
+    pub(crate) fn buckles(&self) -> impl Iterator<Item = Bends<'_>> {
+        let batches = self.buckling.map(|law| (law, self.bend.batches()));
+        let batches = batches.into_iter();
+        batches.flat_map(|(law, batches)| batches.map(move |batch| Bends { batch, law }))
+    }
+
+    /// The largest stiffness of a constraint in any state, by the one that it has.
+    pub(crate) fn stiffest(&self, family: Family) -> f64 {
+        match (family, self.buckling) {
+            (Family::Bend, Some(law)) => law.stiffest(),
+            _ => 1.0,
+        }
+    }
+
+    /// The energy in joules and the pull in newtons of a bend of this length.
+    pub(crate) fn bend_axial(&self, constraint: &Constraint, length_m: f64) -> [f64; 2] {
+        let (rest_length_m, k) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
+        match self.buckling {
+            Some(law) => {
+                let axial = buckle::axial(law, rest_length_m, k, length_m);
+                [axial.energy, axial.force]
+            }
+            None => {
+                let extension = length_m - rest_length_m;
+                [0.5 * k * extension * extension, k * extension]
+            }
+        }
     }
 
     pub(crate) fn drag_per_s(&self) -> f64 {
@@ -626,8 +720,11 @@ impl Model {
         counters.force_evaluations += 1;
         accelerations.fill(Vector::zeros());
         let mut sane = true;
-        for batch in self.batches() {
+        for batch in self.springs() {
             sane &= kernel::forces(batch, positions, self.stretch_ratio_max, accelerations);
+        }
+        for bends in self.buckles() {
+            sane &= bends.forces(positions, self.stretch_ratio_max, accelerations);
         }
         let triangles = self.triangles.as_slice();
         if !triangles.is_empty() {
@@ -642,14 +739,18 @@ impl Model {
     /// Adds K u; see [`System::stiffness_times`].
     pub(crate) fn stiffness_times(
         &self,
+        slope: Slope,
         positions: &[Point],
         displacements: &[Vector],
         product: &mut [Vector],
         counters: &mut Counters,
     ) {
         counters.matrix_products += 1;
-        for batch in self.batches() {
+        for batch in self.springs() {
             kernel::stiffness_times(batch, positions, displacements, product);
+        }
+        for bends in self.buckles() {
+            bends.stiffness_times(slope, positions, displacements, product);
         }
         let triangles = self.triangles.as_slice();
         if !triangles.is_empty() {

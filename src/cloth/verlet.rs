@@ -28,6 +28,10 @@ impl Solver for Verlet {
         true
     }
 
+    fn takes_buckling(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half = dt_s / 2.0;
         let fade = half * system.model.drag_per_s();

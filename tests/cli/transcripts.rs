@@ -161,6 +161,18 @@ fn bad_inputs(folder: &Folder) {
                 .to_owned(),
         ),
         (
+            "wavy.toml",
+            "[fabric]\nbend_law = \"springy\"\n".to_owned(),
+        ),
+        (
+            "arcs.toml",
+            "[fabric]\nflexural_n_m2 = 1e-6\nbend_law = \"buckling\"\n".to_owned(),
+        ),
+        (
+            "straight.toml",
+            "[solver]\nmethod = \"verlet\"\n[fabric]\nbend_law = \"buckling\"\nbend_n_per_m = 2\n".to_owned(),
+        ),
+        (
             "missing.toml",
             "[wind]\nperiod_s = 1\n[[hold]]\nuntil_s = 1\n[[hold]]\nnear = [0, 1]\nalong = [0, 1]\n\
              [[cut]]\nat_s = 1\n[[collider]]\npoint = [0, 0, 0]\n[[strength]]\nvertices = [1]\n"

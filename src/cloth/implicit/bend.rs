@@ -102,6 +102,14 @@ impl Bend {
         self.ends
     }
 
+    pub(crate) fn rest_length(&self) -> f64 {
+        self.rest_length
+    }
+
+    pub(crate) fn compression(&self) -> f64 {
+        self.compression
+    }
+
     /// The same between other particles: for a tear that gives an end to a copy.
     #[must_use]
     pub fn between(&self, ends: [u32; 2]) -> Bend {
@@ -142,7 +150,8 @@ impl Bend {
         }
     }
 
-    fn axial(&self, distance: f64) -> Axial {
+    /// Energy, force and slope with the ends so far apart.
+    pub(crate) fn axial(&self, distance: f64) -> Axial {
         let gap = distance - self.rest_length;
         if gap >= 0.0 {
             return Axial {
@@ -161,6 +170,96 @@ impl Bend {
         let mut arc = self.arc(distance);
         arc.energy += self.energy_shift;
         arc
+    }
+}
+
+/// How bends of all lengths give way: the law of a [`Bend`] without its dimensions.
+///
+/// What a bend of rest length L is at d, relative to c L and c L², depends on d/L alone and on the
+/// number c L³ / k. That is known from the d/L at which the arc takes over from the spring, so
+/// bends of one law are made at once, without the search of [`Bend::new`].
+///
+/// ```
+/// use tearmesh::cloth::implicit::{Bend, Buckling};
+///
+/// let law = Buckling::new(0.9).unwrap();
+/// let (length_m, flexural_n_m2) = (0.1, 1e-6);
+/// let compression = law.compression_n_per_m(flexural_n_m2, length_m);
+/// let bend = law.bend([0, 2], length_m, compression);
+/// assert_eq!(bend.buckles_below(), 0.9 * 0.1);
+/// let same = Bend::new([0, 2], length_m, flexural_n_m2, compression)?;
+/// assert!((same.buckles_below() - bend.buckles_below()).abs() < 1e-15);
+/// assert!(Buckling::new(1.0).is_none() && Buckling::new(0.59).is_none());
+/// # Ok::<(), tearmesh::cloth::implicit::BendError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Buckling {
+    /// d/L at the change-over.
+    below: f64,
+    /// c L³ / k.
+    number: f64,
+    /// What is added to the energy of the arc, by c L².
+    shift: f64,
+}
+
+impl Buckling {
+    /// The law by which a bend is an arc below this part of its rest length, and above it gives
+    /// way like a spring. The nearer to 1, the stiffer the spring: c L³ / k is
+    /// 4 / (p (1 − d/L)), 247 for 0.95.
+    ///
+    /// `None` unless the part is below 1 and above 0.592, where c L³ / k is 4π²: a spring that is
+    /// softer would act once more where the ends are near each other (see [`Bend::new`]).
+    #[must_use]
+    pub fn new(buckles_below: f64) -> Option<Buckling> {
+        if !(buckles_below > 0.0 && buckles_below < 1.0) {
+            return None;
+        }
+        let u = inverse_sinc_squared(buckles_below);
+        let gap = 1.0 - buckles_below;
+        let number = 4.0 / (series(u).p * gap);
+        let pi = std::f64::consts::PI;
+        let buckles_once = number > 4.0 * (pi * pi) && number.is_finite();
+        buckles_once.then_some(Buckling {
+            below: buckles_below,
+            number,
+            shift: 0.5 * (gap * gap) - 2.0 * u / number,
+        })
+    }
+
+    /// The part of the rest length below which a bend is an arc.
+    #[must_use]
+    pub fn buckles_below(&self) -> f64 {
+        self.below
+    }
+
+    /// The stiffness c against compression, in N/m, of a bend of this flexural stiffness k and this
+    /// rest length L.
+    #[must_use]
+    pub fn compression_n_per_m(&self, flexural_n_m2: f64, rest_length_m: f64) -> f64 {
+        self.number * flexural_n_m2 / (rest_length_m * rest_length_m * rest_length_m)
+    }
+
+    /// The bend of this rest length (m) and this stiffness c against compression (N/m), both
+    /// positive.
+    #[must_use]
+    pub fn bend(&self, ends: [u32; 2], rest_length: f64, compression: f64) -> Bend {
+        let l = rest_length;
+        Bend {
+            ends,
+            rest_length,
+            stiffness: compression * (l * l * l) / self.number,
+            compression,
+            buckles_below: self.below * l,
+            energy_shift: self.shift * (compression * (l * l)),
+        }
+    }
+
+    /// The largest stiffness that a bend has at any length, by c: that of the spring, or that of the
+    /// arc where both ends meet, 12π² k / L³. The arc's force is concave in d, so it is nowhere
+    /// stiffer.
+    pub(crate) fn stiffest(&self) -> f64 {
+        let pi = std::f64::consts::PI;
+        (12.0 * (pi * pi) / self.number).max(1.0)
     }
 }
 
@@ -194,10 +293,11 @@ pub fn hessian(bend: &Bend, p: Point, q: Point, clamp: bool) -> (Block, bool) {
 }
 
 /// An energy that depends on a distance, with its first two derivatives.
-struct Axial {
-    energy: f64,
-    force: f64,
-    slope: f64,
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Axial {
+    pub(crate) energy: f64,
+    pub(crate) force: f64,
+    pub(crate) slope: f64,
 }
 
 /// Functions of u = t², for t in 0 … π.

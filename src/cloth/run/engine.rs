@@ -28,6 +28,16 @@ impl Engine {
         }
     }
 
+    fn solver(&self) -> &dyn Solver {
+        match self {
+            Engine::Provot(provot, _) => provot,
+            Engine::Pbd(pbd) => pbd,
+            Engine::Verlet(verlet) => verlet,
+            Engine::Xpbd(xpbd) => xpbd,
+            Engine::Implicit(implicit, _) => &**implicit,
+        }
+    }
+
     pub(super) fn quality(&self, system: &System) -> Option<Quality> {
         match self {
             Engine::Provot(_, limited) => Some(Quality::Limited(*limited)),
@@ -62,19 +72,14 @@ impl Solver for Engine {
     }
 
     fn takes_triangles(&self) -> bool {
-        match self {
-            Engine::Provot(provot, _) => provot.takes_triangles(),
-            Engine::Verlet(verlet) => verlet.takes_triangles(),
-            Engine::Implicit(implicit, _) => implicit.takes_triangles(),
-            Engine::Pbd(_) | Engine::Xpbd(_) => false,
-        }
+        self.solver().takes_triangles()
+    }
+
+    fn takes_buckling(&self) -> bool {
+        self.solver().takes_buckling()
     }
 
     fn frequency_limit(&self) -> Option<f64> {
-        match self {
-            Engine::Provot(provot, _) => provot.frequency_limit(),
-            Engine::Verlet(verlet) => verlet.frequency_limit(),
-            Engine::Pbd(_) | Engine::Xpbd(_) | Engine::Implicit(..) => None,
-        }
+        self.solver().frequency_limit()
     }
 }

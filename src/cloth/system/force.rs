@@ -9,8 +9,8 @@
 //! [`Xpbd`]: crate::cloth::Xpbd
 //! [`Provot`]: crate::cloth::Provot
 
-use super::{Model, System};
-use crate::cloth::constraint::{Constraint, ConstraintId, Constraints};
+use super::{Family, Model, System};
+use crate::cloth::constraint::{Constraint, ConstraintId};
 use crate::cloth::implicit::triangle;
 use crate::cloth::kernel;
 use crate::geometry::{Vector, dot};
@@ -61,7 +61,7 @@ impl System {
     /// If there is no such constraint.
     #[must_use]
     pub fn force_n(&self, id: ConstraintId) -> f64 {
-        self.force_of(&self.model.stretch, id)
+        self.force_of(Family::Stretch, id)
     }
 
     /// The length of a stretch constraint as a multiple of its rest length, as it was in the last
@@ -111,9 +111,10 @@ impl System {
     pub fn reaction_n(&self, particle: usize) -> Vector {
         let model = &self.model;
         let mut sum = self.wind_n(particle);
-        for family in [&model.stretch, &model.bend] {
-            for id in family.of(particle) {
-                let [a, b] = family.get(id).ends;
+        for family in [Family::Stretch, Family::Bend] {
+            let constraints = model.family(family);
+            for id in constraints.of(particle) {
+                let [a, b] = constraints.get(id).ends;
                 let d = self.positions[a + b - particle] - self.positions[particle];
                 let length = dot(d, d).sqrt();
                 if length > 0.0 {
@@ -158,9 +159,16 @@ impl System {
         constraint.stiffness_n_per_m * (self.length_m(constraint) - constraint.rest_length_m)
     }
 
-    fn force_of(&self, family: &Constraints, id: ConstraintId) -> f64 {
-        let length = || self.spring_n(&family.get(id));
-        let multiplier = || -family.memory(id).multiplier;
+    fn force_of(&self, family: Family, id: ConstraintId) -> f64 {
+        let constraints = self.model.family(family);
+        let constraint = constraints.get(id);
+        let length = || match family {
+            Family::Stretch => self.spring_n(&constraint),
+            Family::Bend => self
+                .model
+                .bend_axial(&constraint, self.length_m(&constraint))[1],
+        };
+        let multiplier = || -constraints.memory(id).multiplier;
         match self.model.forces {
             Forces::Lengths => length(),
             Forces::Multipliers => multiplier(),

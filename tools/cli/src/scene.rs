@@ -180,6 +180,7 @@ mod tests {
         match key.kind {
             Kind::Positive | Kind::NotNegative => ["0.375", "2"],
             Kind::Ratio => ["1.375", "2"],
+            Kind::Part if key.name == "buckles_below" => ["0.625", "0.75"],
             Kind::Part => ["0.375", "0.75"],
             Kind::Count => ["3", "7"],
             Kind::Bool => ["true", "false"],
@@ -188,6 +189,7 @@ mod tests {
                 "up" => ["\"z\"", "\"-x\""],
                 "copies" => ["\"whole\"", "\"halved\""],
                 "unbend" => ["\"vertex\"", "\"seam\""],
+                "bend_law" => ["\"buckling\"", "\"spring\""],
                 "order" => ["\"1\"", "\"2\""],
                 "method" if key.table == "solver" => ["\"verlet\"", "\"implicit\""],
                 _ => ["\"partition\"", "\"uniform\""],
@@ -212,6 +214,19 @@ mod tests {
             let others = woven[..2].iter().filter(|&&other| other != key.name);
             let others: String = others.map(|other| format!("{other} = 300\n")).collect();
             return format!("[solver]\nmethod = \"implicit\"\n[fabric]\n{others}{line}");
+        }
+        if key.table == "fabric" && ["flexural_n_m2", "buckles_below"].contains(&key.name) {
+            let other = match key.name {
+                "flexural_n_m2" => "",
+                _ => "flexural_n_m2 = 1e-6\n",
+            };
+            let fabric = format!("[fabric]\nbend_law = \"buckling\"\n{other}{line}");
+            return format!("[solver]\nmethod = \"implicit\"\n{fabric}");
+        }
+        // A law without a number is none.
+        if key.name == "bend_law" && value != "\"spring\"" {
+            let fabric = format!("[fabric]\nflexural_n_m2 = 1e-6\n{line}");
+            return format!("[solver]\nmethod = \"implicit\"\n{fabric}");
         }
         match key.table {
             "" => line,

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use tearmesh::cloth::implicit::{self, Settings, Tolerance};
+use tearmesh::cloth::implicit::{self, Buckling, Settings, Tolerance};
 use tearmesh::cloth::{
-    Axis, Breeze, Collider, Copies, Frame, Hold, Limiter, Method, Pbd, Region, Scene, Tearing,
-    Threshold, TimedCut, Unbend, Weave, Wind, Xpbd,
+    Axis, Bending, Breeze, Collider, Copies, Frame, Hold, Limiter, Method, Pbd, Region, Scene,
+    Tearing, Threshold, TimedCut, Unbend, Weave, Wind, Xpbd,
 };
 use tearmesh::{Plane, Point, Vector, VertexId};
 
@@ -96,6 +96,9 @@ impl SceneFile {
         let mut faults = Vec::new();
         self.world(&mut scene, frame);
         self.solver(&mut scene, solver);
+        if let Err(fault) = self.bend(&mut scene) {
+            faults.push(*fault);
+        }
         if let Err(fault) = self.weave(&mut scene, frame) {
             faults.push(*fault);
         }
@@ -170,9 +173,6 @@ impl SceneFile {
         if let Some(stretch) = table.number("stretch_n_per_m") {
             fabric.stretch_n_per_m = stretch;
         }
-        if let Some(bend) = table.number("bend_n_per_m") {
-            fabric.bend_n_per_m = (bend > 0.0).then_some(bend);
-        }
         match table.word("copies") {
             Some("whole") => fabric.copies = Copies::Whole,
             Some(_) => fabric.copies = Copies::Halved,
@@ -183,6 +183,58 @@ impl SceneFile {
             Some(_) => fabric.unbend = Unbend::Seam,
             None => {}
         }
+    }
+
+    /// What resists bending: springs, or arcs that buckle.
+    fn bend(&self, scene: &mut Scene) -> Result<(), Box<Fault>> {
+        let Some(table) = self.first("fabric") else {
+            return Ok(());
+        };
+        let is_arc = table.word("bend_law") == Some("buckling");
+        let foreign: &[&'static str] = if is_arc {
+            &["bend_n_per_m"]
+        } else {
+            &["flexural_n_m2", "buckles_below"]
+        };
+        if let Some(&key) = table.those_of(foreign).first() {
+            let law = if is_arc { "spring" } else { "buckling" };
+            let message = format!("`{key}` goes with bend_law = \"{law}\"");
+            return Err(self.fault(table, key, "E-SCENE-CLASH", message));
+        }
+        if !is_arc {
+            if let Some(stiffness_n_per_m) = table.number("bend_n_per_m") {
+                let spring = Bending::Spring { stiffness_n_per_m };
+                scene.fabric.bend = (stiffness_n_per_m > 0.0).then_some(spring);
+            }
+            return Ok(());
+        }
+        let flexural_n_m2 = table.number("flexural_n_m2");
+        let flexural_n_m2 =
+            flexural_n_m2.ok_or_else(|| self.missing(table, "fabric", "flexural_n_m2"))?;
+        let law = Buckling::new(table.number("buckles_below").unwrap_or(0.95));
+        let law = law.ok_or_else(|| {
+            let message = "`buckles_below` is above 0.592 and under 1".to_owned();
+            self.fault(table, "buckles_below", "E-SCENE-RANGE", message)
+        })?;
+        scene.fabric.bend = Some(Bending::Buckling { flexural_n_m2, law });
+        self.has_forces(scene, table, "bend_law", "know no arcs")
+    }
+
+    /// Refuses methods that move springs, where a key asks for something else.
+    fn has_forces(
+        &self,
+        scene: &Scene,
+        table: &Table,
+        key: &str,
+        lack: &str,
+    ) -> Result<(), Box<Fault>> {
+        if matches!(scene.solver, Method::Pbd(_) | Method::Xpbd(_)) {
+            let message = format!("pbd and xpbd move springs, and {lack}");
+            let fault = self.fault(table, key, "E-SCENE-CLASH", message);
+            let help = "add method = \"implicit\" to [solver]; verlet and provot do as well";
+            return Err(Box::new(fault.help(help.to_owned())));
+        }
+        Ok(())
     }
 
     /// A fabric of triangles, which stands for springs on edges unless these are named as well.
@@ -207,13 +259,7 @@ impl SceneFile {
                 .unwrap_or_else(|| frame.along.vector()),
         });
         scene.fabric.stretch_n_per_m = table.number("stretch_n_per_m").unwrap_or(0.0);
-        if matches!(scene.solver, Method::Pbd(_) | Method::Xpbd(_)) {
-            let message = "pbd and xpbd move springs, and have no triangles".to_owned();
-            let fault = self.fault(table, key, "E-SCENE-CLASH", message);
-            let help = "add method = \"implicit\" to [solver]; verlet and provot do as well";
-            return Err(Box::new(fault.help(help.to_owned())));
-        }
-        Ok(())
+        self.has_forces(scene, table, key, "have no triangles")
     }
 
     fn solver(&self, scene: &mut Scene, typed: Option<SolverName>) {

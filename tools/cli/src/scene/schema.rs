@@ -92,7 +92,7 @@ const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
 
 /// All keys, table by table.
 #[rustfmt::skip]
-pub(crate) const KEYS: [Key; 71] = [
+pub(crate) const KEYS: [Key; 74] = [
     key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
     key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
     key("", "up", Kind::Word(&AXES), "which way is up; y"),
@@ -105,9 +105,12 @@ pub(crate) const KEYS: [Key; 71] = [
     key("fabric", "weft_n_per_m", Kind::Positive, "woven: the modulus along the weft"),
     key("fabric", "shear_n_per_m", Kind::NotNegative, "woven: the modulus of shear; 0"),
     key("fabric", "warp", Kind::Vector, "woven: the direction of the warp at rest; up"),
-    key("fabric", "bend_n_per_m", Kind::NotNegative, "of a spring across an edge; 0, none"),
+    key("fabric", "bend_law", Kind::Word(&["spring", "buckling"]), "across an edge: a spring, or an arc that buckles; spring"),
+    key("fabric", "bend_n_per_m", Kind::NotNegative, "spring: its stiffness; 0, none"),
+    key("fabric", "flexural_n_m2", Kind::Positive, "buckling, required: bending moment by curvature"),
+    key("fabric", "buckles_below", Kind::Part, "buckling: at this part of its length, above 0.592; 0.95"),
     key("fabric", "copies", Kind::Word(&["halved", "whole"]), "what both copies of a torn edge have; halved; the paper: whole"),
-    key("fabric", "unbend", Kind::Word(&["seam", "vertex"]), "which bend springs a split takes; seam; the paper: vertex"),
+    key("fabric", "unbend", Kind::Word(&["seam", "vertex"]), "which of these a split takes; seam; the paper: vertex"),
 
     key("solver", "method", Kind::Word(METHODS), "xpbd"),
     key("solver", "dt_s", Kind::Positive, "the step; see --dt"),
