@@ -23,6 +23,7 @@
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
+mod balance;
 mod constraint;
 mod fabric;
 mod follow;
@@ -47,13 +48,14 @@ mod verlet;
 mod weave;
 mod xpbd;
 
+pub use balance::EnergyBalance;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use fabric::{Copies, Fabric, Unbend};
 pub use load::{Collider, Loads, Path, Wind};
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use rk4::Rk4;
-pub use run::{Run, RunError, Step, Tally};
+pub use run::{Gain, Run, RunError, Step, Tally};
 pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
 pub use solver::{Culprit, Solver, StepError, StepReport};

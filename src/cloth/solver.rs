@@ -160,9 +160,11 @@ impl System {
         self.model.forget();
         let began_s = self.elapsed_s;
         let substep_s = dt_s / f64::from(report.substeps);
+        let noted = self.meter.as_ref().map(|meter| meter.sums());
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
             self.drive(substep_s);
+            self.note_before();
             if !solver.advance(self, substep_s) || !self.is_finite() {
                 let at = self.culprit();
                 std::mem::swap(&mut self.positions, &mut self.scratch.positions);
@@ -170,11 +172,15 @@ impl System {
                 self.scratch.is_fresh = false;
                 self.model.forget();
                 self.elapsed_s = began_s;
+                if let (Some(meter), Some(sums)) = (&mut self.meter, noted) {
+                    meter.back_to(sums);
+                }
                 return Err(StepError::BlowUp {
                     elapsed_s: began_s,
                     at,
                 });
             }
+            self.note_after(substep_s);
             self.elapsed_s += substep_s;
         }
         self.elapsed_s = began_s + dt_s;
