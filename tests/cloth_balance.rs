@@ -401,7 +401,7 @@ fn beyond_the_limit_a_spring_makes_energy() {
             largest = largest.max(balance(&swing).method_j());
         }
         let put_in = balance(&swing).put_in_j();
-        println!("{part}: {:e} of {put_in:e}", largest);
+        println!("{part}: {largest:e} of {put_in:e}");
         // Below, the swing: 1/(1 − s) − 1 at s = .9025.
         assert_eq!(largest > 20.0 * put_in, makes);
     }

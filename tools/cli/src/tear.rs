@@ -140,6 +140,8 @@ impl Play<'_> {
             frames: shot.report,
         };
         session.words.push(words::simulation(&tear));
+        session.words.push(words::balance(&run));
+        session.faults.extend(words::gain(&run));
         session.report.tear = Some(tear);
         match ended {
             Ended::Done => {}
