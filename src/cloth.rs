@@ -24,6 +24,7 @@
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
+mod balance;
 mod buckle;
 mod constraint;
 mod fabric;
@@ -49,13 +50,14 @@ mod verlet;
 mod weave;
 mod xpbd;
 
+pub use balance::EnergyBalance;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use fabric::{Bending, Copies, Fabric, Unbend};
 pub use load::{Collider, Loads, Path, Wind};
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use rk4::Rk4;
-pub use run::{CutMade, Limited, Quality, Run, RunError, Shortened, Solved, Step, Tally};
+pub use run::{CutMade, Gain, Limited, Quality, Run, RunError, Shortened, Solved, Step, Tally};
 pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
 pub use solver::{Culprit, Failure, Solver, StepError, StepReport};

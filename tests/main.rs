@@ -4,6 +4,7 @@
 
 mod allocation;
 mod cloth_answers;
+mod cloth_balance;
 mod cloth_bending;
 mod cloth_cost;
 mod cloth_failures;

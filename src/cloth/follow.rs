@@ -23,6 +23,9 @@ impl Follower for Cloth {
 
     fn follow(&mut self, edit: &Edit<'_>) {
         let bound_before_rad_per_s = self.system.bound_within_reach();
+        let moves_masses = matches!(edit, Edit::Merge(_) | Edit::Slide(_));
+        let before_j = self.system.before_edit_j(moves_masses);
+        let made_j = self.ledger.total_j();
         let vertex = match edit {
             Edit::Split(split) => {
                 self.split(split, edit);
@@ -41,6 +44,8 @@ impl Follower for Cloth {
                 slide.vertex
             }
         };
+        let made_j = self.ledger.total_j() - made_j;
+        self.system.edited(made_j, before_j, moves_masses);
         self.effects.push(Effect {
             number: edit.number(),
             vertex,

@@ -76,11 +76,17 @@ impl Collider {
     ) {
         let particles = positions.iter_mut().zip(velocities).zip(inverse_masses);
         for ((position, velocity), _) in particles.filter(|(_, w)| **w > 0.0) {
-            if let Some((normal, depth)) = self.depth(*position) {
-                *position += normal * depth;
-                *velocity -= normal * dot(normal, *velocity).min(0.0);
+            if let Some((x, v)) = self.pushed(*position, *velocity) {
+                (*position, *velocity) = (x, v);
             }
         }
+    }
+
+    /// Where a particle inside comes out, and its velocity then; `None` for one outside.
+    pub(crate) fn pushed(&self, x: Point, v: Vector) -> Option<(Point, Vector)> {
+        let (normal, depth) = self.depth(x)?;
+        let into = dot(normal, v).min(0.0);
+        Some((x + normal * depth, v - normal * into))
     }
 
     /// The way out of a point inside: a unit vector, and how far.

@@ -6,15 +6,20 @@
 //! rounded to whole steps. Nothing here reads a clock, so the same scene gives the same bytes.
 
 mod engine;
+mod gain;
 mod held;
 mod quality;
 mod step_size;
 
 use std::fmt;
 
-use self::engine::Engine;
-use self::held::Held;
+pub use self::gain::Gain;
 pub use self::quality::{Limited, Quality, Solved};
+
+use self::engine::Engine;
+use self::gain::Watch;
+use self::held::Held;
+use super::balance::EnergyBalance;
 use super::load::Loads;
 use super::scene::{Breeze, Frame, Scene, TimedCut};
 use super::sheet::{Cloth, ClothError};
@@ -58,6 +63,7 @@ pub struct Run {
     step_s: f64,
     steps_planned: u64,
     tally: Tally,
+    watch: Watch,
 }
 
 /// What has happened in a run so far.
@@ -178,8 +184,10 @@ impl Run {
             // A step of our own choice is not refused because of what tore since.
             cloth.system_mut().when_unstable(Unstable::Substep);
         }
+        cloth.system_mut().keep_balance();
         Ok(Run {
             engine: Engine::new(&scene.solver),
+            watch: Watch::new(&scene.solver, cloth.system(), step_s),
             mesh,
             cloth,
             edits: Edits::new(),
@@ -234,6 +242,8 @@ impl Run {
         self.held
             .iter_mut()
             .for_each(|held| held.follow(&self.edits));
+        let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
+        self.watch.look(steps, elapsed_s, self.cloth.system());
         Ok(Step { cuts, tear })
     }
 
@@ -393,6 +403,21 @@ impl Run {
     #[must_use]
     pub fn quality(&self) -> Option<Quality> {
         self.engine.quality(self.cloth.system())
+    }
+
+    /// Where the energy of the scene came from and where it went. A pass over all constraints.
+    #[must_use]
+    pub fn energy_balance(&self) -> EnergyBalance {
+        let balance = self.cloth.system().energy_balance();
+        balance.unwrap_or_default() // Kept from the first step on.
+    }
+
+    /// Whether the method made energy out of nothing, beyond a quarter of what was put in: then the cloth
+    /// tears more than it should, and its pieces fly about. Looked at every 1/60 s. A shorter step
+    /// helps, or a method that damps, or drag.
+    #[must_use]
+    pub fn gain(&self) -> Option<Gain> {
+        self.watch.gain()
     }
 
     /// The scene.

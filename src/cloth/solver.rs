@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::balance::Sums;
 use super::implicit::{self, triangle};
 use super::stability::Frequency;
 use super::system::{System, Unstable};
@@ -208,13 +209,16 @@ impl System {
         self.model.forget();
         let began_s = self.elapsed_s;
         let substep_s = dt_s / f64::from(report.substeps);
+        let noted = self.meter.as_ref().map(|meter| meter.sums());
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
             self.drive(substep_s);
+            self.note_before();
             let advanced = solver.advance(self, substep_s);
             if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
-                return Err(self.go_back(failure, began_s));
+                return Err(self.go_back(failure, began_s, noted));
             }
+            self.note_after(substep_s);
             self.elapsed_s += substep_s;
         }
         self.elapsed_s = began_s + dt_s;
@@ -222,7 +226,7 @@ impl System {
     }
 
     /// Makes the system what it was before the step, and says why the step was not taken.
-    fn go_back(&mut self, failure: Failure, began_s: f64) -> StepError {
+    fn go_back(&mut self, failure: Failure, began_s: f64, noted: Option<Sums>) -> StepError {
         let error = match failure {
             Failure::BlowUp => StepError::BlowUp {
                 elapsed_s: began_s,
@@ -238,6 +242,9 @@ impl System {
         self.scratch.is_fresh = false;
         self.model.forget();
         self.elapsed_s = began_s;
+        if let (Some(meter), Some(sums)) = (&mut self.meter, noted) {
+            meter.back_to(sums);
+        }
         error
     }
 

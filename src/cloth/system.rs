@@ -10,6 +10,7 @@ mod force;
 pub use error::SystemError;
 pub(crate) use force::Forces;
 
+use super::balance::Meter;
 use super::buckle::{self, Bends, Slope};
 use super::constraint::{Constraint, ConstraintId, Constraints};
 use super::implicit::{Buckling, Triangle, triangle};
@@ -55,6 +56,8 @@ pub struct System {
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
     pub(crate) margin: f64,
+    /// The balance of energy, where one is kept.
+    pub(crate) meter: Option<Box<Meter>>,
 }
 
 /// All but positions and velocities.
@@ -193,6 +196,7 @@ impl System {
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             margin: 0.95,
+            meter: None,
         }
     }
 
@@ -318,6 +322,7 @@ impl System {
     pub(crate) fn touched(&mut self, particles: &[usize]) {
         self.scratch.is_fresh = false;
         self.spectrum.touched(&self.model, particles);
+        self.note_change();
     }
 
     /// Changes the stiffness of a stretch constraint, in N/m.
@@ -367,9 +372,11 @@ impl System {
     ///
     /// If there is no such particle.
     pub fn hold(&mut self, particle: usize) {
-        self.model.held[particle] = true;
-        self.velocities[particle] = Vector::zeros();
-        self.weigh(particle);
+        self.handle(particle, |system| {
+            system.model.held[particle] = true;
+            system.velocities[particle] = Vector::zeros();
+            system.weigh(particle);
+        });
     }
 
     /// Lets a pinned or grabbed particle go.
@@ -380,8 +387,10 @@ impl System {
     pub fn release(&mut self, particle: usize) {
         let other = |&(grabbed, _): &(u32, u32)| grabbed as usize != particle;
         self.model.grabbed.retain(other);
-        self.model.held[particle] = false;
-        self.weigh(particle);
+        self.handle(particle, |system| {
+            system.model.held[particle] = false;
+            system.weigh(particle);
+        });
     }
 
     /// Leads a particle along a path, from where the path is now.
@@ -392,7 +401,8 @@ impl System {
     pub fn grab(&mut self, particle: usize, path: Path) {
         self.release(particle);
         self.hold(particle);
-        self.positions[particle] = path.at(self.elapsed_s);
+        let from = path.at(self.elapsed_s);
+        self.handle(particle, |system| system.positions[particle] = from);
         let number = self.model.paths.len() as u32;
         self.model.paths.push(path);
         self.model.grabbed.push((particle as u32, number));
@@ -415,7 +425,14 @@ impl System {
             return Err(SystemError::Loads);
         }
         self.scratch.is_fresh = false;
-        self.model.loads = loads;
+        let is_same = loads.gravity_m_per_s2 == self.model.loads.gravity_m_per_s2;
+        if is_same {
+            self.model.loads = loads;
+        } else {
+            self.settle_gravity();
+            self.model.loads = loads;
+            self.count_potential();
+        }
         Ok(())
     }
 
@@ -449,6 +466,7 @@ impl System {
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
         self.model.forget();
+        self.note_change();
         (&mut self.positions, &mut self.velocities)
     }
 
@@ -631,6 +649,9 @@ impl System {
 
     /// Pushes the particles out of the colliders.
     pub(crate) fn collide(&mut self) {
+        if self.meter.is_some() {
+            return self.collide_and_note();
+        }
         for collider in &self.model.loads.colliders {
             self.counters.collider_passes += 1;
             collider.push_out(

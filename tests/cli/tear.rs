@@ -198,6 +198,16 @@ fn the_report_has_what_others_rely_on_and_two_runs_are_equal() {
         "/counters/projections",
         "/counters/force_evaluations",
         "/energy_j/torn_edges",
+        "/energy_j/began",
+        "/energy_j/kinetic",
+        "/energy_j/elastic",
+        "/energy_j/gravity",
+        "/energy_j/held",
+        "/energy_j/wind",
+        "/energy_j/drag",
+        "/energy_j/colliders",
+        "/energy_j/edits",
+        "/energy_j/method",
         "/pieces_before",
         "/pieces",
         "/tear_length_m",
@@ -210,6 +220,7 @@ fn the_report_has_what_others_rely_on_and_two_runs_are_equal() {
             "{pointer}"
         );
     }
+    assert!(report["energy_j"]["gain"].is_null());
     assert_eq!(report["status"], "done");
     assert_eq!(report["mass"]["before"], report["mass"]["after"]);
     assert!(report["splits"].as_u64() > Some(10));
@@ -240,6 +251,36 @@ fn a_simulation_that_fails_keeps_its_state_and_says_so() {
     assert!((0.09..0.12).contains(&time), "{time}");
     assert_eq!(report["output"]["vertices"], 1089);
     assert_eq!(read(&folder.read("kept.obj")).0.len(), 1089);
+}
+
+/// The rest is what is there, less what was there and what was put in and taken.
+#[test]
+fn the_report_says_what_the_method_made() {
+    let folder = Folder::new();
+    let output = folder.run(
+        "tearmesh tear flag.obj --scene rip --solver verlet --threshold 2.5 --seconds 1.6 \
+         --format json",
+    );
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let energy = |name: &str| report["energy_j"][name].as_f64().expect("joules");
+    let given = [
+        "began",
+        "gravity",
+        "held",
+        "wind",
+        "drag",
+        "colliders",
+        "edits",
+    ];
+    let given: f64 = given.into_iter().map(energy).sum();
+    let rest = energy("kinetic") + energy("elastic") - given;
+    assert!((rest - energy("method")).abs() < 1e-9 * given.abs());
+    let gain = |name: &str| report["energy_j"]["gain"][name].as_f64().expect("a gain");
+    assert!(gain("made_j") >= rest && rest > 0.25 * gain("put_in_j"));
+    assert!((1.4..1.6).contains(&gain("since_s")));
+    let warned = report["diagnostics"].as_array().expect("a list").iter();
+    let warned = warned.filter(|entry| entry["code"] == "W-SIM-ENERGY");
+    assert_eq!(warned.count(), 1);
 }
 
 #[test]

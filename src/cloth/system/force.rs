@@ -109,8 +109,14 @@ impl System {
     /// ```
     #[must_use]
     pub fn reaction_n(&self, particle: usize) -> Vector {
+        let drag = self.velocities[particle] * self.model.drag_per_s();
+        -(self.inner_n(particle) + self.wind_n(particle) - drag * self.model.masses[particle])
+    }
+
+    /// The force of constraints, triangles and gravity on a particle, in newtons.
+    pub(crate) fn inner_n(&self, particle: usize) -> Vector {
         let model = &self.model;
-        let mut sum = self.wind_n(particle);
+        let mut sum = model.gravity() * model.masses[particle];
         for family in [Family::Stretch, Family::Bend] {
             let constraints = model.family(family);
             for id in constraints.of(particle) {
@@ -126,9 +132,7 @@ impl System {
             let woven = &model.triangles.as_slice()[t];
             sum += triangle::forces(woven, triangle::corners(woven, &self.positions))[corner];
         }
-        let gravity = model.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros);
-        let drag = self.velocities[particle] * model.drag_per_s();
-        -(sum + (gravity - drag) * model.masses[particle])
+        sum
     }
 
     fn wind_n(&self, particle: usize) -> Vector {

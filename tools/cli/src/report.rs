@@ -169,13 +169,37 @@ pub(crate) struct Tear {
     pub(crate) frames: Option<Frames>,
 }
 
-/// Energy in joules: what edits made, and what edges held as they tore.
+/// Energy in joules: what edits made, what edges held as they tore, and the balance of all: what was
+/// there when the simulation began, what is there, and the work of everything on the way.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Energy {
     pub(crate) split_elastic: f64,
     pub(crate) insert_elastic: f64,
     pub(crate) insert_kinetic: f64,
     pub(crate) torn_edges: f64,
+    pub(crate) began: f64,
+    pub(crate) kinetic: f64,
+    pub(crate) elastic: f64,
+    pub(crate) gravity: f64,
+    pub(crate) held: f64,
+    pub(crate) wind: f64,
+    pub(crate) drag: f64,
+    pub(crate) colliders: f64,
+    pub(crate) edits: f64,
+    /// The rest: what the method made, or lost where negative. Of one that projects with few sweeps
+    /// it has in it what springs hold by lengths that no force stands for.
+    pub(crate) method: f64,
+    /// Where the method made far more than it may: W-SIM-ENERGY.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) gain: Option<Gain>,
+}
+
+/// Energy that a method made out of nothing.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Gain {
+    pub(crate) since_s: f64,
+    pub(crate) made_j: f64,
+    pub(crate) put_in_j: f64,
 }
 
 /// What the method says of its own steps; see [`tearmesh::cloth::Quality`].

@@ -143,6 +143,8 @@ impl Play<'_> {
         };
         session.faults.extend(words::infeasible(&run));
         session.words.push(words::simulation(&tear));
+        session.words.push(words::balance(&run));
+        session.faults.extend(words::gain(&run));
         session.report.tear = Some(tear);
         match ended {
             Ended::Done => {}

@@ -45,6 +45,49 @@ pub(super) fn stable_step(stability: Shortened) -> report::StableStep {
     }
 }
 
+/// The line of the summary that says where the energy went. Of a method that projects it does not
+/// say what the method lost: its springs are longer than its forces are strong.
+pub(super) fn balance(run: &Run) -> String {
+    let balance = run.energy_balance();
+    let words = format!(
+        "energy: {} J put in, {} J there, {} J lost to drag",
+        three_digits(balance.put_in_j()),
+        three_digits(balance.kinetic_j + balance.elastic_j),
+        three_digits(-balance.drag_j),
+    );
+    let method = balance.method_j();
+    let how = if method > 0.0 { "made" } else { "lost" };
+    match run.scene().solver {
+        Method::Pbd(_) | Method::Xpbd(_) => words,
+        _ => format!(
+            "{words}, {} J {how} by the method",
+            three_digits(method.abs())
+        ),
+    }
+}
+
+/// Says that the method made energy out of nothing.
+pub(super) fn gain(run: &Run) -> Option<Fault> {
+    let gain = run.gain()?;
+    let message = format!(
+        "the method made {} J out of nothing, from {} s on, where {} J were put in: what tore since \
+         tore by that as well",
+        three_digits(gain.made_j),
+        short(gain.since_s),
+        three_digits(gain.put_in_j),
+    );
+    let others = match run.scene().solver {
+        Method::Xpbd(_) => "--solver implicit",
+        Method::Implicit(_) => "--solver xpbd",
+        _ => "--solver xpbd or implicit",
+    };
+    let help = format!(
+        "{others}, --dt {}, or a larger drag_per_s in a scene file",
+        two_digits(run.step_s() / 2.0)
+    );
+    Some(Fault::warning("W-SIM-ENERGY", message).help(help))
+}
+
 /// Momentum that edits made or lost beyond rounding: our bug.
 pub(super) fn momentum_broken(run: &Run) -> Option<String> {
     let drift = run.tally().momentum_drift;
@@ -54,11 +97,27 @@ pub(super) fn momentum_broken(run: &Run) -> Option<String> {
 
 pub(super) fn energy(run: &Run) -> report::Energy {
     let ledger = run.cloth().ledger();
+    let balance = run.energy_balance();
     report::Energy {
         split_elastic: ledger.split_elastic_j,
         insert_elastic: ledger.insert_elastic_j,
         insert_kinetic: ledger.insert_kinetic_j,
         torn_edges: run.tally().edge_energy_j,
+        began: balance.began_j,
+        kinetic: balance.kinetic_j,
+        elastic: balance.elastic_j,
+        gravity: balance.gravity_j,
+        held: balance.held_j,
+        wind: balance.wind_j,
+        drag: balance.drag_j,
+        colliders: balance.colliders_j,
+        edits: balance.edits_j,
+        method: balance.method_j(),
+        gain: run.gain().map(|gain| report::Gain {
+            since_s: gain.since_s,
+            made_j: gain.made_j,
+            put_in_j: gain.put_in_j,
+        }),
     }
 }
 
@@ -244,6 +303,18 @@ fn settings_that_help(error: &implicit::StepError) -> &'static str {
 
 fn edge([a, b]: [usize; 2]) -> String {
     format!(" at edge {}-{}", a + 1, b + 1)
+}
+
+/// Three digits or all of those before the point; nothing below a billionth.
+fn three_digits(x: f64) -> String {
+    if x.abs() < 1e-9 {
+        return "0".to_owned();
+    }
+    let mut scale = 1.0;
+    while (x * scale).abs() < 100.0 {
+        scale *= 10.0;
+    }
+    short((x * scale).round() / scale)
 }
 
 /// Two digits, rounded down: a step that is typed like this stays below its limit.
