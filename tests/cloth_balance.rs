@@ -471,7 +471,10 @@ fn violent(frame: &Frame, solver: Method, step_s: Option<f64>) -> Scene {
 /// Each step is below its limit, no number is large, and the cloth shatters: the balance alone tells.
 #[test]
 fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
-    let run = play(16, |frame| violent(frame, Method::Verlet, None));
+    // A step that no one divides, 0.7 of the limit.
+    let own = play(16, |frame| violent(frame, Method::Verlet, None));
+    let step_s = Some(own.step_s());
+    let run = play(16, |frame| violent(frame, Method::Verlet, step_s));
     let Some(Gain {
         since_s,
         made_j,
@@ -487,11 +490,12 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     assert!(made_j >= run.energy_balance().method_j());
     assert!(pieces > 20);
     // Half the step is none too long, and shows what nature would do.
-    let step_s = Some(run.step_s() / 2.0);
+    let step_s = Some(own.step_s() / 2.0);
     let half = play(16, |frame| violent(frame, Method::Verlet, step_s));
     assert_eq!(half.gain(), None, "{:?}", half.energy_balance());
     assert!(half.mesh().components().count() < pieces / 2);
-    for (name, solver) in methods().into_iter().filter(|(name, _)| *name != "verlet") {
+    // A step that may be divided is, as soon as the cloth is torn.
+    for (name, solver) in methods() {
         let run = play(16, |frame| violent(frame, solver.clone(), None));
         assert_eq!(run.gain(), None, "{name}: {:?}", run.energy_balance());
     }
