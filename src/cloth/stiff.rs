@@ -128,7 +128,9 @@ impl Solver for ImplicitCloth {
         let step = self
             .solver
             .step(&model, positions, velocities, dt_s, settings);
-        let work = step.map_err(failure)?.work;
+        let report = step.map_err(failure)?;
+        let work = report.work;
+        system.counters.overshoots += u64::from(report.overshot);
         system.counters.force_evaluations += work.force_evaluations;
         system.counters.matrix_products += work.matrix_products;
         if !system.model.triangles.as_slice().is_empty() {
