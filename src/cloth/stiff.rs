@@ -121,7 +121,6 @@ impl Solver for ImplicitCloth {
             bends: &self.bends,
             triangles: system.model.triangles.as_slice(),
             drag_per_s: system.model.drag_per_s(),
-            ..implicit::Model::default()
         };
         let (positions, velocities) = (&mut system.positions, &mut system.velocities);
         let settings = &self.settings;
