@@ -59,9 +59,9 @@ fn arc_energy(k: f64, l: f64, d: f64) -> f64 {
     for _ in 0..200 {
         let t = 0.5 * (low + high);
         if t.sin() > t * (d / l) {
-            low = t
+            low = t;
         } else {
-            high = t
+            high = t;
         }
     }
     0.5 * k * (2.0 * low / l).powi(2) * l
@@ -118,7 +118,7 @@ fn forces_of_a_crumpled_cloth_are_the_gradient_of_its_energy() {
         let mut accelerations = Vec::new();
         system.accelerations(&mut accelerations);
         let mut worst = 0.0_f64;
-        for particle in 0..system.positions().len() {
+        for (particle, acceleration) in accelerations.iter().enumerate() {
             let hand = system.reaction_n(particle);
             for axis in 0..3 {
                 let h = 1e-6;
@@ -129,7 +129,7 @@ fn forces_of_a_crumpled_cloth_are_the_gradient_of_its_energy() {
                     energy
                 };
                 let gradient = (energy(h) - energy(-h)) / (2.0 * h);
-                let force = accelerations[particle][axis] * system.masses()[particle];
+                let force = acceleration[axis] * system.masses()[particle];
                 worst = worst.max((force + gradient).abs());
                 near(hand[axis], -force, 1e-12);
             }

@@ -137,6 +137,7 @@ impl Solver for ImplicitCloth {
         let report = step.map_err(failure)?;
         self.report = Some(report);
         let work = report.work;
+        system.counters.overshoots += u64::from(report.overshot);
         system.counters.force_evaluations += work.force_evaluations;
         system.counters.matrix_products += work.matrix_products;
         if !system.model.triangles.as_slice().is_empty() {

@@ -116,6 +116,8 @@ pub struct Counters {
     pub collider_passes: u64,
     /// Substeps.
     pub substeps: u64,
+    /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
+    pub overshoots: u64,
 }
 
 /// What to do with a step beyond the stability limit of an explicit method.

@@ -44,7 +44,8 @@ pub struct Settings {
     pub method: Method,
     /// Which second derivatives.
     pub jacobian: Jacobian,
-    /// 1: linearised. More: Newton's method until the residual is within the tolerance.
+    /// 1: linearised, and Newton's method only where that overshoots ([`StepReport::overshot`]).
+    /// More: Newton's method until the residual is within the tolerance.
     pub newton_iterations_max: u32,
     /// When the solver may stop.
     pub tolerance: Tolerance,
@@ -76,6 +77,10 @@ pub struct StepReport {
     pub clamped: u64,
     /// Newton's iterations; 1 if linearised.
     pub newton_iterations: u32,
+    /// Whether the linearised step ended above the potential that it started from, and was
+    /// taken back: the step is then that of Newton's method, as far as that came in 50 iterations
+    /// from where the step started. Its residual may be above the limit.
+    pub overshot: bool,
     /// Halvings of the line search.
     pub halvings: u32,
     /// The residual as a bound on the rms error of the velocity, in m/s: of the linear

@@ -18,6 +18,13 @@
 //! **Newton**: iterated from x* + h v₀ until the residual is small, with a line search on
 //! Φ = E − Σ m g·x + ½ (1 + h c) Σ m |v − v*/(1 + h c)|², of which the equation is the gradient.
 //!
+//! **Overshoot.** A linearised step trusts its matrix however far it goes. A piece of one or two
+//! triangles that spins by ω Δt > 1 flies apart along the tangent, to √(1 + (ω Δt)²) times its size;
+//! where something is pushed together the matrix may be all but singular, and the step as
+//! long as one likes. Both end above the Φ of where they started, which no solution near by
+//! does. Such a step is taken back, and Newton's method goes down from there instead
+//! ([`StepReport::overshot`]); so the stretch of what is thrown about is bounded by its energy.
+//!
 //! **Indefinite matrices.** M (1 + h c)/h² + H is indefinite where something is compressed and
 //! Δt is long: between two springs from Δt > √(m / (2k (L₀/l − 1))). Then Newton's step is no
 //! descent. Terms are dropped only where this shows itself ([`Jacobian::UnlessIndefinite`]).
@@ -66,6 +73,9 @@ struct History {
     velocities: Vec<Vector>,
     time_step_s: f64,
 }
+
+/// Newton's iterations for a step whose linearised answer was taken back.
+const RESCUE_ITERATIONS: u32 = 50;
 
 /// The equation of a step: its length h, and the method.
 #[derive(Clone, Copy)]
@@ -203,17 +213,29 @@ impl Implicit {
             indefinite: 0,
             clamped: 0,
             newton_iterations: 1,
+            overshot: false,
             halvings: 0,
             residual: 0.0,
             limit: stage.velocity_error(stage.residual_max),
             work: Work::default(),
         };
+        let mut came_down = false;
         if settings.newton_iterations_max <= 1 {
+            let level = self.level(model, positions, velocities, stage);
             self.linearised(model, positions, velocities, stage, settings, &mut report)?;
+            self.place(stage);
+            let reached = self.potential(model, stage);
+            // Written so that a NaN counts as above.
+            let is_below = reached.value <= level.value + level.rounding;
+            if !is_below {
+                self.stay(model, positions, velocities, stage);
+                came_down = self.come_down(model, stage, level, settings, &mut report)?;
+            }
         } else {
             self.newton(model, stage, settings, &mut report)?;
         }
-        if report.residual.is_nan() || report.residual > report.limit {
+        let is_solved = report.residual <= report.limit;
+        if !is_solved && !came_down {
             return Err(StepError::NotConverged {
                 residual: report.residual,
                 limit: report.limit,
@@ -324,6 +346,46 @@ impl Implicit {
             *v += d / stage.h;
         }
         Ok(())
+    }
+
+    /// Velocities that leave the particles at `x`, where the step started, in the directions in
+    /// which they are free.
+    fn stay(&mut self, model: &Model<'_>, x: &[Point], v: &[Vector], stage: Stage) {
+        self.velocities.clear();
+        for (i, &v) in v.iter().enumerate() {
+            let back = (x[i] - self.start[i]) / stage.h - v;
+            self.velocities.push(v + model.filter(i).apply(back));
+        }
+    }
+
+    /// Newton's method from where the step started, after the linearised step has overshot. True
+    /// where it came down from there, if not all the way: that is as good as a linearised step
+    /// can be, whose residual nobody asks for, and its stretch is bounded.
+    fn come_down(
+        &mut self,
+        model: &Model<'_>,
+        stage: Stage,
+        level: Potential,
+        settings: &Settings,
+        report: &mut StepReport,
+    ) -> Result<bool, StepError> {
+        report.overshot = true;
+        let settings = Settings {
+            newton_iterations_max: RESCUE_ITERATIONS,
+            ..*settings
+        };
+        self.newton(model, stage, &settings, report)?;
+        Ok(self.potential(model, stage).value < level.value)
+    }
+
+    /// Φ where the step started: a step that ends above it has overshot.
+    fn level(&mut self, model: &Model<'_>, x: &[Point], v: &[Vector], stage: Stage) -> Potential {
+        self.stay(model, x, v, stage);
+        self.place(stage);
+        let level = self.potential(model, stage);
+        self.velocities.clear();
+        self.velocities.extend_from_slice(v);
+        level
     }
 
     /// f − M ((1 + h c) v − v*)/h for the present velocities and forces, into `pcg.b`.

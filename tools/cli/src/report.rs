@@ -232,6 +232,7 @@ pub(crate) struct Counters {
     pub(crate) wind_evaluations: u64,
     pub(crate) collider_passes: u64,
     pub(crate) substeps: u64,
+    pub(crate) overshoots: u64,
 }
 
 /// Frames that were written.

@@ -177,6 +177,7 @@ pub(super) fn counters(run: &Run) -> report::Counters {
         wind_evaluations: counters.wind_evaluations,
         collider_passes: counters.collider_passes,
         substeps: counters.substeps,
+        overshoots: counters.overshoots,
     }
 }
 
