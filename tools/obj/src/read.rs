@@ -32,6 +32,7 @@ use self::forward::{Forward, beyond};
 use self::lines::{Line, Lines};
 use self::record::RecordReader;
 use self::scan::Scan;
+use self::usual::Widths;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::{Document, Polygons};
 use crate::store::{Column, Kind, Rows, push};
@@ -78,6 +79,7 @@ struct Reader {
     forward: [Forward; 3],
     tally: Tally,
     record: RecordReader,
+    widths: Widths,
 }
 
 impl Reader {
