@@ -270,11 +270,8 @@ impl Document {
         let larger = |&polygon: &usize| self.polygons.corners(polygon).len() > 3;
         let mut polygons = (0..self.polygons.len()).filter(larger);
         let first = polygons.next().expect("not all polygons are triangles");
-        let count = 1 + polygons.clone().count();
-        let triangles: usize = polygons
-            .chain([first])
-            .map(|polygon| self.polygons.triangles(polygon).len())
-            .sum();
+        let count = 1 + polygons.count();
+        let triangles = triangulation.triangles().len() - (self.polygons.len() - count);
         let message = match count {
             1 => format!("1 face with more than 3 corners is cut into {triangles} triangles"),
             _ => format!(
