@@ -370,6 +370,32 @@ mod tests {
     }
 
     #[test]
+    fn a_quad_is_a_fan_if_it_is_one_as_it_is_seen() {
+        // Few coordinates, so that corners fall together, on lines and in planes of all axes.
+        let places = [-1.0, 0.0, 1.0, 2.5];
+        let mut state = 1_u32;
+        let mut place = || {
+            let mut coordinate = || {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                places[(state >> 30) as usize]
+            };
+            Point::new(coordinate(), coordinate(), coordinate())
+        };
+        let (mut fans, mut others, mut flat) = (0, 0, Vec::new());
+        for _ in 0..100_000 {
+            let quad = [place(), place(), place(), place()];
+            flatten(&[0, 1, 2, 3], &quad, &mut flat);
+            assert_eq!(quad_is_fan(quad), is_fan(&flat), "{quad:?}");
+            *(if is_fan(&flat) {
+                &mut fans
+            } else {
+                &mut others
+            }) += 1;
+        }
+        assert!(fans > 10_000 && others > 10_000, "{fans} and {others}");
+    }
+
+    #[test]
     fn shapes_without_ears_still_give_two_triangles_less_than_corners() {
         let line: Vec<Flat> = (0..9).map(|i| [f64::from(i), 0.0]).collect();
         let point = vec![[1.0, 1.0]; 7];
