@@ -201,7 +201,8 @@ impl Document {
     ) -> usize {
         match &self.triangulation {
             Some(triangulation) => {
-                let [a, b, c] = triangulation.corners(triangle);
+                let nth = triangle - self.polygons.triangles(polygon).start;
+                let [a, b, c] = triangulation.corners(triangle, nth);
                 self.polygons.starts[polygon] as usize + usize::from([a, b, c][corner])
             }
             None => 3 * triangle + corner,

@@ -32,6 +32,7 @@ use self::forward::{Forward, beyond};
 use self::lines::{Line, Lines};
 use self::record::RecordReader;
 use self::scan::Scan;
+use self::usual::Widths;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::{Document, Polygons};
 use crate::store::{Column, Kind, Rows, push};
@@ -78,6 +79,7 @@ struct Reader {
     forward: [Forward; 3],
     tally: Tally,
     record: RecordReader,
+    widths: Widths,
 }
 
 impl Reader {
@@ -268,11 +270,8 @@ impl Document {
         let larger = |&polygon: &usize| self.polygons.corners(polygon).len() > 3;
         let mut polygons = (0..self.polygons.len()).filter(larger);
         let first = polygons.next().expect("not all polygons are triangles");
-        let count = 1 + polygons.clone().count();
-        let triangles: usize = polygons
-            .chain([first])
-            .map(|polygon| self.polygons.triangles(polygon).len())
-            .sum();
+        let count = 1 + polygons.count();
+        let triangles = triangulation.triangles().len() - (self.polygons.len() - count);
         let message = match count {
             1 => format!("1 face with more than 3 corners is cut into {triangles} triangles"),
             _ => format!(

@@ -192,14 +192,17 @@ impl Document {
                 let corners = self.polygons.corners(polygon);
                 if !gone[triangles.clone()].contains(&true) {
                     polygons.add(corners.map(|corner| self.polygons.corner(corner)));
-                    for triangle in triangles {
-                        keep(triangle, kept, false);
+                    for (nth, triangle) in triangles.enumerate() {
+                        keep([triangle, nth], kept, false);
                         kept += 1;
                     }
                     layout.push(Kind::Polygon, line);
                 } else {
-                    for triangle in triangles.filter(|&triangle| !gone[triangle]) {
-                        let of_polygon = keep(triangle, kept, true);
+                    let stay = triangles
+                        .enumerate()
+                        .filter(|&(_, triangle)| !gone[triangle]);
+                    for (nth, triangle) in stay {
+                        let of_polygon = keep([triangle, nth], kept, true);
                         kept += 1;
                         let corner =
                             |corner| self.polygons.corner(corners.start + usize::from(corner));

@@ -15,7 +15,9 @@
 mod corners;
 mod flip;
 
-use tearmesh::Point;
+use std::ops::Range;
+
+use tearmesh::{Point, Vector};
 
 use self::corners::Corners;
 use crate::document::Polygons;
@@ -30,35 +32,29 @@ pub(crate) struct Triangulation {
 impl Triangulation {
     pub(crate) fn of(polygons: &Polygons, positions: &[Point]) -> Triangulation {
         let count = polygons.vertices.len() - 2 * polygons.len();
-        let mut corners = Corners::with_capacity(count, polygons);
+        let mut corners = Corners::default();
         let mut triangles = Vec::with_capacity(count);
         let (mut flat, mut cut) = (Vec::new(), Vec::new());
         for polygon in 0..polygons.len() {
             let vertices = &polygons.vertices[polygons.corners(polygon)];
             match *vertices {
                 [a, b, c] => {
-                    corners.push([0, 1, 2]);
+                    corners.push_fan(1);
                     triangles.push([a, b, c]);
                     continue;
                 }
-                // Nearly all others: what is done for all, on four numbers instead of a list.
-                [a, b, c, d] => {
-                    let places = [a, b, c, d].map(|vertex| positions[vertex as usize]);
-                    let axes = axes(places.into_iter());
-                    let quad = places.map(|place| seen(place, axes));
-                    if is_fan(&quad) {
-                        corners.push([0, 1, 2]);
-                        corners.push([0, 2, 3]);
-                        triangles.extend([[a, b, c], [a, c, d]]);
-                        continue;
-                    }
-                    flat.clear();
-                    flat.extend(quad);
+                // Nearly all others.
+                [a, b, c, d] if quad_is_fan([a, b, c, d].map(|v| positions[v as usize])) => {
+                    corners.push_fan(2);
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                    continue;
                 }
-                _ => flatten(vertices, positions, &mut flat),
+                _ => {}
             }
+            flatten(vertices, positions, &mut flat);
             cut.clear();
             cut_into_triangles(&flat, &mut cut);
+            corners.keep_each(count, polygons, polygon);
             for &triangle in &cut {
                 corners.push(triangle);
                 triangles.push(triangle.map(|corner| vertices[usize::from(corner)]));
@@ -78,10 +74,15 @@ impl Triangulation {
         &self.triangles
     }
 
-    /// Moves a triangle to an earlier place, as a polygon of its own if it stands `alone`; the
-    /// corners of its polygon that it had.
-    pub(crate) fn keep(&mut self, triangle: usize, place: usize, alone: bool) -> [u16; 3] {
-        let corners = self.corners.get(triangle);
+    /// Moves a triangle, the `nth` of its polygon, to an earlier place, as a polygon of its own if
+    /// it stands `alone`; the corners of its polygon that it had.
+    pub(crate) fn keep(
+        &mut self,
+        [triangle, nth]: [usize; 2],
+        place: usize,
+        alone: bool,
+    ) -> [u16; 3] {
+        let corners = self.corners.get(triangle, nth);
         self.triangles[place] = self.triangles[triangle];
         let own = if alone { [0, 1, 2] } else { corners };
         self.corners.set(place, own);
@@ -99,9 +100,23 @@ impl Triangulation {
         self.triangles[triangle][corner] = vertex;
     }
 
+    /// The corners of a polygon that its triangles have.
     #[inline]
-    pub(crate) fn corners(&self, triangle: usize) -> [u16; 3] {
-        self.corners.get(triangle)
+    fn of_polygon(&self, triangles: Range<usize>) -> impl Iterator<Item = [u16; 3]> {
+        let nth_triangles = triangles.enumerate();
+        nth_triangles.map(|(nth, triangle)| self.corners.get(triangle, nth))
+    }
+
+    /// Keeps the corners of each triangle from now on.
+    fn keep_corners(&mut self, polygons: &Polygons) {
+        let count = self.triangles.len();
+        self.corners.keep_each(count, polygons, polygons.len());
+    }
+
+    /// The corners of its polygon that a triangle has, the `nth` of it.
+    #[inline]
+    pub(crate) fn corners(&self, triangle: usize, nth: usize) -> [u16; 3] {
+        self.corners.get(triangle, nth)
     }
 }
 
@@ -129,21 +144,37 @@ fn axes(mut places: impl Iterator<Item = Point>) -> [usize; 2] {
     let mut a = second - origin;
     for place in places {
         let b = place - origin;
-        normal[0] += a.y * b.z - a.z * b.y;
-        normal[1] += a.z * b.x - a.x * b.z;
-        normal[2] += a.x * b.y - a.y * b.x;
+        let product = cross(a, b);
+        normal = [0, 1, 2].map(|axis| normal[axis] + product[axis]);
         a = b;
     }
-    let [x, y, z] = normal.map(f64::abs);
-    let (dropped, kept) = match () {
-        () if z >= x && z >= y => (2, [0, 1]),
-        () if y >= x => (1, [2, 0]),
-        () => (0, [1, 2]),
-    };
+    let dropped = largest(normal);
+    let kept = [[1, 2], [2, 0], [0, 1]][dropped];
     if normal[dropped] < 0.0 {
         [kept[1], kept[0]]
     } else {
         kept
+    }
+}
+
+/// The cross product.
+#[inline]
+fn cross(a: Vector, b: Vector) -> [f64; 3] {
+    [
+        a.y * b.z - a.z * b.y,
+        a.z * b.x - a.x * b.z,
+        a.x * b.y - a.y * b.x,
+    ]
+}
+
+/// The axis nearest to a normal.
+#[inline]
+fn largest(normal: [f64; 3]) -> usize {
+    let [x, y, z] = normal.map(f64::abs);
+    match () {
+        () if z >= x && z >= y => 2,
+        () if y >= x => 1,
+        () => 0,
     }
 }
 
@@ -167,6 +198,18 @@ fn cut_into_triangles(flat: &[Flat], triangles: &mut Vec<[u16; 3]>) {
 #[inline]
 fn fan(flat: &[Flat]) -> impl Iterator<Item = [u16; 3]> {
     (1..flat.len() - 1).map(|i| [0, i as u16, i as u16 + 1])
+}
+
+/// What [`is_fan`] says of a quad, with no more than its normal takes: along an axis, the doubled
+/// area of a triangle is that coordinate of its normal, from the same operations, and turning
+/// the view around changes all signs.
+#[inline]
+fn quad_is_fan([a, b, c, d]: [Point; 4]) -> bool {
+    let diagonal = c - a;
+    let normals = [cross(b - a, diagonal), cross(diagonal, d - a)];
+    let axis = largest([0, 1, 2].map(|axis| normals[0][axis] + normals[1][axis]));
+    let areas = normals.map(|normal| normal[axis]);
+    areas.iter().all(|&area| area > 0.0) || areas.iter().all(|&area| area < 0.0)
 }
 
 /// Whether all of these face the viewer.
@@ -324,6 +367,32 @@ mod tests {
             dart.rotate_left(turn);
             assert!(areas(&dart).iter().all(|&area| area > 0.0), "{turn}");
         }
+    }
+
+    #[test]
+    fn a_quad_is_a_fan_if_it_is_one_as_it_is_seen() {
+        // Few coordinates, so that corners fall together, on lines and in planes of all axes.
+        let places = [-1.0, 0.0, 1.0, 2.5];
+        let mut state = 1_u32;
+        let mut place = || {
+            let mut coordinate = || {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                places[(state >> 30) as usize]
+            };
+            Point::new(coordinate(), coordinate(), coordinate())
+        };
+        let (mut fans, mut others, mut flat) = (0, 0, Vec::new());
+        for _ in 0..100_000 {
+            let quad = [place(), place(), place(), place()];
+            flatten(&[0, 1, 2, 3], &quad, &mut flat);
+            assert_eq!(quad_is_fan(quad), is_fan(&flat), "{quad:?}");
+            *(if is_fan(&flat) {
+                &mut fans
+            } else {
+                &mut others
+            }) += 1;
+        }
+        assert!(fans > 10_000 && others > 10_000, "{fans} and {others}");
     }
 
     #[test]

@@ -187,7 +187,7 @@ pub(super) fn absolute(
 }
 
 /// The first corner whose vertex an earlier corner has, after that one.
-#[inline]
+#[inline(always)]
 pub(super) fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
     match *corners {
         [a, b, c] if a != b && b != c && c != a => None,

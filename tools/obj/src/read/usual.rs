@@ -11,10 +11,9 @@
 
 use tearmesh::{COORDINATE_MAX, Mesh, Point};
 
-use super::decimal::{digits, nearest};
+use super::decimal::{Expected, Word, digits, many_digits, nearest};
 use super::face::repeated;
 use super::{NUMBERS_MAX, Reader};
-use crate::document::Polygons;
 use crate::store::{Column, Kind, Rows, extend, push};
 
 /// The most corners of a usual face.
@@ -52,12 +51,12 @@ impl Reader {
 
     #[inline]
     fn usual_vertex<'b>(&mut self, bytes: &'b [u8]) -> Option<&'b [u8]> {
-        let ([x, y, z], 3, behind) = numbers(bytes)? else {
+        let ([x, y, z], 3, behind) = numbers(bytes, &mut self.widths.places)? else {
             return None;
         };
         let positions = &mut self.document.positions;
-        let largest = x.abs().max(y.abs()).max(z.abs());
-        if largest > COORDINATE_MAX || positions.len() >= Mesh::MAX_VERTICES {
+        let too_large = [x, y, z].iter().any(|x| x.abs() > COORDINATE_MAX);
+        if too_large || positions.len() >= Mesh::MAX_VERTICES {
             return None;
         }
         push(positions, Point::new(x, y, z));
@@ -66,7 +65,7 @@ impl Reader {
 
     #[inline]
     fn usual_texture<'b>(&mut self, bytes: &'b [u8]) -> Option<&'b [u8]> {
-        let (numbers, count, behind) = numbers(bytes)?;
+        let (numbers, count, behind) = numbers(bytes, &mut self.widths.places)?;
         let texture = &mut self.document.texture;
         if texture.value_count() >= Rows::LIMIT - NUMBERS_MAX {
             return None;
@@ -77,7 +76,7 @@ impl Reader {
 
     #[inline]
     fn usual_normal<'b>(&mut self, bytes: &'b [u8]) -> Option<&'b [u8]> {
-        let (numbers, 3, behind) = numbers(bytes)? else {
+        let (numbers, 3, behind) = numbers(bytes, &mut self.widths.places)? else {
             return None;
         };
         if self.document.normals.len() >= Column::LIMIT {
@@ -89,34 +88,101 @@ impl Reader {
 
     #[inline]
     fn usual_face<'b>(&mut self, bytes: &'b [u8]) -> Option<&'b [u8]> {
-        let document = &mut self.document;
+        let document = &self.document;
         let existing = [
             document.positions.len(),
             document.texture.len(),
             document.normals.len(),
         ];
-        let (corners, behind) = Corners::read(bytes, existing)?;
-        let polygons = &mut document.polygons;
+        let bytes = after_blanks(bytes);
+        let (vertex, behind) = index(bytes, existing[0], &mut self.widths.vertex)?;
+        // What most faces have is read without a thought of the rest.
+        if behind.first() == Some(&b'/') {
+            self.corners::<true>(vertex, behind, existing)
+        } else {
+            self.corners::<false>(vertex, behind, existing)
+        }
+    }
+
+    /// Reads a face of which the vertex of the first corner is read. Whether its corners have
+    /// `MORE` than a vertex shows behind it.
+    #[inline(always)]
+    fn corners<'b, const MORE: bool>(
+        &mut self,
+        mut vertex: u32,
+        mut behind: &'b [u8],
+        existing: [usize; 3],
+    ) -> Option<&'b [u8]> {
+        let mut corners = Corners::default();
+        for at in 0..CORNERS_MAX {
+            corners.vertices[at] = vertex;
+            if MORE {
+                let (more, form);
+                (more, form, behind) = more_of_corner(behind, existing, &mut self.widths)?;
+                [corners.texture[at], corners.normals[at]] = more;
+                if at == 0 {
+                    corners.form = form;
+                } else if form != corners.form {
+                    return None;
+                }
+            }
+            match next_word(behind)? {
+                Next::Word(word) => {
+                    (vertex, behind) = index(word, existing[0], &mut self.widths.vertex)?;
+                }
+                Next::Line(behind) => {
+                    // A copy of a known length is a few instructions, of any other a call.
+                    match at {
+                        2 => self.append::<3, MORE>(&corners)?,
+                        3 => self.append::<4, MORE>(&corners)?,
+                        _ => return None,
+                    }
+                    return Some(behind);
+                }
+            }
+        }
+        None
+    }
+
+    /// Appends a face of the first `COUNT` corners, unless it is one too many or has a vertex
+    /// twice.
+    #[inline(always)]
+    fn append<const COUNT: usize, const MORE: bool>(&mut self, corners: &Corners) -> Option<()> {
+        let polygons = &mut self.document.polygons;
         let first = polygons.vertices.len();
         let triangles_before = first - 2 * polygons.len();
-        if triangles_before + corners.count - 3 >= Mesh::MAX_FACES
-            || repeated(&corners.vertices[..corners.count]).is_some()
-        {
+        let all = |indices: &[u32; CORNERS_MAX]| -> [u32; COUNT] {
+            std::array::from_fn(|at| indices[at])
+        };
+        let vertices = all(&corners.vertices);
+        if triangles_before + COUNT - 3 >= Mesh::MAX_FACES || repeated(&vertices).is_some() {
             return None;
         }
-        // A copy of a known length is a few instructions, of any other a call.
-        match corners.count {
-            3 => corners.append::<3>(polygons),
-            _ => corners.append::<4>(polygons),
+        extend(&mut polygons.vertices, &vertices);
+        if MORE && corners.form.texture {
+            polygons.texture.set_all(first, &all(&corners.texture));
         }
-        Some(behind)
+        if MORE && corners.form.normal {
+            polygons.normals.set_all(first, &all(&corners.normals));
+        }
+        push(&mut polygons.starts, first as u32);
+        Some(())
     }
+}
+
+/// How many digits the last words had, which those of the next words are likely to have.
+#[derive(Debug, Default)]
+pub(super) struct Widths {
+    /// Behind the decimal point.
+    places: Expected,
+    vertex: Expected,
+    texture: Expected,
+    normal: Expected,
 }
 
 /// The corners of a usual face, counted from 0.
 #[derive(Default)]
 struct Corners {
-    count: usize,
     form: Form,
     vertices: [u32; CORNERS_MAX],
     texture: [u32; CORNERS_MAX],
@@ -130,100 +196,48 @@ struct Form {
     normal: bool,
 }
 
-impl Corners {
-    /// Reads three or four corners and the end of the line, where there are so many vertices,
-    /// texture coordinates and normals; what comes behind.
-    #[inline]
-    fn read(bytes: &[u8], existing: [usize; 3]) -> Option<(Corners, &[u8])> {
-        let mut corners = Corners::default();
-        let mut rest = after_blanks(bytes);
-        for at in 0..CORNERS_MAX {
-            let ([vertex, texture, normal], form, behind) = corner(rest, existing)?;
-            corners.vertices[at] = vertex;
-            corners.texture[at] = texture;
-            corners.normals[at] = normal;
-            if at == 0 {
-                corners.form = form;
-            } else if form != corners.form {
-                return None;
-            }
-            match next_word(behind)? {
-                Next::Word(word) => rest = word,
-                Next::Line(behind) => {
-                    corners.count = at + 1;
-                    return (at >= 2).then_some((corners, behind));
-                }
-            }
-        }
-        None
-    }
-
-    /// Appends the first `COUNT` corners, which are all.
-    #[inline]
-    fn append<const COUNT: usize>(&self, polygons: &mut Polygons) {
-        let first = polygons.vertices.len();
-        let all = |indices: &[u32; CORNERS_MAX]| -> [u32; COUNT] {
-            std::array::from_fn(|at| indices[at])
-        };
-        extend(&mut polygons.vertices, &all(&self.vertices));
-        if self.form.texture {
-            polygons.texture.set_all(first, &all(&self.texture));
-        }
-        if self.form.normal {
-            polygons.normals.set_all(first, &all(&self.normals));
-        }
-        push(&mut polygons.starts, first as u32);
-    }
-}
-
-/// Reads a corner: `1`, `1/2`, `1//3` or `1/2/3`.
+/// Reads what a corner has behind its vertex: nothing, `/2`, `//3` or `/2/3`.
 #[inline(always)]
-fn corner(bytes: &[u8], existing: [usize; 3]) -> Option<([u32; 3], Form, &[u8])> {
-    let [vertices, textures, normals] = existing;
+fn more_of_corner<'b>(
+    bytes: &'b [u8],
+    existing: [usize; 3],
+    widths: &mut Widths,
+) -> Option<([u32; 2], Form, &'b [u8])> {
+    let [_, textures, normals] = existing;
     let mut form = Form::default();
     let (mut texture, mut normal) = (0, 0);
-    let (vertex, mut rest) = index(bytes, vertices)?;
+    let mut rest = bytes;
     if let [b'/', behind @ ..] = rest {
         rest = behind;
         if rest.first() != Some(&b'/') {
-            (texture, rest) = index(rest, textures)?;
+            (texture, rest) = index(rest, textures, &mut widths.texture)?;
             form.texture = true;
         }
         if let [b'/', behind @ ..] = rest {
-            (normal, rest) = index(behind, normals)?;
+            (normal, rest) = index(behind, normals, &mut widths.normal)?;
             form.normal = true;
         }
     }
-    Some(([vertex, texture, normal], form, rest))
+    Some(([texture, normal], form, rest))
 }
 
-/// Reads an index of at most nine digits, where `existing` elements are there, and counts it from
-/// 0. The loop of known length is fast: each digit has a branch of its own, which is foreseen.
-#[inline]
-fn index(bytes: &[u8], existing: usize) -> Option<(u32, &[u8])> {
-    let window: &[u8; 9] = bytes.first_chunk()?;
-    let mut given = 0_u64;
-    let mut count = 0;
-    for &byte in window {
-        let digit = byte.wrapping_sub(b'0');
-        if digit > 9 {
-            break;
-        }
-        given = 10 * given + u64::from(digit);
-        count += 1;
-    }
+/// Reads an index of at most eight digits, where `existing` elements are there, and counts it from
+/// 0.
+#[inline(always)]
+fn index<'b>(bytes: &'b [u8], existing: usize, expected: &mut Expected) -> Option<(u32, &'b [u8])> {
+    let (given, count) = expected.digits(Word::new(*bytes.first_chunk()?));
     let index = given.checked_sub(1)?;
     (given <= existing as u64).then_some((index as u32, &bytes[count..]))
 }
 
 /// Reads one to three numbers and the end of the line: the numbers, how many they are, and what
 /// comes behind.
-#[inline]
-fn numbers(bytes: &[u8]) -> Option<([f64; 3], usize, &[u8])> {
+#[inline(always)]
+fn numbers<'b>(bytes: &'b [u8], expected: &mut Expected) -> Option<([f64; 3], usize, &'b [u8])> {
     let mut numbers = [0.0; 3];
     let mut rest = after_blanks(bytes);
     for at in 0..3 {
-        (numbers[at], rest) = number(rest)?;
+        (numbers[at], rest) = number(rest, expected)?;
         match next_word(rest)? {
             Next::Word(word) => rest = word,
             Next::Line(behind) => return Some((numbers, at + 1, behind)),
@@ -233,8 +247,8 @@ fn numbers(bytes: &[u8]) -> Option<([f64; 3], usize, &[u8])> {
 }
 
 /// Reads a number without an exponent.
-#[inline]
-fn number(bytes: &[u8]) -> Option<(f64, &[u8])> {
+#[inline(always)]
+fn number<'b>(bytes: &'b [u8], expected: &mut Expected) -> Option<(f64, &'b [u8])> {
     let (negative, bytes) = match bytes {
         [b'-', rest @ ..] => (true, rest),
         _ => (false, bytes),
@@ -245,7 +259,7 @@ fn number(bytes: &[u8]) -> Option<(f64, &[u8])> {
     let mut rest = &bytes[whole..];
     let mut places = 0;
     if let [b'.', behind @ ..] = rest {
-        places = digits(behind, &mut mantissa);
+        places = many_digits(behind, &mut mantissa, expected);
         rest = &behind[places..];
     }
     if whole + places == 0 || whole > 19 || significant + places > 19 {
@@ -263,7 +277,7 @@ enum Next<'b> {
     Line(&'b [u8]),
 }
 
-#[inline]
+#[inline(always)]
 fn next_word(bytes: &[u8]) -> Option<Next<'_>> {
     let rest = after_blanks(bytes);
     match rest {
@@ -272,7 +286,7 @@ fn next_word(bytes: &[u8]) -> Option<Next<'_>> {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn after_blanks(mut bytes: &[u8]) -> &[u8] {
     while let [b' ', rest @ ..] = bytes {
         bytes = rest;

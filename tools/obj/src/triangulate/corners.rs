@@ -4,47 +4,66 @@ use crate::document::Polygons;
 
 /// For each corner of a triangle, which corner of its polygon it is: in a byte where no polygon
 /// has more than 256, as is nearly always so.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) enum Corners {
+    /// Nothing needs to be kept: the triangles of each polygon are a fan from its first corner.
+    #[default]
+    Fans,
     Narrow(Vec<[u8; 3]>),
     Wide(Vec<[u16; 3]>),
 }
 
-impl Default for Corners {
-    fn default() -> Corners {
-        Corners::Narrow(Vec::new())
-    }
-}
-
 impl Corners {
-    /// With room for that many triangles of these polygons.
-    pub(super) fn with_capacity(count: usize, polygons: &Polygons) -> Corners {
+    /// Keeps the corners of each triangle from now on, with room for `count` of them. The first
+    /// polygons, as many as are `done`, are fans.
+    #[cold]
+    pub(super) fn keep_each(&mut self, count: usize, polygons: &Polygons, done: usize) {
+        if !matches!(self, Corners::Fans) {
+            return;
+        }
         let arities = (0..polygons.len()).map(|polygon| polygons.corners(polygon).len());
-        if arities.max().unwrap_or(0) <= 1 << 8 {
+        *self = if arities.max().unwrap_or(0) <= 1 << 8 {
             Corners::Narrow(Vec::with_capacity(count))
         } else {
             Corners::Wide(Vec::with_capacity(count))
+        };
+        for polygon in 0..done {
+            self.push_fan(polygons.triangles(polygon).len());
         }
     }
 
+    /// Appends the triangles of a polygon that is a fan.
+    #[inline]
+    pub(super) fn push_fan(&mut self, triangles: usize) {
+        if !matches!(self, Corners::Fans) {
+            (0..triangles).for_each(|nth| self.push(of_fan(nth)));
+        }
+    }
+
+    /// Appends a triangle; those of each are kept.
     #[inline]
     pub(super) fn push(&mut self, triangle: [u16; 3]) {
         match self {
+            Corners::Fans => debug_assert!(false, "the corners of each are kept"),
             Corners::Narrow(all) => all.push(triangle.map(narrow)),
             Corners::Wide(all) => all.push(triangle),
         }
     }
 
+    /// The corners of a triangle, the `nth` of its polygon.
     #[inline]
-    pub(super) fn get(&self, triangle: usize) -> [u16; 3] {
+    pub(super) fn get(&self, triangle: usize, nth: usize) -> [u16; 3] {
         match self {
+            Corners::Fans => of_fan(nth),
             Corners::Narrow(all) => all[triangle].map(u16::from),
             Corners::Wide(all) => all[triangle],
         }
     }
 
+    /// Gives a triangle other corners; where all are fans, it stays one of a fan.
     pub(super) fn set(&mut self, triangle: usize, corners: [u16; 3]) {
         match self {
+            Corners::Fans => {}
             Corners::Narrow(all) => all[triangle] = corners.map(narrow),
             Corners::Wide(all) => all[triangle] = corners,
         }
@@ -52,10 +71,17 @@ impl Corners {
 
     pub(super) fn truncate(&mut self, count: usize) {
         match self {
+            Corners::Fans => {}
             Corners::Narrow(all) => all.truncate(count),
             Corners::Wide(all) => all.truncate(count),
         }
     }
+}
+
+/// The corners of the `nth` triangle of a fan.
+#[inline]
+fn of_fan(nth: usize) -> [u16; 3] {
+    [0, nth as u16 + 1, nth as u16 + 2]
 }
 
 fn narrow(corner: u16) -> u8 {

@@ -26,6 +26,7 @@ pub(super) fn flip_colliding(
     if colliding.is_empty() {
         return;
     }
+    triangulation.keep_corners(polygons);
     let mut edges = edges_among(&colliding, triangulation, polygons, positions.len());
     let mut flat = Vec::new();
     for polygon in colliding.into_iter().map(|polygon| polygon as usize) {
@@ -34,8 +35,7 @@ pub(super) fn flip_colliding(
         let vertex = |corner: u16| vertices[usize::from(corner)];
         let key = |[a, b]: [u16; 2]| ends(vertex(a), vertex(b));
         let triangles = polygons.triangles(polygon);
-        let corners = triangles.clone().map(|t| triangulation.corners.get(t));
-        let mut corners: Vec<[u16; 3]> = corners.collect();
+        let mut corners: Vec<[u16; 3]> = triangulation.of_polygon(triangles.clone()).collect();
         for diagonal in diagonals(&corners, vertices.len()).collect::<Vec<_>>() {
             if edges[&key(diagonal)] < 2 {
                 continue;
@@ -70,12 +70,14 @@ fn colliding_polygons(
 ) -> Vec<u32> {
     // Nearly always there are none, and marks at the smaller ends, which lie in memory as the
     // polygons do, show it for all but a few. Those are sorted.
-    let mut marks = vec![Marks::default(); vertex_count];
-    let mut suspected = false;
+    let mut seen = vec![0; vertex_count];
+    let mut suspected = Suspected::default();
     for_each_diagonal(triangulation, polygons, |[a, b], _| {
-        let marks = &mut marks[a as usize];
-        suspected |= marks.suspect(b);
-        marks.see(b);
+        let seen = &mut seen[a as usize];
+        if *seen & mark(b) != 0 {
+            suspected.insert([a, b], vertex_count);
+        }
+        *seen |= mark(b);
     });
     // The sides that may be among them, unless that is more than an eighth of all.
     let mut sides = Vec::new();
@@ -83,8 +85,8 @@ fn colliding_polygons(
     let room = polygons.vertices.len() / 8;
     for polygon in 0..polygons.len() {
         for_each_side(polygons, polygon, |[a, b]| {
-            if marks[a as usize].suspect(b) {
-                suspected = true;
+            if seen[a as usize] & mark(b) != 0 {
+                suspected.insert([a, b], vertex_count);
                 all_listed &= sides.len() < room;
                 if all_listed {
                     sides.push([a, b]);
@@ -92,10 +94,11 @@ fn colliding_polygons(
             }
         });
     }
-    if !suspected {
+    if suspected.is_empty() {
         return Vec::new();
     }
-    let suspects = Suspects::among(triangulation, polygons, &marks);
+    drop(seen);
+    let suspects = Suspects::among(triangulation, polygons, &suspected);
     // A mark for each: a polygon may collide in many places.
     let mut colliding = vec![false; polygons.len()];
     for pair in (0..vertex_count as u32).flat_map(|a| suspects.at(a).windows(2)) {
@@ -133,10 +136,15 @@ struct Suspects {
 
 impl Suspects {
     /// A counting sort by the smaller end.
-    fn among(triangulation: &Triangulation, polygons: &Polygons, marks: &[Marks]) -> Suspects {
-        let mut ends = vec![0_u32; marks.len() + 1];
+    fn among(
+        triangulation: &Triangulation,
+        polygons: &Polygons,
+        suspected: &Suspected,
+    ) -> Suspects {
+        let vertex_count = suspected.marks.len();
+        let mut ends = vec![0_u32; vertex_count + 1];
         for_each_diagonal(triangulation, polygons, |[a, b], _| {
-            ends[a as usize + 1] += u32::from(marks[a as usize].is_suspect(b));
+            ends[a as usize + 1] += u32::from(suspected.may_hold([a, b]));
         });
         let mut before = 0;
         for end in &mut ends {
@@ -145,7 +153,7 @@ impl Suspects {
         }
         let mut entries = vec![(0, 0); before as usize];
         for_each_diagonal(triangulation, polygons, |[a, b], polygon| {
-            if marks[a as usize].is_suspect(b) {
+            if suspected.may_hold([a, b]) {
                 // Filling moves each start on to the end of its entries.
                 let slot = &mut ends[a as usize];
                 entries[*slot as usize] = (b, polygon as u32);
@@ -153,7 +161,7 @@ impl Suspects {
             }
         });
         let mut suspects = Suspects { ends, entries };
-        for a in 0..marks.len() as u32 {
+        for a in 0..vertex_count as u32 {
             let range = suspects.first(a)..suspects.ends[a as usize] as usize;
             suspects.entries[range].sort_unstable();
         }
@@ -170,43 +178,38 @@ impl Suspects {
     }
 }
 
-/// What is known of the larger ends of the edges at a vertex: bits by two hashes, 32 for those
-/// seen, and 32 for those that were met again. A bit that is not set is certain.
-#[derive(Clone, Copy, Default)]
-struct Marks(u64);
+/// The mark of the larger end of an edge, by a hash, among all that are seen at the smaller one. A
+/// mark that is missing is certain.
+#[inline]
+fn mark(end: u32) -> u32 {
+    1 << (end.wrapping_mul(0x9e37_79b1) >> 27)
+}
 
-impl Marks {
-    fn seen(end: u32) -> u64 {
-        1 << (end.wrapping_mul(0x9e37_79b1) >> 27)
+/// Edges that may have been met twice: at the smaller end, marks of the larger ones by another
+/// hash. Takes no memory until there is one.
+#[derive(Default)]
+struct Suspected {
+    marks: Vec<u32>,
+}
+
+impl Suspected {
+    fn mark(end: u32) -> u32 {
+        1 << (end.wrapping_mul(0x85eb_ca6b) >> 27)
     }
 
-    fn suspected(end: u32) -> u64 {
-        1 << (32 + (end.wrapping_mul(0x85eb_ca6b) >> 27))
-    }
-
-    #[inline]
-    fn see(&mut self, end: u32) {
-        self.0 |= Marks::seen(end);
-    }
-
-    #[inline]
-    fn sees(self, end: u32) -> bool {
-        self.0 & Marks::seen(end) != 0
-    }
-
-    /// Marks an end that may have been seen; whether it may.
-    #[inline]
-    fn suspect(&mut self, end: u32) -> bool {
-        let seen = self.sees(end);
-        if seen {
-            self.0 |= Marks::suspected(end);
-        }
-        seen
+    #[cold]
+    fn insert(&mut self, [a, b]: [u32; 2], vertex_count: usize) {
+        self.marks.resize(vertex_count, 0);
+        self.marks[a as usize] |= Suspected::mark(b);
     }
 
     #[inline]
-    fn is_suspect(self, end: u32) -> bool {
-        self.0 & Marks::suspected(end) != 0
+    fn may_hold(&self, [a, b]: [u32; 2]) -> bool {
+        self.marks[a as usize] & Suspected::mark(b) != 0
+    }
+
+    fn is_empty(&self) -> bool {
+        self.marks.is_empty()
     }
 }
 
@@ -263,18 +266,16 @@ fn for_each_diagonal(
         if vertices.len() == 3 {
             continue;
         }
-        let corners = polygons
-            .triangles(polygon)
-            .map(|t| triangulation.corners(t));
+        let triangles = polygons.triangles(polygon);
         // Nearly all polygons are convex quads.
         if let [a, _, c, _] = *vertices
-            && corners.clone().eq([[0, 1, 2], [0, 2, 3]])
+            && triangulation.corners(triangles.start, 0) == [0, 1, 2]
         {
             visit(ends(a, c), polygon);
             continue;
         }
         several.clear();
-        several.extend(corners);
+        several.extend(triangulation.of_polygon(triangles));
         for [i, j] in diagonals(&several, vertices.len()) {
             let [a, b] = [i, j].map(|corner| vertices[usize::from(corner)]);
             visit(ends(a, b), polygon);
