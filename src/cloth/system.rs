@@ -2,23 +2,25 @@
 //!
 //! A [`System`] is a list of particles and two families of springs between them: *stretch*
 //! constraints, and *bend* constraints that reach across something, which may buckle instead; and triangles of particles
-//! that resist stretch and shear. A chain, a net or a cloth is one. Units are SI throughout: metres, kilograms, seconds, newtons.
+//! that resist stretch and shear. A chain, a net or a cloth is one. Units are SI throughout: metres,
+//! kilograms, seconds, newtons.
 
 mod error;
 mod force;
+mod measure;
+mod model;
 
 pub use error::SystemError;
 pub(crate) use force::Forces;
+pub(crate) use model::{Family, Model};
 
 use super::balance::Meter;
-use super::buckle::{self, Bends, Slope};
 use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::implicit::{Buckling, Triangle, triangle};
-use super::kernel;
+use super::implicit::{Buckling, Triangle};
 use super::load::{Loads, Path};
 use super::stability::Spectrum;
 use super::triangles::Triangles;
-use crate::geometry::{Point, Vector, check_point, dot};
+use crate::geometry::{Point, Vector, check_point};
 
 /// Particles, constraints and loads.
 ///
@@ -58,31 +60,6 @@ pub struct System {
     pub(crate) margin: f64,
     /// The balance of energy, where one is kept.
     pub(crate) meter: Option<Box<Meter>>,
-}
-
-/// All but positions and velocities.
-#[derive(Clone, Debug)]
-pub(crate) struct Model {
-    pub(crate) masses: Vec<f64>,
-    /// Zero for a particle that is held.
-    pub(crate) inverse_masses: Vec<f64>,
-    pub(crate) held: Vec<bool>,
-    pub(crate) stretch: Constraints,
-    pub(crate) bend: Constraints,
-    /// The law of all bend constraints; `None` where they are springs.
-    pub(crate) buckling: Option<Buckling>,
-    pub(crate) triangles: Triangles,
-    /// The corners of faces, three each, where wind may blow.
-    pub(crate) faces: Vec<u32>,
-    pub(crate) loads: Loads,
-    paths: Vec<Path>,
-    /// Particles and their paths.
-    pub(crate) grabbed: Vec<(u32, u32)>,
-    pub(crate) stretch_ratio_max: f64,
-    /// Where the forces of the last step are to be read.
-    pub(crate) forces: Forces,
-    /// Whether a limiter left ratios behind.
-    pub(crate) is_limited: bool,
 }
 
 /// Room for a step, so that none allocates.
@@ -536,110 +513,6 @@ impl System {
         self.elapsed_s
     }
 
-    /// The length of a stretch constraint as a multiple of its rest length.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    #[must_use]
-    pub fn stretch_ratio(&self, id: ConstraintId) -> f64 {
-        let constraint = self.model.stretch.get(id);
-        self.length_m(&constraint) / constraint.rest_length_m
-    }
-
-    pub(crate) fn length_m(&self, constraint: &Constraint) -> f64 {
-        let [a, b] = constraint.ends.map(|end| self.positions[end]);
-        let d = b - a;
-        dot(d, d).sqrt()
-    }
-
-    /// The elastic energy of all constraints and triangles, in joules.
-    #[must_use]
-    pub fn elastic_energy_j(&self) -> f64 {
-        let springs = self.model.springs();
-        let springs: f64 = springs
-            .map(|batch| kernel::energy(batch, &self.positions))
-            .sum();
-        let bends = self.model.buckles();
-        let constraints = bends.fold(springs, |sum, bends| sum + bends.energy(&self.positions));
-        let triangles = self.triangles().iter();
-        triangles.fold(constraints, |sum, t| {
-            sum + triangle::energy(t, triangle::corners(t, &self.positions))
-        })
-    }
-
-    /// The elastic energy of a bend constraint, in joules, whether it is one of this system or
-    /// was.
-    pub(crate) fn bend_energy_of(&self, constraint: &Constraint) -> f64 {
-        self.model.bend_axial(constraint, self.length_m(constraint))[0]
-    }
-
-    /// The elastic energy of a stretch constraint, in joules.
-    pub(crate) fn elastic_of(&self, id: ConstraintId) -> f64 {
-        let constraint = self.model.stretch.get(id);
-        let extension = self.length_m(&constraint) - constraint.rest_length_m;
-        0.5 * constraint.stiffness_n_per_m * extension * extension
-    }
-
-    /// The kinetic energy of the particles that are not held, in joules.
-    #[must_use]
-    pub fn kinetic_energy_j(&self) -> f64 {
-        let particles = 0..self.positions.len();
-        particles.map(|particle| self.kinetic_j(particle)).sum()
-    }
-
-    pub(crate) fn kinetic_j(&self, particle: usize) -> f64 {
-        if self.model.held[particle] {
-            return 0.0;
-        }
-        let v = self.velocities[particle];
-        0.5 * self.model.masses[particle] * dot(v, v)
-    }
-
-    /// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation.
-    pub fn accelerations(&mut self, accelerations: &mut Vec<Vector>) {
-        accelerations.clear();
-        accelerations.resize(self.positions.len(), Vector::zeros());
-        let _ = self.model.accelerate(
-            &self.positions,
-            &self.velocities,
-            accelerations,
-            &mut self.counters,
-        );
-    }
-
-    /// The root mean square of the strains l/L − 1 of all stretch constraints.
-    #[must_use]
-    pub fn strain_rms(&self) -> f64 {
-        let squares = self.model.stretch.iter().map(|id| {
-            let strain = self.stretch_ratio(id) - 1.0;
-            strain * strain
-        });
-        (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
-    }
-
-    /// The product K u of the stiffness matrix with displacements in metres, in newtons: minus
-    /// the change of forces, to first order. Negative stiffness, which springs under
-    /// compression have across, counts as zero (the indefinite terms are dropped); that of bends
-    /// which buckle does as well.
-    ///
-    /// # Panics
-    ///
-    /// Unless there is one displacement a particle.
-    #[must_use]
-    pub fn stiffness_times(&mut self, displacements: &[Vector]) -> Vec<Vector> {
-        assert_eq!(
-            displacements.len(),
-            self.positions.len(),
-            "one displacement a particle"
-        );
-        let mut product = vec![Vector::zeros(); displacements.len()];
-        let (model, counters) = (&self.model, &mut self.counters);
-        let x = &self.positions;
-        model.stiffness_times(Slope::Now, x, displacements, &mut product, counters);
-        product
-    }
-
     /// Gives the grabbed particles the velocity that leads them along their paths.
     pub(crate) fn drive(&mut self, dt_s: f64) {
         for &(particle, path) in &self.model.grabbed {
@@ -661,153 +534,6 @@ impl System {
                 &mut self.positions,
                 &mut self.velocities,
             );
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Family {
-    Stretch,
-    Bend,
-}
-
-impl Model {
-    pub(crate) fn family(&self, family: Family) -> &Constraints {
-        match family {
-            Family::Stretch => &self.stretch,
-            Family::Bend => &self.bend,
-        }
-    }
-
-    pub(crate) fn family_mut(&mut self, family: Family) -> &mut Constraints {
-        match family {
-            Family::Stretch => &mut self.stretch,
-            Family::Bend => &mut self.bend,
-        }
-    }
-
-    /// The springs of both families, colour by colour.
-    pub(crate) fn springs(&self) -> impl Iterator<Item = kernel::Batch<'_>> {
-        let bends = self.bend.batches().filter(|_| self.buckling.is_none());
-        self.stretch.batches().chain(bends)
-    }
-
-    /// The bends that buckle, colour by colour.
-    pub(crate) fn buckles(&self) -> impl Iterator<Item = Bends<'_>> {
-        let batches = self.buckling.map(|law| (law, self.bend.batches()));
-        let batches = batches.into_iter();
-        batches.flat_map(|(law, batches)| batches.map(move |batch| Bends { batch, law }))
-    }
-
-    /// The largest stiffness of a constraint in any state, by the one that it has.
-    pub(crate) fn stiffest(&self, family: Family) -> f64 {
-        match (family, self.buckling) {
-            (Family::Bend, Some(law)) => law.stiffest(),
-            _ => 1.0,
-        }
-    }
-
-    /// The energy in joules and the pull in newtons of a bend of this length.
-    pub(crate) fn bend_axial(&self, constraint: &Constraint, length_m: f64) -> [f64; 2] {
-        let (rest_length_m, k) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
-        match self.buckling {
-            Some(law) => {
-                let axial = buckle::axial(law, rest_length_m, k, length_m);
-                [axial.energy, axial.force]
-            }
-            None => {
-                let extension = length_m - rest_length_m;
-                [0.5 * k * extension * extension, k * extension]
-            }
-        }
-    }
-
-    pub(crate) fn drag_per_s(&self) -> f64 {
-        self.loads.drag_per_s.unwrap_or(0.0)
-    }
-
-    pub(crate) fn gravity(&self) -> Vector {
-        self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros)
-    }
-
-    /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have none. False
-    /// where a spring has blown up.
-    #[must_use]
-    pub(crate) fn accelerate(
-        &self,
-        positions: &[Point],
-        velocities: &[Vector],
-        accelerations: &mut [Vector],
-        counters: &mut Counters,
-    ) -> bool {
-        counters.force_evaluations += 1;
-        accelerations.fill(Vector::zeros());
-        let mut sane = true;
-        for batch in self.springs() {
-            sane &= kernel::forces(batch, positions, self.stretch_ratio_max, accelerations);
-        }
-        for bends in self.buckles() {
-            sane &= bends.forces(positions, self.stretch_ratio_max, accelerations);
-        }
-        let triangles = self.triangles.as_slice();
-        if !triangles.is_empty() {
-            counters.triangle_evaluations += 1;
-            let ratio_max = self.stretch_ratio_max;
-            sane &= kernel::triangle_forces(triangles, positions, ratio_max, accelerations);
-        }
-        self.external(positions, velocities, accelerations, counters);
-        sane
-    }
-
-    /// Adds K u; see [`System::stiffness_times`].
-    pub(crate) fn stiffness_times(
-        &self,
-        slope: Slope,
-        positions: &[Point],
-        displacements: &[Vector],
-        product: &mut [Vector],
-        counters: &mut Counters,
-    ) {
-        counters.matrix_products += 1;
-        for batch in self.springs() {
-            kernel::stiffness_times(batch, positions, displacements, product);
-        }
-        for bends in self.buckles() {
-            bends.stiffness_times(slope, positions, displacements, product);
-        }
-        let triangles = self.triangles.as_slice();
-        if !triangles.is_empty() {
-            counters.triangle_evaluations += 1;
-            kernel::triangle_stiffness_times(triangles, positions, displacements, product);
-        }
-    }
-
-    /// Adds the force of wind, and makes accelerations of forces, with gravity.
-    pub(crate) fn external(
-        &self,
-        positions: &[Point],
-        velocities: &[Vector],
-        accelerations: &mut [Vector],
-        counters: &mut Counters,
-    ) {
-        if let Some(wind) = self.loads.wind {
-            counters.wind_evaluations += 1;
-            kernel::wind(
-                &self.faces,
-                wind.coefficient,
-                wind.velocity_m_per_s,
-                positions,
-                velocities,
-                accelerations,
-            );
-        }
-        let gravity = self.gravity();
-        for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
-            *a = if w > 0.0 {
-                *a * w + gravity
-            } else {
-                Vector::zeros()
-            };
         }
     }
 }
