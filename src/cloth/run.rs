@@ -369,7 +369,8 @@ impl Run {
 
     /// The step in seconds: the scene's, or one that suits it. That is a whole part of 1/60 s.
     ///
-    /// * Provot, Verlet: at most 0.7 of the stability limit of the cloth at rest.
+    /// * Provot, Verlet: at most 0.7 of the stability limit of the cloth at rest. What is torn or
+    ///   cut may ask for shorter ones; then each is divided ([`Unstable::Substep`]).
     /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
     ///   that it would have to travel farther; see [`Run::step_wanted_s`].
     /// * Implicit: 1/240 s.
