@@ -271,6 +271,8 @@ fn unsolved(error: &implicit::StepError, run: &Run) -> String {
         ) => {
             let newton = match *newton_iterations {
                 1 => "linearised".to_owned(),
+                // The linearised step had overshot.
+                n if settings.newton_iterations_max <= 1 => format!("after {n} Newton iterations"),
                 n => format!(
                     "after {n} of {} Newton iterations",
                     settings.newton_iterations_max
