@@ -2,13 +2,13 @@
 
 use tearmesh::cloth::implicit::{self, Tolerance};
 use tearmesh::cloth::{
-    Axis, Cloth, Collider, Copies, EnergyBalance, Fabric, Frame, Gain, ImplicitCloth, Limiter,
-    Loads, Method, Path, Pbd, Run, Scene, StepError, System, Tearing, Threshold, Unstable, Verlet,
-    Wind, Xpbd,
+    Axis, Cloth, Collider, Copies, EnergyBalance, Fabric, Frame, Gain, ImplicitCloth, Loads,
+    Method, Path, Run, Scene, StepError, System, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
 };
 use tearmesh::{Edits, Masses, Mesh, Plane, Point, Positions, Vector, mend, shapes, split};
 
 use crate::cloth_answers::{near, run};
+use crate::cloth_scenes::methods;
 
 const DOWN: Vector = Vector::new(0.0, 0.0, -10.0);
 
@@ -315,19 +315,19 @@ fn edits_make_what_is_there_after_and_was_not_before() {
     assert!(lost < 0.0, "an inelastic impact: {lost}");
 }
 
+fn weight_and_drag() -> Loads {
+    Loads {
+        gravity_m_per_s2: Some(DOWN),
+        drag_per_s: Some(1.0),
+        ..Loads::default()
+    }
+}
+
 #[test]
 fn substeps_are_summed_one_by_one() {
     let play = |dt: f64, steps: usize| {
         let mut chain = row(&[0.0, 1.0, 2.0], 1.0);
-        let (gravity_m_per_s2, drag_per_s) = (Some(DOWN), Some(1.0));
-        load(
-            &mut chain,
-            Loads {
-                gravity_m_per_s2,
-                drag_per_s,
-                ..Loads::default()
-            },
-        );
+        load(&mut chain, weight_and_drag());
         let way = [(0.0, Point::origin()), (5.0, Point::new(-3.0, 0.0, 0.0))];
         chain.grab(0, Path::new(way).expect("a path"));
         chain.when_unstable(Unstable::Substep);
@@ -348,15 +348,7 @@ fn substeps_are_summed_one_by_one() {
 #[test]
 fn a_step_that_fails_leaves_no_trace() {
     let mut chain = row(&[0.0, 1.0], 1.0);
-    let (gravity_m_per_s2, drag_per_s) = (Some(DOWN), Some(1.0));
-    load(
-        &mut chain,
-        Loads {
-            gravity_m_per_s2,
-            drag_per_s,
-            ..Loads::default()
-        },
-    );
+    load(&mut chain, weight_and_drag());
     chain.hold(0);
     chain.when_unstable(Unstable::Allow);
     chain.keep_balance();
@@ -420,16 +412,6 @@ fn play(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Run {
         run.step().expect("a step");
     }
     run
-}
-
-fn methods() -> [(&'static str, Method); 5] {
-    [
-        ("xpbd", Method::Xpbd(Xpbd::new(1, 1))),
-        ("pbd", Method::Pbd(Pbd::default())),
-        ("verlet", Method::Verlet),
-        ("provot", Method::Provot(Limiter::default())),
-        ("implicit", Method::Implicit(implicit::Settings::default())),
-    ]
 }
 
 fn check_no_gain(cells: u32, scene: fn(&Frame) -> Scene, name: &str, solver: &Method) {

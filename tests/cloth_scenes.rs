@@ -44,7 +44,7 @@ fn play(mut run: Run) -> Run {
     run
 }
 
-fn methods() -> [(&'static str, Method); 5] {
+pub(crate) fn methods() -> [(&'static str, Method); 5] {
     [
         ("xpbd", Method::Xpbd(Xpbd::new(1, 1))),
         ("pbd", Method::Pbd(Pbd::default())),

@@ -26,7 +26,6 @@
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
 //! are added, cut or made stiffer, count as the method's.
 
-use super::implicit::triangle;
 use super::kernel;
 use super::system::{Forces, System};
 use crate::geometry::{Vector, dot};
@@ -314,16 +313,9 @@ impl System {
     /// The energy that a particle has a part in: its motion, what it is joined by, and its weight.
     pub(crate) fn energy_at_j(&self, particle: usize) -> f64 {
         let model = &self.model;
-        let stretch = model.stretch.of(particle).map(|id| self.elastic_of(id));
-        let bends = model.bend.of(particle).map(|id| model.bend.get(id));
-        let bend = bends.map(|bend| self.bend_energy_of(&bend));
-        let triangles = model.triangles.of(particle).map(|(t, _)| {
-            let triangle = &model.triangles.as_slice()[t];
-            triangle::energy(triangle, triangle::corners(triangle, &self.positions))
-        });
-        let elastic: f64 = stretch.chain(bend).chain(triangles).sum();
         let weight = model.gravity() * model.masses[particle];
-        elastic + self.kinetic_j(particle) - dot(weight, self.positions[particle].coords)
+        let motion_j = self.kinetic_j(particle);
+        self.elastic_at_j(particle) + motion_j - dot(weight, self.positions[particle].coords)
     }
 
     /// Does something to one particle on behalf of those who hold it, and notes what that took.

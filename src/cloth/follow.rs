@@ -124,7 +124,7 @@ impl Cloth {
 
     fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
         let (kept, gone) = (merge.kept.index(), merge.gone.index());
-        let elastic = self.elastic_at(kept) + self.elastic_at(gone);
+        let elastic = self.system.elastic_at_j(kept) + self.system.elastic_at_j(gone);
         let kinetic = self.system.kinetic_j(kept) + self.system.kinetic_j(gone);
         for &corner in merge.corners {
             self.system.model.faces[corner.index()] = kept as u32;
@@ -173,19 +173,19 @@ impl Cloth {
         if apart {
             self.measure_again(kept);
         }
-        self.ledger.merge_elastic_j += self.elastic_at(kept) + across - elastic;
+        self.ledger.merge_elastic_j += self.system.elastic_at_j(kept) + across - elastic;
         self.ledger.merge_kinetic_j += self.system.kinetic_j(kept) - kinetic;
     }
 
     fn slide(&mut self, slide: &Slide<'_>, edit: &Edit<'_>) {
         let (particle, toward) = (slide.vertex.index(), slide.toward.index());
-        let elastic = self.elastic_at(particle);
+        let elastic = self.system.elastic_at_j(particle);
         let x = &mut self.system.positions;
         x[particle] = between(x[particle], x[toward], slide.t);
         self.masses.follow(edit);
         self.rest.follow(edit);
         self.measure_again(particle);
-        self.ledger.slide_elastic_j += self.elastic_at(particle) - elastic;
+        self.ledger.slide_elastic_j += self.system.elastic_at_j(particle) - elastic;
     }
 
     /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
@@ -426,14 +426,6 @@ impl Cloth {
         let mass = self.masses.at(VertexId::from_u32(particle as u32));
         self.system.model.masses[particle] = mass;
         self.system.weigh(particle);
-    }
-
-    fn elastic_at(&self, particle: usize) -> f64 {
-        let model = &self.system.model;
-        let stretches = model.stretch.of(particle);
-        let stretches = stretches.map(|id| energy(&model.stretch.get(id), &self.system.positions));
-        let bends = model.bend.of(particle).map(|id| self.bend_energy(id));
-        stretches.sum::<f64>() + bends.sum::<f64>() + self.triangle_energy_at(particle)
     }
 }
 

@@ -188,12 +188,6 @@ impl Cloth {
         }
     }
 
-    /// The energy of the triangles of a particle, in joules.
-    pub(super) fn triangle_energy_at(&self, particle: usize) -> f64 {
-        let around = self.system.model.triangles.of(particle);
-        around.fold(0.0, |sum, (t, _)| sum + self.triangle_energy(t))
-    }
-
     fn triangle_energy(&self, t: usize) -> f64 {
         let triangle = &self.system.triangles()[t];
         triangle::energy(triangle, triangle::corners(triangle, self.positions()))

@@ -53,6 +53,19 @@ impl System {
         0.5 * constraint.stiffness_n_per_m * extension * extension
     }
 
+    /// The elastic energy of all that a particle has a part in, in joules.
+    pub(crate) fn elastic_at_j(&self, particle: usize) -> f64 {
+        let model = &self.model;
+        let stretches = model.stretch.of(particle).map(|id| self.elastic_of(id));
+        let bends = model.bend.of(particle).map(|id| model.bend.get(id));
+        let bends = bends.map(|bend| self.bend_energy_of(&bend));
+        let triangles = model.triangles.of(particle);
+        let triangles = triangles.map(|(t, _)| &model.triangles.as_slice()[t]);
+        let triangles =
+            triangles.map(|t| triangle::energy(t, triangle::corners(t, &self.positions)));
+        stretches.sum::<f64>() + bends.sum::<f64>() + triangles.fold(0.0, |sum, one| sum + one)
+    }
+
     /// The kinetic energy of the particles that are not held, in joules.
     #[must_use]
     pub fn kinetic_energy_j(&self) -> f64 {

@@ -96,15 +96,17 @@ impl Word {
 }
 
 /// The powers of ten up to that of a [`Word`].
-const WORD_POWERS: [u64; 9] = {
-    let mut powers = [1; 9];
-    let mut at = 1;
-    while at < powers.len() {
-        powers[at] = 10 * powers[at - 1];
-        at += 1;
-    }
-    powers
-};
+const WORD_POWERS: [u64; 9] = [
+    1,
+    10,
+    100,
+    1_000,
+    10_000,
+    100_000,
+    1_000_000,
+    10_000_000,
+    100_000_000,
+];
 
 /// Does what [`digits`] does, faster if there are many: eight by eight, and of the rest as many are
 /// expected as the last time.
