@@ -1,5 +1,7 @@
 //! The chart of a study: force against displacement, and forces against the size of the mesh.
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -91,6 +93,9 @@ fn sizes(study: &Study, panel: &Area<'_>) -> Drawn {
         let all = study.tests.iter().flat_map(both);
         all.filter(|force| *force > 0.0)
     };
+    let mut lengths: Vec<f64> = edges().collect();
+    lengths.sort_unstable_by(f64::total_cmp);
+    lengths.dedup();
     let x = 0.8 * edges().fold(f64::INFINITY, f64::min)..1.25 * edges().fold(0.0, f64::max);
     let y = 0.7 * forces().fold(f64::INFINITY, f64::min)..3.5 * forces().fold(0.0, f64::max);
     let mut chart = ChartBuilder::on(panel)
@@ -98,10 +103,14 @@ fn sizes(study: &Study, panel: &Area<'_>) -> Drawn {
         .margin(8)
         .x_label_area_size(36)
         .y_label_area_size(48)
-        .build_cartesian_2d(x.log_scale(), y.log_scale())?;
+        .build_cartesian_2d(
+            x.log_scale().with_key_points(lengths),
+            y.clone().log_scale().with_key_points(round_numbers(&y)),
+        )?;
     chart
         .configure_mesh()
         .x_desc("length of edges, mm")
+        .x_label_formatter(&|edge| format!("{edge:.2}"))
         .y_desc("force, N")
         .light_line_style(TRANSPARENT)
         .draw()?;
@@ -134,6 +143,14 @@ fn sizes(study: &Study, panel: &Area<'_>) -> Drawn {
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .draw()
+}
+
+/// 1, 2 and 5 times the powers of ten, as far as they are in a range above zero.
+fn round_numbers(range: &Range<f64>) -> Vec<f64> {
+    let tens = |end: f64| end.log10().floor() as i32;
+    let powers = tens(range.start)..=tens(range.end);
+    let all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10_f64.powi(power)));
+    all.filter(|number| range.contains(number)).collect()
 }
 
 /// Lines of at most so many letters.
