@@ -15,15 +15,8 @@
 //! **Linearised** (one iteration, the default): forces are linearised at x₀, as Baraff and
 //! Witkin 1998 §3 and Choi and Ko 2002 §5 do. This keeps the order of both methods, as long as
 //! the Jacobian is exact; with terms dropped BDF2 falls back to order one.
-//! **Newton**: iterated from x* + h v₀ until the residual is small, with a line search on
-//! Φ = E − Σ m g·x + ½ (1 + h c) Σ m |v − v*/(1 + h c)|², of which the equation is the gradient.
-//!
-//! **Overshoot.** A linearised step trusts its matrix however far it goes. A piece of one or two
-//! triangles that spins by ω Δt > 1 flies apart along the tangent, to √(1 + (ω Δt)²) times its size;
-//! where something is pushed together the matrix may be all but singular, and the step as
-//! long as one likes. Both end above the Φ of where they started, which no solution near by
-//! does. Such a step is taken back, and Newton's method goes down from there instead
-//! ([`StepReport::overshot`]); so the stretch of what is thrown about is bounded by its energy.
+//! **Newton** (`newton.rs`): iterated until the residual is small, with a line search on a potential
+//! Φ; also where a linearised step has overshot.
 //!
 //! **Indefinite matrices.** M (1 + h c)/h² + H is indefinite where something is compressed and
 //! Δt is long: between two springs from Δt > √(m / (2k (L₀/l − 1))). Then Newton's step is no
@@ -39,7 +32,9 @@
 //! velocity of the whole piece: momentum is kept to rounding, at any tolerance. Angular
 //! momentum is not kept by these methods.
 
-use super::pcg::{End, Pcg, Solved, Stop, residual};
+mod newton;
+
+use super::pcg::{End, Pcg, Solved, Stop};
 use super::settings::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
 use super::{Filter, Hessian, Layout, Model, ModelError, Part, Work, first_bad};
 use crate::geometry::{Point, Vector, dot};
@@ -73,9 +68,6 @@ struct History {
     velocities: Vec<Vector>,
     time_step_s: f64,
 }
-
-/// Newton's iterations for a step whose linearised answer was taken back.
-const RESCUE_ITERATIONS: u32 = 50;
 
 /// The equation of a step: its length h, and the method.
 #[derive(Clone, Copy)]
@@ -348,46 +340,6 @@ impl Implicit {
         Ok(())
     }
 
-    /// Velocities that leave the particles at `x`, where the step started, in the directions in
-    /// which they are free.
-    fn stay(&mut self, model: &Model<'_>, x: &[Point], v: &[Vector], stage: Stage) {
-        self.velocities.clear();
-        for (i, &v) in v.iter().enumerate() {
-            let back = (x[i] - self.start[i]) / stage.h - v;
-            self.velocities.push(v + model.filter(i).apply(back));
-        }
-    }
-
-    /// Newton's method from where the step started, after the linearised step has overshot. True
-    /// where it came down from there, if not all the way: that is as good as a linearised step
-    /// can be, whose residual nobody asks for, and its stretch is bounded.
-    fn come_down(
-        &mut self,
-        model: &Model<'_>,
-        stage: Stage,
-        level: Potential,
-        settings: &Settings,
-        report: &mut StepReport,
-    ) -> Result<bool, StepError> {
-        report.overshot = true;
-        let settings = Settings {
-            newton_iterations_max: RESCUE_ITERATIONS,
-            ..*settings
-        };
-        self.newton(model, stage, &settings, report)?;
-        Ok(self.potential(model, stage).value < level.value)
-    }
-
-    /// Φ where the step started: a step that ends above it has overshot.
-    fn level(&mut self, model: &Model<'_>, x: &[Point], v: &[Vector], stage: Stage) -> Potential {
-        self.stay(model, x, v, stage);
-        self.place(stage);
-        let level = self.potential(model, stage);
-        self.velocities.clear();
-        self.velocities.extend_from_slice(v);
-        level
-    }
-
     /// f − M ((1 + h c) v − v*)/h for the present velocities and forces, into `pcg.b`.
     fn imbalance(&mut self, model: &Model<'_>, stage: Stage) {
         self.pcg.b.clear();
@@ -395,96 +347,6 @@ impl Implicit {
             let change = v * stage.dragged - self.start_velocities[i];
             let b = f - change * (model.masses[i] / stage.h);
             self.pcg.b.push(model.filter(i).apply(b));
-        }
-    }
-
-    /// Newton's method from the present velocities.
-    fn newton(
-        &mut self,
-        model: &Model<'_>,
-        stage: Stage,
-        settings: &Settings,
-        report: &mut StepReport,
-    ) -> Result<(), StepError> {
-        report.newton_iterations = 0;
-        self.place(stage);
-        let mut phi = self.potential(model, stage);
-        loop {
-            model.forces(&self.trial, &mut self.forces);
-            self.work.force_evaluations += 1;
-            self.imbalance(model, stage);
-            let left = residual(model, &self.pcg.b);
-            report.residual = stage.velocity_error(left);
-            let spent = report.newton_iterations >= settings.newton_iterations_max;
-            if left <= stage.residual_max || spent || !left.is_finite() {
-                return Ok(());
-            }
-            report.newton_iterations += 1;
-            let at = std::mem::take(&mut self.trial);
-            let mut solver = Solver {
-                stage,
-                settings,
-                report,
-            };
-            let solved = solver.solve(model, &at, self, |own| own.imbalance(model, stage));
-            self.trial = at;
-            solved?;
-            match self.search(model, stage, phi, left, report) {
-                Search::Taken(next) => phi = next,
-                Search::Rounding => {
-                    report.limit = report.limit.max(report.residual);
-                    return Ok(());
-                }
-                Search::Failed => return Ok(()),
-            }
-        }
-    }
-
-    /// Halves the step until Φ falls enough; then takes it.
-    ///
-    /// Near the solution Φ no longer tells, because it is flat to its rounding; there a step
-    /// is taken if it makes the residual smaller.
-    fn search(
-        &mut self,
-        model: &Model<'_>,
-        stage: Stage,
-        phi: Potential,
-        left: f64,
-        report: &mut StepReport,
-    ) -> Search {
-        self.imbalance(model, stage);
-        let slope = self.pcg.b.iter().zip(&self.pcg.delta);
-        let slope: f64 = slope.fold(0.0, |sum, (b, d)| sum + dot(*b, *d));
-        let from = std::mem::take(&mut self.trial_velocities);
-        self.trial_velocities = std::mem::replace(&mut self.velocities, from);
-        let mut part = 1.0;
-        for _ in 0..40 {
-            self.velocities.clear();
-            let moved = self.trial_velocities.iter().zip(&self.pcg.delta);
-            self.velocities
-                .extend(moved.map(|(v, d)| v + d * (part / stage.h)));
-            self.place(stage);
-            let next = self.potential(model, stage);
-            if next.value <= phi.value - 1e-4 * part * slope {
-                return Search::Taken(next);
-            }
-            if next.value <= phi.value + phi.rounding {
-                model.forces(&self.trial, &mut self.forces);
-                self.work.force_evaluations += 1;
-                self.imbalance(model, stage);
-                if residual(model, &self.pcg.b) < left {
-                    return Search::Taken(next);
-                }
-            }
-            part *= 0.5;
-            report.halvings += 1;
-        }
-        std::mem::swap(&mut self.velocities, &mut self.trial_velocities);
-        self.place(stage);
-        if slope <= phi.rounding {
-            Search::Rounding
-        } else {
-            Search::Failed
         }
     }
 
@@ -531,14 +393,6 @@ impl Implicit {
             }
         }
     }
-}
-
-/// How a line search ended.
-enum Search {
-    Taken(Potential),
-    /// What could be gained is below the rounding of the potential.
-    Rounding,
-    Failed,
 }
 
 /// The value of a potential and how much of it is rounding.
