@@ -6,13 +6,13 @@
 //! rounded to whole steps. Nothing here reads a clock, so the same scene gives the same bytes.
 
 mod engine;
+mod error;
 mod gain;
 mod held;
 mod quality;
 mod step_size;
 
-use std::fmt;
-
+pub use self::error::RunError;
 pub use self::gain::Gain;
 pub use self::quality::{Limited, Quality, Solved};
 
@@ -25,14 +25,14 @@ use super::scene::{Breeze, Frame, Scene, TimedCut};
 use super::sheet::{Cloth, ClothError};
 use super::solver::{Culprit, Solver, StepError};
 use super::system::Unstable;
-use super::tearing::{Tear, TearReport, Tearing, TearingError};
+use super::tearing::{Tear, TearReport, Tearing};
 use crate::edit::Edits;
 use crate::geometry::{Vector, length};
 use crate::id::VertexId;
 use crate::mass::Masses;
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::{CutReport, Scissor, ScissorError};
+use crate::scissor::{CutReport, Scissor};
 
 /// A scene in progress.
 ///
@@ -254,7 +254,7 @@ impl Run {
             if held::step_at(cut.at_s, self.step_s) > now {
                 break;
             }
-            let before = self.momentum();
+            let before = momentum(&self.cloth);
             let step_before_s = self.stable_step_s();
             let mut positions = self.places()?;
             let scissor = &self.scissors[self.next_cut];
@@ -333,10 +333,6 @@ impl Run {
         Some(report)
     }
 
-    fn momentum(&self) -> (Vector, f64) {
-        momentum(&self.cloth)
-    }
-
     /// Notes how far the momentum is now from what it was.
     fn compare(&mut self, (before, size): (Vector, f64)) {
         let (after, _) = momentum(&self.cloth);
@@ -413,9 +409,9 @@ impl Run {
         balance.unwrap_or_default() // Kept from the first step on.
     }
 
-    /// Whether the method made energy out of nothing, beyond a quarter of what was put in: then the cloth
-    /// tears more than it should, and its pieces fly about. Looked at every 1/60 s. A shorter step
-    /// helps, or a method that damps, or drag.
+    /// Whether the method made energy out of nothing, beyond a quarter of what was put in: then the
+    /// cloth tears more than it should, and its pieces fly about. Looked at every 1/60 s. A shorter
+    /// step helps, or a method that damps, or drag.
     #[must_use]
     pub fn gain(&self) -> Option<Gain> {
         self.watch.gain()
@@ -511,70 +507,3 @@ fn momentum(cloth: &Cloth) -> (Vector, f64) {
     }
     sum
 }
-
-/// Why a scene was refused.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum RunError {
-    /// No cloth can be made of the mesh.
-    Cloth(ClothError),
-    /// The step is not positive, or the scene would take more than [`Run::STEPS_MAX`] of them.
-    Times,
-    /// A load has a number that is not finite, or negative where it must not be.
-    Loads,
-    /// No vertex lies where one is to be held.
-    NothingHeld {
-        /// The number of the hold in the scene.
-        number: usize,
-    },
-    /// The times of a hold do not ascend.
-    Moves {
-        /// The number of the hold in the scene.
-        number: usize,
-    },
-    /// The rays of a cut span no plane.
-    Cut {
-        /// The number of the cut in the scene.
-        number: usize,
-        /// Why.
-        error: ScissorError,
-    },
-    /// The cuts do not ascend in time.
-    CutTimes {
-        /// The number of the first that is earlier than the one before it.
-        number: usize,
-    },
-    /// The rule for tearing makes no sense.
-    Tearing(TearingError),
-}
-
-impl From<ClothError> for RunError {
-    fn from(error: ClothError) -> RunError {
-        RunError::Cloth(error)
-    }
-}
-
-impl fmt::Display for RunError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            RunError::Cloth(error) => error.fmt(f),
-            RunError::Times => write!(f, "the step is not positive, or too short for the scene"),
-            RunError::Loads => {
-                write!(f, "a load has a number that is not finite, or negative")
-            }
-            RunError::NothingHeld { number } => {
-                write!(f, "hold {} holds no vertex", number + 1)
-            }
-            RunError::Moves { number } => {
-                write!(f, "the times of hold {} do not ascend", number + 1)
-            }
-            RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
-            RunError::CutTimes { number } => {
-                write!(f, "cut {} is earlier than the one before it", number + 1)
-            }
-            RunError::Tearing(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for RunError {}

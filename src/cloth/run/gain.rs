@@ -1,12 +1,12 @@
 //! The watch over energy: whether the method makes any out of nothing.
 //!
 //! A step below its stability limit is stable for small motions about where the cloth is. What is
-//! torn violently does not move little: a spring whose ends fly through each other within a step turns
-//! round in it, and its force, which was never felt in between, pushes them apart faster than
-//! they came. (At 128 × 128 cells, `rip` by Verlet at 0.67 of the limit: in the 18 ms in which it begins to
-//! shatter, 4011 of 22 million steps of a spring turned it by more than 90°. They made 16.6 J, and all
-//! others lost 1.4 J. With half the step it was 12 that turned.) So the balance of energy is looked at, at
-//! every frame of 1/60 s; see [`EnergyBalance`].
+//! torn violently does not move little: a spring whose ends fly through each other within a step
+//! turns round in it, and its force, which was never felt in between, pushes them apart faster than
+//! they came. (At 128 × 128 cells, `rip` by Verlet at 0.67 of the limit: in the 18 ms in which it
+//! begins to shatter, 4011 of 22 million steps of a spring turned it by more than 90°. They made
+//! 16.6 J, and all others lost 1.4 J. With half the step it was 12 that turned.) So the balance of
+//! energy is looked at, at every frame of 1/60 s; see [`EnergyBalance`].
 
 use crate::cloth::balance::EnergyBalance;
 use crate::cloth::scene::Method;
@@ -36,10 +36,10 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// What a method may make of the energy that was put in. The energy of Verlet's oscillators swings
-    /// about a mean that is larger than what was put into them by (1 − s/2)/(1 − s), where
-    /// s = (ωΔt/2)²: at 0.7 of the limit 1.5 for the fastest. Of all that a torn
-    /// cloth holds, few per cent are in those; a quarter is beyond any of it.
+    /// What a method may make of the energy that was put in. The energy of Verlet's oscillators
+    /// swings about a mean that is larger than what was put into them by (1 − s/2)/(1 − s), where s
+    /// = (ωΔt/2)²: at 0.7 of the limit 1.5 for the fastest. Of all that a torn cloth holds, few per
+    /// cent are in those; a quarter is beyond any of it.
     const SHARE: f64 = 0.25;
 
     /// How far apart the looks are, in seconds.

@@ -14,7 +14,8 @@ pub enum Quality {
     /// square now.
     Strain(f64),
     /// XPBD: the largest difference, in newtons, between the force on a particle that the last
-    /// substep used and the one that the springs have now ([`Xpbd::residual_n`](crate::cloth::Xpbd::residual_n)).
+    /// substep used and the one that the springs have now
+    /// ([`Xpbd::residual_n`](crate::cloth::Xpbd::residual_n)).
     Residual(f64),
     /// An implicit method.
     Solved(Solved),

@@ -1,0 +1,74 @@
+//! Why a scene is refused.
+
+use std::fmt;
+
+use crate::cloth::sheet::ClothError;
+use crate::cloth::tearing::TearingError;
+use crate::scissor::ScissorError;
+
+/// Why a scene was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RunError {
+    /// No cloth can be made of the mesh.
+    Cloth(ClothError),
+    /// The step is not positive, or the scene would take more than [`Run::STEPS_MAX`](super::Run::STEPS_MAX) of them.
+    Times,
+    /// A load has a number that is not finite, or negative where it must not be.
+    Loads,
+    /// No vertex lies where one is to be held.
+    NothingHeld {
+        /// The number of the hold in the scene.
+        number: usize,
+    },
+    /// The times of a hold do not ascend.
+    Moves {
+        /// The number of the hold in the scene.
+        number: usize,
+    },
+    /// The rays of a cut span no plane.
+    Cut {
+        /// The number of the cut in the scene.
+        number: usize,
+        /// Why.
+        error: ScissorError,
+    },
+    /// The cuts do not ascend in time.
+    CutTimes {
+        /// The number of the first that is earlier than the one before it.
+        number: usize,
+    },
+    /// The rule for tearing makes no sense.
+    Tearing(TearingError),
+}
+
+impl From<ClothError> for RunError {
+    fn from(error: ClothError) -> RunError {
+        RunError::Cloth(error)
+    }
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RunError::Cloth(error) => error.fmt(f),
+            RunError::Times => write!(f, "the step is not positive, or too short for the scene"),
+            RunError::Loads => {
+                write!(f, "a load has a number that is not finite, or negative")
+            }
+            RunError::NothingHeld { number } => {
+                write!(f, "hold {} holds no vertex", number + 1)
+            }
+            RunError::Moves { number } => {
+                write!(f, "the times of hold {} do not ascend", number + 1)
+            }
+            RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
+            RunError::CutTimes { number } => {
+                write!(f, "cut {} is earlier than the one before it", number + 1)
+            }
+            RunError::Tearing(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}
