@@ -1,9 +1,10 @@
 //! Cloth, as thin as can be: particles, constraints, solvers, and a follower of the log.
 //!
-//! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A [`Solver`] advances
-//! it; [`System::step`] watches over stability, notices blow-up and steps that miss their tolerance,
-//! and keeps the last good state. A [`Cloth`] is a system made of a mesh, and a follower of its log. [`Tear`] is what tears it
-//! where it is overstretched, by a [`Tearing`] with a [`Threshold`].
+//! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A
+//! [`Solver`] advances it; [`System::step`] watches over stability, notices blow-up and steps that
+//! miss their tolerance, and keeps the last good state. A [`Cloth`] is a system made of a mesh, and
+//! a follower of its log. [`Tear`] is what tears it where it is overstretched, by a [`Tearing`]
+//! with a [`Threshold`].
 //!
 //! | method | what it is for | a step costs |
 //! |---|---|---|

@@ -70,9 +70,9 @@
 //! | 5 | `script` (drives a kernel from bytes or text; behind a feature) |
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
-//! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a
-//! link, and only `mend` sews one. Results depend on `+ − × ÷ √` in a fixed order: the same input gives the same bytes on
-//! every machine. `src/mesh/invariants.md` numbers what holds of every mesh.
+//! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a link,
+//! and only `mend` sews one. Results depend on `+ − × ÷ √` in a fixed order: the same input gives
+//! the same bytes on every machine. `src/mesh/invariants.md` numbers what holds of every mesh.
 //!
 //! # Errors
 //!

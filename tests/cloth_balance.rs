@@ -77,8 +77,8 @@ fn drag_takes_what_a_fall_does_not_keep() {
     near(errors[0] / errors[1], 4.0, 0.05);
 }
 
-/// A chain of one link, led by its end at speed u: the mass swings about it at ω = √(k/m), and the hand
-/// has worked m u² (1 − cos ωt).
+/// A chain of one link, led by its end at speed u: the mass swings about it at ω = √(k/m), and the
+/// hand has worked m u² (1 − cos ωt).
 #[test]
 fn a_hand_works_its_force_times_its_way() {
     let (u, omega) = (0.5_f64, 10.0_f64);

@@ -1,10 +1,10 @@
 //! The balance of energy: where a system's energy came from, where it went, and what is left over.
 //!
 //! Motion and strain hold energy; gravity, wind, drag, colliders, edits and those who hold and lead
-//! particles give or take some. What remains when all of them are counted is what the *method*
-//! made or lost. A method that damps loses some, and says so here; one that makes energy out of
-//! nothing shatters what it should tear, and nothing else shows it: lengths stay finite, and each step
-//! is below its stability limit.
+//! particles give or take some. What remains when all of them are counted is what the *method* made
+//! or lost. A method that damps loses some, and says so here; one that makes energy out of nothing
+//! shatters what it should tear, and nothing else shows it: lengths stay finite, and each step is
+//! below its stability limit.
 //!
 //! A system keeps a balance from [`System::keep_balance`] on. Each part is exact or nearly so:
 //!
@@ -18,9 +18,9 @@
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
 //! | edits | [`EnergyLedger`](super::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
 //!
-//! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no one's
-//! fault. Where a method finds the force in a constraint by its multiplier, the work of leading is
-//! that force, at the end of the substep, times the way.
+//! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
+//! one's fault. Where a method finds the force in a constraint by its multiplier, the work of
+//! leading is that force, at the end of the substep, times the way.
 //!
 //! Particles that are held have no kinetic energy, and wind and drag on them do no work: whoever
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
@@ -79,8 +79,8 @@ pub struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// What was put in: what was there when the balance began, and each part above zero of the work of
-    /// gravity, of those who hold, of wind and of colliders, and of what edits made, in joules.
+    /// What was put in: what was there when the balance began, and each part above zero of the work
+    /// of gravity, of those who hold, of wind and of colliders, and of what edits made, in joules.
     #[must_use]
     pub fn put_in_j(&self) -> f64 {
         let outside = [self.gravity_j, self.held_j, self.wind_j];

@@ -372,7 +372,8 @@ mod tests {
         }
     }
 
-    /// No colour has a particle twice, each compliance is that of its stiffness, and the lists of particles hold their constraints.
+    /// No colour has a particle twice, each compliance is that of its stiffness, and the lists of
+    /// particles hold their constraints.
     fn check(constraints: &Constraints, expected: &[(ConstraintId, [usize; 2])]) {
         assert_eq!(constraints.len(), expected.len());
         for &(id, ends) in expected {

@@ -139,9 +139,9 @@ impl Cloth {
     ///
     /// # Errors
     ///
-    /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the distance across
-    /// one) has no length, a face of triangles has no area or no warp, or there are not as many
-    /// masses and positions as vertices.
+    /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the
+    /// distance across one) has no length, a face of triangles has no area or no warp, or there are
+    /// not as many masses and positions as vertices.
     pub fn new(
         mesh: &Mesh,
         positions: &Positions,

@@ -21,10 +21,10 @@
 //! A bend that buckles counts as a spring with the largest stiffness that it has at any length, also
 //! where the frequency is measured: a flat cloth has none to bends, and has it once it folds.
 //!
-//! A triangle counts as two springs with three ends, along warp and along weft. Its shear gets stiffer
-//! as it is stretched, so with shear the bound holds as long as |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|
-//! of no triangle is beyond a *reach*; where a step finds that one is, the reach is doubled and
-//! the bound made anew.
+//! A triangle counts as two springs with three ends, along warp and along weft. Its shear gets
+//! stiffer as it is stretched, so with shear the bound holds as long as |`w_u`|² + |`w_v`|² +
+//! |`w_u` · `w_v`| of no triangle is beyond a *reach*; where a step finds that one is, the reach is
+//! doubled and the bound made anew.
 //!
 //! The rows of K itself, which are cheaper, give 0.657 of the true limit or less.
 
@@ -149,8 +149,8 @@ fn root_sum(model: &Model, particle: usize, reach: f64) -> f64 {
     triangles.fold(springs, |sum, roots| sum + roots)
 }
 
-/// The largest row among the springs and triangles of the neighbours of a particle and its own: all rows that
-/// its mass and springs have a part in.
+/// The largest row among the springs and triangles of the neighbours of a particle and its own: all
+/// rows that its mass and springs have a part in.
 fn rows_at(model: &Model, particle: usize, reach: f64) -> f64 {
     let mut largest = 0.0_f64;
     let weighed =

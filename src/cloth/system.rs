@@ -1,9 +1,9 @@
 //! Particles and constraints, with no mesh in sight.
 //!
 //! A [`System`] is a list of particles and two families of springs between them: *stretch*
-//! constraints, and *bend* constraints that reach across something, which may buckle instead; and triangles of particles
-//! that resist stretch and shear. A chain, a net or a cloth is one. Units are SI throughout: metres,
-//! kilograms, seconds, newtons.
+//! constraints, and *bend* constraints that reach across something, which may buckle instead; and
+//! triangles of particles that resist stretch and shear. A chain, a net or a cloth is one. Units
+//! are SI throughout: metres, kilograms, seconds, newtons.
 
 mod error;
 mod force;

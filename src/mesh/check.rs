@@ -1,9 +1,9 @@
 //! Every invariant of a mesh, checked by plain loops.
 //!
-//! The walkers are among what is judged here, so nothing is computed with them: truth comes
-//! from loops over all corners, from sorting, and from union-find. O(n log n), and linear but
-//! for the sorting of hubs; about a third of a microsecond a face. Tests and fuzz targets call [`Mesh::check`] after every operation; a program may call it after
-//! a cut, as the command does.
+//! The walkers are among what is judged here, so nothing is computed with them: truth comes from
+//! loops over all corners, from sorting, and from union-find. O(n log n), and linear but for the
+//! sorting of hubs; about a third of a microsecond a face. Tests and fuzz targets call
+//! [`Mesh::check`] after every operation; a program may call it after a cut, as the command does.
 //!
 //! `invariants.md` says why each invariant holds and what may break it. Those that speak of
 //! an operation rather than of a mesh (I14 to I17, I20 to I22) are properties in the tests.

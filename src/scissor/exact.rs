@@ -3,11 +3,11 @@
 //! 1. **Signs**, once a vertex. A sign that rounding cannot vouch for is zero: *on* the plane.
 //! 2. **Snap**, as a fraction of the edge: where the slit crosses an edge nearer to an end than
 //!    that, the end counts as on the plane, for all its edges. It is not moved, so the seam
-//!    deviates by as much, unless that is asked for (`exact/slip.rs`). What is left are crossings well inside their edges, and
-//!    so no child has an altitude below r (1 − r) of its parent's.
-//! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from node to node (a vertex on
-//!    the plane, or a crossing) as far as the strip between the side planes goes. Where that ends
-//!    inside the face there is a *tip*.
+//!    deviates by as much, unless that is asked for (`exact/slip.rs`). What is left are crossings
+//!    well inside their edges, and so no child has an altitude below r (1 − r) of its parent's.
+//! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from
+//!    node to node (a vertex on the plane, or a crossing) as far as the strip between the side
+//!    planes goes. Where that ends inside the face there is a *tip*.
 //! 4. **Insert** all crossings and tips at once, each computed once from the same end, so both sides
 //!    of the seam have the same bits, and a flat sheet stays flat. An opening needs an end
 //!    that differs: a slit of one edge between vertices that both stay joined gets one in the

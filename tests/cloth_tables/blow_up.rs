@@ -90,8 +90,8 @@ fn class(mut system: System, solver: &mut dyn Solver, part: f64) -> Class {
 
 /// The classes at .9, .99, 1.01 and 1.1 of the limit.
 ///
-/// Beyond it a chain grows until its links turn aside, which softens them, and RK4 damps what lies above
-/// its limit by ever less; so both may go on with more energy than they should have. PBD
+/// Beyond it a chain grows until its links turn aside, which softens them, and RK4 damps what lies
+/// above its limit by ever less; so both may go on with more energy than they should have. PBD
 /// shakes nets that cannot reach their rest lengths, the more the shorter the step (F7).
 fn expected(name: &str, scene: &str, stiffness: f64) -> [Class; 4] {
     use Class::{BlownUp, Grown, Refused, Stable};

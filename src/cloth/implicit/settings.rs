@@ -9,8 +9,8 @@ pub enum Method {
     /// Order one, damps everything.
     #[default]
     BackwardEuler,
-    /// Order two, damps little. The first step, and each after [`Implicit::forget`](super::Implicit::forget), is
-    /// backward Euler's.
+    /// Order two, damps little. The first step, and each after
+    /// [`Implicit::forget`](super::Implicit::forget), is backward Euler's.
     Bdf2,
 }
 

@@ -17,8 +17,8 @@
 //! moduli in N/m that do not depend on the mesh: `E_u` = `k_u` and `E_v` = `k_v` at any strain,
 //! Poisson's ratio zero, and the shear modulus `k_s` at rest.
 //!
-//! **What is indefinite.** The term (1 − 1/|w|)(I − ŵ ŵᵀ) of a compressed direction, and the
-//! term `k_s` s of the shear s = `w_u` · `w_v`, which has the eigenvalues ±`k_s` |s|. Clamped, the first
+//! **What is indefinite.** The term (1 − 1/|w|)(I − ŵ ŵᵀ) of a compressed direction, and the term
+//! `k_s` s of the shear s = `w_u` · `w_v`, which has the eigenvalues ±`k_s` |s|. Clamped, the first
 //! is dropped (as the paper does) and of the second the negative half.
 
 use super::matrix::Block;

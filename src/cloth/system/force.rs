@@ -79,9 +79,9 @@ impl System {
         }
     }
 
-    /// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum
-    /// of the constraints' forces ([`System::force_n`]), those of triangles, gravity, wind and drag. Of a grabbed
-    /// particle that is a force probe; for a free one it is minus the force that
+    /// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum of
+    /// the constraints' forces ([`System::force_n`]), those of triangles, gravity, wind and drag.
+    /// Of a grabbed particle that is a force probe; for a free one it is minus the force that
     /// accelerates it, which vanishes at rest. Inertia of a path's corners is not in it, nor are
     /// colliders. Costs the valence; linear with wind.
     ///

@@ -99,8 +99,8 @@ impl Model {
         self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros)
     }
 
-    /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have none. False
-    /// where a spring has blown up.
+    /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have
+    /// none. False where a spring has blown up.
     #[must_use]
     pub(crate) fn accelerate(
         &self,

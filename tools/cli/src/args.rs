@@ -161,8 +161,8 @@ Examples:
 pub(crate) struct TearArgs {
     /// hang, flag, rip, trouser, or a scene file in TOML.
     ///
-    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung by
-    /// its upper edge, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
+    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung by its
+    /// upper edge, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
     /// apart. A scene file can start from one of these; its keys are listed below.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: String,

@@ -2,10 +2,11 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`, `mend`, `check` and `chart` carry
-//! out the verbs, `session` is what the first three have in common, `report` is their JSON, `defects` shows
-//! what is wrong with a mesh, `say` puts diagnostics on a screen, `output` writes files whole or not
-//! at all, `files` says where, `bug` writes a reproducer when an invariant broke.
+//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`,
+//! `mend`, `check` and `chart` carry out the verbs, `session` is what the first three have in
+//! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `say` puts
+//! diagnostics on a screen, `output` writes files whole or not at all, `files` says where, `bug`
+//! writes a reproducer when an invariant broke.
 
 mod args;
 mod bug;

@@ -21,9 +21,9 @@
 //! The statements come in one order, whatever the order of a hash map: `mtllib`, `o`, `v`, `vt`,
 //! `vn`, `vp`, points, lines, faces. Before an element stand the `g`, `usemtl`, `s` and `mg` that
 //! change there; an element in several groups has them by name. (A face without a material after a
-//! line that has one gets a bare `usemtl`, which is valid, but which obj-rs itself refuses.) A `v` has a weight where that is not
-//! 1, and a `vt` a third number where that is not 0. Lines of the file in diagnostics are those
-//! of this order, counted from 1.
+//! line that has one gets a bare `usemtl`, which is valid, but which obj-rs itself refuses.) A `v`
+//! has a weight where that is not 1, and a `vt` a third number where that is not 0. Lines of the
+//! file in diagnostics are those of this order, counted from 1.
 
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;

@@ -294,7 +294,8 @@ impl Document {
         }
     }
 
-    /// The lines of vertices, which ascend. Linear, where [`Document::line_of_vertex`] is so for each.
+    /// The lines of vertices, which ascend. Linear, where [`Document::line_of_vertex`] is so for
+    /// each.
     fn lines_of(&self, vertices: impl Iterator<Item = usize>) -> Vec<u32> {
         let runs = self.layout.runs().iter();
         let mut lines = runs

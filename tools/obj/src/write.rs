@@ -1,13 +1,13 @@
 //! Writing: a document and the mesh that was cut out of it, to bytes.
 //!
-//! **Order.** Statements come in the order of the document, and polygons as their triangles.
-//! The vertices of the mesh keep their numbers: the document's own come first, then those that
-//! splits added. The new ones follow the last `v` of the document and what is said of it, each with
-//! a copy of what `ARCSim` says of the vertex that it was split from (`said.rs`). Where a face needs a vertex
-//! before that (a file of several objects has `v` after `f`), the statements it needs are moved
-//! up to just before it, each with the foreign statements attached to it. So no face
-//! precedes its vertices, and no number changes. What `ARCSim` says of a vertex is written
-//! behind that vertex, wherever it stood: no `v` comes between them.
+//! **Order.** Statements come in the order of the document, and polygons as their triangles. The
+//! vertices of the mesh keep their numbers: the document's own come first, then those that splits
+//! added. The new ones follow the last `v` of the document and what is said of it, each with a copy
+//! of what `ARCSim` says of the vertex that it was split from (`said.rs`). Where a face needs a
+//! vertex before that (a file of several objects has `v` after `f`), the statements it needs are
+//! moved up to just before it, each with the foreign statements attached to it. So no face precedes
+//! its vertices, and no number changes. What `ARCSim` says of a vertex is written behind that
+//! vertex, wherever it stood: no `v` comes between them.
 //!
 //! **Bow-ties.** A split may leave a vertex with several fans (the tip of a finite cut).
 //! Other programs, and our own [`Document::mesh`], would take such a vertex for a
