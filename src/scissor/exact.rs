@@ -87,13 +87,18 @@ fn labels(
     trace: &Trace,
     slit: &Slit,
 ) -> Vec<Option<Side>> {
-    let is_on = |v: VertexId| trace.is_snapped(v) || slit.nodes.binary_search(&v).is_ok();
     // Only the passive twin of a crossing is new and not on the plane.
     let offset = |v: VertexId| match v.index() < offsets.len() {
         true => offsets.of(v),
         false => scissor.plane.offset(positions.at(v)),
     };
-    let sign = |v: VertexId| if is_on(v) { 0.0 } else { offset(v) };
+    // Asked for at every corner, so looked up and not searched for.
+    let mut signs: Vec<f64> = mesh.vertices().map(offset).collect();
+    let snapped = trace.snapped.iter().map(|one| one.vertex);
+    for v in snapped.chain(slit.nodes.iter().copied()) {
+        signs[v.index()] = 0.0;
+    }
+    let sign = |v: VertexId| signs[v.index()];
     let goes_on = |f: FaceId| {
         let corners = mesh.corners(f);
         let on_both =

@@ -323,21 +323,18 @@ fn separated(
     let Outcome { labels, ends, .. } = outcome;
     // `tip_overshoots` tells of tips.
     let is_tip = |v: VertexId| ends.0.iter().any(|of_side| of_side.contains(&v));
-    let in_slit = |h: HalfEdgeId| in_slit[h.face().index()];
     let label = |h: HalfEdgeId| labels[h.face().index()];
     let shared_vertex = |v: VertexId| {
         let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == Some(side));
-        mesh.corners_of(v).any(in_slit)
-            && !is_tip(v)
-            && scissor.depth(positions.at(v)) > 0.0
-            && has(Side::Front)
-            && has(Side::Back)
+        !is_tip(v) && scissor.depth(positions.at(v)) > 0.0 && has(Side::Front) && has(Side::Back)
     };
     let shared_edge = |h: HalfEdgeId| {
         let Some(pair) = mesh.pair(h) else {
             return false;
         };
-        let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+        // From the smaller, so that it does not matter which of the two was asked.
+        let h_min = h.min(pair);
+        let [p, q] = [mesh.origin(h_min), mesh.target(h_min)].map(|v| positions.at(v));
         let inside = |(from, to): (f64, f64)| {
             let middle = (from + to) / 2.0;
             from < to && scissor.depth(p + (q - p) * middle) > 0.0
@@ -348,10 +345,11 @@ fn separated(
         differ
             && !is_tip(mesh.origin(h))
             && !is_tip(mesh.target(h))
-            && (in_slit(h) || in_slit(pair))
             && scissor.clip(p, q).is_some_and(inside)
     };
-    !mesh.vertices().any(shared_vertex) && !mesh.edges().any(shared_edge)
+    let faces = mesh.faces().filter(|f| in_slit[f.index()]);
+    let mut corners = faces.flat_map(FaceId::half_edges);
+    !corners.any(|h| shared_vertex(mesh.origin(h)) || shared_edge(h))
 }
 
 /// A union-find forest over the two parts of each face.

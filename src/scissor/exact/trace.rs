@@ -88,12 +88,6 @@ pub(super) struct Trace {
 }
 
 impl Trace {
-    /// Whether a vertex of the mesh before the cut was put on the plane.
-    pub(super) fn is_snapped(&self, v: VertexId) -> bool {
-        let at = self.snapped.binary_search_by_key(&v, |one| one.vertex);
-        at.is_ok()
-    }
-
     fn crossing(&self, h: HalfEdgeId) -> Option<&Crossing> {
         let at = self.crossings.binary_search_by_key(&h, |one| one.half_edge);
         at.ok().map(|at| &self.crossings[at])
