@@ -3,7 +3,7 @@
 //!
 //! A [`Batch`] has c, the stiffness against compression, in the place of a spring's stiffness;
 //! the law is one for all. A bend is made of these three where it is needed, which costs a few
-//! products, and [`Bend`](super::implicit::Bend) says what it does. One without stiffness, which
+//! products, and [`Bend`] says what it does. One without stiffness, which
 //! is what an edit leaves where rounding left no length, does nothing.
 
 use super::implicit::bend::Axial;

@@ -1,6 +1,6 @@
 //! A system, stepped implicitly.
 //!
-//! The adapter between [`System`] and [`implicit`](super::implicit): it hands the particles,
+//! The adapter between [`System`] and [`implicit`]: it hands the particles,
 //! the springs of both families, the bends that buckle, the triangles, gravity, wind and drag over as
 //! slices, and takes back positions and velocities.
 
