@@ -116,6 +116,23 @@ fn what_is_ripped_falls_in_pieces_and_nothing_is_lost() {
     }
 }
 
+/// A hand rips the cloth about its grip, and does not come off with the few edges that it holds.
+#[test]
+#[ignore = "a minute: 160 cells a side"]
+fn what_is_ripped_tears_on_however_fine() {
+    for cells in [64, 160] {
+        let mut run = run(cells, |frame| Scene {
+            solver: Method::Implicit(Settings::default()),
+            ..Scene::rip(frame)
+        });
+        while !run.is_over() && run.tally().splits < 2 * u64::from(cells) {
+            run.step().expect("a step");
+        }
+        println!("{cells}: {:?} after {} s", run.tally(), run.elapsed_s());
+        assert!(run.torn_length_m() > 0.5, "{cells}");
+    }
+}
+
 #[test]
 fn a_flag_is_cut_in_two_and_goes_on_waving() {
     let mut run = run(16, Scene::flag);

@@ -98,9 +98,10 @@ impl Scene {
     /// dragged downward (Souza et al. 2014, Figure 6).
     ///
     /// The patch hangs by its upper edge. A hand does not pull at a point, whose strain grows as the
-    /// mesh gets finer, so the cloth within its grip bears eightfold: it tears elsewhere. Drag
-    /// is that of a light cloth in air, or what has come loose would fly away at the speed
-    /// that the energy of its edges gives it, some 10 m/s.
+    /// mesh gets finer, so the cloth within its grip bears eightfold, and twice that at half the
+    /// distance, as strain does about a point: it tears elsewhere, on any mesh. Drag is that of a
+    /// light cloth in air, or what has come loose would fly away at the speed that the energy of
+    /// its edges gives it, some 10 m/s.
     #[must_use]
     pub fn rip(frame: &Frame) -> Scene {
         let down = frame.along.vector() * -frame.extents_m[1];
@@ -122,7 +123,9 @@ impl Scene {
             duration_s: 3.0,
             drag_per_s: 5.0,
             holds: vec![Hold::still(edge), grab],
-            strengths: vec![(grip(0.12), 8.0)],
+            strengths: [1.0, 2.0, 4.0, 8.0, 16.0]
+                .map(|nearer| (grip(0.12 / nearer), 8.0 * nearer))
+                .to_vec(),
             ..Scene::fall(frame.up)
         }
     }
