@@ -1,8 +1,8 @@
 //! A system, stepped implicitly.
 //!
-//! The adapter between [`System`] and [`implicit`]: it hands the particles,
-//! the springs of both families, the bends that buckle, the triangles, gravity, wind and drag over as
-//! slices, and takes back positions and velocities.
+//! The adapter between [`System`] and [`implicit`]: it hands the particles, the springs of both
+//! families, the bends that buckle, the triangles, gravity, wind and drag over as slices, and takes
+//! back positions and velocities.
 
 use super::implicit::{self, Bend, Filter, Implicit, ModelError, Part, Settings, Spring};
 use super::solver::{Failure, Solver};

@@ -12,7 +12,8 @@ use crate::scissor::ScissorError;
 pub enum RunError {
     /// No cloth can be made of the mesh.
     Cloth(ClothError),
-    /// The step is not positive, or the scene would take more than [`Run::STEPS_MAX`](super::Run::STEPS_MAX) of them.
+    /// The step is not positive, or the scene would take more than
+    /// [`Run::STEPS_MAX`](super::Run::STEPS_MAX) of them.
     Times,
     /// A load has a number that is not finite, or negative where it must not be.
     Loads,

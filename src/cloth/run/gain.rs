@@ -37,9 +37,9 @@ pub(super) struct Watch {
 
 impl Watch {
     /// What a method may make of the energy that was put in. The energy of Verlet's oscillators
-    /// swings about a mean that is larger than what was put into them by (1 − s/2)/(1 − s), where s
-    /// = (ωΔt/2)²: at 0.7 of the limit 1.5 for the fastest. Of all that a torn cloth holds, few per
-    /// cent are in those; a quarter is beyond any of it.
+    /// swings about a mean that is larger than what was put into them by (1 − s/2)/(1 − s), where
+    /// s = (ωΔt/2)²: at 0.7 of the limit 1.5 for the fastest. Of all that a torn cloth holds, few
+    /// per cent are in those; a quarter is beyond any of it.
     const SHARE: f64 = 0.25;
 
     /// How far apart the looks are, in seconds.
