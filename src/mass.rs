@@ -47,6 +47,7 @@ use crate::place::Place;
 #[derive(Clone, Debug)]
 pub struct Masses {
     store: Store,
+    unit: f64,
     opening: ExactSum,
     next_edit: u64,
 }
@@ -55,7 +56,6 @@ pub struct Masses {
 enum Store {
     /// Whole numbers of units, of corners and of vertices.
     Area {
-        unit: f64,
         corners: Vec<u64>,
         vertices: Vec<u64>,
     },
@@ -120,8 +120,8 @@ impl Masses {
     /// Masses by area: each face gives a third of its mass to each of its corners.
     ///
     /// `density` is mass per area, in the units of the model. A corner weighs at least
-    /// one unit (2^-52 of the power of two above the total), so that a face without area
-    /// does not make a vertex without mass. A vertex without a face weighs nothing. Linear.
+    /// one unit ([`Masses::unit`]), so that a face without area does not make a vertex without
+    /// mass. A vertex without a face weighs nothing. Linear.
     ///
     /// # Errors
     ///
@@ -136,11 +136,7 @@ impl Masses {
         density: f64,
     ) -> Result<Masses, MassError> {
         let (unit, corners, vertices) = lattice(mesh, place, density)?;
-        Ok(Masses::opened(Store::Area {
-            unit,
-            corners,
-            vertices,
-        }))
+        Ok(Masses::opened(Store::Area { corners, vertices }, unit))
     }
 
     /// Masses by halves, starting from those of [`Masses::area`]. They can follow splits and
@@ -183,12 +179,13 @@ impl Masses {
             more: Vec::new(),
         };
         let vertices = mesh.vertices().map(whole).collect();
-        Ok(Masses::opened(Store::Half { vertices }))
+        Ok(Masses::opened(Store::Half { vertices }, unit))
     }
 
-    fn opened(store: Store) -> Masses {
+    fn opened(store: Store, unit: f64) -> Masses {
         let mut masses = Masses {
             store,
+            unit,
             opening: ExactSum::new(),
             next_edit: 0,
         };
@@ -215,15 +212,27 @@ impl Masses {
 
     /// The mass of a vertex.
     ///
+    /// It is zero for a vertex without a face, and may become so for one with faces: where a
+    /// face of no more than a few units is divided, not every corner gets one, and a split may
+    /// leave a vertex with only such corners. Who divides by masses takes the larger of this and
+    /// [`Masses::unit`].
+    ///
     /// # Panics
     ///
     /// If there is no such vertex.
     #[must_use]
     pub fn at(&self, v: VertexId) -> f64 {
         match &self.store {
-            Store::Area { unit, vertices, .. } => vertices[v.index()] as f64 * unit,
+            Store::Area { vertices, .. } => vertices[v.index()] as f64 * self.unit,
             Store::Half { vertices } => vertices[v.index()].mass(),
         }
+    }
+
+    /// What masses were rounded to when they were made, and what a corner weighed at least:
+    /// 2^-52 of the power of two above the total.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.unit
     }
 
     /// Whether these masses can follow an insertion: those by area can, those by halves cannot.
@@ -251,8 +260,9 @@ impl Masses {
     #[must_use]
     pub fn total(&self) -> ExactSum {
         match &self.store {
-            Store::Area { unit, vertices, .. } => {
-                vertices.iter().map(|&units| units as f64 * unit).collect()
+            Store::Area { vertices, .. } => {
+                let mass = |&units: &u64| units as f64 * self.unit;
+                vertices.iter().map(mass).collect()
             }
             Store::Half { vertices } => sum_of_halves(vertices),
         }
@@ -343,12 +353,7 @@ impl Follower for Masses {
             assert_eq!(new.index(), count, "masses are in step with the mesh");
         };
         match (edit, &mut self.store) {
-            (
-                Edit::Split(split),
-                Store::Area {
-                    corners, vertices, ..
-                },
-            ) => {
+            (Edit::Split(split), Store::Area { corners, vertices }) => {
                 in_step(split.new);
                 let moved = split.corners.iter().map(|h| corners[h.index()]).sum();
                 vertices[split.old.index()] -= moved;
@@ -359,12 +364,7 @@ impl Follower for Masses {
                 let half = vertices[split.old.index()].halve();
                 vertices.push(half);
             }
-            (
-                Edit::Insert(insert),
-                Store::Area {
-                    corners, vertices, ..
-                },
-            ) => {
+            (Edit::Insert(insert), Store::Area { corners, vertices }) => {
                 if let Some(first) = insert.points.first() {
                     in_step(first.vertex);
                 }

@@ -98,7 +98,7 @@ fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
         }
     }
     for v in mesh.vertices() {
-        let mass = cloth.masses().at(v);
+        let mass = cloth.masses().at(v).max(cloth.masses().unit());
         assert_eq!(system.masses()[v.index()], mass);
         let inverse = if system.is_held(v.index()) {
             0.0
@@ -394,6 +394,69 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
     );
     assert!(triangles > 10_000 && bends > 10_000, "{triangles} {bends}");
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+}
+
+#[test]
+fn pieces_of_a_face_without_area_fall_and_meet_again() {
+    // The second face is on a line, and weighs three units; its three pieces have nine corners.
+    let points = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [2.0, -1.0, 0.0],
+    ];
+    let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a strip");
+    let positions = tearmesh::Positions::new(points).expect("numbers");
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    let mut edits = Edits::new();
+    let [a, b] = [2, 3].map(|v| VertexId::new(v).expect("a vertex"));
+    let long = mesh.half_edges().find(|&h| {
+        let ends = [mesh.origin(h), mesh.target(h)];
+        ends == [a, b] || ends == [b, a]
+    });
+    let mut plan = Plan::new();
+    plan.on_edge(long.expect("the long edge"), 0.4);
+    plan.on_edge(long.expect("the long edge"), 0.7);
+    plan.apply(&mut mesh, &mut edits).expect("an insertion");
+    edits.replay(&mut cloth);
+    loop {
+        let fan = |v: &VertexId| mesh.faces_of(*v).count() > 1;
+        let Some(v) = mesh.vertices().find(fan) else {
+            break;
+        };
+        let face = mesh.faces_of(v).next().expect("a face");
+        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        edits.replay(&mut cloth);
+    }
+    let light = mesh.vertices().filter(|&v| cloth.masses().at(v) == 0.0);
+    assert!(light.count() > 1, "the pieces have nothing to weigh");
+    assert!(cloth.masses().ledger().is_balanced());
+    let unit = cloth.masses().unit();
+    let mut particles = cloth.system().masses().iter();
+    assert!(particles.all(|&mass| mass >= unit));
+
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+        ..Loads::default()
+    };
+    cloth.system_mut().set_loads(loads).expect("loads");
+    cloth.step(&mut Xpbd::new(1, 1), 0.01).expect("a step");
+    for x in cloth.positions() {
+        near(x.z, -9.81e-4, 1e-9);
+    }
+    // Two that weigh nothing have no velocity in common, if theirs are weighed by masses.
+    let (_, velocities) = cloth.system_mut().state_mut();
+    for (speed, v) in (0..).zip(velocities) {
+        v.z = f64::from(speed);
+    }
+    let stitches = mend::stitches(&mesh, |_| true);
+    let masses = cloth.masses().clone();
+    let weight = |v| masses.at(v);
+    mend::sew(&mut mesh, &cloth, &stitches, weight, 1.0, &mut edits).expect("copies");
+    edits.replay(&mut cloth);
+    assert_eq!(mesh.vertex_count(), 6);
+    assert!(cloth.system().velocities().iter().all(|v| v.norm() < 10.0));
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::sheet::{Cloth, Effect, NO_BEND};
 use crate::edit::{Child, Edit, Follower, Insert, Merge, Slide, Source, Split};
 use crate::geometry::{Point, between, length};
 use crate::id::{HalfEdgeId, VertexId};
+use crate::mass::Masses;
 
 /// Room that edits reuse.
 #[derive(Clone, Debug, Default)]
@@ -421,12 +422,19 @@ impl Cloth {
         }
     }
 
-    /// Takes over the exact mass of a vertex.
+    /// Takes over the mass of a vertex, which has a face.
     fn reweigh(&mut self, particle: usize) {
-        let mass = self.masses.at(VertexId::from_u32(particle as u32));
+        let mass = weight(&self.masses, VertexId::from_u32(particle as u32));
         self.system.model.masses[particle] = mass;
         self.system.weigh(particle);
     }
+}
+
+/// What the particle of a vertex with a face weighs: its exact mass, but a unit at least. What
+/// comes off a face without area may weigh nothing, and a particle without mass would stay
+/// where it is in the air.
+pub(super) fn weight(masses: &Masses, v: VertexId) -> f64 {
+    masses.at(v).max(masses.unit())
 }
 
 /// An edge of a child, from one of its sides.

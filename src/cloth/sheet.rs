@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::constraint::{Constraint, ConstraintId};
 use super::fabric::{Copies, Fabric};
-use super::follow::Room;
+use super::follow::{Room, weight};
 use super::solver::{Solver, StepError, StepReport};
 use super::system::System;
 use crate::geometry::{Point, Vector, length};
@@ -137,6 +137,9 @@ pub(super) const NO_BEND: ConstraintId = ConstraintId(u32::MAX);
 impl Cloth {
     /// A cloth at rest where the mesh is now. Linear.
     ///
+    /// A vertex without a face stays where it is. Where the faces of a vertex have no mass, which
+    /// happens to pieces of a face without area, its particle weighs a unit ([`Masses::unit`]).
+    ///
     /// # Errors
     ///
     /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the
@@ -175,7 +178,8 @@ impl Cloth {
                 masses: masses.len(),
             });
         }
-        let weights = mesh.vertices().map(|v| masses.at(v)).collect();
+        let of_vertex = |v| mesh.half_edge_of(v).map_or(0.0, |_| weight(&masses, v));
+        let weights = mesh.vertices().map(of_vertex).collect();
         let points = positions.as_slice().iter().copied();
         let mut system = System::with_massless(points, weights);
         system.model.faces = mesh.indices().to_vec();

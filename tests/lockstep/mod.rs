@@ -12,7 +12,7 @@ mod split;
 
 use tearmesh::script::{Script, Step, World};
 use tearmesh::split as split_op;
-use tearmesh::{Edit, Edits, FaceId, Mesh, Positions, Split};
+use tearmesh::{Edit, Edits, FaceId, Mesh, Positions, Split, VertexId};
 
 use crate::oracle::{Soup, is_strict, lump};
 pub(crate) use history::{Told, told};
@@ -216,9 +216,11 @@ impl Model {
         match edit {
             Edit::Split(split) => {
                 split::changes_nothing_else(&before.mesh, &after.mesh, &split);
-                split::conserves_mass(&before.area, &after.area, &split);
+                // A face of a few units may have been divided into more corners than that.
+                let has_units = |v: VertexId| self.soup.lumped_mass(v.index()) > 0;
+                split::conserves_mass(&before.area, &after.area, &split, has_units);
                 if let (Some(before), Some(after)) = (&before.half, &after.half) {
-                    split::conserves_mass(before, after, &split);
+                    split::conserves_mass(before, after, &split, |_| true);
                 }
                 merge::undoes_the_last_split(&before.mesh, &after.mesh, &split);
                 self.done.splits += 1;
