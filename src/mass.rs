@@ -9,9 +9,10 @@
 //!   the power of two above the total. Sums of units are exact in any order.
 //!   An insertion shares the units of a face among its children by their areas.
 //! * **half** (Souza et al. 2014 §IV-A): each half weighs half, however many faces it
-//!   has. Halving a float is exact as long as it stays normal. A mass is kept as that of the root
-//!   and the parts of it that the vertex has, ½, ¼, …, because merges in another order than
-//!   that of the splits may leave ½ + ¼, and its product with the mass need not be an `f64`.
+//!   has. Halving a float is exact as long as it stays normal. A mass is kept as those of the
+//!   vertices that it came from and the parts of them that it has, ½, ¼, …, because merges in another
+//!   order than that of the splits may leave ½ + ¼, and its product with the mass need not be an
+//!   `f64`.
 //!   This rule knows no insertion: there is no vertex to be halved.
 //!
 //! A follower cannot refuse a split that has happened, so what could go wrong later
@@ -64,54 +65,67 @@ enum Store {
     },
 }
 
-/// A vertex by the rule of halves.
+/// A vertex by the rule of halves: what it has of each vertex that it is a copy of. There are
+/// several of those where copies are sewn that already were copies when masses were made.
 #[derive(Clone, Debug)]
 struct Halves {
+    first: Part,
+    /// All different, and ascending by root and exponent.
+    more: Vec<Part>,
+}
+
+/// A part 2^-exponent of the mass of a root.
+#[derive(Clone, Copy, Debug)]
+struct Part {
     root: VertexId,
-    /// The mass of the root.
-    mass: f64,
-    /// The vertex has the part 2^-exponent, and those of `more`: all different, ascending.
     exponent: u32,
-    more: Vec<u32>,
+    /// That of the whole root.
+    mass: f64,
 }
 
 impl Halves {
     /// Takes half of each part, and returns a vertex with the other half.
     fn halve(&mut self) -> Halves {
-        self.exponent += 1;
-        self.more.iter_mut().for_each(|exponent| *exponent += 1);
+        self.first.exponent += 1;
+        self.more.iter_mut().for_each(|part| part.exponent += 1);
         self.clone()
     }
 
-    fn exponents(&self) -> impl Iterator<Item = u32> {
-        std::iter::once(self.exponent).chain(self.more.iter().copied())
+    fn parts(&self) -> impl Iterator<Item = Part> {
+        std::iter::once(self.first).chain(self.more.iter().copied())
     }
 
     fn add(&mut self, other: &Halves) {
-        debug_assert_eq!(
-            self.root, other.root,
-            "only vertices of one root are merged"
-        );
-        let mut sum = added(self.exponents().chain(other.exponents()));
-        self.exponent = sum.remove(0);
+        let mut sum = added(self.parts().chain(other.parts()));
+        self.first = sum.remove(0);
         self.more = sum;
     }
 
     fn mass(&self) -> f64 {
-        self.exponents().map(|e| halved(self.mass, e)).sum()
+        self.parts().map(Part::mass).sum()
     }
 }
 
-/// Adds up parts 2^-e so that no two are equal; ascending by e, so the largest is first.
-fn added(exponents: impl Iterator<Item = u32>) -> Vec<u32> {
-    let mut sum: Vec<u32> = Vec::new();
-    for mut exponent in exponents {
-        while let Ok(equal) = sum.binary_search(&exponent) {
+impl Part {
+    fn mass(self) -> f64 {
+        halved(self.mass, self.exponent)
+    }
+
+    fn order(&self) -> (VertexId, u32) {
+        (self.root, self.exponent)
+    }
+}
+
+/// Adds up parts so that no two are equal; ascending by root and exponent.
+fn added(parts: impl Iterator<Item = Part>) -> Vec<Part> {
+    let mut sum: Vec<Part> = Vec::new();
+    for mut part in parts {
+        while let Ok(equal) = sum.binary_search_by_key(&part.order(), Part::order) {
             sum.remove(equal);
-            exponent -= 1;
+            part.exponent -= 1;
         }
-        let place = sum.partition_point(|&other| other < exponent);
-        sum.insert(place, exponent);
+        let place = sum.partition_point(|other| other.order() < part.order());
+        sum.insert(place, part);
     }
     sum
 }
@@ -173,9 +187,11 @@ impl Masses {
             return Err(MassError::TooLight { vertices: light });
         }
         let whole = |v: VertexId| Halves {
-            root: v,
-            mass: mass(v),
-            exponent: 0,
+            first: Part {
+                root: v,
+                exponent: 0,
+                mass: mass(v),
+            },
             more: Vec::new(),
         };
         let vertices = mesh.vertices().map(whole).collect();
@@ -282,18 +298,19 @@ impl Masses {
 /// may be smaller than any `f64`, but not their sum.
 fn sum_of_halves(vertices: &[Halves]) -> ExactSum {
     let mut sum = ExactSum::new();
-    let mut parts: Vec<(VertexId, u32, f64)> = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
     for halves in vertices {
-        if halves.exponent == 0 {
-            sum.add(halves.mass);
-        } else {
-            parts.extend(halves.exponents().map(|e| (halves.root, e, halves.mass)));
+        for part in halves.parts() {
+            if part.exponent == 0 {
+                sum.add(part.mass);
+            } else {
+                parts.push(part);
+            }
         }
     }
-    parts.sort_unstable_by_key(|&(root, exponent, _)| (root, exponent));
-    for of_root in parts.chunk_by(|a, b| a.0 == b.0) {
-        let exponents = added(of_root.iter().map(|&(_, exponent, _)| exponent));
-        sum.extend(exponents.into_iter().map(|e| halved(of_root[0].2, e)));
+    parts.sort_unstable_by_key(Part::order);
+    for of_root in parts.chunk_by(|a, b| a.root == b.root) {
+        sum.extend(added(of_root.iter().copied()).into_iter().map(Part::mass));
     }
     sum
 }
@@ -510,7 +527,8 @@ impl std::error::Error for MassError {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shapes;
+    use crate::edit::Edits;
+    use crate::{mend, shapes, split};
 
     #[test]
     fn a_flat_unit_square_weighs_its_density() {
@@ -568,6 +586,32 @@ mod tests {
             }
         );
         assert!(Masses::area(&mesh, &positions, lightest / 2.0).is_ok());
+    }
+
+    #[test]
+    fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
+        let (mut mesh, mut positions) = shapes::fan(6, true);
+        let mut edits = Edits::new();
+        let hub = VertexId::new(0).unwrap();
+        let split = |mesh: &mut Mesh, edits: &mut Edits| {
+            let face = mesh.faces_of(hub).next().unwrap();
+            split::faces(mesh, hub, &[face], edits).unwrap().new
+        };
+        let first = split(&mut mesh, &mut edits);
+        edits.replay(&mut positions);
+        edits.clear();
+        let halves = Masses::half(&mesh, &positions, 1.0).unwrap();
+        let mut masses = halves.starting_at(edits.next_number());
+        let [of_hub, of_first] = [hub, first].map(|v| masses.at(v));
+        let second = split(&mut mesh, &mut edits);
+        mend::merge(&mut mesh, first, second, [1.0; 2], &mut edits).unwrap();
+        edits.replay(&mut masses);
+        assert_eq!(masses.at(hub), of_hub / 2.0);
+        assert_eq!(masses.at(first), of_first + of_hub / 2.0);
+        mend::merge(&mut mesh, hub, first, [1.0; 2], &mut edits).unwrap();
+        edits.replay(&mut masses);
+        assert_eq!(masses.at(hub), of_hub + of_first);
+        assert!(masses.ledger().is_balanced());
     }
 
     #[test]
