@@ -574,6 +574,37 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
 }
 
 #[test]
+fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
+    let (mut mesh, positions) = shapes::grid(2, 2);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let v = VertexId::new(4).expect("the centre");
+    let mut edits = Edits::new();
+    let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
+    let new = split::faces(&mut mesh, v, &faces, &mut edits)
+        .expect("a split")
+        .new;
+    edits.replay(&mut cloth);
+    let pin = cloth.at(new);
+    cloth.system_mut().hold(new.index());
+    let (points, _) = cloth.system_mut().state_mut();
+    points[v.index()] += Vector::new(0.0, 0.0, 2.0);
+    mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
+    edits.replay(&mut cloth);
+    assert!(cloth.system().is_held(v.index()));
+    assert_eq!(cloth.at(v), pin);
+}
+
+#[test]
+#[should_panic(expected = "the constraints of a cloth follow its mesh")]
+fn a_cloth_takes_no_constraint_from_elsewhere() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    drop(cloth.system_mut().bend([0, 2], 0.5, 1.0));
+}
+
+#[test]
 fn a_cloth_that_cannot_be_is_refused_with_ids() {
     let (mesh, positions) = shapes::grid(1, 1);
     let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");

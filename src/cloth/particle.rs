@@ -27,12 +27,16 @@ impl System {
         self.spectrum.push_particle(like);
     }
 
-    /// Makes two particles one; `gone` has no constraints any more, and the last particle takes
-    /// its index.
+    /// Makes two particles one, where the held one is if only one is held; `gone` has no
+    /// constraints any more, and the last particle takes its index.
     pub(super) fn join_particles(&mut self, kept: usize, gone: usize, share: f64) {
         let model = &mut self.model;
         let (x, v) = (&mut self.positions, &mut self.velocities);
-        x[kept] = between(x[kept], x[gone], 1.0 - share);
+        x[kept] = match (model.held[kept], model.held[gone]) {
+            (true, false) => x[kept],
+            (false, true) => x[gone],
+            _ => between(x[kept], x[gone], 1.0 - share),
+        };
         model.held[kept] |= model.held[gone];
         let (mass, more) = (model.masses[kept], model.masses[gone]);
         if model.held[kept] {

@@ -140,6 +140,10 @@ impl Cloth {
     /// A vertex without a face stays where it is. Where the faces of a vertex have no mass, which
     /// happens to pieces of a face without area, its particle weighs a unit ([`Masses::unit`]).
     ///
+    /// Both halves of a held vertex are held, and a held vertex stays where it is when a free one is
+    /// sewn to it. An inserted vertex is free, between held ones too: an edge between two pins may
+    /// be that of a clamp or one that hangs.
+    ///
     /// # Errors
     ///
     /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the

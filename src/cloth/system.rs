@@ -185,6 +185,10 @@ impl System {
     ///
     /// [`SystemError`]: a number is not positive and finite, or the ends are one particle or
     /// none.
+    ///
+    /// # Panics
+    ///
+    /// If the system is that of a cloth, whose constraints follow its mesh.
     pub fn stretch(
         &mut self,
         ends: [usize; 2],
@@ -200,6 +204,10 @@ impl System {
     /// # Errors
     ///
     /// Those of [`System::stretch`].
+    ///
+    /// # Panics
+    ///
+    /// As [`System::stretch`].
     pub fn bend(
         &mut self,
         ends: [usize; 2],
@@ -253,12 +261,17 @@ impl System {
     ///
     /// [`SystemError::Triangle`]: a stiffness is negative, a number is not finite, the places
     /// span no area, or the corners are not three particles.
+    ///
+    /// # Panics
+    ///
+    /// As [`System::stretch`].
     pub fn triangle(
         &mut self,
         corners: [usize; 3],
         material_m: [[f64; 2]; 3],
         stiffness_n_per_m: [f64; 3],
     ) -> Result<usize, SystemError> {
+        self.is_no_cloth();
         let [a, b, c] = corners;
         let distinct = a != b && b != c && c != a && a.max(b).max(c) < self.positions.len();
         let triangle = Triangle::new(
@@ -286,6 +299,7 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
+        self.is_no_cloth();
         let constraint = Constraint {
             ends,
             rest_length_m,
@@ -295,6 +309,13 @@ impl System {
         let id = self.model.family_mut(family).add(constraint);
         self.touched(&ends);
         Ok(id)
+    }
+
+    fn is_no_cloth(&self) {
+        assert!(
+            self.model.faces.is_empty(),
+            "the constraints of a cloth follow its mesh"
+        );
     }
 
     /// Notes that masses or constraints at these particles have changed. Costs their valence.
@@ -336,10 +357,7 @@ impl System {
     /// If there is no such constraint, or the system is that of a cloth, whose constraints follow
     /// the mesh.
     pub fn cut(&mut self, id: ConstraintId) -> Constraint {
-        assert!(
-            self.model.faces.is_empty(),
-            "the constraints of a cloth follow its mesh"
-        );
+        self.is_no_cloth();
         let constraint = self.model.stretch.remove(id);
         self.touched(&constraint.ends);
         constraint
