@@ -52,12 +52,12 @@ impl System {
         model.stretch.swap_remove_particle(gone);
         model.bend.swap_remove_particle(gone);
         model.triangles.swap_remove_particle(gone);
-        let led = |particle: usize| move |&(led, _): &(u32, u32)| led as usize == particle;
-        if model.grabbed.iter().any(led(kept)) {
-            model.grabbed.retain(|entry| !led(gone)(entry));
+        let led = |&(led, _): &(u32, u32)| led as usize == kept;
+        if self.model.grabbed.iter().any(led) {
+            self.model.unlead(gone);
         }
-        let last = x.len() as u32;
-        for (particle, _) in &mut model.grabbed {
+        let last = self.positions.len() as u32;
+        for (particle, _) in &mut self.model.grabbed {
             if *particle as usize == gone {
                 *particle = kept as u32;
             } else if *particle == last {

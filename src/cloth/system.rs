@@ -382,8 +382,7 @@ impl System {
     ///
     /// If there is no such particle.
     pub fn release(&mut self, particle: usize) {
-        let other = |&(grabbed, _): &(u32, u32)| grabbed as usize != particle;
-        self.model.grabbed.retain(other);
+        self.model.unlead(particle);
         self.handle(particle, |system| {
             system.model.held[particle] = false;
             system.weigh(particle);

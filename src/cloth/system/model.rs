@@ -99,6 +99,21 @@ impl Model {
         self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros)
     }
 
+    /// Takes a particle off its path, and forgets a path that leads no other.
+    pub(crate) fn unlead(&mut self, particle: usize) {
+        let led = |&(led, _): &(u32, u32)| led as usize == particle;
+        let Some(place) = self.grabbed.iter().position(led) else {
+            return;
+        };
+        let (_, path) = self.grabbed.remove(place);
+        if self.grabbed.iter().all(|&(_, other)| other != path) {
+            self.paths.swap_remove(path as usize);
+            let last = self.paths.len() as u32;
+            let renumbered = self.grabbed.iter_mut().filter(|(_, other)| *other == last);
+            renumbered.for_each(|(_, other)| *other = path);
+        }
+    }
+
     /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have
     /// none. False where a spring has blown up.
     #[must_use]
@@ -178,5 +193,28 @@ impl Model {
                 Vector::zeros()
             };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::{System, Xpbd};
+
+    #[test]
+    fn a_path_is_kept_as_long_as_it_leads_someone() {
+        let mut system = System::new([Point::origin(); 3], vec![1.0; 3]).unwrap();
+        let to = |x: f64| Path::new([(0.0, Point::origin()), (1.0, Point::new(x, 0.0, 0.0))]);
+        for turn in 0..10 {
+            for particle in 0..3 {
+                system.grab(particle, to((turn * particle) as f64).unwrap());
+            }
+            assert_eq!(system.model.paths.len(), 3);
+        }
+        system.release(0);
+        assert_eq!(system.model.paths.len(), 2);
+        system.step(&mut Xpbd::default(), 1.0).unwrap();
+        let x: Vec<f64> = system.positions().iter().map(|p| p.x).collect();
+        assert_eq!(x, [0.0, 9.0, 18.0]);
     }
 }
