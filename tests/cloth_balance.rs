@@ -104,6 +104,42 @@ fn a_hand_works_its_force_times_its_way() {
     near(errors[0] / errors[1], 4.0, 0.2);
 }
 
+/// Backward Euler takes ½ m |Δv|² + ½ k |Δl|² in every step, and so makes nothing however the hand
+/// shakes, if the hand works by the force that the method moves particles by.
+#[test]
+fn a_hand_that_shakes_gives_what_the_implicit_method_takes() {
+    let mut chain = row(&[0.0, 1.0, 2.0], 1.0);
+    let x = [0.0, -0.3, 0.0, -0.3, 0.0];
+    let path = (0..)
+        .zip(x)
+        .map(|(turn, x)| (0.1 * f64::from(turn), Point::new(x, 0.0, 0.0)));
+    chain.grab(0, Path::new(path).expect("a path"));
+    chain.keep_balance();
+    let settings = implicit::Settings {
+        method: implicit::Method::BackwardEuler,
+        tolerance: Tolerance::Fixed(1e-12),
+        ..implicit::Settings::default()
+    };
+    let mut solver = ImplicitCloth::new(settings);
+    let mut method = 0.0;
+    for _ in 0..100 {
+        let before = (chain.velocities().to_vec(), lengths(&chain));
+        run(&mut chain, &mut solver, 0.004, 1);
+        let sped = chain.velocities().iter().zip(&before.0).skip(1);
+        let sped: f64 = sped.map(|(v, was)| (v - was).norm_squared()).sum();
+        let pulled = lengths(&chain).into_iter().zip(before.1);
+        let pulled: f64 = pulled.map(|(l, was)| 100.0 * (l - was).powi(2)).sum();
+        method -= 0.5 * (sped + pulled);
+        near(balance(&chain).method_j(), method, 1e-9);
+    }
+    assert!(method < -0.1, "{method}");
+}
+
+fn lengths(chain: &System) -> Vec<f64> {
+    let pairs = chain.positions().windows(2);
+    pairs.map(|pair| (pair[1] - pair[0]).norm()).collect()
+}
+
 /// Lifted by the hand, a weight costs m g h; its own weight counts although it is held.
 #[test]
 fn lifting_works_against_gravity() {

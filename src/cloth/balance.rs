@@ -27,7 +27,7 @@
 //! are added, cut or made stiffer, count as the method's.
 
 use super::kernel;
-use super::system::{Forces, System};
+use super::system::System;
 use crate::geometry::{Vector, dot};
 
 /// How far apart the work of wind is sampled, in seconds of the simulation; a longer substep is one
@@ -214,8 +214,9 @@ impl System {
         self.meter = Some(meter);
     }
 
-    /// Sums up the work of a substep.
-    pub(crate) fn note_after(&mut self, dt_s: f64) {
+    /// Sums up the work of a substep. `at_end` says that the method moved particles by the forces at
+    /// its end, as those do that have no stability limit.
+    pub(crate) fn note_after(&mut self, dt_s: f64, at_end: bool) {
         let Some(mut meter) = self.meter.take() else {
             return;
         };
@@ -229,10 +230,11 @@ impl System {
         if self.is_leading() {
             let mut forces = std::mem::take(&mut meter.spare);
             self.led_forces(&mut forces);
-            let before = meter.forces.take().unwrap_or_default();
-            meter.sums.held_j -= self.led_work_j(&before, &forces, dt_s);
+            let earlier = meter.forces.take().unwrap_or_default();
+            let before = if at_end { &forces } else { &earlier };
+            meter.sums.held_j -= self.led_work_j(before, &forces, dt_s);
             meter.forces = Some(forces);
-            meter.spare = before;
+            meter.spare = earlier;
         } else if let Some(forces) = meter.forces.take() {
             meter.spare = forces;
         }
@@ -276,14 +278,9 @@ impl System {
 
     /// The work of these forces on the way of a substep, before which and after which they are.
     fn led_work_j(&self, before: &[Vector], after: &[Vector], dt_s: f64) -> f64 {
-        let is_mean = self.model.forces == Forces::Multipliers;
         let led = self.model.grabbed.iter().zip(before.iter().zip(after));
         led.fold(0.0, |sum, (&(particle, _), (&before, &after))| {
-            let mean = if is_mean {
-                after
-            } else {
-                (before + after) / 2.0
-            };
+            let mean = (before + after) / 2.0;
             sum + dot(mean, self.velocities[particle as usize]) * dt_s
         })
     }

@@ -210,6 +210,7 @@ impl System {
         let began_s = self.elapsed_s;
         let substep_s = dt_s / f64::from(report.substeps);
         let noted = self.meter.as_ref().map(|meter| meter.sums());
+        let at_end = solver.frequency_limit().is_none();
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
             self.drive(substep_s);
@@ -218,7 +219,7 @@ impl System {
             if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
                 return Err(self.go_back(failure, began_s, noted));
             }
-            self.note_after(substep_s);
+            self.note_after(substep_s, at_end);
             self.elapsed_s += substep_s;
         }
         self.elapsed_s = began_s + dt_s;
