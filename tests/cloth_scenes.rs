@@ -88,6 +88,11 @@ fn what_merely_hangs_does_not_tear() {
         }
     }
     check_hanging(64, "xpbd", &Method::Xpbd(Xpbd::new(1, 1)));
+    let soft = Pbd {
+        stiffness: 0.02,
+        ..Pbd::default()
+    };
+    check_hanging(32, "soft pbd", &Method::Pbd(soft));
 }
 
 #[test]

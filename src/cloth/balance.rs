@@ -19,8 +19,9 @@
 //! | edits | [`EnergyLedger`](super::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
-//! one's fault. Where a method finds the force in a constraint by its multiplier, the work of
-//! leading is that force, at the end of the substep, times the way.
+//! one's fault. The implicit methods and those that project move particles by the forces at the end
+//! of the substep, and so the work of leading is that force times the way: backward Euler then
+//! takes energy in every step, and never makes any.
 //!
 //! Particles that are held have no kinetic energy, and wind and drag on them do no work: whoever
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that

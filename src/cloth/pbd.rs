@@ -44,13 +44,17 @@ impl Pbd {
             ..Pbd::default()
         }
     }
+
+    /// The part of an error that a sweep corrects, of stretch and of bend constraints.
+    pub(super) fn fractions(&self) -> [f64; 2] {
+        [self.stiffness, self.bend_stiffness].map(|k| 1.0 - root(1.0 - k, self.sweeps))
+    }
 }
 
 impl Solver for Pbd {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         predict(system, dt_s);
-        let fraction = |stiffness: f64| 1.0 - root(1.0 - stiffness, self.sweeps);
-        let (stretch, bend) = (fraction(self.stiffness), fraction(self.bend_stiffness));
+        let [stretch, bend] = self.fractions();
         let System {
             positions,
             model,

@@ -452,14 +452,16 @@ impl Run {
         self.held[hold].now()
     }
 
-    /// How many vertices a hold of the scene takes.
+    /// How many vertices a hold of the scene takes alone, without another one beside them. The
+    /// strain about such a pin grows as 1/h with the size h of the mesh, about a clamp it does not.
+    /// Linear.
     ///
     /// # Panics
     ///
     /// If the scene has no hold of this number.
     #[must_use]
-    pub fn hold_size(&self, hold: usize) -> usize {
-        self.held[hold].len()
+    pub fn pins(&self, hold: usize) -> usize {
+        self.held[hold].pins(&self.mesh)
     }
 
     /// The length at rest of all torn edges, each counted once, in metres.

@@ -142,6 +142,7 @@ fn bad_inputs(folder: &Folder) {
             "pin.toml",
             "[[hold]]\nnear = [0, 1]\n[[hold]]\nnear = [1, 1]\n".to_owned(),
         ),
+        ("pins.toml", "[[hold]]\nvertices = [1057, 1089]\n".to_owned()),
         (
             "bad.toml",
             "seconds = -1\nsolver = 3\n[fabric]\nstrech_n_per_m = 5\n[[hold]]\nnear = [0, \"top\"]\n\

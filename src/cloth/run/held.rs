@@ -99,7 +99,17 @@ impl Held {
         }
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.vertices.len()
+    /// How many of its vertices are joined to no other of them.
+    pub(super) fn pins(&self, mesh: &Mesh) -> usize {
+        let mut held = vec![false; mesh.vertex_count()];
+        self.vertices.iter().for_each(|v| held[v.index()] = true);
+        let mut alone = held.clone();
+        for h in mesh.half_edges() {
+            let ends = [mesh.origin(h), mesh.target(h)].map(VertexId::index);
+            if ends.iter().all(|&v| held[v]) {
+                ends.iter().for_each(|&v| alone[v] = false);
+            }
+        }
+        alone.into_iter().filter(|&alone| alone).count()
     }
 }

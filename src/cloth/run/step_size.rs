@@ -24,8 +24,8 @@ pub(super) fn suggested_s(scene: &Scene, cloth: &mut Cloth) -> f64 {
 /// c = √(k/ρ); so the time for a sweep must not be much longer than h/c.
 pub(super) fn wanted_s(scene: &Scene, cloth: &Cloth) -> Option<f64> {
     let sweeps = match scene.solver {
-        Method::Xpbd(xpbd) => f64::from(xpbd.substeps.max(1)) * reach(xpbd.sweeps),
-        Method::Pbd(pbd) => reach(pbd.sweeps),
+        Method::Xpbd(xpbd) => f64::from(xpbd.substeps.max(1)) * reach(xpbd.sweeps, 1.0),
+        Method::Pbd(pbd) => reach(pbd.sweeps, pbd.fractions()[0]),
         Method::Provot(_) | Method::Verlet | Method::Implicit(_) => return None,
     };
     let stretches = cloth.system().stretches();
@@ -38,10 +38,10 @@ pub(super) fn wanted_s(scene: &Scene, cloth: &Cloth) -> Option<f64> {
     Some(SWEEP * sweeps * edge_m / speed_m_per_s)
 }
 
-/// How far a pull gets in so many sweeps without a step in between, as a multiple of one: each makes
-/// good but a part of what the one before left, as in diffusion.
-fn reach(sweeps: u32) -> f64 {
-    f64::from(sweeps.max(1)).sqrt()
+/// How far a pull gets in so many sweeps without a step in between, as a multiple of one that
+/// corrects all: each makes good but a part of what the one before left, as in diffusion.
+fn reach(sweeps: u32, fraction: f64) -> f64 {
+    (f64::from(sweeps.max(1)) * fraction).sqrt()
 }
 
 /// The time for a sweep as a multiple of h/c.

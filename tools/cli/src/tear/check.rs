@@ -129,17 +129,21 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
         let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
         warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
     }
+    warnings.extend(endless(run));
     if run.scene().tearing.is_none() {
         return warnings;
     }
     for (number, hold) in run.scene().holds.iter().enumerate() {
-        let is_still = hold.moves.is_empty();
-        let is_point = run.hold_size(number) == 1;
-        if is_still && is_point {
+        let pins = run.pins(number);
+        if hold.moves.is_empty() && pins > 0 {
+            let number = number + 1;
+            let (what, they) = match pins {
+                1 => ("a single vertex, whose".to_owned(), "it"),
+                _ => (format!("{pins} single vertices, whose"), "they"),
+            };
             let message = format!(
-                "hold {} pins a single vertex, whose strain grows as the mesh gets finer: it may \
-                 tear where a clamp would not",
-                number + 1
+                "hold {number} pins {what} strain grows as the mesh gets finer: {they} may tear \
+                 where a clamp would not"
             );
             let help = "give it a `radius`, such as 0.1";
             warnings.push(Fault::warning("W-SIM-PIN", message).help(help));
@@ -148,6 +152,34 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
     warnings.extend(coarse(run));
     warnings
 }
+
+/// An explicit method takes steps as short as the stiffest edge between the lightest vertices
+/// asks for, and one face without area is enough for years of them.
+fn endless(run: &Run) -> Option<Fault> {
+    let is_explicit = matches!(run.scene().solver, Method::Verlet | Method::Provot(_));
+    if !is_explicit || run.steps_planned() < STEPS_MANY {
+        return None;
+    }
+    let frequency = run.cloth().system().clone().frequency();
+    let at = frequency.ends.map(|[a, b]| {
+        let omega = frequency.omega_rad_per_s;
+        let [a, b] = [a, b].map(|end| end + 1);
+        format!(
+            ": the edge {a}-{b} swings at {omega:.1e} rad/s, as it is stiff and its ends are light"
+        )
+    });
+    let message = format!(
+        "{:.1e} steps of {} s are planned{}",
+        run.steps_planned() as f64,
+        two_digits(run.step_s()),
+        at.unwrap_or_default()
+    );
+    let help = "take a face without area out of the mesh, or use --solver implicit";
+    Some(Fault::warning("W-SIM-ENDLESS", message).help(help))
+}
+
+/// Hours of a mesh of a few thousand vertices.
+const STEPS_MANY: u64 = 10_000_000;
 
 /// Few sweeps or large steps leave a cloth softer than its fabric, and it tears of its own weight.
 fn coarse(run: &Run) -> Option<Fault> {
@@ -170,4 +202,36 @@ fn coarse(run: &Run) -> Option<Fault> {
     );
     let help = format!("--dt {}, or --solver implicit", two_digits(wanted_s));
     Some(Fault::warning("W-SIM-COARSE", message).help(help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tearmesh::cloth::{Axis, Scene};
+    use tearmesh::{Mesh, Positions};
+
+    #[test]
+    fn steps_without_end_are_warned_of_with_the_edge() {
+        // The second face has no area, and a vertex of its own.
+        let points = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [2.0, -1.0, 0.0],
+        ];
+        let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a strip");
+        let positions = Positions::new(points).expect("numbers");
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let warned = |solver| {
+            let scene = Scene {
+                solver,
+                ..Scene::hang(&frame)
+            };
+            let run = Run::new(mesh.clone(), &positions, scene, &frame).expect("a scene");
+            endless(&run).map(|fault| fault.message)
+        };
+        let message = warned(Method::Verlet).expect("a warning");
+        assert!(message.contains("the edge 2-4 swings at "), "{message}");
+        assert_eq!(warned(Method::Implicit(Default::default())), None);
+    }
 }
