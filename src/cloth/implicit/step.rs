@@ -12,6 +12,9 @@
 //! ω²/(1 + 2ω) and 2/3 becomes (1 + ω)/(1 + 2ω). (Written as x₀ plus a difference, so that what
 //! stands still stands still to the last bit.)
 //!
+//! In the directions in which a particle is held its velocity is given, and it goes on by Δt v:
+//! there x* = x₀ + (Δt − h) v and v* = v, whatever it did before.
+//!
 //! **Linearised** (one iteration, the default): forces are linearised at x₀, as Baraff and
 //! Witkin 1998 §3 and Choi and Ko 2002 §5 do. This keeps the order of both methods, as long as
 //! the Jacobian is exact; with terms dropped BDF2 falls back to order one.
@@ -272,16 +275,19 @@ impl Implicit {
         if settings.method == Method::Bdf2 && known {
             let ratio = time_step_s / history.time_step_s;
             let weight = ratio * ratio / (1.0 + 2.0 * ratio);
-            for (x, old) in self.start.iter_mut().zip(&history.positions) {
-                *x += (*x - old) * weight;
-            }
-            for (v, old) in self.start_velocities.iter_mut().zip(&history.velocities) {
-                *v += (*v - old) * weight;
-            }
             (method, h) = (
                 Method::Bdf2,
                 time_step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio),
             );
+            for (i, &v) in v.iter().enumerate() {
+                let filter = model.filter(i);
+                // What is held has no history: it goes on by its velocity, for all of Δt.
+                let held = v - filter.apply(v);
+                let moved = filter.apply(x[i] - history.positions[i]);
+                self.start[i] += moved * weight + held * (time_step_s - h);
+                let sped = filter.apply(v - history.velocities[i]);
+                self.start_velocities[i] += sped * weight;
+            }
         }
         let dragged = 1.0 + h * model.drag_per_s;
         // The tolerance is that of the method asked for, also where it starts.
