@@ -1,8 +1,9 @@
-//! What is held under the implicit solver: pins and paths, which the history of BDF2 may not move.
+//! What is held under the implicit solver, and what is changed from outside: pins, paths and
+//! contact, which the history of BDF2 may not move.
 
 use tearmesh::cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh::cloth::{ImplicitCloth, Path, System};
-use tearmesh::{Point, Vector};
+use tearmesh::cloth::{Collider, ImplicitCloth, Loads, Path, System};
+use tearmesh::{Plane, Point, Vector};
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
 
@@ -12,6 +13,13 @@ fn implicit(method: Method, limit_m_per_s: f64) -> ImplicitCloth {
         tolerance: Tolerance::Fixed(limit_m_per_s),
         ..Settings::default()
     })
+}
+
+fn falling() -> Loads {
+    Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+        ..Loads::default()
+    }
 }
 
 fn pair(stiffness_n_per_m: f64) -> System {
@@ -93,4 +101,60 @@ fn bdf2_with_a_led_particle_is_of_order_two() {
     let orders: Vec<f64> = errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect();
     println!("errors {errors:?} m, orders {orders:.3?}");
     assert!(orders[1..].iter().all(|order| (order - 2.0).abs() < 0.1));
+}
+
+/// Contact takes the velocity into the floor; what that was a step before is no reason to bounce.
+#[test]
+fn what_lands_stays_on_the_floor() {
+    for method in METHODS {
+        let mut ball = System::new([Point::new(0.0, 0.0, 0.1)], vec![1.0]).expect("a particle");
+        let floor = Plane::new(Point::origin(), Vector::z()).expect("a plane");
+        let loads = Loads {
+            colliders: vec![Collider::Plane(floor)],
+            ..falling()
+        };
+        ball.set_loads(loads).expect("loads");
+        let mut solver = implicit(method, 1e-9);
+        let (mut landed, mut highest) = (false, 0.0_f64);
+        for step in 0..100 {
+            ball.step(&mut solver, uneven_s(step)).expect("a step");
+            let z = ball.positions()[0].z;
+            landed |= z < 1e-12;
+            highest = highest.max(if landed { z } else { 0.0 });
+        }
+        println!("{method:?}: it bounces by {highest} m");
+        assert!(landed && highest < 1e-12, "{method:?}: {highest}");
+        assert!(ball.velocities()[0].norm() < 1e-12, "{method:?}");
+    }
+}
+
+/// A velocity from outside counts from then on, whatever it was before.
+#[test]
+fn what_is_stopped_or_thrown_goes_on_from_there() {
+    for method in METHODS {
+        let mut free = System::new([Point::origin()], vec![0.1]).expect("a particle");
+        free.state_mut().1[0] = Vector::new(0.0, 2.0, 0.0);
+        let mut solver = implicit(method, 1e-9);
+        for step in 0..5 {
+            free.step(&mut solver, uneven_s(step)).expect("a step");
+        }
+        free.hold(0);
+        free.release(0);
+        let stopped = free.positions()[0];
+        for step in 5..10 {
+            free.step(&mut solver, uneven_s(step)).expect("a step");
+        }
+        let crept = (free.positions()[0] - stopped).norm();
+        println!("{method:?}: stopped, it creeps by {crept} m");
+        assert!(crept < 1e-15, "{method:?}: {crept}");
+
+        let from = Point::new(3.0, 4.0, 5.0);
+        let (x, v) = free.state_mut();
+        (x[0], v[0]) = (from, Vector::new(1.0, 0.0, -1.0));
+        free.step(&mut solver, 0.01).expect("a step");
+        let flown = free.positions()[0] - from;
+        let off = (flown - Vector::new(0.01, 0.0, -0.01)).norm();
+        println!("{method:?}: thrown, it is off by {off} m");
+        assert!(off < 1e-15, "{method:?}: {flown}");
+    }
 }

@@ -67,8 +67,8 @@ impl ImplicitCloth {
         self.report
     }
 
-    /// Forgets the previous step: for BDF2, after particles were renumbered by a merge, or their
-    /// state was set. Where their number changed that is noticed.
+    /// Forgets the previous step: for BDF2, after particles were renumbered by a merge. Where their
+    /// number changed that is noticed.
     pub fn forget(&mut self) {
         self.solver.forget();
     }
