@@ -1,9 +1,9 @@
-//! What is held under the implicit solver, and what is changed from outside: pins, paths and
-//! contact, which the history of BDF2 may not move.
+//! What is held under the implicit solver: pins and paths, particles without mass, and changes from
+//! outside, none of which the history of BDF2 may move.
 
 use tearmesh::cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh::cloth::{Collider, ImplicitCloth, Loads, Path, System};
-use tearmesh::{Plane, Point, Vector};
+use tearmesh::cloth::{Cloth, Collider, Fabric, ImplicitCloth, Loads, Path, System, Verlet, Weave};
+use tearmesh::{Masses, Mesh, Plane, Point, Positions, Vector};
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
 
@@ -156,5 +156,62 @@ fn what_is_stopped_or_thrown_goes_on_from_there() {
         let off = (flown - Vector::new(0.01, 0.0, -0.01)).norm();
         println!("{method:?}: thrown, it is off by {off} m");
         assert!(off < 1e-15, "{method:?}: {flown}");
+    }
+}
+
+/// A vertex without a face has no mass, and stays where it is.
+#[test]
+fn a_vertex_without_a_face_stays_and_the_others_move() {
+    let mesh = Mesh::build(4, &[[0, 1, 2]]).expect("a mesh");
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 5.0, 5.0]];
+    let positions = Positions::new(points.map(Point::from)).expect("positions");
+    let masses = Masses::area(&mesh, &positions, 0.15).expect("an area");
+    let weave = Weave {
+        warp_n_per_m: 100.0,
+        weft_n_per_m: 80.0,
+        shear_n_per_m: 10.0,
+        warp: Vector::x(),
+    };
+    for fabric in [Fabric::new(10.0), Fabric::woven(weave)] {
+        for (method, newton_iterations_max) in [
+            (Method::BackwardEuler, 1),
+            (Method::Bdf2, 1),
+            (Method::Bdf2, 20),
+        ] {
+            let cloth = Cloth::new(&mesh, &positions, masses.clone(), fabric);
+            let mut cloth = cloth.expect("a cloth");
+            cloth.system_mut().set_loads(falling()).expect("loads");
+            let mut solver = implicit(method, 1e-9);
+            solver.settings.newton_iterations_max = newton_iterations_max;
+            for _ in 0..10 {
+                let step = cloth.step(&mut solver, 0.01);
+                step.unwrap_or_else(|error| panic!("{method:?}: {error}"));
+            }
+            assert_eq!(cloth.positions()[3], Point::from([5.0; 3]), "{method:?}");
+            // The same without that vertex: what has no mass has no say in the tolerance.
+            let alone = Mesh::build(3, &[[0, 1, 2]]).expect("a mesh");
+            let three = Positions::new(positions.as_slice()[..3].iter().copied());
+            let three = three.expect("positions");
+            let masses = Masses::area(&alone, &three, 0.15).expect("an area");
+            let mut other = Cloth::new(&alone, &three, masses, fabric).expect("a cloth");
+            other.system_mut().set_loads(falling()).expect("loads");
+            let mut solver = implicit(method, 1e-9);
+            solver.settings.newton_iterations_max = newton_iterations_max;
+            for _ in 0..10 {
+                other.step(&mut solver, 0.01).expect("a step");
+            }
+            assert_eq!(cloth.positions()[..3], *other.positions(), "{method:?}");
+            assert!(cloth.positions()[1].z < -0.04, "{method:?}: it falls");
+        }
+    }
+}
+
+#[test]
+fn a_step_of_nothing_does_nothing() {
+    let mut empty = System::new([], vec![]).expect("no particles");
+    empty.step(&mut Verlet::new(), 0.01).expect("a step");
+    for method in METHODS {
+        let step = empty.step(&mut implicit(method, 1e-9), 0.01);
+        step.unwrap_or_else(|error| panic!("{method:?}: {error}"));
     }
 }
