@@ -4,7 +4,9 @@
 use std::error::Error as _;
 
 use tearmesh::cloth::implicit::{self, Method, Settings, Tolerance};
-use tearmesh::cloth::{Cloth, Culprit, Fabric, ImplicitCloth, Loads, Path, StepError, System};
+use tearmesh::cloth::{
+    Cloth, Culprit, Fabric, ImplicitCloth, Loads, Path, StepError, System, Verlet,
+};
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
 
 const G: f64 = 9.81;
@@ -306,4 +308,85 @@ fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
     }
     println!("{thrown} of 200 steps were taken back, of up to {farthest} m");
     assert!(thrown > 0 && thrown < 200 && farthest > 100.0);
+}
+
+/// What is beyond the limit of stretch after a step is a blow-up, of a spring and of a triangle,
+/// with its place; the system is as it was, and what was within it goes on.
+#[test]
+fn stretch_beyond_the_limit_is_a_blow_up() {
+    let row = || {
+        let points = [0.0, 1.0, 5000.0].map(|x| Point::new(x, 0.0, 0.0));
+        let mut row = System::new(points, vec![0.1; 3]).expect("three particles");
+        row.stretch([0, 1], 1.0, 10.0).expect("a spring");
+        row.stretch([1, 2], 1.0, 10.0).expect("a spring");
+        row
+    };
+    let folded = || {
+        let mut bend = row();
+        bend.bend([0, 2], 2.0, 10.0).expect("a bend");
+        bend.set_buckling(Some(implicit::Buckling::new(0.95).expect("a law")));
+        bend
+    };
+    let woven = || {
+        let points = [[0.0; 3], [300.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point::from);
+        let mut woven = System::new(points, vec![0.1; 3]).expect("three particles");
+        let flat = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        woven.triangle([0, 1, 2], flat, [10.0; 3]).expect("area");
+        woven
+    };
+    for (name, mut system) in [("row", row()), ("folded", folded()), ("woven", woven())] {
+        for method in [Method::BackwardEuler, Method::Bdf2] {
+            let before = (system.positions().to_vec(), system.velocities().to_vec());
+            let mut explicit = system.clone();
+            let verlet = explicit.step(&mut Verlet::new(), 1e-4).map(|_| ());
+            let mut solver = ImplicitCloth::new(Settings {
+                method,
+                ..Settings::default()
+            });
+            let step = system.step(&mut solver, 1e-4).map(|_| ());
+            println!("{name}, {method:?}: {step:?}, Verlet {verlet:?}");
+            let (Err(StepError::BlowUp { at, .. }), Err(StepError::BlowUp { at: other, .. })) =
+                (step, verlet)
+            else {
+                panic!("{name}: {step:?} {verlet:?}");
+            };
+            let place = |at| match at {
+                Culprit::Constraint { ends, .. } => ends.to_vec(),
+                Culprit::Triangle { corners, .. } => corners.to_vec(),
+                _ => vec![],
+            };
+            assert_eq!(place(at), place(other), "{name}");
+            let after = (system.positions().to_vec(), system.velocities().to_vec());
+            assert_eq!(before, after, "{name}");
+            assert!(solver.report().is_none(), "{name}: no step was taken");
+            system.set_stretch_ratio_max(1e4);
+            system.step(&mut solver, 1e-4).expect("within the limit");
+            system.set_stretch_ratio_max(100.0);
+        }
+    }
+}
+
+/// A step that was refused is no step before the next: BDF2 starts anew.
+#[test]
+fn a_refused_step_is_no_history() {
+    let points = [Point::origin(), Point::new(1.0, 0.0, 0.0)];
+    let mut system = System::new(points, vec![0.1; 2]).expect("two particles");
+    system.stretch([0, 1], 1.0, 10.0).expect("a spring");
+    system.state_mut().1[1] = Vector::new(3.0, 1.0, 0.0);
+    let mut solver = exact(Method::Bdf2);
+    for _ in 0..3 {
+        system.step(&mut solver, 0.01).expect("a step");
+    }
+    system.set_stretch_ratio_max(1.0);
+    let refused = system.step(&mut solver, 0.01);
+    assert!(
+        matches!(refused, Err(StepError::BlowUp { .. })),
+        "{refused:?}"
+    );
+    system.set_stretch_ratio_max(100.0);
+    let mut twin = system.clone();
+    system.step(&mut solver, 0.01).expect("a step");
+    twin.step(&mut exact(Method::Bdf2), 0.01).expect("a step");
+    assert_eq!(system.positions(), twin.positions());
+    assert_eq!(system.velocities(), twin.velocities());
 }

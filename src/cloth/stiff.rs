@@ -135,6 +135,11 @@ impl Solver for ImplicitCloth {
             .solver
             .step(&model, positions, velocities, dt_s, settings);
         let report = step.map_err(failure)?;
+        if !system.model.is_within_limit(&system.positions) {
+            // The system goes back, and history must not tell of a step that was not taken.
+            self.solver.forget();
+            return Err(Failure::BlowUp);
+        }
         self.report = Some(report);
         let work = report.work;
         system.counters.overshoots += u64::from(report.overshot);
