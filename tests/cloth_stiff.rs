@@ -390,3 +390,52 @@ fn a_refused_step_is_no_history() {
     assert_eq!(system.positions(), twin.positions());
     assert_eq!(system.velocities(), twin.velocities());
 }
+
+/// What a step cost is counted, whether it is taken or not.
+#[test]
+fn the_work_of_a_refused_step_is_counted() {
+    let (mesh, positions) = shapes::grid(8, 8);
+    let masses = Masses::area(&mesh, &positions, 0.15).expect("an area");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(1000.0)).expect("a cloth");
+    cloth.system_mut().hold(0);
+    cloth.system_mut().set_loads(falling()).expect("loads");
+    for x in cloth.system_mut().state_mut().0 {
+        x.coords *= 1.01;
+    }
+    let mut solver = ImplicitCloth::new(Settings {
+        solver_iterations_max: 5,
+        tolerance: Tolerance::Fixed(1e-12),
+        ..Settings::default()
+    });
+    let before = cloth.system().counters();
+    let error = cloth.step(&mut solver, 0.02).expect_err("five iterations");
+    let StepError::Implicit {
+        error: implicit::StepError::NotConverged {
+            solver_iterations, ..
+        },
+        ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    let after = cloth.system().counters();
+    println!("{error}: {after:?}");
+    assert_eq!(after.force_evaluations - before.force_evaluations, 1);
+    // One product for the right-hand side, and one an iteration.
+    let products = after.matrix_products - before.matrix_products;
+    assert_eq!(products, solver_iterations + 1);
+
+    // A step that is taken counts what its report says, once.
+    solver.settings = Settings::default();
+    cloth.step(&mut solver, 0.02).expect("a step");
+    let work = solver.report().expect("a step").work;
+    let taken = cloth.system().counters();
+    assert_eq!(
+        taken.matrix_products - after.matrix_products,
+        work.matrix_products
+    );
+    assert_eq!(
+        taken.force_evaluations - after.force_evaluations,
+        work.force_evaluations
+    );
+}

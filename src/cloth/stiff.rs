@@ -131,9 +131,18 @@ impl Solver for ImplicitCloth {
         };
         let (positions, velocities) = (&mut system.positions, &mut system.velocities);
         let settings = &self.settings;
+        let before = self.solver.work();
         let step = self
             .solver
             .step(&model, positions, velocities, dt_s, settings);
+        // What a step cost, whether it is taken or not.
+        let work = self.solver.work().since(&before);
+        system.counters.force_evaluations += work.force_evaluations;
+        system.counters.matrix_products += work.matrix_products;
+        if !system.model.triangles.as_slice().is_empty() {
+            system.counters.triangle_evaluations +=
+                work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
+        }
         let report = step.map_err(failure)?;
         if !system.model.is_within_limit(&system.positions) {
             // The system goes back, and history must not tell of a step that was not taken.
@@ -141,14 +150,7 @@ impl Solver for ImplicitCloth {
             return Err(Failure::BlowUp);
         }
         self.report = Some(report);
-        let work = report.work;
         system.counters.overshoots += u64::from(report.overshot);
-        system.counters.force_evaluations += work.force_evaluations;
-        system.counters.matrix_products += work.matrix_products;
-        if !system.model.triangles.as_slice().is_empty() {
-            system.counters.triangle_evaluations +=
-                work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
-        }
         system.collide();
         Ok(())
     }
