@@ -4,7 +4,9 @@
 use std::error::Error as _;
 
 use tearmesh::cloth::implicit::{self, Method, Settings, Tolerance};
-use tearmesh::cloth::{Cloth, Culprit, Fabric, ImplicitCloth, Loads, Path, StepError, System};
+use tearmesh::cloth::{
+    Cloth, Culprit, Fabric, ImplicitCloth, Loads, Path, StepError, System, Verlet,
+};
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
 
 const G: f64 = 9.81;
@@ -306,4 +308,134 @@ fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
     }
     println!("{thrown} of 200 steps were taken back, of up to {farthest} m");
     assert!(thrown > 0 && thrown < 200 && farthest > 100.0);
+}
+
+/// What is beyond the limit of stretch after a step is a blow-up, of a spring and of a triangle,
+/// with its place; the system is as it was, and what was within it goes on.
+#[test]
+fn stretch_beyond_the_limit_is_a_blow_up() {
+    let row = || {
+        let points = [0.0, 1.0, 5000.0].map(|x| Point::new(x, 0.0, 0.0));
+        let mut row = System::new(points, vec![0.1; 3]).expect("three particles");
+        row.stretch([0, 1], 1.0, 10.0).expect("a spring");
+        row.stretch([1, 2], 1.0, 10.0).expect("a spring");
+        row
+    };
+    let folded = || {
+        let mut bend = row();
+        bend.bend([0, 2], 2.0, 10.0).expect("a bend");
+        bend.set_buckling(Some(implicit::Buckling::new(0.95).expect("a law")));
+        bend
+    };
+    let woven = || {
+        let points = [[0.0; 3], [300.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point::from);
+        let mut woven = System::new(points, vec![0.1; 3]).expect("three particles");
+        let flat = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        woven.triangle([0, 1, 2], flat, [10.0; 3]).expect("area");
+        woven
+    };
+    for (name, mut system) in [("row", row()), ("folded", folded()), ("woven", woven())] {
+        for method in [Method::BackwardEuler, Method::Bdf2] {
+            let before = (system.positions().to_vec(), system.velocities().to_vec());
+            let mut explicit = system.clone();
+            let verlet = explicit.step(&mut Verlet::new(), 1e-4).map(|_| ());
+            let mut solver = ImplicitCloth::new(Settings {
+                method,
+                ..Settings::default()
+            });
+            let step = system.step(&mut solver, 1e-4).map(|_| ());
+            println!("{name}, {method:?}: {step:?}, Verlet {verlet:?}");
+            let (Err(StepError::BlowUp { at, .. }), Err(StepError::BlowUp { at: other, .. })) =
+                (step, verlet)
+            else {
+                panic!("{name}: {step:?} {verlet:?}");
+            };
+            let place = |at| match at {
+                Culprit::Constraint { ends, .. } => ends.to_vec(),
+                Culprit::Triangle { corners, .. } => corners.to_vec(),
+                _ => vec![],
+            };
+            assert_eq!(place(at), place(other), "{name}");
+            let after = (system.positions().to_vec(), system.velocities().to_vec());
+            assert_eq!(before, after, "{name}");
+            assert!(solver.report().is_none(), "{name}: no step was taken");
+            system.set_stretch_ratio_max(1e4);
+            system.step(&mut solver, 1e-4).expect("within the limit");
+            system.set_stretch_ratio_max(100.0);
+        }
+    }
+}
+
+/// A step that was refused is no step before the next: BDF2 starts anew.
+#[test]
+fn a_refused_step_is_no_history() {
+    let points = [Point::origin(), Point::new(1.0, 0.0, 0.0)];
+    let mut system = System::new(points, vec![0.1; 2]).expect("two particles");
+    system.stretch([0, 1], 1.0, 10.0).expect("a spring");
+    system.state_mut().1[1] = Vector::new(3.0, 1.0, 0.0);
+    let mut solver = exact(Method::Bdf2);
+    for _ in 0..3 {
+        system.step(&mut solver, 0.01).expect("a step");
+    }
+    system.set_stretch_ratio_max(1.0);
+    let refused = system.step(&mut solver, 0.01);
+    assert!(
+        matches!(refused, Err(StepError::BlowUp { .. })),
+        "{refused:?}"
+    );
+    system.set_stretch_ratio_max(100.0);
+    let mut twin = system.clone();
+    system.step(&mut solver, 0.01).expect("a step");
+    twin.step(&mut exact(Method::Bdf2), 0.01).expect("a step");
+    assert_eq!(system.positions(), twin.positions());
+    assert_eq!(system.velocities(), twin.velocities());
+}
+
+/// What a step cost is counted, whether it is taken or not.
+#[test]
+fn the_work_of_a_refused_step_is_counted() {
+    let (mesh, positions) = shapes::grid(8, 8);
+    let masses = Masses::area(&mesh, &positions, 0.15).expect("an area");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(1000.0)).expect("a cloth");
+    cloth.system_mut().hold(0);
+    cloth.system_mut().set_loads(falling()).expect("loads");
+    for x in cloth.system_mut().state_mut().0 {
+        x.coords *= 1.01;
+    }
+    let mut solver = ImplicitCloth::new(Settings {
+        solver_iterations_max: 5,
+        tolerance: Tolerance::Fixed(1e-12),
+        ..Settings::default()
+    });
+    let before = cloth.system().counters();
+    let error = cloth.step(&mut solver, 0.02).expect_err("five iterations");
+    let StepError::Implicit {
+        error: implicit::StepError::NotConverged {
+            solver_iterations, ..
+        },
+        ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    let after = cloth.system().counters();
+    println!("{error}: {after:?}");
+    assert_eq!(after.force_evaluations - before.force_evaluations, 1);
+    // One product for the right-hand side, and one an iteration.
+    let products = after.matrix_products - before.matrix_products;
+    assert_eq!(products, solver_iterations + 1);
+
+    // A step that is taken counts what its report says, once.
+    solver.settings = Settings::default();
+    cloth.step(&mut solver, 0.02).expect("a step");
+    let work = solver.report().expect("a step").work;
+    let taken = cloth.system().counters();
+    assert_eq!(
+        taken.matrix_products - after.matrix_products,
+        work.matrix_products
+    );
+    assert_eq!(
+        taken.force_evaluations - after.force_evaluations,
+        work.force_evaluations
+    );
 }

@@ -13,6 +13,7 @@ mod cloth_limiter;
 mod cloth_reaction;
 mod cloth_scenes;
 mod cloth_stiff;
+mod cloth_stiff_held;
 mod cloth_strain;
 mod cloth_tables;
 mod cloth_tearing;

@@ -54,6 +54,16 @@ impl Bends<'_> {
         sane
     }
 
+    /// Whether no bend is longer than `ratio_max` times its rest length, or not a number.
+    #[must_use]
+    pub(crate) fn are_within(&self, positions: &[Point], ratio_max: f64) -> bool {
+        self.iter().all(|bend| {
+            let [a, b] = bend.ends().map(|end| end as usize);
+            let d = positions[b] - positions[a];
+            dot(d, d).sqrt() <= ratio_max * bend.rest_length()
+        })
+    }
+
     /// The energy, summed in order.
     #[must_use]
     pub(crate) fn energy(&self, positions: &[Point]) -> f64 {

@@ -72,7 +72,8 @@ pub use triangle::Triangle;
 /// particle and c the drag.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Model<'a> {
-    /// The mass of each particle, in kg.
+    /// The mass of each particle, in kg: positive, or zero for one whose filter is
+    /// [`Filter::Fixed`].
     pub masses: &'a [f64],
     /// Where each particle is held. Empty: nowhere.
     pub filters: &'a [Filter],
@@ -108,7 +109,8 @@ impl Model<'_> {
         let at = |part, index| ModelError::Unusable { part, index };
         let require = |holds: bool, part, index| if holds { Ok(()) } else { Err(at(part, index)) };
         for (i, &mass) in self.masses.iter().enumerate() {
-            require(positive(mass), Part::Mass, i)?;
+            let needless = mass == 0.0 && self.filter(i) == Filter::Fixed;
+            require(positive(mass) || needless, Part::Mass, i)?;
         }
         for (i, filter) in self.filters.iter().enumerate() {
             require(filter.is_usable(), Part::Filter, i)?;
@@ -310,7 +312,7 @@ impl Work {
 /// A part of a [`Model`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// A mass is not positive and finite.
+    /// A mass is not positive and finite, and no zero of a particle that is fixed.
     Mass,
     /// The direction of a filter is not of length one.
     Filter,

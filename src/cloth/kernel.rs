@@ -50,6 +50,16 @@ pub(crate) fn forces(
     sane
 }
 
+/// Whether no spring is longer than `ratio_max` times its rest length, or not a number: what
+/// [`forces`] says.
+#[must_use]
+pub(crate) fn is_within(batch: Batch<'_>, positions: &[Point], ratio_max: f64) -> bool {
+    batch.iter().all(|([a, b], rest, _)| {
+        let d = positions[b] - positions[a];
+        dot(d, d).sqrt() <= ratio_max * rest
+    })
+}
+
 /// The elastic energy ½ k (l − L)², summed in order.
 #[must_use]
 pub(crate) fn energy(batch: Batch<'_>, positions: &[Point]) -> f64 {
@@ -110,6 +120,21 @@ pub(crate) fn triangle_forces(
         }
     }
     sane
+}
+
+/// Whether neither warp nor weft of a triangle is longer than `ratio_max` times its rest length, or
+/// not a number: what [`triangle_forces`] says.
+#[must_use]
+pub(crate) fn triangles_are_within(
+    triangles: &[Triangle],
+    positions: &[Point],
+    ratio_max: f64,
+) -> bool {
+    let square = ratio_max * ratio_max;
+    triangles.iter().all(|t| {
+        let [w_u, w_v] = t.derivatives(triangle::corners(t, positions));
+        dot(w_u, w_u) <= square && dot(w_v, w_v) <= square
+    })
 }
 
 /// Adds K u of triangles, as [`stiffness_times`] does that of springs.

@@ -67,8 +67,8 @@ impl ImplicitCloth {
         self.report
     }
 
-    /// Forgets the previous step: for BDF2, after particles were renumbered by a merge, or their
-    /// state was set. Where their number changed that is noticed.
+    /// Forgets the previous step: for BDF2, after particles were renumbered by a merge. Where their
+    /// number changed that is noticed.
     pub fn forget(&mut self) {
         self.solver.forget();
     }
@@ -131,19 +131,26 @@ impl Solver for ImplicitCloth {
         };
         let (positions, velocities) = (&mut system.positions, &mut system.velocities);
         let settings = &self.settings;
+        let before = self.solver.work();
         let step = self
             .solver
             .step(&model, positions, velocities, dt_s, settings);
-        let report = step.map_err(failure)?;
-        self.report = Some(report);
-        let work = report.work;
-        system.counters.overshoots += u64::from(report.overshot);
+        // What a step cost, whether it is taken or not.
+        let work = self.solver.work().since(&before);
         system.counters.force_evaluations += work.force_evaluations;
         system.counters.matrix_products += work.matrix_products;
         if !system.model.triangles.as_slice().is_empty() {
             system.counters.triangle_evaluations +=
                 work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
         }
+        let report = step.map_err(failure)?;
+        if !system.model.is_within_limit(&system.positions) {
+            // The system goes back, and history must not tell of a step that was not taken.
+            self.solver.forget();
+            return Err(Failure::BlowUp);
+        }
+        self.report = Some(report);
+        system.counters.overshoots += u64::from(report.overshot);
         system.collide();
         Ok(())
     }

@@ -223,3 +223,41 @@ fn a_copy_on_which_the_same_acts_flies_as_its_original() {
     }
     assert_eq!((x[2], v[2]), (x[1], v[1]));
 }
+
+/// A wall moves along its normal as it likes; what slides on it moves along it as if there were none.
+#[test]
+fn what_slides_on_a_wall_keeps_to_it_and_moves_along_it_as_if_free() {
+    let normal = Vector::new(1.0, 2.0, -2.0) / 3.0;
+    let along = [
+        Vector::new(2.0, -2.0, -1.0) / 3.0,
+        Vector::new(2.0, 1.0, 2.0) / 3.0,
+    ];
+    for filter in [Filter::Plane(normal), Filter::Line(along[0])] {
+        let mut scene = Scene::particles([[0.0; 3]; 2], 0.1);
+        scene.filters[0] = filter;
+        scene.accelerations.fill(Vector::new(0.3, 0.0, -G));
+        scene.drag = 0.7;
+        let (mut x, mut v) = (scene.x.clone(), vec![along[0] - along[1] * 0.5; 2]);
+        v[0] = filter.apply(v[0]);
+        let mut solver = Implicit::new(&scene.model()).expect("a good model");
+        let settings = Settings {
+            method: Method::Bdf2,
+            ..Settings::default()
+        };
+        let (mut way, mut worst) = (0.0, 0.0_f64);
+        for step in 0..20 {
+            let h = [0.014, 0.006][step as usize % 2];
+            let speed = (1.0 + f64::from(step)).sin();
+            let change = speed - normal.dot(&v[0]);
+            v[0] += normal * change;
+            way += h * speed;
+            solver
+                .step(&scene.model(), &mut x, &mut v, h, &settings)
+                .expect("a step");
+            let apart = filter.apply(x[0] - x[1]).norm();
+            worst = worst.max((normal.dot(&x[0].coords) - way).abs().max(apart));
+        }
+        println!("{filter:?}: off by up to {worst:e} m");
+        assert!(worst < 1e-14, "{worst}");
+    }
+}

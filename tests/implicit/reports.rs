@@ -291,3 +291,43 @@ fn work_is_counted() {
     assert!(report.work.energy_evaluations > u64::from(report.newton_iterations));
     assert_eq!(report.work.matrix_products, report.work.solver_iterations);
 }
+
+#[test]
+fn only_what_is_fixed_may_lack_a_mass() {
+    let mut scene = Scene::particles([[0.0; 3], [1.0, 0.0, 0.0]], 0.1);
+    scene.masses[1] = 0.0;
+    let refused = ModelError::Unusable {
+        part: Part::Mass,
+        index: 1,
+    };
+    for filter in [
+        Filter::Free,
+        Filter::Plane(Vector::x()),
+        Filter::Line(Vector::x()),
+    ] {
+        scene.filters[1] = filter;
+        assert_eq!(scene.model().check(), Err(refused), "{filter:?}");
+    }
+    scene.filters[1] = Filter::Fixed;
+    assert_eq!(scene.model().check(), Ok(()));
+    // Where nothing has a mass there is no residual.
+    let nothing = Scene {
+        masses: vec![0.0; 2],
+        filters: vec![Filter::Fixed; 2],
+        springs: vec![spring(0, 1, 0.5, 1e3)],
+        ..scene.clone()
+    };
+    for newton_iterations_max in [1, 20] {
+        let settings = Settings {
+            newton_iterations_max,
+            ..Settings::default()
+        };
+        let (report, x, _) = one(&nothing, 0.01, &settings);
+        assert_eq!(report.map(|report| report.residual), Ok(0.0));
+        assert_eq!(x, nothing.x);
+    }
+    for mass in [-1.0, f64::NAN, f64::INFINITY] {
+        scene.masses[1] = mass;
+        assert_eq!(scene.model().check(), Err(refused), "{mass}");
+    }
+}

@@ -5,13 +5,64 @@
 //! 60 steps a second loses 99.9 % of its amplitude in a second. BDF2's is of order z⁴ below one.
 //!
 //! The slowest mode decides what is left of the motion that one sees:
-//! [`Implicit::slowest_frequency`] finds it.
+//! [`Implicit::slowest_frequency`] finds it, about a state of rest. For a scene:
+//!
+//! ```
+//! use tearmesh::cloth::implicit::{Filter, Implicit, Method, Model, RestSettings, Spring, damping};
+//! use tearmesh::cloth::{Loads, System};
+//! use tearmesh::{Point, Vector};
+//!
+//! // A chain of a metre that hangs from its upper end. (A cloth is a system too: `Cloth::system`.)
+//! let points = (0..11).map(|i| Point::new(0.0, 0.0, -0.1 * f64::from(i)));
+//! let mut chain = System::new(points, vec![0.01; 11])?;
+//! for i in 0..10 {
+//!     chain.stretch([i, i + 1], 0.1, 50.0)?;
+//! }
+//! chain.hold(0);
+//! let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -9.81));
+//! chain.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
+//!
+//! // What the solver has to know of it, without drag, which damps by itself.
+//! let hold = |i| if chain.is_held(i) { Filter::Fixed } else { Filter::Free };
+//! let filters: Vec<Filter> = (0..chain.positions().len()).map(hold).collect();
+//! let gravity = vec![chain.loads().gravity_m_per_s2.unwrap_or_default(); filters.len()];
+//! let constraints = chain.stretches().iter().map(|id| chain.stretches().get(id));
+//! let springs = constraints.map(|constraint| Spring {
+//!     ends: constraint.ends.map(|end| end as u32),
+//!     rest_length: constraint.rest_length_m,
+//!     stiffness: constraint.stiffness_n_per_m,
+//!     tension_only: false,
+//! });
+//! let springs: Vec<Spring> = springs.collect();
+//! let model = Model {
+//!     masses: chain.masses(),
+//!     filters: &filters,
+//!     accelerations: &gravity,
+//!     springs: &springs,
+//!     triangles: chain.triangles(),
+//!     ..Model::default()
+//! };
+//!
+//! // Its state of rest, and the slowest mode about that.
+//! let mut solver = Implicit::new(&model)?;
+//! let mut rest = chain.positions().to_vec();
+//! solver.rest(&model, &mut rest, &RestSettings::default())?;
+//! let slowest = solver.slowest_frequency(&model, &rest, 0.0)?.expect("tension makes it stable");
+//!
+//! // How much of that mode's amplitude is left after a second at 60 steps a second.
+//! let left = |method| damping::factor(method, slowest.frequency / 60.0).powi(60);
+//! assert!((slowest.frequency - 3.478_604).abs() < 1e-6 && slowest.converged);
+//! assert!((left(Method::BackwardEuler) - 0.904).abs() < 0.001);
+//! assert!(left(Method::Bdf2) > 0.999);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::pcg::{End, Stop};
 use super::{Implicit, Method, Model, ModelError, Work};
 use crate::geometry::{Point, Vector, dot};
 
-/// By what the amplitude of an oscillation is multiplied in a step, z = ωΔt in radians.
+/// By what the amplitude of an oscillation is multiplied in a step, z = ωΔt in radians. The
+/// [module](self) has an example of how to get that for a scene.
 ///
 /// ```
 /// use tearmesh::cloth::implicit::{Method, damping};

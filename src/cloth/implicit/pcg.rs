@@ -190,7 +190,7 @@ impl Pcg {
             self.delta[i] += self.direction[i] * step;
             let r = self.b[i] - self.product[i] * step;
             self.b[i] = r;
-            size += dot(r, r) / m;
+            size += square_per_mass(r, m);
             total += m;
             let z = self.inverses[i].times(r);
             rz += dot(r, z);
@@ -213,12 +213,23 @@ impl Pcg {
     }
 }
 
-/// A force on each particle as an rms acceleration, √(rᵀ M⁻¹ r / Σm).
+/// A force on each particle as an rms acceleration, √(rᵀ M⁻¹ r / Σm); zero where nothing has a
+/// mass.
 pub(super) fn residual(model: &Model<'_>, r: &[Vector]) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for (&r, &m) in r.iter().zip(model.masses) {
-        sum += dot(r, r) / m;
+        sum += square_per_mass(r, m);
         total += m;
     }
-    (sum / total).sqrt()
+    if total > 0.0 {
+        (sum / total).sqrt()
+    } else {
+        0.0
+    }
+}
+
+/// r · r / m. What has no mass is fixed, and leaves no residual.
+#[inline]
+fn square_per_mass(r: Vector, m: f64) -> f64 {
+    if m > 0.0 { dot(r, r) / m } else { 0.0 }
 }

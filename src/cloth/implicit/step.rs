@@ -12,6 +12,11 @@
 //! ω²/(1 + 2ω) and 2/3 becomes (1 + ω)/(1 + 2ω). (Written as x₀ plus a difference, so that what
 //! stands still stands still to the last bit.)
 //!
+//! In the directions in which a particle is held its velocity is given, and it goes on by Δt v:
+//! there x* = x₀ + (Δt − h) v and v* = v, whatever it did before. Where x₀ or v₀ is not what the last
+//! step left, because contact or a user changed it, x₋₁ and v₋₁ change with it: what is
+//! remembered is acceleration, so that what lands does not bounce.
+//!
 //! **Linearised** (one iteration, the default): forces are linearised at x₀, as Baraff and
 //! Witkin 1998 §3 and Choi and Ko 2002 §5 do. This keeps the order of both methods, as long as
 //! the Jacobian is exact; with terms dropped BDF2 falls back to order one.
@@ -61,12 +66,36 @@ pub struct Implicit {
     history: History,
 }
 
-/// Where the particles were a step ago.
+/// What the particles did in the last step.
 #[derive(Clone, Debug, Default)]
 struct History {
-    positions: Vec<Point>,
+    /// x₀ − x₋₁ and v₀ − v₋₁ as the step left them.
+    moved: Vec<Vector>,
+    sped: Vec<Vector>,
+    /// v₀ as the step left it.
     velocities: Vec<Vector>,
     time_step_s: f64,
+}
+
+impl History {
+    /// Notes a step from here to there.
+    fn note(&mut self, from: (&[Point], &[Vector]), to: (&[Point], &[Vector]), time_step_s: f64) {
+        self.moved.clear();
+        self.moved
+            .extend(to.0.iter().zip(from.0).map(|(x, old)| x - old));
+        self.sped.clear();
+        self.sped
+            .extend(to.1.iter().zip(from.1).map(|(v, old)| v - old));
+        self.velocities.clear();
+        self.velocities.extend_from_slice(to.1);
+        self.time_step_s = time_step_s;
+    }
+
+    /// x₀ − x₋₁ and v₀ − v₋₁ for a particle whose velocity is now `v`.
+    fn of(&self, i: usize, v: Vector) -> [Vector; 2] {
+        let pushed = v - self.velocities[i];
+        [self.moved[i] + pushed * self.time_step_s, self.sped[i]]
+    }
 }
 
 /// The equation of a step: its length h, and the method.
@@ -115,8 +144,9 @@ impl Implicit {
         self.work
     }
 
-    /// Forgets the previous step, after positions or velocities were changed from outside, or
-    /// particles renumbered: BDF2 starts anew with a step of order one.
+    /// Forgets the previous step, after particles were renumbered: BDF2 starts anew with a step of
+    /// order one. Positions and velocities may be changed without it; the acceleration of the last
+    /// step is what BDF2 then goes on with.
     pub fn forget(&mut self) {
         self.history.time_step_s = 0.0;
     }
@@ -135,8 +165,15 @@ impl Implicit {
     /// If there was a step, but no such particle.
     pub fn split(&mut self, old: usize) {
         if self.history.time_step_s > 0.0 {
-            self.history.positions.push(self.history.positions[old]);
-            self.history.velocities.push(self.history.velocities[old]);
+            let History {
+                moved,
+                sped,
+                velocities,
+                ..
+            } = &mut self.history;
+            for known in [moved, sped, velocities] {
+                known.push(known[old]);
+            }
         }
     }
 
@@ -240,11 +277,9 @@ impl Implicit {
         if let Some(particle) = first_bad(&self.trial, &self.velocities) {
             return Err(StepError::NotFinite { particle });
         }
-        self.history.positions.clear();
-        self.history.positions.extend_from_slice(positions);
-        self.history.velocities.clear();
-        self.history.velocities.extend_from_slice(velocities);
-        self.history.time_step_s = time_step_s;
+        let reached = (&self.trial[..], &self.velocities[..]);
+        self.history
+            .note((positions, velocities), reached, time_step_s);
         positions.copy_from_slice(&self.trial);
         velocities.copy_from_slice(&self.velocities);
         report.work = self.work.since(&before);
@@ -267,21 +302,23 @@ impl Implicit {
         self.velocities.clear();
         self.velocities.extend_from_slice(v);
         let history = &self.history;
-        let known = history.time_step_s > 0.0 && history.positions.len() == x.len();
+        let known = history.time_step_s > 0.0 && history.moved.len() == x.len();
         let (mut method, mut h) = (Method::BackwardEuler, time_step_s);
         if settings.method == Method::Bdf2 && known {
             let ratio = time_step_s / history.time_step_s;
             let weight = ratio * ratio / (1.0 + 2.0 * ratio);
-            for (x, old) in self.start.iter_mut().zip(&history.positions) {
-                *x += (*x - old) * weight;
-            }
-            for (v, old) in self.start_velocities.iter_mut().zip(&history.velocities) {
-                *v += (*v - old) * weight;
-            }
             (method, h) = (
                 Method::Bdf2,
                 time_step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio),
             );
+            for (i, &v) in v.iter().enumerate() {
+                let filter = model.filter(i);
+                // What is held has no history: it goes on by its velocity, for all of Δt.
+                let held = v - filter.apply(v);
+                let [moved, sped] = history.of(i, v);
+                self.start[i] += filter.apply(moved) * weight + held * (time_step_s - h);
+                self.start_velocities[i] += filter.apply(sped) * weight;
+            }
         }
         let dragged = 1.0 + h * model.drag_per_s;
         // The tolerance is that of the method asked for, also where it starts.

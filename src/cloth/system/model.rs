@@ -143,6 +143,20 @@ impl Model {
         sane
     }
 
+    /// Whether nothing is stretched beyond the limit, nor not a number: what [`Model::accelerate`]
+    /// says of the same positions, for methods that do not ask it.
+    #[must_use]
+    pub(crate) fn is_within_limit(&self, positions: &[Point]) -> bool {
+        let ratio_max = self.stretch_ratio_max;
+        let triangles = self.triangles.as_slice();
+        self.springs()
+            .all(|batch| kernel::is_within(batch, positions, ratio_max))
+            && self
+                .buckles()
+                .all(|bends| bends.are_within(positions, ratio_max))
+            && kernel::triangles_are_within(triangles, positions, ratio_max)
+    }
+
     /// Adds K u; see [`System::stiffness_times`](super::System::stiffness_times).
     pub(crate) fn stiffness_times(
         &self,
