@@ -203,7 +203,8 @@ impl System {
         if count > 0 && self.model.buckling.is_some() && !solver.takes_buckling() {
             return Err(StepError::Buckling { count });
         }
-        let report = self.admit(solver.frequency_limit(), dt_s)?;
+        let admitted = self.admit(solver.frequency_limit(), dt_s);
+        let report = admitted.map_err(|error| self.unless_broken(error))?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
         self.model.forget();
@@ -223,6 +224,18 @@ impl System {
         }
         self.elapsed_s = began_s + dt_s;
         Ok(report)
+    }
+
+    /// A step that is refused in a state that is not finite is so for that: there its limit means
+    /// nothing.
+    fn unless_broken(&self, error: StepError) -> StepError {
+        if self.is_finite() {
+            return error;
+        }
+        StepError::BlowUp {
+            elapsed_s: self.elapsed_s,
+            at: self.culprit(),
+        }
     }
 
     /// Makes the system what it was before the step, and says why the step was not taken.

@@ -10,7 +10,8 @@
 //! * **A measure** by power iteration on M⁻¹ K in the present configuration, from below, used
 //!   with a margin. It is made only where the bound does not clear a step that may not be divided,
 //!   starts from the vector it found last, and is kept until topology, a mass or a stiffness
-//!   change, or for 64 steps.
+//!   change, or for 64 steps. Where nothing can be measured, as in a state that is not finite, it
+//!   is the bound.
 //!
 //! On a regular net the measure is 0.72 of the bound and changes by two per cent while the net is
 //! shaken and torn. At light particles it does not stay where it is: of two springs at right angles
@@ -40,7 +41,8 @@ use crate::geometry::{Point, Vector, dot};
 pub struct Frequency {
     /// The angular frequency ω, in rad/s.
     pub omega_rad_per_s: f64,
-    /// How well ω² and the vector fit: |M⁻¹ K u − ω² u| / ω², weighed by mass.
+    /// How well ω² and the vector fit: |M⁻¹ K u − ω² u| / ω², weighed by mass. 1 where nothing could
+    /// be measured, as in a state that is not finite: ω is the bound then.
     pub residual: f64,
     /// The particles of the constraint that moves most in it, by energy.
     pub ends: Option<[usize; 2]>,
@@ -242,7 +244,9 @@ impl System {
         {
             return frequency;
         }
-        let frequency = self.measure_frequency(0.01, 200);
+        let Some(frequency) = self.iterate(0.01, 200) else {
+            return self.unmeasured();
+        };
         self.spectrum.measured = Some(frequency);
         // The margin of the watch takes in that much more.
         self.spectrum.measured_reach = growth * 1.0625;
@@ -262,8 +266,23 @@ impl System {
 
     /// The largest frequency in the present configuration, by power iteration until
     /// the residual is at most `tolerance`, or so many products. From below: the true one is
-    /// larger by about the residual.
+    /// larger by about the residual. In a state that is not finite it is the bound.
     pub fn measure_frequency(&mut self, tolerance: f64, products: u32) -> Frequency {
+        let measured = self.iterate(tolerance, products);
+        measured.unwrap_or_else(|| self.unmeasured())
+    }
+
+    /// What counts where nothing can be measured.
+    fn unmeasured(&mut self) -> Frequency {
+        Frequency {
+            omega_rad_per_s: self.frequency_bound(),
+            residual: 1.0,
+            ends: None,
+        }
+    }
+
+    /// Power iteration; `None` where it meets numbers that are not finite, of which it keeps none.
+    fn iterate(&mut self, tolerance: f64, products: u32) -> Option<Frequency> {
         self.start_vector();
         let (model, x) = (&self.model, &self.positions);
         let Spectrum {
@@ -277,11 +296,15 @@ impl System {
         for _ in 0..products.max(1) {
             let norm = inner(model, u, u).sqrt();
             if norm == 0.0 {
-                return frequency;
+                return Some(frequency);
             }
             u.iter_mut().for_each(|u| *u /= norm);
             accelerations_by(model, x, u, product, &mut self.counters);
             let square = inner(model, u, product);
+            if !(norm.is_finite() && square.is_finite()) {
+                u.clear();
+                return None;
+            }
             let misses = product.iter().zip(u.iter()).zip(&model.masses);
             let miss = misses.map(|((&p, &u), m)| {
                 let rest = p - u * square;
@@ -295,7 +318,7 @@ impl System {
             std::mem::swap(u, product);
         }
         frequency.ends = busiest(model, x, u);
-        frequency
+        Some(frequency)
     }
 
     /// Begins with the last vector, and some of every direction.
