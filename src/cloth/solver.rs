@@ -211,6 +211,7 @@ impl System {
         let began_s = self.elapsed_s;
         let substep_s = dt_s / f64::from(report.substeps);
         let noted = self.meter.as_ref().map(|meter| meter.sums());
+        let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
             self.drive(substep_s);
@@ -223,6 +224,8 @@ impl System {
             self.elapsed_s += substep_s;
         }
         self.elapsed_s = began_s + dt_s;
+        // A method may set the state, and still moves it by no more than a step.
+        self.spectrum.jumped(had_jumped);
         Ok(report)
     }
 
@@ -253,6 +256,7 @@ impl System {
         std::mem::swap(&mut self.positions, &mut self.scratch.positions);
         std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
         self.scratch.is_fresh = false;
+        self.spectrum.jumped(true);
         self.model.forget();
         self.elapsed_s = began_s;
         if let (Some(meter), Some(sums)) = (&mut self.meter, noted) {

@@ -10,8 +10,8 @@
 //! * **A measure** by power iteration on M⁻¹ K in the present configuration, from below, used
 //!   with a margin. It is made only where the bound does not clear a step that may not be divided,
 //!   starts from the vector it found last, and is kept until topology, a mass or a stiffness
-//!   change, or for 64 steps. Where nothing can be measured, as in a state that is not finite, it
-//!   is the bound.
+//!   change, the state is set, or a step is taken back, or for 64 steps. Where nothing can be
+//!   measured, as in a state that is not finite, it is the bound.
 //!
 //! On a regular net the measure is 0.72 of the bound and changes by two per cent while the net is
 //! shaken and torn. At light particles it does not stay where it is: of two springs at right angles
@@ -65,6 +65,8 @@ pub(crate) struct Spectrum {
     measured_reach: f64,
     /// For how many more steps the measured frequency counts as that of now.
     recent_for: u32,
+    /// Whether the state was set or a step was taken back since: it may be far from there.
+    has_jumped: bool,
     /// The vector that the power iteration found last.
     vector: Vec<Vector>,
     product: Vec<Vector>,
@@ -79,6 +81,7 @@ impl Default for Spectrum {
             reach: 4.0,
             measured_reach: 0.0,
             recent_for: 0,
+            has_jumped: false,
             vector: Vec::new(),
             product: Vec::new(),
         }
@@ -90,6 +93,11 @@ impl Spectrum {
     pub(crate) fn forget(&mut self) {
         self.bound = None;
         self.measured = None;
+    }
+
+    /// The state is another one, and not by a step. Returns whether it was so before.
+    pub(crate) fn jumped(&mut self, has_jumped: bool) -> bool {
+        std::mem::replace(&mut self.has_jumped, has_jumped)
     }
 
     pub(crate) fn touched(&mut self, model: &Model, particles: &[usize]) {
@@ -236,11 +244,14 @@ impl System {
     }
 
     /// The largest frequency in the present configuration, to 1 % of ω², kept until topology,
-    /// a mass or a stiffness change, or triangles that shear are stretched by more than then.
+    /// a mass or a stiffness change, the state is set ([`System::state_mut`]), a step is taken back,
+    /// or triangles that shear are stretched by more than then. Steps change the configuration a
+    /// little each: [`System::measure_frequency`] looks anew.
     pub fn frequency(&mut self) -> Frequency {
         let growth = self.shear_growth();
         if let Some(frequency) = self.spectrum.measured
             && growth <= self.spectrum.measured_reach
+            && !self.spectrum.has_jumped
         {
             return frequency;
         }
@@ -248,6 +259,7 @@ impl System {
             return self.unmeasured();
         };
         self.spectrum.measured = Some(frequency);
+        self.spectrum.has_jumped = false;
         // The margin of the watch takes in that much more.
         self.spectrum.measured_reach = growth * 1.0625;
         frequency

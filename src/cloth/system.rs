@@ -444,6 +444,7 @@ impl System {
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
+        self.spectrum.jumped(true);
         self.model.forget();
         self.note_change();
         (&mut self.positions, &mut self.velocities)
