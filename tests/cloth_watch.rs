@@ -1,7 +1,10 @@
 //! The watch over stability after something went wrong: a state that was no number, one that was
 //! set, a step that failed.
 
-use tearmesh::cloth::{Frequency, Path, Solver, StepError, System, Verlet};
+use tearmesh::cloth::{
+    Failure, Frequency, ImplicitCloth, Path, Pbd, Provot, Rk4, Solver, StepError, System, Verlet,
+    Xpbd,
+};
 use tearmesh::{Point, Vector};
 
 use crate::cloth_answers::row;
@@ -129,7 +132,7 @@ fn a_frequency_is_measured_anew_where_a_step_blew_up() {
 struct Outside;
 
 impl Solver for Outside {
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), tearmesh::cloth::Failure> {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let (positions, velocities) = system.state_mut();
         for (x, v) in positions.iter_mut().zip(velocities) {
             *x += *v * dt_s;
@@ -163,4 +166,99 @@ fn steps_of_a_method_that_sets_the_state_measure_no_more_often() {
         system.step(&mut Outside, short_s).expect("a step");
     }
     assert_eq!(system.counters().matrix_products, products);
+}
+
+/// Every method, by name.
+fn every() -> [(&'static str, Box<dyn Solver>); 7] {
+    [
+        ("Verlet", Box::new(Verlet::new())),
+        ("RK4", Box::new(Rk4::new())),
+        ("Provot", Box::new(Provot::default())),
+        ("unlimited", Box::new(Provot::unlimited())),
+        ("PBD", Box::new(Pbd::default())),
+        ("XPBD", Box::new(Xpbd::default())),
+        ("implicit", Box::new(ImplicitCloth::default())),
+    ]
+}
+
+/// What a blow-up names.
+fn named(system: &mut System, method: &mut dyn Solver, dt_s: f64) -> String {
+    let error = system.step(method, dt_s).expect_err("a blow-up");
+    let words = error.to_string();
+    let named = words.strip_prefix("the system blew up after 0 s: ");
+    let named = named.and_then(|words| words.strip_suffix("; the last good state is kept"));
+    named.unwrap_or(&words).to_owned()
+}
+
+fn on_a_line(places: &[f64]) -> System {
+    let points = places.iter().map(|&x| Point::new(x, 0.0, 0.0));
+    System::new(points, vec![0.1; places.len()]).expect("particles")
+}
+
+#[test]
+fn a_blow_up_names_what_is_too_long_before_it_is_projected_or_limited() {
+    // Implicit steps take a constraint of any length.
+    for (name, mut method) in every().into_iter().filter(|(name, _)| *name != "implicit") {
+        let mut chain = on_a_line(&[0.0, 1.0, 5000.0]);
+        chain.stretch([0, 1], 1.0, 10.0).expect("a spring");
+        chain.stretch([1, 2], 1.0, 10.0).expect("a spring");
+        let edge = "edge 1-2 has 4999 times its rest length";
+        assert_eq!(named(&mut chain, &mut *method, 0.01), edge, "{name}");
+
+        for with_stretch in [false, true] {
+            let mut chain = on_a_line(&[0.0, 1.0, 300.0]);
+            chain.bend([1, 2], 1.0, 1.0).expect("a bend");
+            if with_stretch {
+                chain.stretch([0, 1], 1.0, 1.0).expect("a spring");
+            }
+            let bend = "the bend 1-2 has 299 times its rest length";
+            assert_eq!(named(&mut chain, &mut *method, 0.01), bend, "{name}");
+        }
+
+        // What a step throws too far by itself; Provot's forces see that in the next step, or never.
+        if ["Provot", "unlimited"].contains(&name) {
+            continue;
+        }
+        let mut chain = on_a_line(&[0.0, 1.0, 2.0]);
+        chain.stretch([0, 1], 1.0, 1e-3).expect("a spring");
+        chain.stretch([1, 2], 1.0, 1e-3).expect("a spring");
+        chain.state_mut().1[2].x = 2e4;
+        let edge = named(&mut chain, &mut *method, 0.1);
+        assert!(edge.starts_with("edge 1-2 has "), "{name}: {edge}");
+    }
+}
+
+#[test]
+fn a_blow_up_names_the_particle_whose_numbers_are_too_large() {
+    for (name, mut method) in every() {
+        let mut pair = on_a_line(&[0.0, 1.0, 2.0]);
+        for v in &mut pair.state_mut().1[1..] {
+            v.x = 1.2e308;
+        }
+        let particle = "particle 1 is beyond all measure";
+        assert_eq!(named(&mut pair, &mut *method, 1e-308), particle, "{name}");
+        // And where it was none when the step began, that one; not those that it drags along.
+        let mut chain = on_a_line(&[0.0, 1.0, 2.0, 3.0]);
+        for a in 0..3 {
+            chain.stretch([a, a + 1], 1.0, 1.0).expect("a spring");
+        }
+        chain.state_mut().0[2].z = f64::NAN;
+        let particle = "particle 2 is not finite";
+        assert_eq!(named(&mut chain, &mut *method, 0.01), particle, "{name}");
+    }
+}
+
+/// A method that gives up.
+struct Never;
+
+impl Solver for Never {
+    fn advance(&mut self, _: &mut System, _: f64) -> Result<(), Failure> {
+        Err(Failure::BlowUp)
+    }
+}
+
+#[test]
+fn a_method_that_gives_up_blames_nothing_that_is_not_there() {
+    let mut alone = on_a_line(&[0.0]);
+    assert_eq!(named(&mut alone, &mut Never, 0.01), "the method gave up");
 }

@@ -6,10 +6,10 @@
 use std::fmt;
 
 use super::balance::Sums;
-use super::implicit::{self, triangle};
+use super::culprit::Culprit;
+use super::implicit;
 use super::stability::Frequency;
 use super::system::{System, Unstable};
-use crate::geometry::length;
 
 /// A method that advances a system.
 ///
@@ -140,7 +140,8 @@ pub enum StepError {
         /// The seconds simulated until the last good state, where the system still is.
         elapsed_s: f64,
         /// The first particle that is not finite, or the constraint or triangle that is
-        /// longest for its rest length.
+        /// longest for its rest length, where the step began or where it was given up: before
+        /// constraints that are beyond all measure are projected or limited.
         at: Culprit,
     },
     /// An implicit method found no state that solves its equation as exactly as its
@@ -151,28 +152,6 @@ pub enum StepError {
         elapsed_s: f64,
         /// What failed; also the [`source`](std::error::Error::source).
         error: implicit::StepError,
-    },
-}
-
-/// Where a blow-up showed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Culprit {
-    /// A particle whose position or velocity is not finite.
-    Particle(usize),
-    /// A constraint.
-    Constraint {
-        /// Its particles.
-        ends: [usize; 2],
-        /// Its length as a multiple of its rest length.
-        stretch_ratio: f64,
-    },
-    /// A triangle.
-    Triangle {
-        /// Its particles.
-        corners: [usize; 3],
-        /// The length of its warp or weft as a multiple of the rest length.
-        stretch_ratio: f64,
     },
 }
 
@@ -237,7 +216,7 @@ impl System {
         }
         StepError::BlowUp {
             elapsed_s: self.elapsed_s,
-            at: self.culprit(),
+            at: Culprit::of(&self.model, &[(&self.positions, &self.velocities)]),
         }
     }
 
@@ -246,7 +225,7 @@ impl System {
         let error = match failure {
             Failure::BlowUp => StepError::BlowUp {
                 elapsed_s: began_s,
-                at: self.culprit(),
+                at: self.given_up(),
             },
             Failure::Implicit(error) => StepError::Implicit {
                 elapsed_s: began_s,
@@ -263,6 +242,13 @@ impl System {
             meter.back_to(sums);
         }
         error
+    }
+
+    /// What is wrong with a step that blew up, by where it began, and where it was given up.
+    fn given_up(&self) -> Culprit {
+        let began = (&self.scratch.positions[..], &self.scratch.velocities[..]);
+        let now = (&self.positions[..], &self.velocities[..]);
+        Culprit::of(&self.model, &[began, now])
     }
 
     /// How many substeps a step takes, the cheap answer first.
@@ -315,40 +301,6 @@ impl System {
         let velocities: f64 = self.velocities.iter().map(|v| v.x + v.y + v.z).sum();
         (positions + velocities).is_finite()
     }
-
-    fn culprit(&self) -> Culprit {
-        let particles = self.positions.iter().zip(&self.velocities);
-        let bad = |(p, v): (&crate::Point, &crate::Vector)| {
-            !(p.iter().chain(v.iter()).all(|x| x.is_finite()))
-        };
-        if let Some(particle) = particles.map(bad).position(|bad| bad) {
-            return Culprit::Particle(particle);
-        }
-        let mut worst = ([0; 2], 0.0);
-        for id in self.model.stretch.iter() {
-            let ratio = self.stretch_ratio(id);
-            if ratio > worst.1 {
-                worst = (self.model.stretch.get(id).ends, ratio);
-            }
-        }
-        let mut culprit = Culprit::Constraint {
-            ends: worst.0,
-            stretch_ratio: worst.1,
-        };
-        for t in self.triangles() {
-            let derivatives = t.derivatives(triangle::corners(t, &self.positions));
-            let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
-            if stretch_ratio > worst.1 {
-                worst.1 = stretch_ratio;
-                let corners = t.vertices.map(|v| v as usize);
-                culprit = Culprit::Triangle {
-                    corners,
-                    stretch_ratio,
-                };
-            }
-        }
-        culprit
-    }
 }
 
 impl fmt::Display for StepError {
@@ -389,29 +341,10 @@ impl fmt::Display for StepError {
                 Digits(*limit_s)
             ),
             StepError::BlowUp { elapsed_s, at } => {
-                write!(f, "the system blew up after {elapsed_s} s: ")?;
-                match at {
-                    Culprit::Particle(particle) => {
-                        write!(f, "particle {particle} is not finite")?;
-                    }
-                    Culprit::Constraint {
-                        ends: [a, b],
-                        stretch_ratio,
-                    } => write!(
-                        f,
-                        "edge {a}-{b} has {} times its rest length",
-                        Digits(*stretch_ratio)
-                    )?,
-                    Culprit::Triangle {
-                        corners: [a, b, c],
-                        stretch_ratio,
-                    } => write!(
-                        f,
-                        "triangle {a}-{b}-{c} has {} times its size at rest",
-                        Digits(*stretch_ratio)
-                    )?,
-                }
-                f.write_str("; the last good state is kept")
+                write!(
+                    f,
+                    "the system blew up after {elapsed_s} s: {at}; the last good state is kept"
+                )
             }
             StepError::Implicit { elapsed_s, error } => write!(
                 f,
@@ -431,7 +364,7 @@ impl std::error::Error for StepError {
 }
 
 /// A number to three digits or all of those before the point.
-struct Digits(f64);
+pub(crate) struct Digits(pub(crate) f64);
 
 impl fmt::Display for Digits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
