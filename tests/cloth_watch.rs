@@ -2,10 +2,10 @@
 //! set, a step that failed.
 
 use tearmesh::cloth::{
-    Failure, Frequency, ImplicitCloth, Path, Pbd, Provot, Rk4, Solver, StepError, System, Verlet,
-    Xpbd,
+    Cloth, Fabric, Failure, Frequency, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver,
+    StepError, System, Verlet, Wind, Xpbd,
 };
-use tearmesh::{Point, Vector};
+use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
 
 use crate::cloth_answers::row;
 
@@ -261,4 +261,102 @@ impl Solver for Never {
 fn a_method_that_gives_up_blames_nothing_that_is_not_there() {
     let mut alone = on_a_line(&[0.0]);
     assert_eq!(named(&mut alone, &mut Never, 0.01), "the method gave up");
+}
+
+/// A sheet in a wind, held at a corner, with all that a step leaves behind.
+fn blown() -> (Mesh, Cloth) {
+    let (mesh, positions) = shapes::grid(4, 4);
+    let masses = Masses::area(&mesh, &positions, 0.15).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(10.0)).expect("a cloth");
+    let system = cloth.system_mut();
+    let wind = Wind {
+        velocity_m_per_s: Vector::new(0.0, 0.0, 5.0),
+        coefficient: 0.5,
+    };
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+        wind: Some(wind),
+        drag_per_s: Some(1.0),
+        ..Loads::default()
+    };
+    system.set_loads(loads).expect("loads");
+    let x = system.positions()[0];
+    let way = [(0.0, x), (1.0, x + Vector::new(-5.0, 0.0, 0.0))];
+    system.grab(0, Path::new(way).expect("a path"));
+    system.keep_balance();
+    (mesh, cloth)
+}
+
+/// All that can be asked of a cloth after a step, but the counters.
+fn left_behind(cloth: &Cloth) -> String {
+    let system = cloth.system();
+    let of = |id| {
+        let forces = (system.force_n(id), system.multiplier_n(id));
+        (forces, system.unlimited_ratio(id))
+    };
+    let links: Vec<_> = system.stretches().iter().map(of).collect();
+    let state = (system.positions(), system.velocities(), system.elapsed_s());
+    let hand = system.reaction_n(0);
+    format!(
+        "{state:?} {links:?} {hand:?} {:?} {:?}",
+        system.energy_balance(),
+        cloth.effects()
+    )
+}
+
+#[test]
+fn a_step_that_is_refused_leaves_all_as_it_was() {
+    // The balance is asked for between two samples of the wind, 1 ms apart.
+    let dt_s = 3e-4;
+    for (name, mut method) in every() {
+        let (mut mesh, mut cloth) = blown();
+        for _ in 0..8 {
+            cloth.step(&mut *method, dt_s).expect("a step");
+        }
+        let mut edits = Edits::new();
+        let v = VertexId::new(12).expect("a vertex");
+        let face = mesh.faces_of(v).next().expect("a face");
+        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        edits.replay(&mut cloth);
+        let before = left_behind(&cloth);
+        let mut untried = cloth.clone();
+
+        for dt_s in [-1.0, f64::NAN] {
+            cloth.step(&mut *method, dt_s).expect_err("no step");
+            assert_eq!(left_behind(&cloth), before, "{name}, {dt_s} s");
+        }
+        cloth.system_mut().set_stretch_ratio_max(0.5);
+        for mut other in [
+            &mut Xpbd::default() as &mut dyn Solver,
+            &mut Pbd::default(),
+            &mut Late,
+        ] {
+            cloth.step(&mut other, dt_s).expect_err("a blow-up");
+            assert_eq!(left_behind(&cloth), before, "{name}");
+        }
+        cloth.system_mut().set_stretch_ratio_max(100.0);
+        // And the balance goes on as if nothing had been.
+        for _ in 0..8 {
+            for cloth in [&mut cloth, &mut untried] {
+                cloth.step(&mut Xpbd::new(1, 1), dt_s).expect("a step");
+            }
+        }
+        assert_eq!(left_behind(&cloth), left_behind(&untried), "{name}");
+    }
+}
+
+/// Provot's limiter, by way of a step that is taken, and then a failure.
+struct Late;
+
+impl Solver for Late {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let _ = Pbd::default().advance(system, dt_s);
+        system.set_stretch_ratio_max(1e9);
+        for _ in 0..2 {
+            Xpbd::default().advance(system, dt_s)?;
+            Provot::default().advance(system, dt_s)?;
+        }
+        system.set_stretch_ratio_max(0.5);
+        Err(Failure::BlowUp)
+    }
 }

@@ -105,6 +105,7 @@ impl Provot {
             ..
         } = system;
         scratch.before.clone_from(positions);
+        model.set_aside();
         for (batch, ratios) in model.stretch.ratios_mut() {
             kernel::ratios(batch, positions, ratios);
         }

@@ -5,11 +5,11 @@
 
 use std::fmt;
 
-use super::balance::Sums;
+use super::balance::Noted;
 use super::culprit::Culprit;
 use super::implicit;
 use super::stability::Frequency;
-use super::system::{System, Unstable};
+use super::system::{Left, System, Unstable};
 
 /// A method that advances a system.
 ///
@@ -100,7 +100,17 @@ pub struct StepReport {
     pub limit_s: Option<f64>,
 }
 
-/// Why a step was not taken. The system is as it was before.
+/// What a step that fails goes back to, but for positions and velocities.
+#[derive(Clone, Copy)]
+struct Began {
+    elapsed_s: f64,
+    left: Left,
+    noted: Option<Noted>,
+}
+
+/// Why a step was not taken. The system is as it was before, and so is what the last step left
+/// behind in constraints and in the balance of energy; [`Counters`](super::Counters) count what was
+/// tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
@@ -186,10 +196,12 @@ impl System {
         let report = admitted.map_err(|error| self.unless_broken(error))?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
-        self.model.forget();
-        let began_s = self.elapsed_s;
+        let began = Began {
+            elapsed_s: self.elapsed_s,
+            left: self.model.begin(),
+            noted: self.noted(),
+        };
         let substep_s = dt_s / f64::from(report.substeps);
-        let noted = self.meter.as_ref().map(|meter| meter.sums());
         let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
@@ -197,12 +209,12 @@ impl System {
             self.note_before();
             let advanced = solver.advance(self, substep_s);
             if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
-                return Err(self.go_back(failure, began_s, noted));
+                return Err(self.go_back(failure, began));
             }
             self.note_after(substep_s);
             self.elapsed_s += substep_s;
         }
-        self.elapsed_s = began_s + dt_s;
+        self.elapsed_s = began.elapsed_s + dt_s;
         // A method may set the state, and still moves it by no more than a step.
         self.spectrum.jumped(had_jumped);
         Ok(report)
@@ -221,26 +233,22 @@ impl System {
     }
 
     /// Makes the system what it was before the step, and says why the step was not taken.
-    fn go_back(&mut self, failure: Failure, began_s: f64, noted: Option<Sums>) -> StepError {
+    fn go_back(&mut self, failure: Failure, began: Began) -> StepError {
+        let elapsed_s = began.elapsed_s;
         let error = match failure {
             Failure::BlowUp => StepError::BlowUp {
-                elapsed_s: began_s,
+                elapsed_s,
                 at: self.given_up(),
             },
-            Failure::Implicit(error) => StepError::Implicit {
-                elapsed_s: began_s,
-                error,
-            },
+            Failure::Implicit(error) => StepError::Implicit { elapsed_s, error },
         };
         std::mem::swap(&mut self.positions, &mut self.scratch.positions);
         std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
         self.scratch.is_fresh = false;
         self.spectrum.jumped(true);
-        self.model.forget();
-        self.elapsed_s = began_s;
-        if let (Some(meter), Some(sums)) = (&mut self.meter, noted) {
-            meter.back_to(sums);
-        }
+        self.model.back_to(began.left);
+        self.elapsed_s = elapsed_s;
+        self.note_back(began.noted);
         error
     }
 

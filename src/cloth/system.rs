@@ -11,7 +11,7 @@ mod measure;
 mod model;
 
 pub use error::SystemError;
-pub(crate) use force::Forces;
+pub(crate) use force::{Forces, Left};
 pub(crate) use model::{Family, Model};
 
 use super::balance::Meter;
@@ -168,6 +168,7 @@ impl System {
                 stretch_ratio_max: 100.0,
                 forces: Forces::default(),
                 is_limited: false,
+                is_aside: false,
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),

@@ -110,6 +110,7 @@ impl Solver for Xpbd {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
+        system.model.set_aside();
         predict(system, substep_s);
         let sane = (0..substeps).all(|substep| {
             if substep > 0 {
