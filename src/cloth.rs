@@ -28,6 +28,7 @@
 mod balance;
 mod buckle;
 mod constraint;
+mod culprit;
 mod fabric;
 mod follow;
 pub mod implicit;
@@ -53,6 +54,7 @@ mod xpbd;
 
 pub use balance::EnergyBalance;
 pub use constraint::{Constraint, ConstraintId, Constraints};
+pub use culprit::Culprit;
 pub use fabric::{Bending, Copies, Fabric, Unbend};
 pub use load::{Collider, Loads, Path, Wind};
 pub use pbd::Pbd;
@@ -61,7 +63,7 @@ pub use rk4::Rk4;
 pub use run::{CutMade, Gain, Limited, Quality, Run, RunError, Shortened, Solved, Step, Tally};
 pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
-pub use solver::{Culprit, Failure, Solver, StepError, StepReport};
+pub use solver::{Failure, Solver, StepError, StepReport};
 pub use stability::Frequency;
 pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};

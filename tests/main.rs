@@ -20,6 +20,7 @@ mod cloth_tearing;
 mod cloth_tearing_links;
 mod cloth_tearing_order;
 mod cloth_tearing_runs;
+mod cloth_watch;
 mod cloth_weave;
 mod cloth_weave_limits;
 mod cut_mend;

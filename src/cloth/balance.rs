@@ -118,7 +118,7 @@ pub(crate) struct Meter {
 
 /// What was summed up so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Sums {
+struct Sums {
     began_j: f64,
     gravity_j: f64,
     held_j: f64,
@@ -126,6 +126,14 @@ pub(crate) struct Sums {
     drag_j: f64,
     colliders_j: f64,
     edits_j: f64,
+}
+
+/// What was known of a balance before a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Noted {
+    sums: Sums,
+    wind: Sampled,
+    has_forces: bool,
 }
 
 /// The power of wind when it was sampled last, and the seconds since.
@@ -142,17 +150,6 @@ impl Meter {
         if let Some(forces) = self.forces.take() {
             self.spare = forces;
         }
-    }
-
-    pub(crate) fn sums(&self) -> Sums {
-        self.sums
-    }
-
-    /// Goes back to what was summed up before a step that failed.
-    pub(crate) fn back_to(&mut self, sums: Sums) {
-        self.sums = sums;
-        self.wind = Sampled::default();
-        self.changed();
     }
 }
 
@@ -192,6 +189,31 @@ impl System {
         };
         let particles = self.positions.iter().zip(&self.model.masses);
         -particles.fold(0.0, |sum, (x, m)| sum + m * dot(gravity, x.coords))
+    }
+
+    /// What is known before a step.
+    pub(crate) fn noted(&self) -> Option<Noted> {
+        self.meter.as_ref().map(|meter| Noted {
+            sums: meter.sums,
+            wind: meter.wind,
+            has_forces: meter.forces.is_some(),
+        })
+    }
+
+    /// Goes back to what was known before a step that failed, once the state is that again.
+    pub(crate) fn note_back(&mut self, noted: Option<Noted>) {
+        let (Some(mut meter), Some(noted)) = (self.meter.take(), noted) else {
+            return;
+        };
+        meter.sums = noted.sums;
+        meter.wind = noted.wind;
+        meter.changed();
+        if noted.has_forces {
+            let mut forces = std::mem::take(&mut meter.spare);
+            self.led_forces(&mut forces);
+            meter.forces = Some(forces);
+        }
+        self.meter = Some(meter);
     }
 
     /// Notes the state before a substep, after those who are led got their velocity.

@@ -77,6 +77,8 @@ struct Colour {
     compliance: Vec<f64>,
     multipliers: Vec<f64>,
     ratios: Vec<f64>,
+    /// What both were before the step.
+    aside: [Vec<f64>; 2],
     ids: Vec<u32>,
 }
 
@@ -196,6 +198,24 @@ impl Constraints {
             };
             (batch, &mut colour.ratios[..])
         })
+    }
+
+    /// Puts what the last step left behind aside, for a step that writes all of it anew: copies
+    /// nothing.
+    pub(crate) fn set_aside(&mut self) {
+        for colour in &mut self.colours {
+            let count = colour.ids.len();
+            colour
+                .aside
+                .iter_mut()
+                .for_each(|aside| aside.resize(count, 0.0));
+            colour.swap_aside();
+        }
+    }
+
+    /// Takes that back.
+    pub(crate) fn take_back(&mut self) {
+        self.colours.iter_mut().for_each(Colour::swap_aside);
     }
 
     pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
@@ -350,6 +370,15 @@ impl Constraints {
 }
 
 impl Colour {
+    /// Nothing where constraints came or went since.
+    fn swap_aside(&mut self) {
+        let [multipliers, ratios] = &mut self.aside;
+        if multipliers.len() == self.ids.len() {
+            std::mem::swap(multipliers, &mut self.multipliers);
+            std::mem::swap(ratios, &mut self.ratios);
+        }
+    }
+
     fn batch(&self) -> Batch<'_> {
         Batch {
             ends: &self.ends,

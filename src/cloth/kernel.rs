@@ -163,7 +163,8 @@ const TOGETHER: usize = 8;
 
 /// Moves the ends of each constraint by the part `fraction` of the way to its rest length, by
 /// inverse mass (Müller et al. 2007, §3.3). Multipliers accumulate, as in
-/// [`project_compliant`] without compliance.
+/// [`project_compliant`] without compliance. False where a constraint is longer than `ratio_max`
+/// times its rest length, or not a number: it is left as it is, and the rest of the colour too.
 #[must_use]
 pub(crate) fn project(
     batch: Batch<'_>,
@@ -173,9 +174,7 @@ pub(crate) fn project(
     ratio_max: f64,
     positions: &mut [Point],
 ) -> bool {
-    let mut sane = true;
-    let mut change = |rest: f64, multiplier: &mut f64, length: f64, w: f64| {
-        sane &= length <= ratio_max * rest;
+    let change = |rest: f64, multiplier: &mut f64, length: f64, w: f64| {
         let change = fraction * (length - rest) / (length * w);
         let change = if w > 0.0 && length > 0.0 { change } else { 0.0 };
         *multiplier -= change * length;
@@ -187,18 +186,25 @@ pub(crate) fn project(
     let (multipliers, last_multipliers) = multipliers.as_chunks_mut::<TOGETHER>();
     for (ends, (rest, multipliers)) in ends.iter().zip(rest.iter().zip(multipliers)) {
         let change = |i: usize, length, w| change(rest[i], &mut multipliers[i], length, w);
-        approach(ends, inverse_masses, positions, change);
+        let longest = rest.map(|rest| ratio_max * rest);
+        if !approach(ends, longest, inverse_masses, positions, change) {
+            return false;
+        }
     }
     let numbers = last_rest.iter().zip(last_multipliers);
     for (&ends, (&rest, multiplier)) in last_ends.iter().zip(numbers) {
         let change = |_, length, w| change(rest, multiplier, length, w);
-        approach(&[ends], inverse_masses, positions, change);
+        let longest = [ratio_max * rest];
+        if !approach(&[ends], longest, inverse_masses, positions, change) {
+            return false;
+        }
     }
-    sane
+    true
 }
 
 /// One sweep of XPBD: C = l − L, α̃ = `scale` / k, and multipliers that accumulate
-/// (Macklin et al. 2016, equation 18). The first sweep writes multipliers and reads none.
+/// (Macklin et al. 2016, equation 18). The first sweep writes multipliers and reads none. False as
+/// in [`project`].
 #[must_use]
 pub(crate) fn project_compliant<const IS_FIRST: bool>(
     batch: Batch<'_>,
@@ -208,9 +214,7 @@ pub(crate) fn project_compliant<const IS_FIRST: bool>(
     ratio_max: f64,
     positions: &mut [Point],
 ) -> bool {
-    let mut sane = true;
-    let mut change = |rest: f64, compliance: f64, multiplier: &mut f64, length: f64, w: f64| {
-        sane &= length <= ratio_max * rest;
+    let change = |rest: f64, compliance: f64, multiplier: &mut f64, length: f64, w: f64| {
         let before = if IS_FIRST { 0.0 } else { *multiplier };
         let compliance = scale * compliance;
         // −Δλ / l: one division for both.
@@ -228,26 +232,33 @@ pub(crate) fn project_compliant<const IS_FIRST: bool>(
     for (ends, ((rest, compliance), multipliers)) in ends.iter().zip(numbers) {
         let change =
             |i: usize, length, w| change(rest[i], compliance[i], &mut multipliers[i], length, w);
-        approach(ends, inverse_masses, positions, change);
+        let longest = rest.map(|rest| ratio_max * rest);
+        if !approach(ends, longest, inverse_masses, positions, change) {
+            return false;
+        }
     }
     let numbers = last_rest.iter().zip(last_compliance).zip(last_multipliers);
     for (&ends, ((&rest, &compliance), multiplier)) in last_ends.iter().zip(numbers) {
         let change = |_, length, w| change(rest, compliance, multiplier, length, w);
-        approach(&[ends], inverse_masses, positions, change);
+        let longest = [ratio_max * rest];
+        if !approach(&[ends], longest, inverse_masses, positions, change) {
+            return false;
+        }
     }
-    sane
+    true
 }
 
 /// Moves the ends of some constraints of one colour toward each other, by inverse mass and by so
 /// many times their difference as `change` makes of their index, their length and the sum of
-/// their inverse masses.
+/// their inverse masses. None, and false, where one is longer than its `longest`, or not a number.
 #[inline(always)]
 fn approach<const N: usize>(
     ends: &[[u32; 2]; N],
+    longest: [f64; N],
     inverse_masses: &[f64],
     positions: &mut [Point],
     mut change: impl FnMut(usize, f64, f64) -> f64,
-) {
+) -> bool {
     let (mut d, mut squares, mut weights) = ([Vector::zeros(); N], [0.0; N], [0.0; N]);
     for i in 0..N {
         let [a, b] = ends[i].map(|end| end as usize);
@@ -255,9 +266,17 @@ fn approach<const N: usize>(
         squares[i] = dot(d[i], d[i]);
         weights[i] = inverse_masses[a] + inverse_masses[b];
     }
+    let lengths = squares.map(f64::sqrt);
+    let mut sane = true;
+    for i in 0..N {
+        sane &= lengths[i] <= longest[i];
+    }
+    if !sane {
+        return false;
+    }
     let mut changes = [0.0; N];
     for i in 0..N {
-        changes[i] = change(i, squares[i].sqrt(), weights[i]);
+        changes[i] = change(i, lengths[i], weights[i]);
     }
     for i in 0..N {
         let [a, b] = ends[i].map(|end| end as usize);
@@ -265,6 +284,7 @@ fn approach<const N: usize>(
         positions[a] += step * inverse_masses[a];
         positions[b] -= step * inverse_masses[b];
     }
+    true
 }
 
 /// Shortens each constraint that is longer than `ratio` times its rest length to that length

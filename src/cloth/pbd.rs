@@ -61,27 +61,26 @@ impl Solver for Pbd {
             counters,
             ..
         } = system;
-        let mut sane = true;
         model.clear_multipliers();
         for _ in 0..self.sweeps {
             for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
                 for (batch, multipliers) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
-                    sane &= kernel::project(
+                    Failure::unless(kernel::project(
                         batch,
                         multipliers,
                         &model.inverse_masses,
                         fraction,
                         model.stretch_ratio_max,
                         positions,
-                    );
+                    ))?;
                 }
             }
         }
         model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
         model.forces = Forces::Multipliers;
         finish(system, dt_s);
-        Failure::unless(sane)
+        Ok(())
     }
 }
 

@@ -105,6 +105,7 @@ impl Provot {
             ..
         } = system;
         scratch.before.clone_from(positions);
+        model.set_aside();
         for (batch, ratios) in model.stretch.ratios_mut() {
             kernel::ratios(batch, positions, ratios);
         }
@@ -161,7 +162,8 @@ impl Solver for Provot {
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
-        let sane = accelerate(system);
+        // What blew up is left as it is, for all to see.
+        Failure::unless(accelerate(system))?;
         let System {
             positions,
             velocities,
@@ -182,6 +184,6 @@ impl Solver for Provot {
         }
         self.limit(system, dt_s);
         system.collide();
-        Failure::unless(sane)
+        Ok(())
     }
 }

@@ -274,8 +274,9 @@ impl Cloth {
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
     ) -> Result<StepReport, StepError> {
+        let report = self.system.step(solver, dt_s)?;
         self.effects.clear();
-        self.system.step(solver, dt_s)
+        Ok(report)
     }
 
     /// The particles and constraints; vertex v is particle `v.index()`.
@@ -374,7 +375,7 @@ impl Cloth {
         self.ledger
     }
 
-    /// What the edits since the last [`Cloth::step`] did to the stability limit.
+    /// What the edits since the last [`Cloth::step`] that was taken did to the stability limit.
     #[must_use]
     pub fn effects(&self) -> &[Effect] {
         &self.effects

@@ -5,11 +5,11 @@
 
 use std::fmt;
 
-use super::balance::Sums;
-use super::implicit::{self, triangle};
+use super::balance::Noted;
+use super::culprit::Culprit;
+use super::implicit;
 use super::stability::Frequency;
-use super::system::{System, Unstable};
-use crate::geometry::length;
+use super::system::{Left, System, Unstable};
 
 /// A method that advances a system.
 ///
@@ -100,7 +100,17 @@ pub struct StepReport {
     pub limit_s: Option<f64>,
 }
 
-/// Why a step was not taken. The system is as it was before.
+/// What a step that fails goes back to, but for positions and velocities.
+#[derive(Clone, Copy)]
+struct Began {
+    elapsed_s: f64,
+    left: Left,
+    noted: Option<Noted>,
+}
+
+/// Why a step was not taken. The system is as it was before, and so is what the last step left
+/// behind in constraints and in the balance of energy; [`Counters`](super::Counters) count what was
+/// tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
@@ -140,7 +150,8 @@ pub enum StepError {
         /// The seconds simulated until the last good state, where the system still is.
         elapsed_s: f64,
         /// The first particle that is not finite, or the constraint or triangle that is
-        /// longest for its rest length.
+        /// longest for its rest length, where the step began or where it was given up: before
+        /// constraints that are beyond all measure are projected or limited.
         at: Culprit,
     },
     /// An implicit method found no state that solves its equation as exactly as its
@@ -151,28 +162,6 @@ pub enum StepError {
         elapsed_s: f64,
         /// What failed; also the [`source`](std::error::Error::source).
         error: implicit::StepError,
-    },
-}
-
-/// Where a blow-up showed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Culprit {
-    /// A particle whose position or velocity is not finite.
-    Particle(usize),
-    /// A constraint.
-    Constraint {
-        /// Its particles.
-        ends: [usize; 2],
-        /// Its length as a multiple of its rest length.
-        stretch_ratio: f64,
-    },
-    /// A triangle.
-    Triangle {
-        /// Its particles.
-        corners: [usize; 3],
-        /// The length of its warp or weft as a multiple of the rest length.
-        stretch_ratio: f64,
     },
 }
 
@@ -203,50 +192,72 @@ impl System {
         if count > 0 && self.model.buckling.is_some() && !solver.takes_buckling() {
             return Err(StepError::Buckling { count });
         }
-        let report = self.admit(solver.frequency_limit(), dt_s)?;
+        let admitted = self.admit(solver.frequency_limit(), dt_s);
+        let report = admitted.map_err(|error| self.unless_broken(error))?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
-        self.model.forget();
-        let began_s = self.elapsed_s;
+        let began = Began {
+            elapsed_s: self.elapsed_s,
+            left: self.model.begin(),
+            noted: self.noted(),
+        };
         let substep_s = dt_s / f64::from(report.substeps);
-        let noted = self.meter.as_ref().map(|meter| meter.sums());
         let at_end = solver.frequency_limit().is_none();
+        let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
             self.counters.substeps += 1;
             self.drive(substep_s);
             self.note_before();
             let advanced = solver.advance(self, substep_s);
             if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
-                return Err(self.go_back(failure, began_s, noted));
+                return Err(self.go_back(failure, began));
             }
             self.note_after(substep_s, at_end);
             self.elapsed_s += substep_s;
         }
-        self.elapsed_s = began_s + dt_s;
+        self.elapsed_s = began.elapsed_s + dt_s;
+        // A method may set the state, and still moves it by no more than a step.
+        self.spectrum.jumped(had_jumped);
         Ok(report)
     }
 
+    /// A step that is refused in a state that is not finite is so for that: there its limit means
+    /// nothing.
+    fn unless_broken(&self, error: StepError) -> StepError {
+        if self.is_finite() {
+            return error;
+        }
+        StepError::BlowUp {
+            elapsed_s: self.elapsed_s,
+            at: Culprit::of(&self.model, &[(&self.positions, &self.velocities)]),
+        }
+    }
+
     /// Makes the system what it was before the step, and says why the step was not taken.
-    fn go_back(&mut self, failure: Failure, began_s: f64, noted: Option<Sums>) -> StepError {
+    fn go_back(&mut self, failure: Failure, began: Began) -> StepError {
+        let elapsed_s = began.elapsed_s;
         let error = match failure {
             Failure::BlowUp => StepError::BlowUp {
-                elapsed_s: began_s,
-                at: self.culprit(),
+                elapsed_s,
+                at: self.given_up(),
             },
-            Failure::Implicit(error) => StepError::Implicit {
-                elapsed_s: began_s,
-                error,
-            },
+            Failure::Implicit(error) => StepError::Implicit { elapsed_s, error },
         };
         std::mem::swap(&mut self.positions, &mut self.scratch.positions);
         std::mem::swap(&mut self.velocities, &mut self.scratch.velocities);
         self.scratch.is_fresh = false;
-        self.model.forget();
-        self.elapsed_s = began_s;
-        if let (Some(meter), Some(sums)) = (&mut self.meter, noted) {
-            meter.back_to(sums);
-        }
+        self.spectrum.jumped(true);
+        self.model.back_to(began.left);
+        self.elapsed_s = elapsed_s;
+        self.note_back(began.noted);
         error
+    }
+
+    /// What is wrong with a step that blew up, by where it began, and where it was given up.
+    fn given_up(&self) -> Culprit {
+        let began = (&self.scratch.positions[..], &self.scratch.velocities[..]);
+        let now = (&self.positions[..], &self.velocities[..]);
+        Culprit::of(&self.model, &[began, now])
     }
 
     /// How many substeps a step takes, the cheap answer first.
@@ -299,40 +310,6 @@ impl System {
         let velocities: f64 = self.velocities.iter().map(|v| v.x + v.y + v.z).sum();
         (positions + velocities).is_finite()
     }
-
-    fn culprit(&self) -> Culprit {
-        let particles = self.positions.iter().zip(&self.velocities);
-        let bad = |(p, v): (&crate::Point, &crate::Vector)| {
-            !(p.iter().chain(v.iter()).all(|x| x.is_finite()))
-        };
-        if let Some(particle) = particles.map(bad).position(|bad| bad) {
-            return Culprit::Particle(particle);
-        }
-        let mut worst = ([0; 2], 0.0);
-        for id in self.model.stretch.iter() {
-            let ratio = self.stretch_ratio(id);
-            if ratio > worst.1 {
-                worst = (self.model.stretch.get(id).ends, ratio);
-            }
-        }
-        let mut culprit = Culprit::Constraint {
-            ends: worst.0,
-            stretch_ratio: worst.1,
-        };
-        for t in self.triangles() {
-            let derivatives = t.derivatives(triangle::corners(t, &self.positions));
-            let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
-            if stretch_ratio > worst.1 {
-                worst.1 = stretch_ratio;
-                let corners = t.vertices.map(|v| v as usize);
-                culprit = Culprit::Triangle {
-                    corners,
-                    stretch_ratio,
-                };
-            }
-        }
-        culprit
-    }
 }
 
 impl fmt::Display for StepError {
@@ -373,29 +350,10 @@ impl fmt::Display for StepError {
                 Digits(*limit_s)
             ),
             StepError::BlowUp { elapsed_s, at } => {
-                write!(f, "the system blew up after {elapsed_s} s: ")?;
-                match at {
-                    Culprit::Particle(particle) => {
-                        write!(f, "particle {particle} is not finite")?;
-                    }
-                    Culprit::Constraint {
-                        ends: [a, b],
-                        stretch_ratio,
-                    } => write!(
-                        f,
-                        "edge {a}-{b} has {} times its rest length",
-                        Digits(*stretch_ratio)
-                    )?,
-                    Culprit::Triangle {
-                        corners: [a, b, c],
-                        stretch_ratio,
-                    } => write!(
-                        f,
-                        "triangle {a}-{b}-{c} has {} times its size at rest",
-                        Digits(*stretch_ratio)
-                    )?,
-                }
-                f.write_str("; the last good state is kept")
+                write!(
+                    f,
+                    "the system blew up after {elapsed_s} s: {at}; the last good state is kept"
+                )
             }
             StepError::Implicit { elapsed_s, error } => write!(
                 f,
@@ -415,7 +373,7 @@ impl std::error::Error for StepError {
 }
 
 /// A number to three digits or all of those before the point.
-struct Digits(f64);
+pub(crate) struct Digits(pub(crate) f64);
 
 impl fmt::Display for Digits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -10,7 +10,8 @@
 //! * **A measure** by power iteration on M⁻¹ K in the present configuration, from below, used
 //!   with a margin. It is made only where the bound does not clear a step that may not be divided,
 //!   starts from the vector it found last, and is kept until topology, a mass or a stiffness
-//!   change, or for 64 steps.
+//!   change, the state is set, or a step is taken back, or for 64 steps. Where nothing can be
+//!   measured, as in a state that is not finite, it is the bound.
 //!
 //! On a regular net the measure is 0.72 of the bound and changes by two per cent while the net is
 //! shaken and torn. At light particles it does not stay where it is: of two springs at right angles
@@ -40,7 +41,8 @@ use crate::geometry::{Point, Vector, dot};
 pub struct Frequency {
     /// The angular frequency ω, in rad/s.
     pub omega_rad_per_s: f64,
-    /// How well ω² and the vector fit: |M⁻¹ K u − ω² u| / ω², weighed by mass.
+    /// How well ω² and the vector fit: |M⁻¹ K u − ω² u| / ω², weighed by mass. 1 where nothing could
+    /// be measured, as in a state that is not finite: ω is the bound then.
     pub residual: f64,
     /// The particles of the constraint that moves most in it, by energy.
     pub ends: Option<[usize; 2]>,
@@ -63,6 +65,8 @@ pub(crate) struct Spectrum {
     measured_reach: f64,
     /// For how many more steps the measured frequency counts as that of now.
     recent_for: u32,
+    /// Whether the state was set or a step was taken back since: it may be far from there.
+    has_jumped: bool,
     /// The vector that the power iteration found last.
     vector: Vec<Vector>,
     product: Vec<Vector>,
@@ -77,6 +81,7 @@ impl Default for Spectrum {
             reach: 4.0,
             measured_reach: 0.0,
             recent_for: 0,
+            has_jumped: false,
             vector: Vec::new(),
             product: Vec::new(),
         }
@@ -88,6 +93,11 @@ impl Spectrum {
     pub(crate) fn forget(&mut self) {
         self.bound = None;
         self.measured = None;
+    }
+
+    /// The state is another one, and not by a step. Returns whether it was so before.
+    pub(crate) fn jumped(&mut self, has_jumped: bool) -> bool {
+        std::mem::replace(&mut self.has_jumped, has_jumped)
     }
 
     pub(crate) fn touched(&mut self, model: &Model, particles: &[usize]) {
@@ -234,16 +244,22 @@ impl System {
     }
 
     /// The largest frequency in the present configuration, to 1 % of ω², kept until topology,
-    /// a mass or a stiffness change, or triangles that shear are stretched by more than then.
+    /// a mass or a stiffness change, the state is set ([`System::state_mut`]), a step is taken back,
+    /// or triangles that shear are stretched by more than then. Steps change the configuration a
+    /// little each: [`System::measure_frequency`] looks anew.
     pub fn frequency(&mut self) -> Frequency {
         let growth = self.shear_growth();
         if let Some(frequency) = self.spectrum.measured
             && growth <= self.spectrum.measured_reach
+            && !self.spectrum.has_jumped
         {
             return frequency;
         }
-        let frequency = self.measure_frequency(0.01, 200);
+        let Some(frequency) = self.iterate(0.01, 200) else {
+            return self.unmeasured();
+        };
         self.spectrum.measured = Some(frequency);
+        self.spectrum.has_jumped = false;
         // The margin of the watch takes in that much more.
         self.spectrum.measured_reach = growth * 1.0625;
         frequency
@@ -262,8 +278,23 @@ impl System {
 
     /// The largest frequency in the present configuration, by power iteration until
     /// the residual is at most `tolerance`, or so many products. From below: the true one is
-    /// larger by about the residual.
+    /// larger by about the residual. In a state that is not finite it is the bound.
     pub fn measure_frequency(&mut self, tolerance: f64, products: u32) -> Frequency {
+        let measured = self.iterate(tolerance, products);
+        measured.unwrap_or_else(|| self.unmeasured())
+    }
+
+    /// What counts where nothing can be measured.
+    fn unmeasured(&mut self) -> Frequency {
+        Frequency {
+            omega_rad_per_s: self.frequency_bound(),
+            residual: 1.0,
+            ends: None,
+        }
+    }
+
+    /// Power iteration; `None` where it meets numbers that are not finite, of which it keeps none.
+    fn iterate(&mut self, tolerance: f64, products: u32) -> Option<Frequency> {
         self.start_vector();
         let (model, x) = (&self.model, &self.positions);
         let Spectrum {
@@ -277,11 +308,15 @@ impl System {
         for _ in 0..products.max(1) {
             let norm = inner(model, u, u).sqrt();
             if norm == 0.0 {
-                return frequency;
+                return Some(frequency);
             }
             u.iter_mut().for_each(|u| *u /= norm);
             accelerations_by(model, x, u, product, &mut self.counters);
             let square = inner(model, u, product);
+            if !(norm.is_finite() && square.is_finite()) {
+                u.clear();
+                return None;
+            }
             let misses = product.iter().zip(u.iter()).zip(&model.masses);
             let miss = misses.map(|((&p, &u), m)| {
                 let rest = p - u * square;
@@ -295,7 +330,7 @@ impl System {
             std::mem::swap(u, product);
         }
         frequency.ends = busiest(model, x, u);
-        frequency
+        Some(frequency)
     }
 
     /// Begins with the last vector, and some of every direction.

@@ -11,7 +11,7 @@ mod measure;
 mod model;
 
 pub use error::SystemError;
-pub(crate) use force::Forces;
+pub(crate) use force::{Forces, Left};
 pub(crate) use model::{Family, Model};
 
 use super::balance::Meter;
@@ -168,6 +168,7 @@ impl System {
                 stretch_ratio_max: 100.0,
                 forces: Forces::default(),
                 is_limited: false,
+                is_aside: false,
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),
@@ -461,6 +462,7 @@ impl System {
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
+        self.spectrum.jumped(true);
         self.model.forget();
         self.note_change();
         (&mut self.positions, &mut self.velocities)

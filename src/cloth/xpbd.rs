@@ -44,7 +44,8 @@ impl Xpbd {
         Xpbd { substeps, sweeps }
     }
 
-    /// The sweeps of a substep, after the particles have flown.
+    /// The sweeps of a substep, after the particles have flown. False where something blew up, which
+    /// is left as it is then.
     fn sweep(&self, system: &mut System, dt_s: f64) -> bool {
         let System {
             positions,
@@ -53,7 +54,6 @@ impl Xpbd {
             ..
         } = system;
         let scale = scale(model, dt_s);
-        let mut sane = true;
         for sweep in 0..self.sweeps.max(1) {
             let project = match sweep {
                 0 => kernel::project_compliant::<true>,
@@ -62,7 +62,7 @@ impl Xpbd {
             for family in [&mut model.stretch, &mut model.bend] {
                 for (batch, multipliers) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
-                    sane &= project(
+                    let sane = project(
                         batch,
                         multipliers,
                         &model.inverse_masses,
@@ -70,10 +70,13 @@ impl Xpbd {
                         model.stretch_ratio_max,
                         positions,
                     );
+                    if !sane {
+                        return false;
+                    }
                 }
             }
         }
-        sane
+        true
     }
 
     /// The largest difference, over all free particles, between the sum of the forces that the
@@ -107,6 +110,7 @@ impl Solver for Xpbd {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
+        system.model.set_aside();
         predict(system, substep_s);
         let sane = (0..substeps).all(|substep| {
             if substep > 0 {
@@ -114,12 +118,13 @@ impl Solver for Xpbd {
             }
             self.sweep(system, substep_s)
         });
+        Failure::unless(sane)?;
         finish(system, substep_s);
         // Who asks for forces asks for those of the last substep.
         let model = &mut system.model;
         model.scale_multipliers(scale(model, substep_s));
         model.forces = Forces::Multipliers;
-        Failure::unless(sane)
+        Ok(())
     }
 }
 

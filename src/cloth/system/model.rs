@@ -32,6 +32,8 @@ pub(crate) struct Model {
     pub(crate) forces: Forces,
     /// Whether a limiter left ratios behind.
     pub(crate) is_limited: bool,
+    /// Whether what the step before left in constraints is put aside.
+    pub(crate) is_aside: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -226,7 +226,17 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                 edge(ends),
                 short(stretch_ratio)
             ),
-            Culprit::Particle(particle) => {
+            Culprit::Bend {
+                ends: [a, b],
+                stretch_ratio,
+            } => format!(
+                "the simulation blew up at the bend between the vertices {} and {}, which has {} \
+                 times its rest length{after}",
+                a + 1,
+                b + 1,
+                short(stretch_ratio)
+            ),
+            Culprit::Particle(particle) | Culprit::Beyond(particle) => {
                 let vertex = particle + 1;
                 format!("the simulation blew up: vertex {vertex} is nowhere{after}")
             }
