@@ -169,9 +169,10 @@ impl Run {
             Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
             None => None,
         };
+        let engine = Engine::new(&scene.solver);
         let step_s = match scene.step_s {
             Some(step_s) => step_s,
-            None => step_size::suggested_s(&scene, &mut cloth),
+            None => step_size::suggested_s(&scene, &engine, &mut cloth),
         };
         if !(step_s > 0.0 && step_s.is_finite() && scene.duration_s >= 0.0) {
             return Err(RunError::Times);
@@ -186,7 +187,7 @@ impl Run {
         }
         cloth.system_mut().keep_balance();
         Ok(Run {
-            engine: Engine::new(&scene.solver),
+            engine,
             watch: Watch::new(&scene.solver, cloth.system(), step_s),
             mesh,
             cloth,
@@ -278,8 +279,8 @@ impl Run {
 
     /// The longest stable step of an explicit method.
     fn stable_step_s(&mut self) -> Option<f64> {
-        let limit = self.engine.frequency_limit()?;
-        Some(self.cloth.system_mut().stable_step_s(limit))
+        self.engine.frequency_limit()?;
+        self.cloth.system_mut().whole_step_s(&self.engine)
     }
 
     fn shortened(&mut self, before_s: f64) -> Shortened {
@@ -370,6 +371,8 @@ impl Run {
     /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
     ///   that it would have to travel farther; see [`Run::step_wanted_s`].
     /// * Implicit: 1/240 s.
+    ///
+    /// And at most 0.7 of what wind allows ([`System::wind_rate`](super::System::wind_rate)).
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.step_s

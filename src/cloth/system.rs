@@ -73,6 +73,8 @@ pub(crate) struct Scratch {
     pub(crate) velocities: Vec<Vector>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
+    /// The area of the faces of each particle, where there is wind.
+    pub(crate) areas: Vec<f64>,
 }
 
 /// What was computed since the system was made: the cost of a simulation, without a clock.
@@ -89,6 +91,8 @@ pub struct Counters {
     pub triangle_evaluations: u64,
     /// Sums of wind over all faces.
     pub wind_evaluations: u64,
+    /// Sums of areas over all faces, for the rate at which wind slows the system.
+    pub area_evaluations: u64,
     /// Tests of all particles against one collider.
     pub collider_passes: u64,
     /// Substeps.

@@ -5,7 +5,7 @@ use super::system::System;
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
-/// Stable up to ω Δt = 2. Its oscillators have the frequency ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it
+/// Stable up to ω Δt = 2, and of wind alone up to λ Δt = 2. Its oscillators have the frequency ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it
 /// runs fast by up to π/2 at the limit. Drag is taken in by a backward and a forward half
 /// step, which leaves the order; contact is of first order.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,6 +21,10 @@ impl Verlet {
 
 impl Solver for Verlet {
     fn frequency_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+
+    fn air_limit(&self) -> Option<f64> {
         Some(2.0)
     }
 
