@@ -3,8 +3,8 @@
 
 use tearmesh::cloth::implicit::Settings;
 use tearmesh::cloth::{
-    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Pbd, Quality, Region, Run, RunError,
-    Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
+    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Path, Pbd, Quality, Region, Run,
+    RunError, Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
 use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId};
 
@@ -488,4 +488,20 @@ fn a_step_of_ones_own_is_refused_where_it_is_unstable() {
     assert!(matches!(refused, StepError::Unstable { .. }));
     assert_eq!(run.cloth().positions(), before);
     assert_eq!(run.tally().steps, 0);
+}
+
+/// What is between two points of a path is a number, as the points are.
+#[test]
+fn a_path_that_overflows_between_its_points_is_refused() {
+    let x = |x: f64| Point::new(x, 0.0, 0.0);
+    let huge = 1e308;
+    let wide = Path::new([(-1.0, x(-huge)), (1.0, x(huge))]);
+    assert_eq!(wide.map(|path| path.at(0.0)), None);
+    let long = Path::new([(-huge, x(0.0)), (huge, x(1.0))]);
+    assert_eq!(long.map(|path| path.at(0.0)), None);
+    let most = tearmesh::COORDINATE_MAX;
+    let widest = Path::new([(-huge / 2.0, x(-most)), (huge / 2.0, x(most))]);
+    let middle = widest.expect("coordinates that can be used").at(0.0);
+    assert_eq!(middle, x(0.0));
+    assert_eq!(Path::new([(0.0, x(most * 1.01))]), None);
 }

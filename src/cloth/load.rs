@@ -3,7 +3,7 @@
 //! Each exists only where it is named, and costs nothing otherwise; [`Counters`](super::Counters)
 //! prove it.
 
-use crate::geometry::{Plane, Point, Vector, dot, length};
+use crate::geometry::{Plane, Point, Vector, check_point, dot, length};
 
 /// What acts on the particles. The default is nothing.
 ///
@@ -119,13 +119,16 @@ pub struct Path {
 
 impl Path {
     /// The path through these points at these seconds; `None` unless there is one, seconds
-    /// ascend strictly, and all numbers are finite.
+    /// ascend strictly and are finite as is the time between two, and no coordinate is beyond
+    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX). So all that [`Path::at`] says is finite.
     #[must_use]
     pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
         let points: Vec<_> = points.into_iter().collect();
-        let finite = |(s, p): &(f64, Point)| s.is_finite() && p.iter().all(|x| x.is_finite());
-        let ascending = points.windows(2).all(|pair| pair[0].0 < pair[1].0);
-        (!points.is_empty() && ascending && points.iter().all(finite)).then_some(Path { points })
+        let usable = |&(s, p): &(f64, Point)| s.is_finite() && check_point(p).is_ok();
+        let between = |pair: &[(f64, Point)]| pair[1].0 - pair[0].0;
+        let mut between = points.windows(2).map(between);
+        let ascending = between.all(|took_s| took_s > 0.0 && took_s.is_finite());
+        (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
     }
 
     /// Where it is after so many seconds.
