@@ -6,7 +6,7 @@ use tearmesh::cloth::{
     Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Path, Pbd, Quality, Region, Run,
     RunError, Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
-use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId};
+use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId, shapes};
 
 /// A square of one metre in so many cells, the diagonals in turn.
 fn square(cells: u32) -> (Mesh, Positions) {
@@ -461,7 +461,11 @@ fn scenes_that_make_no_sense_are_refused() {
         refused(&|scene| scene.duration_s = f64::NAN),
         RunError::Times
     );
-    assert_eq!(refused(&|scene| scene.drag_per_s = -1.0), RunError::Loads);
+    let drag = refused(&|scene| scene.drag_per_s = -1.0);
+    assert_eq!(
+        drag.to_string(),
+        "drag_per_s is -1, which is not finite, or negative"
+    );
     let nowhere = refused(&|scene| scene.holds[1].region = Region::Vertices(Vec::new()));
     assert_eq!(nowhere, RunError::NothingHeld { number: 1 });
     let moves = refused(&|scene| scene.holds[0].moves = vec![(1.0, Vector::zeros()); 2]);
@@ -488,6 +492,53 @@ fn a_step_of_ones_own_is_refused_where_it_is_unstable() {
     assert!(matches!(refused, StepError::Unstable { .. }));
     assert_eq!(run.cloth().positions(), before);
     assert_eq!(run.tally().steps, 0);
+}
+
+/// Wind that is not usable at some time is refused before the first step, and not met in it.
+#[test]
+fn a_breeze_that_is_unusable_later_is_refused_at_once() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    let run = |steady: f64, sway: f64, period_s: f64| {
+        let breeze = Breeze {
+            steady: Wind {
+                velocity_m_per_s: Vector::new(0.0, 0.0, steady),
+                coefficient: 1.0,
+            },
+            sway_m_per_s: Vector::new(0.0, 0.0, sway),
+            period_s,
+        };
+        let scene = Scene {
+            breeze: Some(breeze),
+            ..Scene::hang(&frame)
+        };
+        let mut run = Run::new(mesh.clone(), &positions, scene, &frame)?;
+        for _ in 0..3 {
+            let _ = run.step();
+        }
+        Ok::<(), RunError>(())
+    };
+    let huge = 1.5e308;
+    let cases = [
+        (huge, huge, 1.0, "breeze.sway_m_per_s", huge),
+        (-huge, huge, 1.0, "breeze.sway_m_per_s", huge),
+        (1.0, f64::NAN, 1.0, "breeze.sway_m_per_s", f64::NAN),
+        (1.0, 1.0, 1e-320, "breeze.period_s", 1e-320),
+        (1.0, 1.0, 0.0, "breeze.period_s", 0.0),
+        (1.0, 1.0, -1.0, "breeze.period_s", -1.0),
+        (1.0, 0.0, -1.0, "breeze.period_s", -1.0),
+        (1.0, 1.0, f64::INFINITY, "breeze.period_s", f64::INFINITY),
+        (1.0, 1.0, f64::NAN, "breeze.period_s", f64::NAN),
+    ];
+    for (steady, sway, period_s, field, given) in cases {
+        let error = run(steady, sway, period_s).expect_err("it is refused");
+        let text = error.to_string();
+        assert!(
+            text.contains(&format!("{field} is {given}")),
+            "{steady} {sway} {period_s}: {text}"
+        );
+    }
+    run(1.0, 1.0, 1e-9).expect("any period that is a number of seconds");
 }
 
 /// What is between two points of a path is a number, as the points are.

@@ -133,6 +133,9 @@ impl Run {
         let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
             .map_err(ClothError::from)?;
         let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
+        if let Some((field, given)) = scene.breeze.and_then(|breeze| breeze.fault()) {
+            return Err(RunError::Breeze { field, given });
+        }
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
@@ -141,7 +144,7 @@ impl Run {
             colliders: scene.colliders.clone(),
         };
         let system = cloth.system_mut();
-        system.set_loads(loads).map_err(|_| RunError::Loads)?;
+        system.set_loads(loads).map_err(RunError::Loads)?;
         let points = positions.as_slice();
         let vertices = |(number, hold): (usize, &_)| Held::new(number, hold, &mesh, points, frame);
         let held: Vec<Held> = scene
@@ -180,6 +183,14 @@ impl Run {
         let steps_planned = (scene.duration_s / step_s).round();
         if steps_planned > Run::STEPS_MAX as f64 {
             return Err(RunError::Times);
+        }
+        let last_s = Run::STEPS_MAX as f64 * step_s;
+        let uncounted = |breeze: &Breeze| !(last_s / breeze.period_s).is_finite();
+        if let Some(breeze) = scene.breeze.filter(uncounted) {
+            return Err(RunError::Breeze {
+                field: "breeze.period_s",
+                given: breeze.period_s,
+            });
         }
         if scene.step_s.is_none() {
             // A step of our own choice is not refused because of what tore since.

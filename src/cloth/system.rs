@@ -406,8 +406,8 @@ impl System {
     ///
     /// [`SystemError::Loads`] where a number is not finite, or negative where it must not be.
     pub fn set_loads(&mut self, loads: Loads) -> Result<(), SystemError> {
-        if !loads.is_usable() {
-            return Err(SystemError::Loads);
+        if let Some((field, given)) = loads.fault() {
+            return Err(SystemError::Loads { field, given });
         }
         self.scratch.is_fresh = false;
         let is_same = loads.gravity_m_per_s2 == self.model.loads.gravity_m_per_s2;
