@@ -541,6 +541,23 @@ fn a_breeze_that_is_unusable_later_is_refused_at_once() {
     run(1.0, 1.0, 1e-9).expect("any period that is a number of seconds");
 }
 
+/// A time that is none would be now.
+#[test]
+fn a_cut_at_a_time_that_is_none_is_refused() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    for at_s in [f64::NAN, -1.0, f64::INFINITY] {
+        let mut scene = Scene::flag(&frame);
+        assert!(!scene.cuts.is_empty());
+        scene.cuts[0].at_s = at_s;
+        let error = Run::new(mesh.clone(), &positions, scene, &frame).expect_err("no time");
+        assert_eq!(
+            error.to_string(),
+            format!("cut 1 is at {at_s} s, which is not finite, or negative")
+        );
+    }
+}
+
 /// What is between two points of a path is a number, as the points are.
 #[test]
 fn a_path_that_overflows_between_its_points_is_refused() {

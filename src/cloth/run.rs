@@ -158,6 +158,11 @@ impl Run {
                 .map(|scissor| scissor.through(cut.through))
                 .map_err(|error| RunError::Cut { number, error })
         };
+        let timeless = |cut: &TimedCut| !(cut.at_s >= 0.0 && cut.at_s.is_finite());
+        if let Some(number) = scene.cuts.iter().position(timeless) {
+            let given_s = scene.cuts[number].at_s;
+            return Err(RunError::CutTime { number, given_s });
+        }
         let earlier = |pair: &[TimedCut]| pair[1].at_s < pair[0].at_s;
         if let Some(before) = scene.cuts.windows(2).position(earlier) {
             return Err(RunError::CutTimes { number: before + 1 });

@@ -43,6 +43,13 @@ pub enum RunError {
         /// Why.
         error: ScissorError,
     },
+    /// The time of a cut is not one of the scene: negative, or not finite.
+    CutTime {
+        /// The number of the cut in the scene.
+        number: usize,
+        /// The time as given.
+        given_s: f64,
+    },
     /// The cuts do not ascend in time.
     CutTimes {
         /// The number of the first that is earlier than the one before it.
@@ -74,6 +81,11 @@ impl fmt::Display for RunError {
                 write!(f, "the times of hold {} do not ascend", number + 1)
             }
             RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
+            RunError::CutTime { number, given_s } => write!(
+                f,
+                "cut {} is at {given_s} s, which is not finite, or negative",
+                number + 1
+            ),
             RunError::CutTimes { number } => {
                 write!(f, "cut {} is earlier than the one before it", number + 1)
             }
