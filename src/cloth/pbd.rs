@@ -2,9 +2,9 @@
 //!
 //! Predict, project the constraints so many times, and take as velocity what was moved
 //! (Müller et al. 2007). Its constraints are stable at any step, and so is drag; wind, which is that
-//! of the velocities before, up to λ Δt = 2 ([`System::wind_rate`]). Never sold as accurate: how stiff it is depends on
-//! the step and on the number of sweeps, and as the step goes to zero there is no limit.
-//! What it converges to with more sweeps is an inextensible net. Judge it by
+//! of the velocities before, up to λ Δt = 2 ([`System::wind_rate`]). Never sold as accurate: how
+//! stiff it is depends on the step and on the number of sweeps, and as the step goes to zero there
+//! is no limit. What it converges to with more sweeps is an inextensible net. Judge it by
 //! [`System::strain_rms`].
 
 use super::kernel;

@@ -5,10 +5,10 @@ use super::system::{Scratch, System};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
-/// Stable up to ω Δt = 2, and of wind alone up to λ Δt = 1. Its oscillators have the frequency ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it
-/// runs fast by up to π/2 at the limit. Drag is taken in by a backward and a forward half
-/// step, and wind by a prediction of the velocities that it blows at: both leave the order. Contact
-/// is of first order.
+/// Stable up to ω Δt = 2, and of wind alone up to λ Δt = 1 ([`System::wind_rate`]). Its oscillators
+/// have the frequency ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it runs fast by up to π/2 at the limit.
+/// Drag is taken in by a backward and a forward half step, and wind by a prediction of the
+/// velocities that it blows at: both leave the order. Contact is of first order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Verlet(());
 
@@ -88,8 +88,8 @@ impl Solver for Verlet {
 }
 
 /// The velocities at the end of a step, as far as they are known in its middle: by the accelerations
-/// at its beginning. What they lack is of second order, and half of that times Δt is what
-/// a step errs by. Those of the middle would lack as much as a whole order.
+/// at its beginning. They err by O(Δt²), and so the step by O(Δt³), as without wind. (Those of the
+/// middle err by O(Δt).)
 fn predict(system: &mut System, half: f64, fade: f64) {
     let (model, scratch) = (&system.model, &mut system.scratch);
     scratch.predicted.clone_from(&system.velocities);
