@@ -25,6 +25,7 @@
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
+mod air;
 mod balance;
 mod buckle;
 mod constraint;
@@ -52,6 +53,7 @@ mod verlet;
 mod weave;
 mod xpbd;
 
+pub use air::AirRate;
 pub use balance::EnergyBalance;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use culprit::Culprit;

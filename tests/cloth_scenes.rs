@@ -3,10 +3,10 @@
 
 use tearmesh::cloth::implicit::Settings;
 use tearmesh::cloth::{
-    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Pbd, Quality, Region, Run, RunError,
-    Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
+    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Path, Pbd, Quality, Region, Run,
+    RunError, Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
-use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId};
+use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId, shapes};
 
 /// A square of one metre in so many cells, the diagonals in turn.
 fn square(cells: u32) -> (Mesh, Positions) {
@@ -466,7 +466,11 @@ fn scenes_that_make_no_sense_are_refused() {
         refused(&|scene| scene.duration_s = f64::NAN),
         RunError::Times
     );
-    assert_eq!(refused(&|scene| scene.drag_per_s = -1.0), RunError::Loads);
+    let drag = refused(&|scene| scene.drag_per_s = -1.0);
+    assert_eq!(
+        drag.to_string(),
+        "drag_per_s is -1, which is not finite, or negative"
+    );
     let nowhere = refused(&|scene| scene.holds[1].region = Region::Vertices(Vec::new()));
     assert_eq!(nowhere, RunError::NothingHeld { number: 1 });
     let moves = refused(&|scene| scene.holds[0].moves = vec![(1.0, Vector::zeros()); 2]);
@@ -493,4 +497,84 @@ fn a_step_of_ones_own_is_refused_where_it_is_unstable() {
     assert!(matches!(refused, StepError::Unstable { .. }));
     assert_eq!(run.cloth().positions(), before);
     assert_eq!(run.tally().steps, 0);
+}
+
+/// Wind that is not usable at some time is refused before the first step, and not met in it.
+#[test]
+fn a_breeze_that_is_unusable_later_is_refused_at_once() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    let run = |steady: f64, sway: f64, period_s: f64| {
+        let breeze = Breeze {
+            steady: Wind {
+                velocity_m_per_s: Vector::new(0.0, 0.0, steady),
+                coefficient: 1.0,
+            },
+            sway_m_per_s: Vector::new(0.0, 0.0, sway),
+            period_s,
+        };
+        let scene = Scene {
+            breeze: Some(breeze),
+            ..Scene::hang(&frame)
+        };
+        let mut run = Run::new(mesh.clone(), &positions, scene, &frame)?;
+        for _ in 0..3 {
+            let _ = run.step();
+        }
+        Ok::<(), RunError>(())
+    };
+    let huge = 1.5e308;
+    let cases = [
+        (huge, huge, 1.0, "breeze.sway_m_per_s", huge),
+        (-huge, huge, 1.0, "breeze.sway_m_per_s", huge),
+        (1.0, f64::NAN, 1.0, "breeze.sway_m_per_s", f64::NAN),
+        (1.0, 1.0, 1e-320, "breeze.period_s", 1e-320),
+        (1.0, 1.0, 0.0, "breeze.period_s", 0.0),
+        (1.0, 1.0, -1.0, "breeze.period_s", -1.0),
+        (1.0, 0.0, -1.0, "breeze.period_s", -1.0),
+        (1.0, 1.0, f64::INFINITY, "breeze.period_s", f64::INFINITY),
+        (1.0, 1.0, f64::NAN, "breeze.period_s", f64::NAN),
+    ];
+    for (steady, sway, period_s, field, given) in cases {
+        let error = run(steady, sway, period_s).expect_err("it is refused");
+        let text = error.to_string();
+        assert!(
+            text.contains(&format!("{field} is {given}")),
+            "{steady} {sway} {period_s}: {text}"
+        );
+    }
+    run(1.0, 1.0, 1e-9).expect("any period that is a number of seconds");
+}
+
+/// A time that is none would be now.
+#[test]
+fn a_cut_at_a_time_that_is_none_is_refused() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    for at_s in [f64::NAN, -1.0, f64::INFINITY] {
+        let mut scene = Scene::flag(&frame);
+        assert!(!scene.cuts.is_empty());
+        scene.cuts[0].at_s = at_s;
+        let error = Run::new(mesh.clone(), &positions, scene, &frame).expect_err("no time");
+        assert_eq!(
+            error.to_string(),
+            format!("cut 1 is at {at_s} s, which is not finite, or negative")
+        );
+    }
+}
+
+/// What is between two points of a path is a number, as the points are.
+#[test]
+fn a_path_that_overflows_between_its_points_is_refused() {
+    let x = |x: f64| Point::new(x, 0.0, 0.0);
+    let huge = 1e308;
+    let wide = Path::new([(-1.0, x(-huge)), (1.0, x(huge))]);
+    assert_eq!(wide.map(|path| path.at(0.0)), None);
+    let long = Path::new([(-huge, x(0.0)), (huge, x(1.0))]);
+    assert_eq!(long.map(|path| path.at(0.0)), None);
+    let most = tearmesh::COORDINATE_MAX;
+    let widest = Path::new([(-huge / 2.0, x(-most)), (huge / 2.0, x(most))]);
+    let middle = widest.expect("coordinates that can be used").at(0.0);
+    assert_eq!(middle, x(0.0));
+    assert_eq!(Path::new([(0.0, x(most * 1.01))]), None);
 }

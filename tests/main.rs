@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod cloth_air;
 mod cloth_answers;
 mod cloth_balance;
 mod cloth_bending;

@@ -3,7 +3,7 @@
 //! Each exists only where it is named, and costs nothing otherwise; [`Counters`](super::Counters)
 //! prove it.
 
-use crate::geometry::{Plane, Point, Vector, dot, length};
+use crate::geometry::{Plane, Point, Vector, check_point, dot, length};
 
 /// What acts on the particles. The default is nothing.
 ///
@@ -50,19 +50,28 @@ pub enum Collider {
 }
 
 impl Loads {
-    /// Whether every number can be used.
-    pub(crate) fn is_usable(&self) -> bool {
-        let finite = |v: Vector| v.iter().all(|x| x.is_finite());
-        let positive = |x: f64| x >= 0.0 && x.is_finite();
+    /// The first number that cannot be used: its field, and the number as given.
+    pub(crate) fn fault(&self) -> Option<(&'static str, f64)> {
+        let finite = |v: Vector| v.iter().copied().find(|x| !x.is_finite());
+        let positive = |x: f64| Some(x).filter(|x| !(*x >= 0.0 && x.is_finite()));
         let collider = |collider: &Collider| match *collider {
-            Collider::Plane(_) => true,
-            Collider::Sphere { centre, radius_m } => finite(centre.coords) && positive(radius_m),
+            Collider::Plane(_) => None,
+            Collider::Sphere { centre, radius_m } => {
+                let centre = finite(centre.coords).map(|x| ("colliders.centre", x));
+                centre.or_else(|| Some(("colliders.radius_m", positive(radius_m)?)))
+            }
         };
-        let wind = |wind: Wind| finite(wind.velocity_m_per_s) && positive(wind.coefficient);
-        self.gravity_m_per_s2.is_none_or(finite)
-            && self.drag_per_s.is_none_or(positive)
-            && self.wind.is_none_or(wind)
-            && self.colliders.iter().all(collider)
+        let wind = |wind: Wind| {
+            let velocity = finite(wind.velocity_m_per_s).map(|x| ("wind.velocity_m_per_s", x));
+            velocity.or_else(|| Some(("wind.coefficient", positive(wind.coefficient)?)))
+        };
+        let gravity = self.gravity_m_per_s2.and_then(finite);
+        let gravity = gravity.map(|x| ("gravity_m_per_s2", x));
+        let drag = || Some(("drag_per_s", self.drag_per_s.and_then(positive)?));
+        gravity
+            .or_else(drag)
+            .or_else(|| self.wind.and_then(wind))
+            .or_else(|| self.colliders.iter().find_map(collider))
     }
 }
 
@@ -119,13 +128,16 @@ pub struct Path {
 
 impl Path {
     /// The path through these points at these seconds; `None` unless there is one, seconds
-    /// ascend strictly, and all numbers are finite.
+    /// ascend strictly and are finite as is the time between two, and no coordinate is beyond
+    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX). So all that [`Path::at`] says is finite.
     #[must_use]
     pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
         let points: Vec<_> = points.into_iter().collect();
-        let finite = |(s, p): &(f64, Point)| s.is_finite() && p.iter().all(|x| x.is_finite());
-        let ascending = points.windows(2).all(|pair| pair[0].0 < pair[1].0);
-        (!points.is_empty() && ascending && points.iter().all(finite)).then_some(Path { points })
+        let usable = |&(s, p): &(f64, Point)| s.is_finite() && check_point(p).is_ok();
+        let between = |pair: &[(f64, Point)]| pair[1].0 - pair[0].0;
+        let mut between = points.windows(2).map(between);
+        let ascending = between.all(|took_s| took_s > 0.0 && took_s.is_finite());
+        (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
     }
 
     /// Where it is after so many seconds.

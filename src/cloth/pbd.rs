@@ -1,9 +1,10 @@
 //! Position based dynamics, the second model of the paper.
 //!
 //! Predict, project the constraints so many times, and take as velocity what was moved
-//! (Müller et al. 2007). Always stable, and never sold as accurate: how stiff it is depends on
-//! the step and on the number of sweeps, and as the step goes to zero there is no limit.
-//! What it converges to with more sweeps is an inextensible net. Judge it by
+//! (Müller et al. 2007). Its constraints are stable at any step, and so is drag; wind, which is that
+//! of the velocities before, up to λ Δt = 2 ([`System::wind_rate`]). Never sold as accurate: how
+//! stiff it is depends on the step and on the number of sweeps, and as the step goes to zero there
+//! is no limit. What it converges to with more sweeps is an inextensible net. Judge it by
 //! [`System::strain_rms`].
 
 use super::kernel;
@@ -52,6 +53,10 @@ impl Pbd {
 }
 
 impl Solver for Pbd {
+    fn air_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         predict(system, dt_s);
         let [stretch, bend] = self.fractions();

@@ -17,7 +17,7 @@ use super::system::{Forces, System};
 use super::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
-/// the springs are stable up to ω Δt = 2.
+/// the springs are stable up to ω Δt = 2, and wind alone up to λ Δt = 2.
 #[derive(Clone, Copy, Debug)]
 pub struct Provot {
     limiter: Option<Limiter>,
@@ -150,6 +150,10 @@ impl Provot {
 
 impl Solver for Provot {
     fn frequency_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+
+    fn air_limit(&self) -> Option<f64> {
         Some(2.0)
     }
 

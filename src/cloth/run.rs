@@ -134,6 +134,9 @@ impl Run {
         let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
             .map_err(ClothError::from)?;
         let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
+        if let Some((field, given)) = scene.breeze.and_then(|breeze| breeze.fault()) {
+            return Err(RunError::Breeze { field, given });
+        }
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
@@ -142,7 +145,7 @@ impl Run {
             colliders: scene.colliders.clone(),
         };
         let system = cloth.system_mut();
-        system.set_loads(loads).map_err(|_| RunError::Loads)?;
+        system.set_loads(loads).map_err(RunError::Loads)?;
         let points = positions.as_slice();
         let vertices = |(number, hold): (usize, &_)| Held::new(number, hold, &mesh, points, frame);
         let held: Vec<Held> = scene
@@ -156,6 +159,11 @@ impl Run {
                 .map(|scissor| scissor.through(cut.through))
                 .map_err(|error| RunError::Cut { number, error })
         };
+        let timeless = |cut: &TimedCut| !(cut.at_s >= 0.0 && cut.at_s.is_finite());
+        if let Some(number) = scene.cuts.iter().position(timeless) {
+            let given_s = scene.cuts[number].at_s;
+            return Err(RunError::CutTime { number, given_s });
+        }
         let earlier = |pair: &[TimedCut]| pair[1].at_s < pair[0].at_s;
         if let Some(before) = scene.cuts.windows(2).position(earlier) {
             return Err(RunError::CutTimes { number: before + 1 });
@@ -170,9 +178,10 @@ impl Run {
             Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
             None => None,
         };
+        let engine = Engine::new(&scene.solver);
         let step_s = match scene.step_s {
             Some(step_s) => step_s,
-            None => step_size::suggested_s(&scene, &mut cloth),
+            None => step_size::suggested_s(&scene, &engine, &mut cloth),
         };
         if !(step_s > 0.0 && step_s.is_finite() && scene.duration_s >= 0.0) {
             return Err(RunError::Times);
@@ -181,13 +190,21 @@ impl Run {
         if steps_planned > Run::STEPS_MAX as f64 {
             return Err(RunError::Times);
         }
+        let last_s = Run::STEPS_MAX as f64 * step_s;
+        let uncounted = |breeze: &Breeze| !(last_s / breeze.period_s).is_finite();
+        if let Some(breeze) = scene.breeze.filter(uncounted) {
+            return Err(RunError::Breeze {
+                field: "breeze.period_s",
+                given: breeze.period_s,
+            });
+        }
         if scene.step_s.is_none() {
             // A step of our own choice is not refused because of what tore since.
             cloth.system_mut().when_unstable(Unstable::Substep);
         }
         cloth.system_mut().keep_balance();
         Ok(Run {
-            engine: Engine::new(&scene.solver),
+            engine,
             watch: Watch::new(&scene.solver, cloth.system(), step_s),
             mesh,
             cloth,
@@ -279,8 +296,8 @@ impl Run {
 
     /// The longest stable step of an explicit method.
     fn stable_step_s(&mut self) -> Option<f64> {
-        let limit = self.engine.frequency_limit()?;
-        Some(self.cloth.system_mut().stable_step_s(limit))
+        self.engine.frequency_limit()?;
+        self.cloth.system_mut().whole_step_s(&self.engine)
     }
 
     fn shortened(&mut self, before_s: f64) -> Shortened {
@@ -371,6 +388,8 @@ impl Run {
     /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
     ///   that it would have to travel farther; see [`Run::step_wanted_s`].
     /// * Implicit: 1/240 s.
+    ///
+    /// And at most 0.7 of what wind allows ([`System::wind_rate`](super::System::wind_rate)).
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.step_s

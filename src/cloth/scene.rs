@@ -100,6 +100,19 @@ impl Breeze {
         }
     }
 
+    /// The first number that would not give a usable wind at all times, beyond those of the steady
+    /// wind itself: its field, and the number as given.
+    pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
+        if !(self.period_s > 0.0 && self.period_s.is_finite()) {
+            return Some(("breeze.period_s", self.period_s));
+        }
+        let parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
+        let beyond =
+            |(u, sway): &(&f64, &f64)| u.is_finite() && !(u.abs() + sway.abs()).is_finite();
+        let mut beyond = parts.filter(beyond);
+        Some(("breeze.sway_m_per_s", *beyond.next()?.1))
+    }
+
     /// Whether it changes with time.
     #[must_use]
     pub fn sways(&self) -> bool {

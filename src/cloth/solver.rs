@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::air::{AirRate, AirShare};
 use super::balance::Noted;
 use super::culprit::Culprit;
 use super::implicit;
@@ -42,6 +43,20 @@ pub trait Solver {
         None
     }
 
+    /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which
+    /// air slows the system that the method takes in by the velocities before a step: that of
+    /// wind ([`System::wind_rate`]), and of drag where it
+    /// [`takes_drag_explicitly`](Solver::takes_drag_explicitly). `None` where there is none.
+    fn air_limit(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether the method takes in drag by the velocities before a step, so that its rate counts
+    /// for [`Solver::air_limit`].
+    fn takes_drag_explicitly(&self) -> bool {
+        false
+    }
+
     /// Whether the method takes in the forces of [`System::triangles`]. One that does not is
     /// refused where there are any.
     fn takes_triangles(&self) -> bool {
@@ -62,6 +77,14 @@ impl<S: Solver + ?Sized> Solver for &mut S {
 
     fn frequency_limit(&self) -> Option<f64> {
         (**self).frequency_limit()
+    }
+
+    fn air_limit(&self) -> Option<f64> {
+        (**self).air_limit()
+    }
+
+    fn takes_drag_explicitly(&self) -> bool {
+        (**self).takes_drag_explicitly()
     }
 
     fn takes_triangles(&self) -> bool {
@@ -129,7 +152,7 @@ pub enum StepError {
         /// How many there are.
         count: usize,
     },
-    /// An explicit method would be unstable.
+    /// An explicit method would be unstable, by its springs more than by the air.
     Unstable {
         /// The step as given.
         given_s: f64,
@@ -137,6 +160,16 @@ pub enum StepError {
         limit_s: f64,
         /// The frequency that sets it.
         frequency: Frequency,
+    },
+    /// The air would make a method unstable that takes it in by the velocities before: alone, or
+    /// more so than the springs.
+    Air {
+        /// The step as given.
+        given_s: f64,
+        /// The largest step that is admitted.
+        limit_s: f64,
+        /// The rate that sets it.
+        rate: AirRate,
     },
     /// It would take more substeps than [`StepError::SUBSTEPS_MAX`].
     Substeps {
@@ -192,7 +225,7 @@ impl System {
         if count > 0 && self.model.buckling.is_some() && !solver.takes_buckling() {
             return Err(StepError::Buckling { count });
         }
-        let admitted = self.admit(solver.frequency_limit(), dt_s);
+        let admitted = self.admit(solver, dt_s);
         let report = admitted.map_err(|error| self.unless_broken(error))?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
@@ -260,48 +293,86 @@ impl System {
         Culprit::of(&self.model, &[began, now])
     }
 
-    /// How many substeps a step takes, the cheap answer first.
+    /// How many substeps a step takes, by the springs of an explicit method, and by air that a
+    /// method takes in by the velocities before.
+    fn admit(
+        &mut self,
+        solver: &(impl Solver + ?Sized),
+        dt_s: f64,
+    ) -> Result<StepReport, StepError> {
+        let whole = StepReport {
+            substeps: 1,
+            limit_s: None,
+        };
+        if self.unstable == Unstable::Allow {
+            return Ok(whole);
+        }
+        match (solver.frequency_limit(), self.air_share(solver)) {
+            (Some(limit), air) => self.admit_springs(limit, air, dt_s),
+            (None, Some(air)) => self.admit_air(air, dt_s),
+            (None, None) => Ok(whole),
+        }
+    }
+
+    /// The same by the springs, the cheap answer first; the share of the air shortens either.
     ///
     /// The bound holds wherever the particles go. A measured frequency is that of one
     /// configuration: springs that turn toward each other at a light particle can raise it to the
     /// bound within a few steps. So a step is divided by the bound, and one that is longer than
     /// that and admitted whole is measured again and again.
-    fn admit(&mut self, limit: Option<f64>, dt_s: f64) -> Result<StepReport, StepError> {
-        let admitted = |substeps, limit_s| Ok(StepReport { substeps, limit_s });
-        let Some(limit) = limit.filter(|_| self.unstable != Unstable::Allow) else {
-            return admitted(1, None);
-        };
-        let bound_s = limit / self.frequency_bound();
-        if dt_s <= bound_s {
-            return admitted(1, Some(bound_s));
-        }
-        if self.unstable == Unstable::Substep {
-            let substeps = (dt_s / bound_s).ceil();
-            if substeps > f64::from(StepError::SUBSTEPS_MAX) {
-                return Err(StepError::Substeps {
-                    given_s: dt_s,
-                    limit_s: bound_s,
-                });
-            }
-            return admitted(substeps as u32, Some(bound_s));
+    fn admit_springs(
+        &mut self,
+        limit: f64,
+        air: Option<AirShare>,
+        dt_s: f64,
+    ) -> Result<StepReport, StepError> {
+        let springs_s = limit / self.frequency_bound();
+        let bound_s = with_air(springs_s, air);
+        if dt_s <= bound_s || self.unstable == Unstable::Substep {
+            return divided(dt_s, bound_s);
         }
         let frequency = self.recent_frequency();
-        let limit_s = (self.margin * limit / frequency.omega_rad_per_s).max(bound_s);
+        let springs_s = (self.margin * limit / frequency.omega_rad_per_s).max(springs_s);
+        let limit_s = with_air(springs_s, air);
         if dt_s <= limit_s {
-            return admitted(1, Some(limit_s));
+            return divided(dt_s, limit_s);
         }
-        Err(StepError::Unstable {
-            given_s: dt_s,
-            limit_s,
-            frequency,
-        })
+        match air.filter(|air| air.per_s * springs_s > 1.0) {
+            Some(air) => Err(air.refused(dt_s, limit_s)),
+            None => Err(StepError::Unstable {
+                given_s: dt_s,
+                limit_s,
+                frequency,
+            }),
+        }
+    }
+
+    /// The same by the air alone.
+    fn admit_air(&mut self, air: AirShare, dt_s: f64) -> Result<StepReport, StepError> {
+        let limit_s = with_air(f64::INFINITY, Some(air));
+        if dt_s <= limit_s || self.unstable == Unstable::Substep {
+            return divided(dt_s, limit_s);
+        }
+        Err(air.refused(dt_s, limit_s))
     }
 
     /// The largest step in seconds that the watch admits whole in the present configuration, for
     /// a method with this limit of ω Δt: 2 for [`Verlet`](super::Verlet). Measures the frequency.
+    /// Springs alone: what wind takes of it is [`Solver::air_limit`] by [`System::wind_rate`].
     pub fn stable_step_s(&mut self, frequency_limit: f64) -> f64 {
         let bound_s = frequency_limit / self.frequency_bound();
         (self.margin * frequency_limit / self.frequency().omega_rad_per_s).max(bound_s)
+    }
+
+    /// The same for this method with the air that blows now; `None` where nothing limits it.
+    pub(crate) fn whole_step_s(&mut self, solver: &impl Solver) -> Option<f64> {
+        let springs_s = solver
+            .frequency_limit()
+            .map(|limit| self.stable_step_s(limit));
+        match self.air_share(solver) {
+            None => springs_s,
+            air => Some(with_air(springs_s.unwrap_or(f64::INFINITY), air)),
+        }
     }
 
     fn is_finite(&self) -> bool {
@@ -310,6 +381,37 @@ impl System {
         let velocities: f64 = self.velocities.iter().map(|v| v.x + v.y + v.z).sum();
         (positions + velocities).is_finite()
     }
+}
+
+impl AirShare {
+    /// A step that the air makes too long.
+    fn refused(self, given_s: f64, limit_s: f64) -> StepError {
+        StepError::Air {
+            given_s,
+            limit_s,
+            rate: self.rate,
+        }
+    }
+}
+
+/// The longest stable step of springs and air together, in seconds, by that of the springs.
+fn with_air(springs_s: f64, air: Option<AirShare>) -> f64 {
+    air.map_or(springs_s, |air| 1.0 / (1.0 / springs_s + air.per_s))
+}
+
+/// A step in as many parts as are admitted.
+fn divided(dt_s: f64, limit_s: f64) -> Result<StepReport, StepError> {
+    let substeps = (dt_s / limit_s).ceil();
+    if substeps > f64::from(StepError::SUBSTEPS_MAX) {
+        return Err(StepError::Substeps {
+            given_s: dt_s,
+            limit_s,
+        });
+    }
+    Ok(StepReport {
+        substeps: (substeps as u32).max(1),
+        limit_s: Some(limit_s),
+    })
 }
 
 impl fmt::Display for StepError {
@@ -343,6 +445,18 @@ impl fmt::Display for StepError {
                 }
                 f.write_str(")")
             }
+            StepError::Air {
+                given_s,
+                limit_s,
+                rate,
+            } => write!(
+                f,
+                "dt {given_s} s exceeds the stability limit {} s (the air slows particle {} at a \
+                 rate of {} /s)",
+                Digits(*limit_s),
+                rate.particle,
+                Digits(rate.rate_per_s)
+            ),
             StepError::Substeps { given_s, limit_s } => write!(
                 f,
                 "dt {given_s} s would take more than {} substeps of {} s",

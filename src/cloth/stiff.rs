@@ -9,7 +9,9 @@ use super::solver::{Failure, Solver};
 use super::system::System;
 use crate::geometry::Vector;
 
-/// Implicit steps of a system: backward Euler or BDF2, stable at any step.
+/// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
+/// are stable at any step; wind is taken in as it is where a step begins, and is stable up to
+/// λ Δt = 2 ([`System::wind_rate`]).
 ///
 /// ```
 /// use tearmesh::cloth::implicit::{self, Settings, Tolerance};
@@ -109,6 +111,11 @@ impl ImplicitCloth {
 }
 
 impl Solver for ImplicitCloth {
+    /// That of backward Euler, with which BDF2 begins, and begins anew after an edit.
+    fn air_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+
     fn takes_triangles(&self) -> bool {
         true
     }

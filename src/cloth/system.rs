@@ -73,6 +73,10 @@ pub(crate) struct Scratch {
     pub(crate) velocities: Vec<Vector>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
+    /// The velocities that wind blows at, where they are predicted.
+    pub(crate) predicted: Vec<Vector>,
+    /// The area of the faces of each particle, where there is wind.
+    pub(crate) areas: Vec<f64>,
 }
 
 /// What was computed since the system was made: the cost of a simulation, without a clock.
@@ -89,6 +93,8 @@ pub struct Counters {
     pub triangle_evaluations: u64,
     /// Sums of wind over all faces.
     pub wind_evaluations: u64,
+    /// Sums of areas over all faces, for the rate at which wind slows the system.
+    pub area_evaluations: u64,
     /// Tests of all particles against one collider.
     pub collider_passes: u64,
     /// Substeps.
@@ -418,8 +424,8 @@ impl System {
     ///
     /// [`SystemError::Loads`] where a number is not finite, or negative where it must not be.
     pub fn set_loads(&mut self, loads: Loads) -> Result<(), SystemError> {
-        if !loads.is_usable() {
-            return Err(SystemError::Loads);
+        if let Some((field, given)) = loads.fault() {
+            return Err(SystemError::Loads { field, given });
         }
         self.scratch.is_fresh = false;
         let is_same = loads.gravity_m_per_s2 == self.model.loads.gravity_m_per_s2;

@@ -18,7 +18,9 @@ use super::solver::{Failure, Solver};
 use super::system::{Forces, Model, System};
 use crate::geometry::{Vector, dot};
 
-/// XPBD: so many substeps a step, and sweeps a substep. Always stable.
+/// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
+/// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep
+/// ([`System::wind_rate`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Xpbd {
     /// Substeps a step; at least one.
@@ -107,6 +109,11 @@ impl Xpbd {
 }
 
 impl Solver for Xpbd {
+    /// Each substep has wind of its own.
+    fn air_limit(&self) -> Option<f64> {
+        Some(2.0 * f64::from(self.substeps.max(1)))
+    }
+
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);

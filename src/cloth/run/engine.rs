@@ -71,6 +71,14 @@ impl Solver for Engine {
         }
     }
 
+    fn air_limit(&self) -> Option<f64> {
+        self.solver().air_limit()
+    }
+
+    fn takes_drag_explicitly(&self) -> bool {
+        self.solver().takes_drag_explicitly()
+    }
+
     fn takes_triangles(&self) -> bool {
         self.solver().takes_triangles()
     }

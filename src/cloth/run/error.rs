@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::cloth::sheet::ClothError;
+use crate::cloth::system::SystemError;
 use crate::cloth::tearing::TearingError;
 use crate::scissor::ScissorError;
 
@@ -15,8 +16,16 @@ pub enum RunError {
     /// The step is not positive, or the scene would take more than
     /// [`Run::STEPS_MAX`](super::Run::STEPS_MAX) of them.
     Times,
-    /// A load has a number that is not finite, or negative where it must not be.
-    Loads,
+    /// A number of a load is not finite, or negative where it must not be.
+    Loads(SystemError),
+    /// The wind would not be usable at all times: its sway added to it is no number, or its period
+    /// is not positive and finite, or too short for a time to be counted in it.
+    Breeze {
+        /// The field.
+        field: &'static str,
+        /// The number as given; of a vector, the component.
+        given: f64,
+    },
     /// No vertex lies where one is to be held.
     NothingHeld {
         /// The number of the hold in the scene.
@@ -33,6 +42,13 @@ pub enum RunError {
         number: usize,
         /// Why.
         error: ScissorError,
+    },
+    /// The time of a cut is not one of the scene: negative, or not finite.
+    CutTime {
+        /// The number of the cut in the scene.
+        number: usize,
+        /// The time as given.
+        given_s: f64,
     },
     /// The cuts do not ascend in time.
     CutTimes {
@@ -54,8 +70,9 @@ impl fmt::Display for RunError {
         match self {
             RunError::Cloth(error) => error.fmt(f),
             RunError::Times => write!(f, "the step is not positive, or too short for the scene"),
-            RunError::Loads => {
-                write!(f, "a load has a number that is not finite, or negative")
+            RunError::Loads(error) => error.fmt(f),
+            RunError::Breeze { field, given } => {
+                write!(f, "{field} is {given}, with which no wind can blow")
             }
             RunError::NothingHeld { number } => {
                 write!(f, "hold {} holds no vertex", number + 1)
@@ -64,6 +81,11 @@ impl fmt::Display for RunError {
                 write!(f, "the times of hold {} do not ascend", number + 1)
             }
             RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
+            RunError::CutTime { number, given_s } => write!(
+                f,
+                "cut {} is at {given_s} s, which is not finite, or negative",
+                number + 1
+            ),
             RunError::CutTimes { number } => {
                 write!(f, "cut {} is earlier than the one before it", number + 1)
             }

@@ -75,9 +75,13 @@ impl Held {
     fn take(&self, v: VertexId, system: &mut System) {
         let from = system.positions()[v.index()];
         let way = self.hold.moves.iter().map(|&(s, d)| (s, from + d));
-        match Path::new(way) {
-            Some(path) => system.grab(v.index(), path),
-            None => system.hold(v.index()),
+        // The way itself was looked at when the scene was set; from the edge of what is usable it
+        // leads a little beyond, and not to nowhere.
+        let points: Vec<_> = way.collect();
+        if points.is_empty() {
+            system.hold(v.index());
+        } else {
+            system.grab(v.index(), Path { points });
         }
     }
 

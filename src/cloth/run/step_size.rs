@@ -1,5 +1,6 @@
 //! Which step suits a scene.
 
+use super::engine::Engine;
 use crate::cloth::scene::{Method, Scene};
 use crate::cloth::sheet::Cloth;
 
@@ -10,13 +11,18 @@ const FRAME_S: f64 = 1.0 / 60.0;
 const LONGEST_S: f64 = FRAME_S / 2.0;
 
 /// A step in seconds that suits the method, the fabric and the mesh: a whole part of 1/60 s.
-pub(super) fn suggested_s(scene: &Scene, cloth: &mut Cloth) -> f64 {
+pub(super) fn suggested_s(scene: &Scene, engine: &Engine, cloth: &mut Cloth) -> f64 {
+    let stable_s = cloth.system_mut().whole_step_s(engine);
+    let stable_s = stable_s.map_or(LONGEST_S, |limit_s| 0.7 * limit_s);
     let limit_s = match scene.solver {
-        Method::Provot(_) | Method::Verlet => 0.7 * cloth.system_mut().stable_step_s(2.0),
+        Method::Provot(_) | Method::Verlet => stable_s,
         Method::Implicit(_) => FRAME_S / 4.0,
         Method::Pbd(_) | Method::Xpbd(_) => wanted_s(scene, cloth).unwrap_or(LONGEST_S),
     };
-    FRAME_S / (FRAME_S / limit_s.min(LONGEST_S)).ceil().max(1.0)
+    FRAME_S
+        / (FRAME_S / limit_s.min(stable_s).min(LONGEST_S))
+            .ceil()
+            .max(1.0)
 }
 
 /// The longest step at which a method that sweeps is about as stiff as the fabric. In a

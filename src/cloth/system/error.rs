@@ -42,8 +42,13 @@ pub enum SystemError {
         /// The corners as given.
         corners: [usize; 3],
     },
-    /// A load has a number that is not finite, or negative.
-    Loads,
+    /// A number of a load is not finite, or negative where it must not be.
+    Loads {
+        /// The field of [`Loads`](crate::cloth::Loads).
+        field: &'static str,
+        /// The number as given; of a vector, the component.
+        given: f64,
+    },
 }
 
 impl fmt::Display for SystemError {
@@ -75,8 +80,8 @@ impl fmt::Display for SystemError {
                 "a triangle of the particles {a}, {b} and {c} cannot have that stiffness and \
                  those places in the material"
             ),
-            SystemError::Loads => {
-                write!(f, "a load has a number that is not finite, or negative")
+            SystemError::Loads { field, given } => {
+                write!(f, "{field} is {given}, which is not finite, or negative")
             }
         }
     }

@@ -194,7 +194,9 @@ pub(super) fn method(method: tearmesh::Method) -> &'static str {
 /// Why the simulation failed, with vertices counted as in OBJ, and what would help.
 pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fault {
     let code = match error {
-        StepError::Unstable { .. } | StepError::Substeps { .. } => "E-SIM-UNSTABLE",
+        StepError::Unstable { .. } | StepError::Air { .. } | StepError::Substeps { .. } => {
+            "E-SIM-UNSTABLE"
+        }
         StepError::Implicit { .. } => "E-SIM-UNSOLVED",
         _ => "E-SIM-BLOWUP",
     };
@@ -214,6 +216,19 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
             format!(
                 "dt {given_s} s exceeds the stability limit {limit} s (largest frequency {omega} \
                  rad/s{at}){after}"
+            )
+        }
+        StepError::Air {
+            given_s,
+            limit_s,
+            rate,
+        } => {
+            let vertex = rate.particle + 1;
+            let per_s = short(rate.rate_per_s.round());
+            let limit = two_digits(limit_s);
+            format!(
+                "dt {given_s} s exceeds the stability limit {limit} s (the air slows vertex \
+                 {vertex} at a rate of {per_s} /s){after}"
             )
         }
         StepError::Implicit { ref error, .. } => format!("{}{after}", unsolved(error, run)),
@@ -249,6 +264,10 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
             // What is torn later may need still shorter steps.
             let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
             format!("--dt {}, or --solver xpbd", two_digits(limit_s * part))
+        }
+        StepError::Air { limit_s, .. } => {
+            let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
+            format!("--dt {}", two_digits(limit_s * part))
         }
         StepError::Implicit { error, .. } => {
             let shorter = two_digits(run.step_s() / 2.0);
