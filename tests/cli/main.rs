@@ -4,6 +4,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod files;
+mod frames;
 mod fuzz;
 mod harness;
 mod in_process;

@@ -53,6 +53,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         is_step_chosen,
         args,
         opened: &opened,
+        guard: Guard::new(),
     };
     play.perform(run, session, streams)
 }
@@ -78,6 +79,8 @@ struct Play<'a> {
     is_step_chosen: bool,
     args: &'a TearArgs,
     opened: &'a Opened,
+    /// An interruption ends the steps, or the writing of frames; what was done is written.
+    guard: Guard,
 }
 
 /// How the steps ended.
@@ -108,8 +111,6 @@ impl Play<'_> {
         let ledger = run.cloth().masses().ledger();
         session.verify(run.mesh(), &ledger, words::momentum_broken(&run))?;
         session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
-        let shot = frames.finish(&run, &torn)?;
-        session.faults.extend(shot.warning);
 
         let pieces = run.mesh().components().count();
         let tally = run.tally();
@@ -139,7 +140,7 @@ impl Play<'_> {
             energy_j: words::energy(&run),
             quality: words::quality(&run),
             counters: words::counters(&run),
-            frames: shot.report,
+            frames: None,
         };
         session.faults.extend(words::infeasible(&run));
         session.words.push(words::simulation(&tear));
@@ -155,7 +156,7 @@ impl Play<'_> {
                 session.faults.push(fault);
                 if tally.steps == 0 && run.edits().next_number() == 0 {
                     session.words.clear();
-                    return Ok(());
+                    return self.show(frames, &run, &torn, session);
                 }
             }
         }
@@ -165,6 +166,28 @@ impl Play<'_> {
         let mesh = run.mesh();
         let ending = crate::files::ending(vertices_before, mesh, &ledger, &session.destination);
         session.words.push(ending);
+        self.show(frames, &run, &torn, session)
+    }
+
+    /// Writes the frames that waited. That may take as long as the steps, so it comes last, and
+    /// an interruption that did not end the steps ends this.
+    fn show(
+        &self,
+        frames: Frames,
+        run: &Run,
+        torn: &TornDocument<'_>,
+        session: &mut Session<'_>,
+    ) -> Result<(), Stop> {
+        let was_interrupted = session.exit == Exit::Interrupted;
+        let is_enough = || !was_interrupted && self.guard.is_interrupted();
+        let shown = frames.finish(run, torn, is_enough)?;
+        session.faults.extend(shown.warnings);
+        if let Some(tear) = &mut session.report.tear {
+            tear.frames = shown.report;
+        }
+        if session.exit == Exit::Done && self.guard.is_interrupted() {
+            session.exit = Exit::Interrupted;
+        }
         Ok(())
     }
 
@@ -178,11 +201,10 @@ impl Play<'_> {
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
         let bar = self.bar(run, streams);
-        let guard = Guard::new();
         let mut ended = Ended::Done;
         frames.shoot(run, torn)?;
         while !run.is_over() {
-            if guard.is_interrupted() {
+            if self.guard.is_interrupted() {
                 ended = Ended::Interrupted;
                 break;
             }

@@ -57,7 +57,7 @@ enum Birth {
 #[derive(Default)]
 pub(super) struct Shown {
     pub(super) report: Option<report::Frames>,
-    pub(super) warning: Option<Fault>,
+    pub(super) warnings: Vec<Fault>,
 }
 
 impl Frames {
@@ -131,13 +131,23 @@ impl Frames {
         Ok(())
     }
 
-    /// Writes the frames that waited, each checked against its own mesh.
-    pub(super) fn finish(self, run: &Run, torn: &TornDocument<'_>) -> Result<Shown, Stop> {
-        let Some(folder) = &self.folder else {
+    /// Writes the frames that waited, each checked against its own mesh, until it is enough.
+    pub(super) fn finish(
+        mut self,
+        run: &Run,
+        torn: &TornDocument<'_>,
+        is_enough: impl Fn() -> bool,
+    ) -> Result<Shown, Stop> {
+        let Some(folder) = self.folder.clone() else {
             return Ok(Shown::default());
         };
-        let mut checked = 0;
+        let (mut checked, mut warnings) = (0, Vec::new());
         for (number, shot) in self.waiting.iter().enumerate() {
+            if is_enough() {
+                warnings.push(interrupted(&folder, number, self.count));
+                self.count = number;
+                break;
+            }
             let points = self.grown(shot);
             checked += self.check(shot, &points, run.mesh()).map_err(|broken| {
                 let message = format!("frame {number} is not its own mesh: {broken}");
@@ -150,8 +160,9 @@ impl Frames {
             self.write(run.mesh(), &positions, torn, number)?;
         }
         let is_final = self.topology == Topology::Final;
+        warnings.extend(self.left_over(&folder));
         Ok(Shown {
-            warning: self.left_over(folder),
+            warnings,
             report: Some(report::Frames {
                 folder: folder.display().to_string(),
                 count: self.count,
@@ -235,6 +246,13 @@ impl Frames {
             Fault::warning("W-FRAMES-OLD", message).help("write frames into a folder of their own")
         })
     }
+}
+
+/// Says which frames are not there.
+fn interrupted(folder: &Path, written: usize, count: usize) -> Fault {
+    let folder = folder.display();
+    let message = format!("interrupted: `{folder}` has {written} of {count} frames");
+    Fault::warning("W-FRAMES-INTERRUPTED", message)
 }
 
 fn name(number: usize) -> String {
