@@ -9,6 +9,7 @@ mod fuzz;
 mod harness;
 mod in_process;
 mod memory;
+mod places;
 mod tear;
 mod through;
 mod transcripts;

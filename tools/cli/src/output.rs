@@ -48,7 +48,7 @@ pub(crate) fn write<T>(
             "it is a directory",
         ));
     }
-    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    let folder = folder(&path);
     if let Some(missing) = folder.filter(|folder| !folder.is_dir()) {
         let message = format!("there is no folder `{}`", missing.display());
         return Err(io::Error::new(io::ErrorKind::NotFound, message));
@@ -126,6 +126,17 @@ pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
         }
     }
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// The same for files that need not exist yet.
+pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
+    let folders = [a, b].map(|path| folder(path).unwrap_or(Path::new(".")));
+    is_same_file(a, b) || (a.file_name() == b.file_name() && is_same_file(folders[0], folders[1]))
+}
+
+/// The folder that a path names, if it names any.
+fn folder(path: &Path) -> Option<&Path> {
+    path.parent().filter(|folder| *folder != Path::new(""))
 }
 
 /// Whoever read our output may have had enough: that is no failure.

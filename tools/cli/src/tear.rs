@@ -7,6 +7,7 @@ mod words;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tearmesh::cloth::{CutMade, Frame, Method, Run, Scene, StepError, Tearing, TimedCut};
@@ -19,7 +20,7 @@ use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::scene::{Source, threshold};
 use crate::session::{Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, report};
+use crate::{Exit, Streams, files, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -32,6 +33,9 @@ pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>
 fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
     let source = Source::find(&args.scene, streams)?;
+    let scene = matches!(source, Source::File(_)).then_some(Path::new(&args.scene));
+    files::keep(&args.files, scene, "the scene")?;
+    files::keep(&args.files, args.strength.as_deref(), "the strengths")?;
     let cuts = check::cuts(args, &mut session.faults)?;
     let opened = session.open(None, streams)?;
     let up = args.up.unwrap_or_else(|| source.up());
@@ -164,7 +168,7 @@ impl Play<'_> {
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
         let mesh = run.mesh();
-        let ending = crate::files::ending(vertices_before, mesh, &ledger, &session.destination);
+        let ending = files::ending(vertices_before, mesh, &ledger, &session.destination);
         session.words.push(ending);
         self.show(frames, &run, &torn, session)
     }

@@ -73,9 +73,15 @@ impl Frames {
             first: run.mesh().vertex_count(),
         };
         if let Some(folder) = &frames.folder {
-            refuse_replacing(folder, &args.files.input, "the input")?;
-            if let Some(path) = &args.files.output {
-                refuse_replacing(folder, path, "the output")?;
+            let files = &args.files;
+            for (path, what) in [
+                (Some(&*files.input), "the input"),
+                (files.output.as_deref(), "the output"),
+                (files.report.as_deref(), "the report"),
+                (Some(Path::new(&args.scene)), "the scene"),
+                (args.strength.as_deref(), "the strengths"),
+            ] {
+                path.map_or(Ok(()), |path| refuse_replacing(folder, path, what))?;
             }
             if !folder.is_dir() {
                 fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
