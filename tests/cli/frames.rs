@@ -20,6 +20,31 @@ fn count(folder: &Folder, name: &str) -> usize {
     frames.count()
 }
 
+/// Whoever follows a vertex by its number through the frames follows one vertex.
+#[test]
+fn a_corner_of_a_frame_changes_only_to_a_vertex_that_is_new_in_it() {
+    let folder = Folder::new();
+    let output = folder.run("tearmesh tear sheet.obj --scene rip --frames f -q -o torn.obj");
+    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    let (mut moved, mut reused) = (0, 0);
+    let mut before = corners(&folder.read("f/frame_00000.obj"));
+    for number in 1..count(&folder, "f") {
+        let now = corners(&folder.read(&format!("f/frame_{number:05}.obj")));
+        assert!(now.0 >= before.0, "frame {number} has lost vertices");
+        for (was, is) in before.1.iter().zip(&now.1).filter(|(was, is)| was != is) {
+            moved += 1;
+            reused += usize::from(*is <= before.0);
+            assert_ne!(was, is);
+        }
+        before = now;
+    }
+    assert!(moved > 100, "{moved}");
+    assert_eq!(
+        reused, 0,
+        "corners of {moved} moved to a vertex that was another"
+    );
+}
+
 /// The frames with the faces of the last one are written at the end, and take their time.
 #[cfg(unix)]
 #[test]

@@ -119,7 +119,10 @@ impl Frames {
         }
         if self.topology == Topology::Own {
             let positions = super::places(run)?;
-            self.write(run.mesh(), &positions, torn, self.count)?;
+            // Fans stay together: the number of a copy is that of the vertex born next.
+            self.write(self.count, |mut out| {
+                torn.write_unseparated(run.mesh(), &positions, &mut out)
+            })?;
         } else {
             let now = run.mesh().indices();
             let last = self.waiting.last().filter(|shot| *shot.indices == now);
@@ -163,7 +166,9 @@ impl Frames {
                 let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
                 Stop::new(Exit::Simulation, fault)
             })?;
-            self.write(run.mesh(), &positions, torn, number)?;
+            self.write(number, |mut out| {
+                torn.write(run.mesh(), &positions, &mut out)
+            })?;
         }
         let is_final = self.topology == Topology::Final;
         warnings.extend(self.left_over(&folder));
@@ -225,18 +230,13 @@ impl Frames {
 
     fn write(
         &self,
-        mesh: &Mesh,
-        positions: &Positions,
-        torn: &TornDocument<'_>,
         number: usize,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<WriteSummary>,
     ) -> Result<(), Stop> {
         let Some(folder) = &self.folder else {
             return Ok(());
         };
         let path = folder.join(name(number));
-        let fill = |mut out: &mut dyn Write| -> io::Result<WriteSummary> {
-            torn.write(mesh, positions, &mut out)
-        };
         let written = output::write(&path, fill);
         written
             .map(|_| ())
