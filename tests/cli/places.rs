@@ -1,6 +1,7 @@
 //! Places: what is never written over, and what is found out before the work.
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use crate::harness::{Folder, seen};
 
@@ -46,4 +47,68 @@ fn no_output_replaces_an_input_of_any_kind() {
     // A name of a scene is no file.
     let output = folder.run(&format!("{tear} hang -o hang"));
     assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+}
+
+#[test]
+fn a_folder_that_is_made_for_frames_takes_the_other_files_too() {
+    let folder = Folder::new();
+    let line = "tearmesh tear flag.obj --scene hang --seconds 0.1 --frames g -o g/x.obj";
+    let output = folder.run(&format!("{line} --report g/r.json"));
+    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    assert!(folder.path("g/x.obj").exists() && folder.path("g/r.json").exists());
+}
+
+/// A report of a simulation says its steps, so one without was written before the first.
+#[test]
+fn a_place_that_cannot_be_written_is_found_before_the_first_step() {
+    let folder = Folder::new();
+    let line = "tearmesh tear flag.obj --scene hang --seconds 0.1 --format json";
+    for (options, message) in [
+        ("-o no/x.obj", "`no/x.obj`: there is no folder `no`"),
+        ("-o tests", "`tests`: it is a directory"),
+        ("--report no/r.json", "`no/r.json`: there is no folder `no`"),
+        ("--dry-run --report tests", "`tests`: it is a directory"),
+    ] {
+        let output = folder.run(&format!("{line} {options}"));
+        assert_eq!(output.status.code(), Some(7), "{}", seen(&output));
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert!(
+            report["steps"].is_null(),
+            "{options}: {} steps",
+            report["steps"]
+        );
+        let said = report["diagnostics"].as_array().expect("a list");
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert_eq!(said[0]["code"], "E-IO-WRITE");
+        assert_eq!(said[0]["message"], format!("cannot write {message}"));
+    }
+}
+
+#[test]
+fn a_chart_that_cannot_be_written_is_not_begun() {
+    let folder = Folder::new();
+    for options in [
+        "-o no/x.svg",
+        "-o x.svg --csv no/x.csv",
+        "-o x.svg --json no/x.json",
+    ] {
+        let mut command = folder.command();
+        command.args(["chart", "tear"]).args(options.split(' '));
+        let child = command.stderr(std::process::Stdio::piped()).spawn();
+        let mut child = child.expect("a run");
+        let begun = Instant::now();
+        while child.try_wait().expect("a status").is_none() {
+            if begun.elapsed() > Duration::from_secs(8) {
+                child.kill().expect("it is still there");
+                child.wait().expect("an end");
+                panic!("chart tear {options} has begun");
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let output = child.wait_with_output().expect("an end");
+        let said = seen(&output);
+        assert!(said.contains("there is no folder `no`"), "{said}");
+        assert_eq!(output.status.code(), Some(7));
+    }
+    assert!(!folder.path("x.svg").exists());
 }

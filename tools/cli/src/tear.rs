@@ -106,6 +106,7 @@ impl Play<'_> {
         let torn_before_m = run.torn_length_m();
         let mut torn = TornDocument::new(&self.opened.document);
         let mut frames = Frames::open(self.args, &run)?;
+        session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
         let ended = self.steps(&mut run, &mut torn, &mut frames, session, streams)?;
         let simulated = clock.milliseconds();
