@@ -133,6 +133,21 @@ fn the_report_says_what_the_method_says_of_its_steps() {
     }
 }
 
+/// A step that was divided is limited as often as it has parts.
+#[test]
+fn the_limiter_counts_in_the_unit_that_it_names() {
+    let folder = Folder::new();
+    let line = "tearmesh tear flag.obj --scene rip --solver provot --seconds 1.4 --dry-run";
+    let output = folder.run(&format!("{line} --report r.json"));
+    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("a report");
+    let [steps, substeps] = [&report["steps"], &report["counters"]["substeps"]];
+    assert!(substeps.as_u64() > steps.as_u64(), "{substeps} {steps}");
+    let said = seen(&output);
+    let infeasible = &report["quality"]["limiter"]["steps_infeasible"];
+    let expected = format!("W-SIM-LIMIT]: in {infeasible} of {substeps} substeps what");
+    assert!(said.contains(&expected), "{said}");
+}
+
 /// The faces of a frame before the cut are divided already, but on the same surface.
 #[test]
 fn frames_before_a_cut_have_its_vertices_on_their_edges() {
