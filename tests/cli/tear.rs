@@ -148,6 +148,34 @@ fn the_limiter_counts_in_the_unit_that_it_names() {
     assert!(said.contains(&expected), "{said}");
 }
 
+#[test]
+fn seconds_that_steps_do_not_make_up_are_warned_of() {
+    let folder = Folder::new();
+    let line = "tearmesh tear flag.obj --scene hang --solver implicit -o x.obj";
+    for (options, made) in [
+        (
+            "--seconds 0.001 --dt 0.01",
+            Some("0 s are simulated, in 0 steps"),
+        ),
+        (
+            "--seconds 0.02 --dt 0.016",
+            Some("0.016 s are simulated, in 1 step"),
+        ),
+        ("--seconds 0 --dt 0.01", None),
+        ("--seconds 0.02 --dt 0.01", None),
+        ("--seconds 0.02 --dt 0.003999", None),
+        ("--seconds 0.1", None),
+    ] {
+        let said = seen(&folder.run(&format!("{line} {options}")));
+        let warned = said.contains("W-SIM-SECONDS");
+        assert_eq!(warned, made.is_some(), "{options}\n{said}");
+        assert!(made.is_none_or(|made| said.contains(made)), "{said}");
+    }
+    // What it advises works.
+    let said = seen(&folder.run(&format!("{line} --seconds 0.02 --dt 0.016")));
+    assert!(said.contains("help: --dt 0.01\n"), "{said}");
+}
+
 /// The faces of a frame before the cut are divided already, but on the same surface.
 #[test]
 fn frames_before_a_cut_have_its_vertices_on_their_edges() {

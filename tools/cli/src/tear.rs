@@ -3,6 +3,7 @@
 mod check;
 mod frames;
 mod strength;
+mod times;
 mod words;
 
 use std::ffi::OsString;
@@ -51,6 +52,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         run = with.map_err(|error| check::refused(&error, &opened))?;
     }
     session.faults.extend(check::warnings(&run, &frame));
+    session.faults.extend(times::warnings(&run));
     session.warn_now(streams);
     let play = Play {
         name: source.name(),
