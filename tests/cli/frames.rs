@@ -45,6 +45,20 @@ fn a_corner_of_a_frame_changes_only_to_a_vertex_that_is_new_in_it() {
     );
 }
 
+#[test]
+fn steps_longer_than_a_frame_are_warned_of() {
+    let folder = Folder::new();
+    let line = "tearmesh tear flag.obj --scene hang --solver pbd --seconds 1 --frames";
+    for (name, dt_s, frames, is_warned) in [("few", 0.1, 11, true), ("all", 0.025, 31, false)] {
+        let output = folder.run(&format!("{line} {name} --dt {dt_s} -o {name}.obj"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        assert_eq!(count(&folder, name), frames);
+        let said = seen(&output);
+        assert_eq!(said.contains("W-FRAMES-FEW"), is_warned, "{said}");
+        assert_eq!(said.contains("10 frames a second"), is_warned, "{said}");
+    }
+}
+
 /// The frames with the faces of the last one are written at the end, and take their time.
 #[cfg(unix)]
 #[test]

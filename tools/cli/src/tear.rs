@@ -52,7 +52,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         run = with.map_err(|error| check::refused(&error, &opened))?;
     }
     session.faults.extend(check::warnings(&run, &frame));
-    session.faults.extend(times::warnings(&run));
+    session.faults.extend(times::warnings(&run, args));
     session.warn_now(streams);
     let play = Play {
         name: source.name(),

@@ -20,7 +20,7 @@ use crate::session::{Stop, cannot_write};
 use crate::{Exit, output, report};
 
 /// How many frames a second.
-const RATE_PER_S: f64 = 30.0;
+pub(super) const RATE_PER_S: f64 = 30.0;
 
 /// The frames of a run, if any are wanted.
 pub(super) struct Frames {
