@@ -142,6 +142,19 @@ fn help_fits_a_screen_and_has_two_examples() {
 }
 
 #[test]
+fn the_help_of_a_chart_counts_its_meshes() {
+    let folder = Folder::new();
+    let help = folder.run("tearmesh chart tear --help");
+    let words = ["no", "one", "two", "three", "four", "five", "six", "seven"];
+    let meshes = format!(
+        "strips of {} meshes",
+        words[tearmesh_lab::tear::CELLS.len()]
+    );
+    let said = seen(&help);
+    assert!(said.contains(&meshes), "{said}");
+}
+
+#[test]
 fn a_closed_pipe_ends_quietly() {
     let folder = Folder::new();
     let mut command = folder.command();

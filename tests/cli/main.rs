@@ -4,10 +4,12 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod files;
+mod frames;
 mod fuzz;
 mod harness;
 mod in_process;
 mod memory;
+mod places;
 mod tear;
 mod through;
 mod transcripts;

@@ -347,7 +347,7 @@ pub(crate) struct CheckArgs {
 const CHART_EXAMPLES: &str = "\
 Examples:
   tearmesh chart tear -o tear.svg
-      the force that tears strips of three meshes, by stretch ratio and by toughness
+      the force that tears strips of five meshes, by stretch ratio and by toughness
   tearmesh chart tear -o tear.svg --csv tear.csv --json tear.json
       the figures as well, as a table and as JSON";
 

@@ -42,6 +42,9 @@ fn work(args: &ChartArgs, streams: &mut Streams<'_>) -> Ended {
             return Err((Exit::Usage, fault));
         }
     }
+    for path in files.iter().filter(|path| **path != Path::new("-")) {
+        output::check(path).map_err(|error| unwritable(path, &error))?;
+    }
     let target = if streams.error_is_terminal && !args.quiet {
         ProgressDrawTarget::stderr()
     } else {
@@ -99,8 +102,10 @@ fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), (Exit
     } else {
         output::write(path, |out| out.write_all(text.as_bytes()))
     };
-    written.map_err(|error| {
-        let name = path.display().to_string();
-        (Exit::Output, cannot_write(&name, &error))
-    })
+    written.map_err(|error| unwritable(path, &error))
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> (Exit, Fault) {
+    let name = path.display().to_string();
+    (Exit::Output, cannot_write(&name, error))
 }

@@ -14,7 +14,7 @@ use crate::args::{CutArgs, Mass, Method, Tips};
 use crate::rays::Pair;
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, report};
+use crate::{Exit, Streams, files, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -77,7 +77,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
-    let ending = crate::files::ending(vertices_before, &mesh, &ledger, &session.destination);
+    let ending = files::ending(vertices_before, &mesh, &ledger, &session.destination);
     session.words.push(ending);
     Ok(())
 }
@@ -138,6 +138,7 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
             "name a file for one of them",
         );
     }
+    files::keep(&args.files, args.rays_file.as_deref(), "the rays")?;
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(
             "`--tips midpoint` is for the method partition, not {}",

@@ -68,10 +68,8 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         let message = "`--report` takes the name of a file".to_owned();
         return usage(message, "print the report with --format json");
     }
-    let same = |a: Option<&PathBuf>, b: Option<&PathBuf>| {
-        matches!((a, b), (Some(a), Some(b))
-            if !is_stream(a) && (a == b || output::is_same_file(a, b)))
-    };
+    let same =
+        |a: Option<&PathBuf>, b: Option<&PathBuf>| a.zip(b).is_some_and(|(a, b)| is_same(a, b));
     if same(input, output) && !args.in_place {
         let name = output
             .map(|path| path.display().to_string())
@@ -84,6 +82,25 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         return usage(message, "write the report to a file of its own");
     }
     Ok(())
+}
+
+/// Refuses to write over a file that is read beside the mesh: `what`.
+pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(), Stop> {
+    let is_it = |written: &&PathBuf| path.is_some_and(|path| is_same(path, written));
+    let written = [&args.output, &args.report];
+    match written.into_iter().flatten().find(is_it) {
+        Some(written) => {
+            let message = format!("`{}` is {what}, and would be replaced", written.display());
+            let fault = Fault::error("E-USAGE", message).help("write to another file");
+            Err(Stop::new(Exit::Usage, fault))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Whether two names are of one file, which need not exist yet.
+fn is_same(a: &Path, b: &Path) -> bool {
+    a != Path::new("-") && b != Path::new("-") && (a == b || output::is_same_place(a, b))
 }
 
 /// The last line of the summary.

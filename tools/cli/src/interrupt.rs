@@ -1,4 +1,5 @@
-//! Ctrl-C while a simulation runs: it ends after the step it is in, and keeps what was done.
+//! Ctrl-C while a simulation runs or is written: it ends after the step or the frame that it is in,
+//! and keeps what was done.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 

@@ -9,6 +9,8 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use tempfile::NamedTempFile;
+
 use crate::Exit;
 
 /// The temporary file that is being written.
@@ -31,37 +33,14 @@ pub(crate) fn write<T>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<T>,
 ) -> io::Result<T> {
-    let path = resolve_links(path)?;
-    let existing = fs::metadata(&path).ok();
-    if existing
-        .as_ref()
-        .is_some_and(|found| !found.is_file() && !found.is_dir())
-    {
+    let (path, existing) = place(path)?;
+    if existing.as_ref().is_some_and(|found| !found.is_file()) {
         let mut out = BufWriter::new(File::options().write(true).open(&path)?);
         let filled = fill(&mut out)?;
         out.flush()?;
         return Ok(filled);
     }
-    if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
-        return Err(io::Error::new(
-            io::ErrorKind::IsADirectory,
-            "it is a directory",
-        ));
-    }
-    let folder = path.parent().filter(|folder| *folder != Path::new(""));
-    if let Some(missing) = folder.filter(|folder| !folder.is_dir()) {
-        let message = format!("there is no folder `{}`", missing.display());
-        return Err(io::Error::new(io::ErrorKind::NotFound, message));
-    }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".tearmesh-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        // What a file made in the ordinary way would have; the system applies the umask.
-        use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let temporary = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    let temporary = temporary(&path)?;
     let _registered = Registered::new(temporary.path());
     let mut out = BufWriter::new(temporary);
     let filled = fill(&mut out)?;
@@ -76,6 +55,51 @@ pub(crate) fn write<T>(
     temporary.persist(&path).map_err(|error| error.error)?;
     *registry = None;
     Ok(filled)
+}
+
+/// Whether a file could be written now: before work that takes long. Writes nothing, and does not
+/// open a pipe, which might wait for a reader.
+pub(crate) fn check(path: &Path) -> io::Result<()> {
+    let (path, existing) = place(path)?;
+    match existing {
+        Some(found) if !found.is_file() => Ok(()),
+        _ => {
+            let temporary = temporary(&path)?;
+            let _registered = Registered::new(temporary.path());
+            temporary.close()
+        }
+    }
+}
+
+/// The file that is written for a path, with what is there, which is no folder.
+fn place(path: &Path) -> io::Result<(PathBuf, Option<fs::Metadata>)> {
+    let path = resolve_links(path)?;
+    let existing = fs::metadata(&path).ok();
+    if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
+        return Err(io::Error::new(
+            io::ErrorKind::IsADirectory,
+            "it is a directory",
+        ));
+    }
+    Ok((path, existing))
+}
+
+/// A file in the folder of this one.
+fn temporary(path: &Path) -> io::Result<NamedTempFile> {
+    let folder = folder(path);
+    if let Some(missing) = folder.filter(|folder| !folder.is_dir()) {
+        let message = format!("there is no folder `{}`", missing.display());
+        return Err(io::Error::new(io::ErrorKind::NotFound, message));
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tearmesh-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        // What a file made in the ordinary way would have; the system applies the umask.
+        use std::os::unix::fs::PermissionsExt as _;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder.unwrap_or(Path::new(".")))
 }
 
 /// Keeps the name of the temporary file known while it exists.
@@ -126,6 +150,17 @@ pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
         }
     }
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+/// The same for files that need not exist yet.
+pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
+    let folders = [a, b].map(|path| folder(path).unwrap_or(Path::new(".")));
+    is_same_file(a, b) || (a.file_name() == b.file_name() && is_same_file(folders[0], folders[1]))
+}
+
+/// The folder that a path names, if it names any.
+fn folder(path: &Path) -> Option<&Path> {
+    path.parent().filter(|folder| *folder != Path::new(""))
 }
 
 /// Whoever read our output may have had enough: that is no failure.

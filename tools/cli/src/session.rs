@@ -180,6 +180,21 @@ impl<'a> Session<'a> {
         }
     }
 
+    /// Refuses places that could not be written: before work that takes long.
+    pub(crate) fn check_places(&self) -> Result<(), Stop> {
+        let output = match &self.destination {
+            Destination::File(path) => Some(path),
+            _ => None,
+        };
+        for path in output.into_iter().chain(&self.files.report) {
+            output::check(path).map_err(|error| {
+                let name = path.display().to_string();
+                Stop::new(Exit::Output, cannot_write(&name, &error))
+            })?;
+        }
+        Ok(())
+    }
+
     /// Writes the mesh, as a whole or not at all.
     pub(crate) fn write(
         &mut self,
@@ -255,7 +270,11 @@ impl<'a> Session<'a> {
             && let Err(error) = output::write(path, |out| out.write_all(json.as_bytes()))
         {
             let name = path.display().to_string();
-            self.faults.push(cannot_write(&name, &error));
+            let fault = cannot_write(&name, &error);
+            // It may have been found out before.
+            if self.faults.iter().all(|one| one.message != fault.message) {
+                self.faults.push(fault);
+            }
             exit = Exit::Output;
         }
         if self.files.format == Format::Json {

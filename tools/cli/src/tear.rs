@@ -3,10 +3,12 @@
 mod check;
 mod frames;
 mod strength;
+mod times;
 mod words;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tearmesh::cloth::{CutMade, Frame, Method, Run, Scene, StepError, Tearing, TimedCut};
@@ -19,7 +21,7 @@ use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::scene::{Source, threshold};
 use crate::session::{Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, report};
+use crate::{Exit, Streams, files, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -32,6 +34,9 @@ pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>
 fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
     let source = Source::find(&args.scene, streams)?;
+    let scene = matches!(source, Source::File(_)).then_some(Path::new(&args.scene));
+    files::keep(&args.files, scene, "the scene")?;
+    files::keep(&args.files, args.strength.as_deref(), "the strengths")?;
     let cuts = check::cuts(args, &mut session.faults)?;
     let opened = session.open(None, streams)?;
     let up = args.up.unwrap_or_else(|| source.up());
@@ -47,12 +52,14 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         run = with.map_err(|error| check::refused(&error, &opened))?;
     }
     session.faults.extend(check::warnings(&run, &frame));
+    session.faults.extend(times::warnings(&run, args));
     session.warn_now(streams);
     let play = Play {
         name: source.name(),
         is_step_chosen,
         args,
         opened: &opened,
+        guard: Guard::new(),
     };
     play.perform(run, session, streams)
 }
@@ -78,6 +85,8 @@ struct Play<'a> {
     is_step_chosen: bool,
     args: &'a TearArgs,
     opened: &'a Opened,
+    /// An interruption ends the steps, or the writing of frames; what was done is written.
+    guard: Guard,
 }
 
 /// How the steps ended.
@@ -99,6 +108,7 @@ impl Play<'_> {
         let torn_before_m = run.torn_length_m();
         let mut torn = TornDocument::new(&self.opened.document);
         let mut frames = Frames::open(self.args, &run)?;
+        session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
         let ended = self.steps(&mut run, &mut torn, &mut frames, session, streams)?;
         let simulated = clock.milliseconds();
@@ -108,8 +118,6 @@ impl Play<'_> {
         let ledger = run.cloth().masses().ledger();
         session.verify(run.mesh(), &ledger, words::momentum_broken(&run))?;
         session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
-        let shot = frames.finish(&run, &torn)?;
-        session.faults.extend(shot.warning);
 
         let pieces = run.mesh().components().count();
         let tally = run.tally();
@@ -139,7 +147,7 @@ impl Play<'_> {
             energy_j: words::energy(&run),
             quality: words::quality(&run),
             counters: words::counters(&run),
-            frames: shot.report,
+            frames: None,
         };
         session.faults.extend(words::infeasible(&run));
         session.words.push(words::simulation(&tear));
@@ -155,7 +163,7 @@ impl Play<'_> {
                 session.faults.push(fault);
                 if tally.steps == 0 && run.edits().next_number() == 0 {
                     session.words.clear();
-                    return Ok(());
+                    return self.show(frames, &run, &torn, session);
                 }
             }
         }
@@ -163,8 +171,30 @@ impl Play<'_> {
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
         let mesh = run.mesh();
-        let ending = crate::files::ending(vertices_before, mesh, &ledger, &session.destination);
+        let ending = files::ending(vertices_before, mesh, &ledger, &session.destination);
         session.words.push(ending);
+        self.show(frames, &run, &torn, session)
+    }
+
+    /// Writes the frames that waited. That may take as long as the steps, so it comes last, and
+    /// an interruption that did not end the steps ends this.
+    fn show(
+        &self,
+        frames: Frames,
+        run: &Run,
+        torn: &TornDocument<'_>,
+        session: &mut Session<'_>,
+    ) -> Result<(), Stop> {
+        let was_interrupted = session.exit == Exit::Interrupted;
+        let is_enough = || !was_interrupted && self.guard.is_interrupted();
+        let shown = frames.finish(run, torn, is_enough)?;
+        session.faults.extend(shown.warnings);
+        if let Some(tear) = &mut session.report.tear {
+            tear.frames = shown.report;
+        }
+        if session.exit == Exit::Done && self.guard.is_interrupted() {
+            session.exit = Exit::Interrupted;
+        }
         Ok(())
     }
 
@@ -178,11 +208,10 @@ impl Play<'_> {
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
         let bar = self.bar(run, streams);
-        let guard = Guard::new();
         let mut ended = Ended::Done;
         frames.shoot(run, torn)?;
         while !run.is_over() {
-            if guard.is_interrupted() {
+            if self.guard.is_interrupted() {
                 ended = Ended::Interrupted;
                 break;
             }

@@ -246,6 +246,30 @@ impl<'d> TornDocument<'d> {
         write(self, &Prepared::new(self, mesh, None), positions, out)
     }
 
+    /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh.
+    ///
+    /// A vertex keeps its number in whatever is written later, and new ones get numbers that no
+    /// file had before: for pictures of a mesh as it tears. A vertex with several fans is one here,
+    /// which other programs may take for a defect; [`Document::mesh`] knows from the record that it
+    /// was torn.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// As [`TornDocument::write`].
+    pub fn write_unseparated(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        write(self, &Prepared::unseparated(self, mesh), positions, out)
+    }
+
     fn assert_in_step(&self, mesh: &Mesh, positions: &Positions) {
         assert_eq!(
             (mesh.vertex_count(), mesh.face_count()),

@@ -20,7 +20,7 @@ use crate::session::{Stop, cannot_write};
 use crate::{Exit, output, report};
 
 /// How many frames a second.
-const RATE_PER_S: f64 = 30.0;
+pub(super) const RATE_PER_S: f64 = 30.0;
 
 /// The frames of a run, if any are wanted.
 pub(super) struct Frames {
@@ -57,7 +57,7 @@ enum Birth {
 #[derive(Default)]
 pub(super) struct Shown {
     pub(super) report: Option<report::Frames>,
-    pub(super) warning: Option<Fault>,
+    pub(super) warnings: Vec<Fault>,
 }
 
 impl Frames {
@@ -73,9 +73,15 @@ impl Frames {
             first: run.mesh().vertex_count(),
         };
         if let Some(folder) = &frames.folder {
-            refuse_replacing(folder, &args.files.input, "the input")?;
-            if let Some(path) = &args.files.output {
-                refuse_replacing(folder, path, "the output")?;
+            let files = &args.files;
+            for (path, what) in [
+                (Some(&*files.input), "the input"),
+                (files.output.as_deref(), "the output"),
+                (files.report.as_deref(), "the report"),
+                (Some(Path::new(&args.scene)), "the scene"),
+                (args.strength.as_deref(), "the strengths"),
+            ] {
+                path.map_or(Ok(()), |path| refuse_replacing(folder, path, what))?;
             }
             if !folder.is_dir() {
                 fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
@@ -113,7 +119,10 @@ impl Frames {
         }
         if self.topology == Topology::Own {
             let positions = super::places(run)?;
-            self.write(run.mesh(), &positions, torn, self.count)?;
+            // Fans stay together: the number of a copy is that of the vertex born next.
+            self.write(self.count, |mut out| {
+                torn.write_unseparated(run.mesh(), &positions, &mut out)
+            })?;
         } else {
             let now = run.mesh().indices();
             let last = self.waiting.last().filter(|shot| *shot.indices == now);
@@ -131,13 +140,23 @@ impl Frames {
         Ok(())
     }
 
-    /// Writes the frames that waited, each checked against its own mesh.
-    pub(super) fn finish(self, run: &Run, torn: &TornDocument<'_>) -> Result<Shown, Stop> {
-        let Some(folder) = &self.folder else {
+    /// Writes the frames that waited, each checked against its own mesh, until it is enough.
+    pub(super) fn finish(
+        mut self,
+        run: &Run,
+        torn: &TornDocument<'_>,
+        is_enough: impl Fn() -> bool,
+    ) -> Result<Shown, Stop> {
+        let Some(folder) = self.folder.clone() else {
             return Ok(Shown::default());
         };
-        let mut checked = 0;
+        let (mut checked, mut warnings) = (0, Vec::new());
         for (number, shot) in self.waiting.iter().enumerate() {
+            if is_enough() {
+                warnings.push(interrupted(&folder, number, self.count));
+                self.count = number;
+                break;
+            }
             let points = self.grown(shot);
             checked += self.check(shot, &points, run.mesh()).map_err(|broken| {
                 let message = format!("frame {number} is not its own mesh: {broken}");
@@ -147,11 +166,14 @@ impl Frames {
                 let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
                 Stop::new(Exit::Simulation, fault)
             })?;
-            self.write(run.mesh(), &positions, torn, number)?;
+            self.write(number, |mut out| {
+                torn.write(run.mesh(), &positions, &mut out)
+            })?;
         }
         let is_final = self.topology == Topology::Final;
+        warnings.extend(self.left_over(&folder));
         Ok(Shown {
-            warning: self.left_over(folder),
+            warnings,
             report: Some(report::Frames {
                 folder: folder.display().to_string(),
                 count: self.count,
@@ -208,18 +230,13 @@ impl Frames {
 
     fn write(
         &self,
-        mesh: &Mesh,
-        positions: &Positions,
-        torn: &TornDocument<'_>,
         number: usize,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<WriteSummary>,
     ) -> Result<(), Stop> {
         let Some(folder) = &self.folder else {
             return Ok(());
         };
         let path = folder.join(name(number));
-        let fill = |mut out: &mut dyn Write| -> io::Result<WriteSummary> {
-            torn.write(mesh, positions, &mut out)
-        };
         let written = output::write(&path, fill);
         written
             .map(|_| ())
@@ -235,6 +252,13 @@ impl Frames {
             Fault::warning("W-FRAMES-OLD", message).help("write frames into a folder of their own")
         })
     }
+}
+
+/// Says which frames are not there.
+fn interrupted(folder: &Path, written: usize, count: usize) -> Fault {
+    let folder = folder.display();
+    let message = format!("interrupted: `{folder}` has {written} of {count} frames");
+    Fault::warning("W-FRAMES-INTERRUPTED", message)
 }
 
 fn name(number: usize) -> String {

@@ -152,15 +152,17 @@ pub(super) fn infeasible(run: &Run) -> Option<Fault> {
     if limited.steps_infeasible == 0 {
         return None;
     }
+    let substeps = run.cloth().system().counters().substeps;
+    let (one, many) = if substeps == run.tally().steps {
+        ("step", "steps")
+    } else {
+        ("substep", "substeps") // Steps were divided, and the limiter had each part.
+    };
     let message = format!(
         "in {} of {} what is held was too far apart for the limiter, and edges stayed up to {} \
          times as long as at rest, above its limit of {}",
         limited.steps_infeasible,
-        count(
-            run.cloth().system().counters().substeps as usize,
-            "step",
-            "steps"
-        ),
+        count(substeps as usize, one, many),
         short(limiter.stretch_ratio_max + limited.excess_max),
         limiter.stretch_ratio_max,
     );

@@ -86,6 +86,21 @@ impl<'m> Prepared<'m> {
         let slots = torn.slots();
         let rank = (!torn.is_undivided()).then(|| ranks(&slots));
         let separated = Separated::new(mesh, rank.as_deref());
+        Prepared::of(torn, mesh, slots, separated, removal)
+    }
+
+    /// The same, with one vertex for each of the mesh.
+    pub(crate) fn unseparated(torn: &TornDocument<'_>, mesh: &'m Mesh) -> Prepared<'m> {
+        Prepared::of(torn, mesh, torn.slots(), Separated::none(mesh), None)
+    }
+
+    fn of(
+        torn: &TornDocument<'_>,
+        mesh: &'m Mesh,
+        slots: Slots,
+        separated: Separated<'m>,
+        removal: Option<&'m Removal>,
+    ) -> Prepared<'m> {
         let mesh_vertices = mesh.vertex_count();
         let count = mesh_vertices + separated.copies.len();
         let document = torn.document();

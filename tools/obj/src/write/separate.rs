@@ -14,6 +14,14 @@ pub(super) struct Separated<'m> {
 }
 
 impl<'m> Separated<'m> {
+    /// All fans stay together.
+    pub(super) fn none(mesh: &'m Mesh) -> Separated<'m> {
+        Separated {
+            indices: Cow::Borrowed(mesh.indices()),
+            copies: Vec::new(),
+        }
+    }
+
     /// The fans of a vertex are told apart by their first corner in the file, where faces have
     /// these ranks, or those of their ids.
     ///
