@@ -266,17 +266,15 @@ fn approach<const N: usize>(
         squares[i] = dot(d[i], d[i]);
         weights[i] = inverse_masses[a] + inverse_masses[b];
     }
-    let lengths = squares.map(f64::sqrt);
+    let mut changes = [0.0; N];
     let mut sane = true;
     for i in 0..N {
-        sane &= lengths[i] <= longest[i];
+        let length = squares[i].sqrt();
+        sane &= length <= longest[i];
+        changes[i] = change(i, length, weights[i]);
     }
     if !sane {
         return false;
-    }
-    let mut changes = [0.0; N];
-    for i in 0..N {
-        changes[i] = change(i, lengths[i], weights[i]);
     }
     for i in 0..N {
         let [a, b] = ends[i].map(|end| end as usize);
