@@ -139,8 +139,8 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
     let mut after = None;
     while !run.is_over() {
         let before = run.elapsed_s();
-        let step = run.step().expect("a step");
-        if let [cut] = &step.cuts[..] {
+        run.step().expect("a step");
+        if let [cut] = run.cuts_made() {
             let report = &cut.report;
             assert_eq!(cut.number, 0);
             assert_eq!(cut.stability, None, "XPBD is stable at any step");
@@ -168,17 +168,64 @@ fn a_flag_that_is_cut_goes_on_waving_by_an_explicit_method() {
         duration_s: 1.7,
         ..Scene::flag(frame)
     });
-    let mut cut = None;
+    let mut stability = None;
     while !run.is_over() {
-        let step = run.step().expect("a step");
-        cut = cut.or(step.cuts.into_iter().next());
+        run.step().expect("a step");
+        stability = stability.or(run.cuts_made().first().map(|cut| cut.stability));
     }
-    let cut = cut.expect("a cut");
-    let stability = cut.stability.expect("an explicit method");
+    let stability = stability.expect("a cut").expect("an explicit method");
     assert!(stability.after_s < 0.5 * stability.before_s);
     assert!(stability.ends.is_some());
     assert!(run.tally().stretch_ratio_max < 1.2);
     check_ledgers(&run);
+}
+
+/// A step that is too long for the slivers of a cut fails, but the cut has been made.
+#[test]
+fn a_cut_is_told_of_though_its_step_fails() {
+    let ray = |[x, y]: [f64; 2]| {
+        let ray = Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+        ray.expect("a ray")
+    };
+    let mut run = run(16, |frame| Scene {
+        solver: Method::Verlet,
+        step_s: Some(0.0004),
+        holds: vec![Hold::still(Region::Patch {
+            across: [0.0, 1.0],
+            along: [1.0, 1.0],
+        })],
+        cuts: vec![TimedCut {
+            at_s: 0.01,
+            rays: [ray([0.524, -1.0]), ray([0.488, 2.0])],
+            through: true,
+            method: tearmesh::Method::Exact,
+        }],
+        tearing: None,
+        ..Scene::fall(frame.up)
+    });
+    let error = loop {
+        match run.step() {
+            Ok(_) => assert!(run.cuts_made().is_empty() && !run.is_over()),
+            Err(error) => break error,
+        }
+    };
+    assert!(matches!(error, StepError::Unstable { .. }), "{error}");
+    let [cut] = run.cuts_made() else {
+        panic!("{:?}", run.cuts_made());
+    };
+    assert_eq!(cut.report.splits as u64, run.tally().cut_splits);
+    assert!(cut.stability.expect("an explicit method").after_s < 0.0004);
+    // What is held is what was held, and its copies.
+    let system = run.cloth().system();
+    let held: Vec<usize> = (0..system.positions().len())
+        .filter(|&v| system.is_held(v))
+        .collect();
+    let mut led: Vec<usize> = run.held(0).iter().map(|v| v.index()).collect();
+    led.sort_unstable();
+    assert!(held.len() > 17);
+    assert_eq!(led, held);
+    // The next step does not say it again.
+    assert!(run.step().is_err() && run.cuts_made().is_empty());
 }
 
 #[test]

@@ -60,6 +60,7 @@ pub struct Run {
     held: Vec<Held>,
     scissors: Vec<Scissor>,
     next_cut: usize,
+    cuts_made: Vec<CutMade>,
     step_s: f64,
     steps_planned: u64,
     tally: Tally,
@@ -89,8 +90,6 @@ pub struct Tally {
 /// What a step did.
 #[derive(Debug)]
 pub struct Step {
-    /// The cuts that were made.
-    pub cuts: Vec<CutMade>,
     /// What tore, where the scene tears.
     pub tear: Option<TearReport>,
 }
@@ -195,6 +194,7 @@ impl Run {
             held,
             scissors,
             next_cut: 0,
+            cuts_made: Vec::new(),
             step_s,
             steps_planned: steps_planned as u64,
             tally: Tally {
@@ -226,30 +226,35 @@ impl Run {
     /// # Errors
     ///
     /// [`StepError`]: the cloth is as it was at the end of the last good step, but for what was cut
-    /// at the beginning of this one.
+    /// at the beginning of this one ([`Run::cuts_made`]).
     pub fn step(&mut self) -> Result<Step, StepError> {
         self.edits.clear();
-        let now = self.tally.steps;
+        self.cuts_made.clear();
+        let done = self.advance(self.tally.steps);
+        // A step that fails has been cut as well.
+        self.held
+            .iter_mut()
+            .for_each(|held| held.follow(&self.edits));
+        done
+    }
+
+    fn advance(&mut self, now: u64) -> Result<Step, StepError> {
         for held in &mut self.held {
             held.take_or_release(now, self.step_s, self.cloth.system_mut());
         }
-        let cuts = self.cut(now)?;
+        self.cut(now)?;
         self.blow(now);
         self.cloth.step(&mut self.engine, self.step_s)?;
         self.tally.steps += 1;
         self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
         let tear = self.tear_overstretched();
-        self.held
-            .iter_mut()
-            .for_each(|held| held.follow(&self.edits));
         let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
         self.watch.look(steps, elapsed_s, self.cloth.system());
-        Ok(Step { cuts, tear })
+        Ok(Step { tear })
     }
 
     /// Makes the cuts whose time has come.
-    fn cut(&mut self, now: u64) -> Result<Vec<CutMade>, StepError> {
-        let mut done = Vec::new();
+    fn cut(&mut self, now: u64) -> Result<(), StepError> {
         while let Some(&cut) = self.scene.cuts.get(self.next_cut) {
             if held::step_at(cut.at_s, self.step_s) > now {
                 break;
@@ -266,14 +271,15 @@ impl Run {
             }
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
-            done.push(CutMade {
+            let stability = step_before_s.map(|before_s| self.shortened(before_s));
+            self.cuts_made.push(CutMade {
                 number: self.next_cut,
                 report,
-                stability: step_before_s.map(|before_s| self.shortened(before_s)),
+                stability,
             });
             self.next_cut += 1;
         }
-        Ok(done)
+        Ok(())
     }
 
     /// The longest stable step of an explicit method.
@@ -439,6 +445,12 @@ impl Run {
     #[must_use]
     pub fn edits(&self) -> &Edits {
         &self.edits
+    }
+
+    /// The cuts that the last step made, at its beginning: also if it failed after that.
+    #[must_use]
+    pub fn cuts_made(&self) -> &[CutMade] {
+        &self.cuts_made
     }
 
     /// The vertices that a hold of the scene leads or holds now, copies included; empty

@@ -253,6 +253,27 @@ fn a_simulation_that_fails_keeps_its_state_and_says_so() {
     assert_eq!(read(&folder.read("kept.obj")).0.len(), 1089);
 }
 
+/// The slivers of the cut are what the step fails of, so just this cut has to be told.
+#[test]
+fn a_cut_whose_step_fails_is_told_of() {
+    let folder = Folder::new();
+    let output = folder.run(
+        "tearmesh tear flag.obj --scene hang --solver verlet --dt 0.0002 --seconds 0.1 \
+         --rays 0.51,2,5:0,0,-1 0.513,-2,5:0,0,-1 --cut-at 0.05 -o kept.obj --report r.json",
+    );
+    let said = seen(&output);
+    assert_eq!(output.status.code(), Some(5), "{said}");
+    assert!(said.contains("E-SIM-UNSTABLE"), "{said}");
+    assert!(said.contains("1 piece -> 2 pieces · at 0.05 s"), "{said}");
+    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("a report");
+    assert_eq!(report["pieces"], 2);
+    let cuts = report["cuts"].as_array().expect("a list");
+    assert_eq!(cuts.len(), 1);
+    let [before, after] =
+        ["before", "after"].map(|at| cuts[0]["stable_step_s"][at].as_f64().expect("seconds"));
+    assert!(after < 0.0002 && 0.0002 < before, "{before} {after}");
+}
+
 /// The rest is what is there, less what was there and what was put in and taken.
 #[test]
 fn the_report_says_what_the_method_made() {

@@ -189,14 +189,12 @@ impl Play<'_> {
             let step = run.step();
             run.edits().replay(torn);
             frames.follow(run.edits());
+            for cut in run.cuts_made() {
+                self.note_cut(run.scene(), cut, session);
+                torn.next_cut();
+            }
             match step {
-                Ok(step) => {
-                    for cut in &step.cuts {
-                        self.note_cut(run.scene(), cut, session);
-                        torn.next_cut();
-                    }
-                    frames.shoot(run, torn)?;
-                }
+                Ok(_) => frames.shoot(run, torn)?,
                 Err(error) => {
                     ended = Ended::Failed(error);
                     break;
