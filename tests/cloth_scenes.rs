@@ -346,6 +346,72 @@ fn copies_of_what_is_held_are_held_and_let_go_with_it() {
     assert_eq!(run.mesh().components().count(), 2);
 }
 
+/// Two holds on one edge: while both hold, the one that took last leads, and when it ends the other
+/// holds on, in whatever order the scene has them.
+#[test]
+fn what_one_hold_lets_go_another_still_holds() {
+    let edge = || Region::Patch {
+        across: [0.0, 1.0],
+        along: [1.0, 1.0],
+    };
+    let for_ever = Hold::still(edge());
+    let led_for_ever = Hold {
+        moves: vec![(0.0, Vector::zeros()), (0.5, Vector::new(0.0, 0.0, 0.5))],
+        ..for_ever.clone()
+    };
+    let for_a_while = Hold {
+        from_s: 0.1,
+        until_s: Some(0.3),
+        ..for_ever.clone()
+    };
+    let led_for_a_while = Hold {
+        moves: vec![(0.1, Vector::zeros()), (0.2, Vector::new(0.25, 0.0, 0.0))],
+        ..for_a_while.clone()
+    };
+    let moved = |holds: Vec<Hold>| {
+        let mut run = run(6, |frame| Scene {
+            duration_s: 0.6,
+            holds: holds.clone(),
+            tearing: None,
+            ..Scene::fall(frame.up)
+        });
+        let corner = 6 * 7;
+        let begun = run.cloth().positions()[corner];
+        while !run.is_over() {
+            run.step().expect("a step");
+        }
+        assert!(run.cloth().system().is_held(corner));
+        run.cloth().positions()[corner] - begun
+    };
+    for (one, other, wanted) in [
+        (&for_ever, &for_a_while, [0.0, 0.0, 0.0]),
+        (&for_ever, &led_for_a_while, [0.25, 0.0, 0.0]),
+        // It goes on from where it is, as the path does: 0.1 s to 0.3 s are not made up for.
+        (&led_for_ever, &for_a_while, [0.0, 0.0, 0.3]),
+        (&led_for_ever, &led_for_a_while, [0.25, 0.0, 0.3]),
+    ] {
+        for holds in [[one, other], [other, one]] {
+            let moved = moved(holds.map(Hold::clone).to_vec());
+            let off = (moved - Vector::from(wanted)).norm();
+            assert!(off < 0.02, "{moved:?}, {wanted:?}: {holds:?}");
+        }
+    }
+    // What ends first is no grip of the other's.
+    let soon_over = Hold {
+        until_s: Some(0.2),
+        ..for_ever
+    };
+    let later = Hold {
+        until_s: None,
+        ..led_for_a_while
+    };
+    let moved = moved(vec![soon_over, later]);
+    assert!(
+        (moved - Vector::new(0.25, 0.0, 0.0)).norm() < 1e-9,
+        "{moved:?}"
+    );
+}
+
 #[test]
 fn the_wind_sways_as_a_triangle() {
     let breeze = Breeze {

@@ -239,9 +239,7 @@ impl Run {
     }
 
     fn advance(&mut self, now: u64) -> Result<Step, StepError> {
-        for held in &mut self.held {
-            held.take_or_release(now, self.step_s, self.cloth.system_mut());
-        }
+        held::take_and_release(&mut self.held, now, self.step_s, self.cloth.system_mut());
         self.cut(now)?;
         self.blow(now);
         self.cloth.step(&mut self.engine, self.step_s)?;

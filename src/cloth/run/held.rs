@@ -1,4 +1,10 @@
 //! The holds of a scene while it runs: who is held now, and by which step that ends.
+//!
+//! Where several hold one vertex the one that took it last leads it, and the last in the scene of
+//! those that took it at one time. When that ends, the one before it holds on to the vertex.
+
+use std::cmp::Reverse;
+use std::collections::BTreeSet;
 
 use super::RunError;
 use crate::cloth::load::Path;
@@ -20,13 +26,58 @@ pub(super) struct Held {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Waiting,
-    Holding,
+    Holding {
+        /// Since the beginning of this step.
+        since: u64,
+    },
     Released,
 }
 
 /// The step at whose beginning something is to happen.
 pub(super) fn step_at(time_s: f64, step_s: f64) -> u64 {
     (time_s / step_s).round() as u64
+}
+
+/// Takes vertices, and lets vertices go, where that is to happen at the beginning of this step.
+pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, system: &mut System) {
+    for held in all.iter_mut() {
+        if held.state == State::Waiting && step_at(held.hold.from_s, step_s) <= now {
+            held.state = State::Holding { since: now };
+            for &v in &held.vertices {
+                held.take(v, system.positions()[v.index()], system);
+            }
+        }
+    }
+    let ends = |until_s: f64| step_at(until_s, step_s) <= now;
+    for number in 0..all.len() {
+        if let State::Holding { since } = all[number].state
+            && all[number].hold.until_s.is_some_and(ends)
+        {
+            all[number].state = State::Released;
+            release(all, number, since, system);
+        }
+    }
+}
+
+/// Lets the vertices of a hold go, or gives them to those that hold them as well. Linear in the
+/// vertices of all, times the logarithm.
+fn release(all: &[Held], number: usize, since: u64, system: &mut System) {
+    let mut others = Vec::new();
+    for (other, held) in all.iter().enumerate() {
+        if let State::Holding { since } = held.state {
+            let vertices: BTreeSet<VertexId> = held.vertices.iter().copied().collect();
+            others.push(((since, other), held, vertices));
+        }
+    }
+    others.sort_by_key(|&(taken, ..)| Reverse(taken));
+    for &v in &all[number].vertices {
+        let last = others.iter().find(|(_, _, vertices)| vertices.contains(&v));
+        match last {
+            Some(&(taken, ..)) if taken > (since, number) => {} // It leads it already.
+            Some((_, held, _)) => held.take_back(v, system),
+            None => system.release(v.index()),
+        }
+    }
 }
 
 impl Held {
@@ -55,30 +106,27 @@ impl Held {
         })
     }
 
-    /// Takes the vertices, or lets them go, if that is to happen at the beginning of this step.
-    pub(super) fn take_or_release(&mut self, now: u64, step_s: f64, system: &mut System) {
-        if self.state == State::Waiting && step_at(self.hold.from_s, step_s) <= now {
-            self.state = State::Holding;
-            for &v in &self.vertices {
-                self.take(v, system);
-            }
-        }
-        let ends = |until_s: f64| step_at(until_s, step_s) <= now;
-        if self.state == State::Holding && self.hold.until_s.is_some_and(ends) {
-            self.state = State::Released;
-            for v in &self.vertices {
-                system.release(v.index());
+    /// Takes a vertex that was at this place when its way began.
+    fn take(&self, v: VertexId, from: Point, system: &mut System) {
+        match self.path(from) {
+            Some(path) => system.grab(v.index(), path),
+            None => {
+                system.release(v.index()); // Of a path of another hold.
+                system.hold(v.index());
             }
         }
     }
 
-    fn take(&self, v: VertexId, system: &mut System) {
-        let from = system.positions()[v.index()];
-        let way = self.hold.moves.iter().map(|&(s, d)| (s, from + d));
-        match Path::new(way) {
-            Some(path) => system.grab(v.index(), path),
-            None => system.hold(v.index()),
-        }
+    /// Takes a vertex back that another hold has led: it goes on from where it is.
+    fn take_back(&self, v: VertexId, system: &mut System) {
+        let at = system.positions()[v.index()];
+        let gone = self.path(at).map(|path| path.at(system.elapsed_s()) - at);
+        self.take(v, gone.map_or(at, |gone| at - gone), system);
+    }
+
+    /// The way of a vertex that is taken at a place; `None` of one that stays there.
+    fn path(&self, from: Point) -> Option<Path> {
+        Path::new(self.hold.moves.iter().map(|&(s, d)| (s, from + d)))
     }
 
     /// The copies of held vertices are held as well.
@@ -94,7 +142,7 @@ impl Held {
 
     pub(super) fn now(&self) -> &[VertexId] {
         match self.state {
-            State::Holding => &self.vertices,
+            State::Holding { .. } => &self.vertices,
             State::Waiting | State::Released => &[],
         }
     }
