@@ -361,6 +361,13 @@ impl Run {
         self.tally.steps >= self.steps_planned
     }
 
+    /// Whether what is to happen at this time happens: times are rounded to steps, and what would
+    /// be due when the last of them is done never is.
+    #[must_use]
+    pub fn reaches(&self, time_s: f64) -> bool {
+        held::step_at(time_s, self.step_s) < self.steps_planned
+    }
+
     /// The steps that the whole scene takes.
     #[must_use]
     pub fn steps_planned(&self) -> u64 {

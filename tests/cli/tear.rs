@@ -274,6 +274,48 @@ fn a_cut_whose_step_fails_is_told_of() {
     assert!(after < 0.0002 && 0.0002 < before, "{before} {after}");
 }
 
+/// What is to happen when the scene is over never happens, and that is said.
+#[test]
+fn what_never_happens_is_warned_of() {
+    let folder = Folder::new();
+    folder.write(
+        "late.toml",
+        "base = \"hang\"\n[[hold]]\nalong = [0.97, 1]\n[[hold]]\nalong = [0, 0.1]\nfrom_s = 1\n",
+    );
+    let rays = "--rays 0,2,5:0,0,-1 0,-2,5:0,0,-1";
+    let cut = format!("hang {rays} --cut-at");
+    for (line, words) in [
+        (
+            format!("{cut} 1 --seconds 0.1"),
+            "the cut at 1 s is never made",
+        ),
+        (
+            format!("{cut} 0.1 --seconds 0.1"),
+            "the cut at 0.1 s is never made",
+        ),
+        (
+            format!("{cut} 0 --seconds 0"),
+            "the cut at 0 s is never made",
+        ),
+        (format!("{cut} 0.09 --seconds 0.1"), ""),
+        (
+            "late.toml --seconds 0.1".to_owned(),
+            "hold 2 is never taken",
+        ),
+        ("hang --seconds 0".to_owned(), ""),
+    ] {
+        let output = folder.run(&format!("tearmesh tear flag.obj --dry-run --scene {line}"));
+        let said = seen(&output);
+        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+        assert_eq!(
+            said.contains("W-SCENE-LATE"),
+            !words.is_empty(),
+            "{line}: {said}"
+        );
+        assert!(said.contains(words), "{line}: {said}");
+    }
+}
+
 /// The rest is what is there, less what was there and what was put in and taken.
 #[test]
 fn the_report_says_what_the_method_made() {

@@ -129,6 +129,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
         let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
         warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
     }
+    warnings.extend(late(run));
     if run.scene().tearing.is_none() {
         return warnings;
     }
@@ -147,6 +148,29 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
     }
     warnings.extend(coarse(run));
     warnings
+}
+
+/// What is to happen when the scene is over. Where no step is taken at all, nothing has to be held.
+fn late(run: &Run) -> Vec<Fault> {
+    let scene = run.scene();
+    let over = short(run.steps_planned() as f64 * run.step_s());
+    let late = |what: String, at_s: f64| {
+        let message = format!("{what}: the scene is over after {over} s");
+        let help = format!("--seconds above {}, or an earlier time", short(at_s));
+        Fault::warning("W-SCENE-LATE", message).help(help)
+    };
+    let cuts = scene.cuts.iter().filter(|cut| !run.reaches(cut.at_s));
+    let cuts = cuts.map(|cut| {
+        let at = short(cut.at_s);
+        late(format!("the cut at {at} s is never made"), cut.at_s)
+    });
+    let holds = scene.holds.iter().enumerate();
+    let holds = holds.filter(|(_, hold)| run.steps_planned() > 0 && !run.reaches(hold.from_s));
+    let holds = holds.map(|(number, hold)| {
+        let number = number + 1;
+        late(format!("hold {number} is never taken"), hold.from_s)
+    });
+    cuts.chain(holds).collect()
 }
 
 /// Few sweeps or large steps leave a cloth softer than its fabric, and it tears of its own weight.
