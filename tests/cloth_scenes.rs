@@ -3,8 +3,8 @@
 
 use tearmesh::cloth::implicit::Settings;
 use tearmesh::cloth::{
-    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Pbd, Quality, Region, Run, RunError,
-    Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
+    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Names, Pbd, Quality, Region, Run,
+    RunError, Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
 use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId};
 
@@ -577,6 +577,28 @@ fn scenes_that_make_no_sense_are_refused() {
     assert_eq!(refused(&|scene| scene.drag_per_s = -1.0), RunError::Loads);
     let nowhere = refused(&|scene| scene.holds[1].region = Region::Vertices(Vec::new()));
     assert_eq!(nowhere, RunError::NothingHeld { number: 1 });
+    let region = || Region::Vertices([3, 25].map(|v| VertexId::new(v).expect("an id")).to_vec());
+    for (names, refused) in [
+        (
+            Names::Hold,
+            refused(&|scene| scene.holds[0].region = region()),
+        ),
+        (
+            Names::Strength,
+            refused(&|scene| scene.strengths = vec![(region(), 2.0)]),
+        ),
+    ] {
+        let named = RunError::NoVertex {
+            named_by: names,
+            number: 0,
+            vertex: VertexId::new(25).expect("an id"),
+            vertices: 25,
+        };
+        assert_eq!(refused, named);
+    }
+    let nowhere = Region::Vertices(Vec::new());
+    let weak = refused(&|scene| scene.strengths = vec![(nowhere.clone(), 0.5)]);
+    assert_eq!(weak, RunError::NothingStrong { number: 0 });
     let moves = refused(&|scene| scene.holds[0].moves = vec![(1.0, Vector::zeros()); 2]);
     assert_eq!(moves, RunError::Moves { number: 0 });
     let early = refused(&|scene| scene.holds[0].until_s = Some(0.0));

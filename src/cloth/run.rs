@@ -12,7 +12,7 @@ mod held;
 mod quality;
 mod step_size;
 
-pub use self::error::RunError;
+pub use self::error::{Names, RunError};
 pub use self::gain::Gain;
 pub use self::quality::{Limited, Quality, Solved};
 
@@ -209,6 +209,7 @@ impl Run {
     pub const STEPS_MAX: u64 = 1 << 40;
 
     /// Gives each vertex a strength, as a multiple of the threshold, in the place of the scene's.
+    /// Where the scene never tears it is of no use, and is dropped.
     ///
     /// # Errors
     ///
@@ -505,8 +506,9 @@ fn strong(
         return Ok(tear);
     }
     let mut strengths = vec![1.0; mesh.vertex_count()];
-    for (region, strength) in &scene.strengths {
-        for v in region.vertices(mesh, cloth.positions(), frame) {
+    for (number, (region, strength)) in scene.strengths.iter().enumerate() {
+        let name = (Names::Strength, number);
+        for v in held::vertices_in(region, name, mesh, cloth.positions(), frame)? {
             strengths[v.index()] = *strength;
         }
     }

@@ -316,6 +316,101 @@ fn what_never_happens_is_warned_of() {
     }
 }
 
+/// Each with what is typed, and what it says; the numbers of lines are those of the file.
+#[test]
+fn what_would_be_ignored_is_refused() {
+    let folder = Folder::new();
+    folder.write("half.txt", "1 0.5\n");
+    let woven = "warp_n_per_m = 300\nweft_n_per_m = 300\n";
+    let woven = format!("[solver]\nmethod = \"implicit\"\n[fabric]\n{woven}");
+    for (scene, options, words) in [
+        (
+            "base = \"flag\"\n",
+            "--strength half.txt",
+            "error[E-USAGE]: `--strength`",
+        ),
+        (
+            "base = \"flag\"\n[[strength]]\nnear = [0, 1]\nfactor = 2\n",
+            "",
+            "error[E-SCENE-CLASH]: nothing tears in this scene at:2:1",
+        ),
+        (
+            "[[strength]]\nfactor = 2\nvertices = [999999]\n",
+            "",
+            "error[E-SCENE-RANGE]: strength 1 names the vertex 999999 at:3:12",
+        ),
+        (
+            "\n[[strength]]\nfactor = 2\nfrom = [8, 8, 8]\nto = [9, 9, 9]\n",
+            "",
+            "error[E-SCENE-EMPTY]: strength 1 holds no vertex at:2:1",
+        ),
+        (
+            "[[hold]]\nvertices = [1]\n[[hold]]\nvertices = [1, 999999]\n",
+            "",
+            "error[E-SCENE-RANGE]: hold 2 names the vertex 999999 at:4:12",
+        ),
+        (
+            "[solver]\nmethod = \"verlet\"\nsweeps = 3\n",
+            "",
+            "error[E-SCENE-CLASH]: `sweeps` goes with xpbd or pbd, and the method is verlet at:3:10",
+        ),
+        (
+            "[solver]\nmethod = \"verlet\"\nlimit_ratio = 1.2\n",
+            "",
+            "error[E-SCENE-CLASH]: `limit_ratio` at:3:15",
+        ),
+        (
+            "[solver]\norder = \"2\"\n",
+            "",
+            "error[E-SCENE-CLASH]: `order` goes with implicit, and the method is xpbd at:2:9",
+        ),
+        ("[solver]\norder = \"2\"\n", "--solver implicit", ""),
+        (
+            "[solver]\nmethod = \"xpbd\"\nsweeps = 2\n",
+            "--solver implicit",
+            "",
+        ),
+        (
+            "[tear]\nnever = true\nthreshold = 1.2\n",
+            "",
+            "error[E-SCENE-CLASH]: `never` and `threshold` cannot go together at:3:13",
+        ),
+        ("[tear]\nnever = false\nthreshold = 1.2\n", "", ""),
+        (
+            &format!("{woven}[tear]\nthreshold_n = 4\n"),
+            "",
+            "error[E-SCENE-CLASH]: `threshold_n` at:7:15",
+        ),
+        (
+            &woven,
+            "--threshold-newton 4",
+            "error[E-USAGE]: `--threshold-newton`",
+        ),
+        (
+            &format!("{woven}stretch_n_per_m = 100\n[tear]\nthreshold_n = 4\n"),
+            "",
+            "",
+        ),
+    ] {
+        folder.write("s.toml", scene);
+        let line = "tearmesh tear flag.obj --scene s.toml --seconds 0.01 --dry-run";
+        let output = folder.run(&format!("{line} {options}"));
+        let said = seen(&output);
+        let wanted = if words.is_empty() { 0 } else { 2 };
+        assert_eq!(
+            output.status.code(),
+            Some(wanted),
+            "{scene} {options}: {said}"
+        );
+        let (words, at) = words.split_once(" at:").unwrap_or((words, ""));
+        assert!(said.contains(words), "{words}: {said}");
+        assert!(
+            at.is_empty() || said.contains(&format!("s.toml:{at}\n")),
+            "{at}: {said}"
+        );
+    }
+}
+
 /// The rest is what is there, less what was there and what was put in and taken.
 #[test]
 fn the_report_says_what_the_method_made() {

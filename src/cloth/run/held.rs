@@ -6,9 +6,9 @@
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-use super::RunError;
+use super::{Names, RunError};
 use crate::cloth::load::Path;
-use crate::cloth::scene::{Frame, Hold};
+use crate::cloth::scene::{Frame, Hold, Region};
 use crate::cloth::system::System;
 use crate::edit::{Edit, Edits};
 use crate::geometry::Point;
@@ -36,6 +36,34 @@ enum State {
 /// The step at whose beginning something is to happen.
 pub(super) fn step_at(time_s: f64, step_s: f64) -> u64 {
     (time_s / step_s).round() as u64
+}
+
+/// The vertices of a region for a hold or a strength of this number; all that it names have to
+/// be there.
+pub(super) fn vertices_in(
+    region: &Region,
+    (named_by, number): (Names, usize),
+    mesh: &Mesh,
+    points: &[Point],
+    frame: &Frame,
+) -> Result<Vec<VertexId>, RunError> {
+    let vertices = mesh.vertex_count();
+    if let Region::Vertices(named) = region
+        && let Some(&vertex) = named.iter().find(|v| v.index() >= vertices)
+    {
+        return Err(RunError::NoVertex {
+            named_by,
+            number,
+            vertex,
+            vertices,
+        });
+    }
+    let found = region.vertices(mesh, points, frame);
+    match named_by {
+        _ if !found.is_empty() => Ok(found),
+        Names::Hold => Err(RunError::NothingHeld { number }),
+        Names::Strength => Err(RunError::NothingStrong { number }),
+    }
 }
 
 /// Takes vertices, and lets vertices go, where that is to happen at the beginning of this step.
@@ -88,10 +116,8 @@ impl Held {
         points: &[Point],
         frame: &Frame,
     ) -> Result<Held, RunError> {
-        let vertices = hold.region.vertices(mesh, points, frame);
-        if vertices.is_empty() {
-            return Err(RunError::NothingHeld { number });
-        }
+        let name = (Names::Hold, number);
+        let vertices = vertices_in(&hold.region, name, mesh, points, frame)?;
         let later = |until_s: f64| until_s > hold.from_s;
         let finite = hold.from_s >= 0.0 && hold.from_s.is_finite();
         let way = hold.moves.iter().map(|&(s, d)| (s, Point::from(d)));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tearmesh::Scissor;
-use tearmesh::cloth::{ClothError, Frame, Method, Run, RunError, TimedCut};
+use tearmesh::cloth::{ClothError, Frame, Method, Run, RunError, Scene, Threshold, TimedCut};
 
 use super::words::two_digits;
 use crate::Exit;
@@ -11,6 +11,7 @@ use crate::args::TearArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::rays;
 use crate::say::{Fault, count, short};
+use crate::scene::Source;
 use crate::session::{Opened, Stop};
 
 /// Refuses numbers out of range, and streams that are wanted twice.
@@ -88,8 +89,77 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
     Ok(cuts)
 }
 
+/// Refuses what would make no difference to how the scene tears.
+pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &Source) -> Result<(), Stop> {
+    let blame = |at, message: &str, help: &str| {
+        let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
+        Err(Stop::new(Exit::Usage, fault.help(help)))
+    };
+    let Some(tearing) = &scene.tearing else {
+        let help = "add --threshold, or a threshold in [tear] of a scene file";
+        if args.strength.is_some() {
+            let message = "`--strength` makes no difference: nothing tears in this scene";
+            return refuse(message.to_owned(), help);
+        }
+        if source.has("strength", "") {
+            let message = "nothing tears in this scene, however strong it is";
+            return blame(("strength", 0, ""), message, help);
+        }
+        return Ok(());
+    };
+    let fabric = &scene.fabric;
+    let has_springs = fabric.weave.is_none() || fabric.stretch_n_per_m > 0.0;
+    if has_springs || !matches!(tearing.threshold, Threshold::Force(_)) {
+        return Ok(());
+    }
+    let lack = "is the pull of springs, and this fabric is of triangles";
+    if args.threshold_newton.is_some() {
+        return refuse(format!("`--threshold-newton` {lack}"), "take --toughness");
+    }
+    let help = "take toughness_j_per_m or principal_stretch, or add stretch_n_per_m to [fabric]";
+    blame(
+        ("tear", 0, "threshold_n"),
+        &format!("`threshold_n` {lack}"),
+        help,
+    )
+}
+
 /// Why a scene cannot be played with this mesh.
-pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
+pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Stop {
+    let blame = |at, code, message, help: Option<&str>| {
+        let mut fault = source.blame(at, code, message);
+        fault.help = help.map(str::to_owned);
+        Stop::new(Exit::Usage, fault)
+    };
+    match *error {
+        _ if opened.mesh.face_count() == 0 => {}
+        RunError::NothingHeld { number } | RunError::NothingStrong { number } => {
+            let is_hold = matches!(error, RunError::NothingHeld { .. });
+            let table = if is_hold { "hold" } else { "strength" };
+            let help = "give it a larger region, or `near` with a place";
+            return blame(
+                (table, number, ""),
+                "E-SCENE-EMPTY",
+                error.to_string(),
+                Some(help),
+            );
+        }
+        RunError::NoVertex {
+            named_by,
+            number,
+            vertex,
+            vertices,
+        } => {
+            let message = format!(
+                "{named_by} {} names the vertex {}, and the mesh has the vertices 1 to {vertices}",
+                number + 1,
+                vertex.index() + 1
+            );
+            let table = named_by.to_string();
+            return blame((&table, number, "vertices"), "E-SCENE-RANGE", message, None);
+        }
+        _ => {}
+    }
     let (exit, code, help) = match error {
         _ if opened.mesh.face_count() == 0 => (
             Exit::Input,
@@ -105,11 +175,6 @@ pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
         }
         RunError::Cloth(ClothError::Mass(_)) => (Exit::Input, "E-MASS", None),
         RunError::Cloth(_) => (Exit::Input, "E-SIM-MESH", None),
-        RunError::NothingHeld { .. } => (
-            Exit::Usage,
-            "E-SCENE-EMPTY",
-            Some("give it a larger region, or `near` with a place"),
-        ),
         RunError::Times => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
         _ => (Exit::Usage, "E-SCENE-RANGE", None),
     };
