@@ -411,6 +411,66 @@ fn what_would_be_ignored_is_refused() {
     }
 }
 
+/// Whoever wrote the file is told where to look.
+#[test]
+fn faults_of_a_scene_file_have_its_lines() {
+    let folder = Folder::new();
+    let woven = "[solver]\nmethod = \"implicit\"\n[fabric]\nwarp_n_per_m = 9\nweft_n_per_m = 9\n";
+    for (scene, words, shown) in [
+        (
+            "[[cut]]\nrays = [\"0,1,5:0,0,-1\", \"0,1,5:0,0,-1\"]\n",
+            "error[E-SCENE-RANGE]: the two rays are the same line, so they span no cutting plane at:2:8",
+            "2 | rays = [\"0,1,5:0,0,-1\", \"0,1,5:0,0,-1\"]",
+        ),
+        (
+            "[[hold]]\nnear = [0, 1]\n\n[[hold]]\nfrom = [8, 8, 8]\nto = [9, 9, 9]\n",
+            "error[E-SCENE-EMPTY]: hold 2 holds no vertex at:4:1",
+            "4 | [[hold]]",
+        ),
+        (
+            "[tear]\nthreshold_warp = 1.2\nthreshold_weft = 1.2\nwarp = [0, 0, 0]\n",
+            "error[E-SCENE-RANGE]: the axis (0, 0, 0) of the warp has no direction at:4:8",
+            "4 | warp = [0, 0, 0]",
+        ),
+        (
+            &format!("{woven}warp = [0, 0, 0]\n"),
+            "error[E-SCENE-RANGE]: the warp (0, 0, 0) has no direction in the face at:6:8",
+            "6 | warp = [0, 0, 0]",
+        ),
+        (
+            // The mesh lies in the plane of x and y.
+            &format!("{woven}warp = [0, 0, 1]\n"),
+            "error[E-SCENE-RANGE]: the warp (0, 0, 1) has no direction in the face at:6:8",
+            "6 | warp = [0, 0, 1]",
+        ),
+        (
+            "\n[[cut]]\nrays = [\n  \"0,1,5:0,0,-1\",\n  \"0,1,x:0,0,-1\",\n]\n",
+            "error[E-RAY-SYNTAX]: cannot read the ray `0,1,x:0,0,-1` at:5:8",
+            "5 |   \"0,1,x:0,0,-1\",",
+        ),
+        (
+            "\u{feff}seconds = -1\n",
+            "error[E-SCENE-RANGE] at:1:11",
+            "1 | seconds = -1",
+        ),
+        (
+            "[wind]\nvelocity_m_per_s = [1, 0, 0]\nsway_m_per_s = [1, 0, 0]\nperiod_s = 1e-320\n",
+            "error[E-SCENE-RANGE]: `period_s` at:4:12",
+            "4 | period_s = 1e-320",
+        ),
+    ] {
+        folder.write("s.toml", scene);
+        let line = "tearmesh tear sheet.obj --scene s.toml --seconds 0.01 --dry-run";
+        let output = folder.run(line);
+        let said = seen(&output);
+        assert_eq!(output.status.code(), Some(2), "{scene}: {said}");
+        let (words, at) = words.split_once(" at:").expect("a place");
+        assert!(said.contains(words), "{words}: {said}");
+        assert!(said.contains(&format!("s.toml:{at}\n")), "{at}: {said}");
+        assert!(said.contains(shown), "{shown}: {said}");
+    }
+}
+
 /// The rest is what is there, less what was there and what was put in and taken.
 #[test]
 fn the_report_says_what_the_method_made() {

@@ -7,7 +7,7 @@ use tearmesh::cloth::{
     Axis, Bending, Breeze, Collider, Copies, Frame, Hold, Limiter, Method, Pbd, Region, Scene,
     Tearing, Threshold, TimedCut, Unbend, Weave, Wind, Xpbd,
 };
-use tearmesh::{Plane, Point, Vector, VertexId};
+use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 
 use super::read::{Content, SceneFile, Table, Value};
 use crate::args::SolverName;
@@ -316,6 +316,12 @@ impl SceneFile {
         let Some(table) = self.first("wind") else {
             return;
         };
+        let period_s = table.number("period_s").unwrap_or(1.0);
+        if !(scene.duration_s / period_s).is_finite() {
+            let message = "`period_s` is too short: the sways of the scene are without number";
+            let message = message.to_owned();
+            faults.push(*self.fault(table, "period_s", "E-SCENE-RANGE", message));
+        }
         match table.vector("velocity_m_per_s") {
             Some(velocity_m_per_s) => {
                 scene.breeze = Some(Breeze {
@@ -324,7 +330,7 @@ impl SceneFile {
                         coefficient: table.number("coefficient").unwrap_or(1.5),
                     },
                     sway_m_per_s: table.vector("sway_m_per_s").unwrap_or_else(Vector::zeros),
-                    period_s: table.number("period_s").unwrap_or(1.0),
+                    period_s,
                 });
             }
             None => faults.push(*self.missing(table, "wind", "velocity_m_per_s")),
@@ -414,6 +420,8 @@ impl SceneFile {
         let Some(Content::Rays(rays)) = table.values.get("rays").map(|value| &value.content) else {
             return Err(self.missing(table, "cut", "rays"));
         };
+        Scissor::new(&rays[0], &rays[1])
+            .map_err(|error| self.fault(table, "rays", "E-SCENE-RANGE", error.to_string()))?;
         Ok(TimedCut {
             at_s: table.number("at_s").unwrap_or(0.0),
             rays: **rays,

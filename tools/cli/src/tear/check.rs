@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use tearmesh::Scissor;
-use tearmesh::cloth::{ClothError, Frame, Method, Run, RunError, Scene, Threshold, TimedCut};
+use tearmesh::cloth::{
+    ClothError, Frame, Method, Run, RunError, Scene, TearingError, Threshold, TimedCut,
+};
+use tearmesh::{FaceId, Scissor, Vector};
 
 use super::words::two_digits;
 use crate::Exit;
@@ -158,6 +160,17 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
             let table = named_by.to_string();
             return blame((&table, number, "vertices"), "E-SCENE-RANGE", message, None);
         }
+        RunError::Tearing(TearingError::Axis { .. }) => {
+            return blame(
+                ("tear", 0, "warp"),
+                "E-SCENE-RANGE",
+                error.to_string(),
+                None,
+            );
+        }
+        RunError::Cloth(ClothError::Face { face, warp }) => {
+            return flat(face, warp, opened, source);
+        }
         _ => {}
     }
     let (exit, code, help) = match error {
@@ -181,6 +194,24 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
     let mut fault = Fault::error(code, error.to_string());
     fault.help = help.map(str::to_owned);
     Stop::new(exit, fault)
+}
+
+/// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
+fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
+    let corners = opened.mesh.corners(face);
+    let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
+    let name = corners.map(|v| (v.index() + 1).to_string()).join("-");
+    if (b - a).cross(&(c - a)) == Vector::zeros() {
+        let message = format!("the face {name} has no area at rest");
+        let help = "a triangle without area has no strain: take the face out";
+        let fault = Fault::error("E-SIM-MESH", message).help(help);
+        return Stop::new(Exit::Input, fault);
+    }
+    let [x, y, z] = <[f64; 3]>::from(warp);
+    let message = format!("the warp ({x}, {y}, {z}) has no direction in the face {name}");
+    let help = "name a `warp` in [fabric] that lies in no face's normal";
+    let fault = source.blame(("fabric", 0, "warp"), "E-SCENE-RANGE", message);
+    Stop::new(Exit::Usage, fault.help(help))
 }
 
 /// What may tear, or not tear, for reasons that are none of the cloth's.
