@@ -518,6 +518,14 @@ fn help_fits_a_screen_and_has_two_examples_and_every_key() {
         assert!(long.contains(key), "{key}");
     }
     assert!(!long.contains('\x1b'));
+    let words = long.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "replace all of that kind that the base has",
+        "any [tear] lets the scene tear",
+        "without the last ones that lines `#~ fan` of a torn file name",
+    ] {
+        assert!(words.contains(said), "{said}");
+    }
 }
 
 #[test]
