@@ -62,7 +62,9 @@ pub use load::{Collider, Loads, Path, Wind};
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use rk4::Rk4;
-pub use run::{CutMade, Gain, Limited, Quality, Run, RunError, Shortened, Solved, Step, Tally};
+pub use run::{
+    CutMade, Gain, Limited, Names, Quality, Run, RunError, Shortened, Solved, Step, Tally,
+};
 pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
 pub use solver::{Failure, Solver, StepError, StepReport};

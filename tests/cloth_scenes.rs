@@ -3,7 +3,7 @@
 
 use tearmesh::cloth::implicit::Settings;
 use tearmesh::cloth::{
-    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Path, Pbd, Quality, Region, Run,
+    Axis, Breeze, Collider, Frame, Hold, Limiter, Method, Names, Path, Pbd, Quality, Region, Run,
     RunError, Scene, StepError, Tearing, Threshold, TimedCut, Wind, Xpbd,
 };
 use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId, shapes};
@@ -144,8 +144,8 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
     let mut after = None;
     while !run.is_over() {
         let before = run.elapsed_s();
-        let step = run.step().expect("a step");
-        if let [cut] = &step.cuts[..] {
+        run.step().expect("a step");
+        if let [cut] = run.cuts_made() {
             let report = &cut.report;
             assert_eq!(cut.number, 0);
             assert_eq!(cut.stability, None, "XPBD is stable at any step");
@@ -173,17 +173,64 @@ fn a_flag_that_is_cut_goes_on_waving_by_an_explicit_method() {
         duration_s: 1.7,
         ..Scene::flag(frame)
     });
-    let mut cut = None;
+    let mut stability = None;
     while !run.is_over() {
-        let step = run.step().expect("a step");
-        cut = cut.or(step.cuts.into_iter().next());
+        run.step().expect("a step");
+        stability = stability.or(run.cuts_made().first().map(|cut| cut.stability));
     }
-    let cut = cut.expect("a cut");
-    let stability = cut.stability.expect("an explicit method");
+    let stability = stability.expect("a cut").expect("an explicit method");
     assert!(stability.after_s < 0.5 * stability.before_s);
     assert!(stability.ends.is_some());
     assert!(run.tally().stretch_ratio_max < 1.2);
     check_ledgers(&run);
+}
+
+/// A step that is too long for the slivers of a cut fails, but the cut has been made.
+#[test]
+fn a_cut_is_told_of_though_its_step_fails() {
+    let ray = |[x, y]: [f64; 2]| {
+        let ray = Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+        ray.expect("a ray")
+    };
+    let mut run = run(16, |frame| Scene {
+        solver: Method::Verlet,
+        step_s: Some(0.0004),
+        holds: vec![Hold::still(Region::Patch {
+            across: [0.0, 1.0],
+            along: [1.0, 1.0],
+        })],
+        cuts: vec![TimedCut {
+            at_s: 0.01,
+            rays: [ray([0.524, -1.0]), ray([0.488, 2.0])],
+            through: true,
+            method: tearmesh::Method::Exact,
+        }],
+        tearing: None,
+        ..Scene::fall(frame.up)
+    });
+    let error = loop {
+        match run.step() {
+            Ok(_) => assert!(run.cuts_made().is_empty() && !run.is_over()),
+            Err(error) => break error,
+        }
+    };
+    assert!(matches!(error, StepError::Unstable { .. }), "{error}");
+    let [cut] = run.cuts_made() else {
+        panic!("{:?}", run.cuts_made());
+    };
+    assert_eq!(cut.report.splits as u64, run.tally().cut_splits);
+    assert!(cut.stability.expect("an explicit method").after_s < 0.0004);
+    // What is held is what was held, and its copies.
+    let system = run.cloth().system();
+    let held: Vec<usize> = (0..system.positions().len())
+        .filter(|&v| system.is_held(v))
+        .collect();
+    let mut led: Vec<usize> = run.held(0).iter().map(|v| v.index()).collect();
+    led.sort_unstable();
+    assert!(held.len() > 17);
+    assert_eq!(led, held);
+    // The next step does not say it again.
+    assert!(run.step().is_err() && run.cuts_made().is_empty());
 }
 
 #[test]
@@ -302,6 +349,72 @@ fn copies_of_what_is_held_are_held_and_let_go_with_it() {
     }
     assert_eq!((most, run.held(0).len()), (10, 0));
     assert_eq!(run.mesh().components().count(), 2);
+}
+
+/// Two holds on one edge: while both hold, the one that took last leads, and when it ends the other
+/// holds on, in whatever order the scene has them.
+#[test]
+fn what_one_hold_lets_go_another_still_holds() {
+    let edge = || Region::Patch {
+        across: [0.0, 1.0],
+        along: [1.0, 1.0],
+    };
+    let for_ever = Hold::still(edge());
+    let led_for_ever = Hold {
+        moves: vec![(0.0, Vector::zeros()), (0.5, Vector::new(0.0, 0.0, 0.5))],
+        ..for_ever.clone()
+    };
+    let for_a_while = Hold {
+        from_s: 0.1,
+        until_s: Some(0.3),
+        ..for_ever.clone()
+    };
+    let led_for_a_while = Hold {
+        moves: vec![(0.1, Vector::zeros()), (0.2, Vector::new(0.25, 0.0, 0.0))],
+        ..for_a_while.clone()
+    };
+    let moved = |holds: Vec<Hold>| {
+        let mut run = run(6, |frame| Scene {
+            duration_s: 0.6,
+            holds: holds.clone(),
+            tearing: None,
+            ..Scene::fall(frame.up)
+        });
+        let corner = 6 * 7;
+        let begun = run.cloth().positions()[corner];
+        while !run.is_over() {
+            run.step().expect("a step");
+        }
+        assert!(run.cloth().system().is_held(corner));
+        run.cloth().positions()[corner] - begun
+    };
+    for (one, other, wanted) in [
+        (&for_ever, &for_a_while, [0.0, 0.0, 0.0]),
+        (&for_ever, &led_for_a_while, [0.25, 0.0, 0.0]),
+        // It goes on from where it is, as the path does: 0.1 s to 0.3 s are not made up for.
+        (&led_for_ever, &for_a_while, [0.0, 0.0, 0.3]),
+        (&led_for_ever, &led_for_a_while, [0.25, 0.0, 0.3]),
+    ] {
+        for holds in [[one, other], [other, one]] {
+            let moved = moved(holds.map(Hold::clone).to_vec());
+            let off = (moved - Vector::from(wanted)).norm();
+            assert!(off < 0.02, "{moved:?}, {wanted:?}: {holds:?}");
+        }
+    }
+    // What ends first is no grip of the other's.
+    let soon_over = Hold {
+        until_s: Some(0.2),
+        ..for_ever
+    };
+    let later = Hold {
+        until_s: None,
+        ..led_for_a_while
+    };
+    let moved = moved(vec![soon_over, later]);
+    assert!(
+        (moved - Vector::new(0.25, 0.0, 0.0)).norm() < 1e-9,
+        "{moved:?}"
+    );
 }
 
 #[test]
@@ -473,6 +586,28 @@ fn scenes_that_make_no_sense_are_refused() {
     );
     let nowhere = refused(&|scene| scene.holds[1].region = Region::Vertices(Vec::new()));
     assert_eq!(nowhere, RunError::NothingHeld { number: 1 });
+    let region = || Region::Vertices([3, 25].map(|v| VertexId::new(v).expect("an id")).to_vec());
+    for (names, refused) in [
+        (
+            Names::Hold,
+            refused(&|scene| scene.holds[0].region = region()),
+        ),
+        (
+            Names::Strength,
+            refused(&|scene| scene.strengths = vec![(region(), 2.0)]),
+        ),
+    ] {
+        let named = RunError::NoVertex {
+            named_by: names,
+            number: 0,
+            vertex: VertexId::new(25).expect("an id"),
+            vertices: 25,
+        };
+        assert_eq!(refused, named);
+    }
+    let nowhere = Region::Vertices(Vec::new());
+    let weak = refused(&|scene| scene.strengths = vec![(nowhere.clone(), 0.5)]);
+    assert_eq!(weak, RunError::NothingStrong { number: 0 });
     let moves = refused(&|scene| scene.holds[0].moves = vec![(1.0, Vector::zeros()); 2]);
     assert_eq!(moves, RunError::Moves { number: 0 });
     let early = refused(&|scene| scene.holds[0].until_s = Some(0.0));

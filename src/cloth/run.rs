@@ -12,7 +12,7 @@ mod held;
 mod quality;
 mod step_size;
 
-pub use self::error::RunError;
+pub use self::error::{Names, RunError};
 pub use self::gain::Gain;
 pub use self::quality::{Limited, Quality, Solved};
 
@@ -61,6 +61,7 @@ pub struct Run {
     held: Vec<Held>,
     scissors: Vec<Scissor>,
     next_cut: usize,
+    cuts_made: Vec<CutMade>,
     step_s: f64,
     steps_planned: u64,
     tally: Tally,
@@ -90,8 +91,6 @@ pub struct Tally {
 /// What a step did.
 #[derive(Debug)]
 pub struct Step {
-    /// The cuts that were made.
-    pub cuts: Vec<CutMade>,
     /// What tore, where the scene tears.
     pub tear: Option<TearReport>,
 }
@@ -213,6 +212,7 @@ impl Run {
             held,
             scissors,
             next_cut: 0,
+            cuts_made: Vec::new(),
             step_s,
             steps_planned: steps_planned as u64,
             tally: Tally {
@@ -227,6 +227,7 @@ impl Run {
     pub const STEPS_MAX: u64 = 1 << 40;
 
     /// Gives each vertex a strength, as a multiple of the threshold, in the place of the scene's.
+    /// Where the scene never tears it is of no use, and is dropped.
     ///
     /// # Errors
     ///
@@ -244,30 +245,33 @@ impl Run {
     /// # Errors
     ///
     /// [`StepError`]: the cloth is as it was at the end of the last good step, but for what was cut
-    /// at the beginning of this one.
+    /// at the beginning of this one ([`Run::cuts_made`]).
     pub fn step(&mut self) -> Result<Step, StepError> {
         self.edits.clear();
-        let now = self.tally.steps;
-        for held in &mut self.held {
-            held.take_or_release(now, self.step_s, self.cloth.system_mut());
-        }
-        let cuts = self.cut(now)?;
+        self.cuts_made.clear();
+        let done = self.advance(self.tally.steps);
+        // A step that fails has been cut as well.
+        self.held
+            .iter_mut()
+            .for_each(|held| held.follow(&self.edits));
+        done
+    }
+
+    fn advance(&mut self, now: u64) -> Result<Step, StepError> {
+        held::take_and_release(&mut self.held, now, self.step_s, self.cloth.system_mut());
+        self.cut(now)?;
         self.blow(now);
         self.cloth.step(&mut self.engine, self.step_s)?;
         self.tally.steps += 1;
         self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
         let tear = self.tear_overstretched();
-        self.held
-            .iter_mut()
-            .for_each(|held| held.follow(&self.edits));
         let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
         self.watch.look(steps, elapsed_s, self.cloth.system());
-        Ok(Step { cuts, tear })
+        Ok(Step { tear })
     }
 
     /// Makes the cuts whose time has come.
-    fn cut(&mut self, now: u64) -> Result<Vec<CutMade>, StepError> {
-        let mut done = Vec::new();
+    fn cut(&mut self, now: u64) -> Result<(), StepError> {
         while let Some(&cut) = self.scene.cuts.get(self.next_cut) {
             if held::step_at(cut.at_s, self.step_s) > now {
                 break;
@@ -284,14 +288,15 @@ impl Run {
             }
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
-            done.push(CutMade {
+            let stability = step_before_s.map(|before_s| self.shortened(before_s));
+            self.cuts_made.push(CutMade {
                 number: self.next_cut,
                 report,
-                stability: step_before_s.map(|before_s| self.shortened(before_s)),
+                stability,
             });
             self.next_cut += 1;
         }
-        Ok(done)
+        Ok(())
     }
 
     /// The longest stable step of an explicit method.
@@ -373,6 +378,13 @@ impl Run {
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.tally.steps >= self.steps_planned
+    }
+
+    /// Whether what is to happen at this time happens: times are rounded to steps, and what would
+    /// be due when the last of them is done never is.
+    #[must_use]
+    pub fn reaches(&self, time_s: f64) -> bool {
+        held::step_at(time_s, self.step_s) < self.steps_planned
     }
 
     /// The steps that the whole scene takes.
@@ -461,6 +473,12 @@ impl Run {
         &self.edits
     }
 
+    /// The cuts that the last step made, at its beginning: also if it failed after that.
+    #[must_use]
+    pub fn cuts_made(&self) -> &[CutMade] {
+        &self.cuts_made
+    }
+
     /// The vertices that a hold of the scene leads or holds now, copies included; empty
     /// before its time and after.
     ///
@@ -510,8 +528,9 @@ fn strong(
         return Ok(tear);
     }
     let mut strengths = vec![1.0; mesh.vertex_count()];
-    for (region, strength) in &scene.strengths {
-        for v in region.vertices(mesh, cloth.positions(), frame) {
+    for (number, (region, strength)) in scene.strengths.iter().enumerate() {
+        let name = (Names::Strength, number);
+        for v in held::vertices_in(region, name, mesh, cloth.positions(), frame)? {
             strengths[v.index()] = *strength;
         }
     }

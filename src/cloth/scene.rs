@@ -121,6 +121,9 @@ impl Breeze {
 }
 
 /// Vertices that are held, and maybe led about.
+///
+/// Where several hold one vertex, the one that took it last leads it. When that lets go, the one
+/// before it holds on: where the vertex then is, or along its own way from there on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hold {
     /// Which ones, by where they are at rest.

@@ -300,6 +300,224 @@ fn a_simulation_that_fails_keeps_its_state_and_says_so() {
     assert_eq!(read(&folder.read("kept.obj")).0.len(), 1089);
 }
 
+/// The slivers of the cut are what the step fails of, so just this cut has to be told.
+#[test]
+fn a_cut_whose_step_fails_is_told_of() {
+    let folder = Folder::new();
+    let output = folder.run(
+        "tearmesh tear flag.obj --scene hang --solver verlet --dt 0.0002 --seconds 0.1 \
+         --rays 0.51,2,5:0,0,-1 0.513,-2,5:0,0,-1 --cut-at 0.05 -o kept.obj --report r.json",
+    );
+    let said = seen(&output);
+    assert_eq!(output.status.code(), Some(5), "{said}");
+    assert!(said.contains("E-SIM-UNSTABLE"), "{said}");
+    assert!(said.contains("1 piece -> 2 pieces · at 0.05 s"), "{said}");
+    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("a report");
+    assert_eq!(report["pieces"], 2);
+    let cuts = report["cuts"].as_array().expect("a list");
+    assert_eq!(cuts.len(), 1);
+    let [before, after] =
+        ["before", "after"].map(|at| cuts[0]["stable_step_s"][at].as_f64().expect("seconds"));
+    assert!(after < 0.0002 && 0.0002 < before, "{before} {after}");
+}
+
+/// What is to happen when the scene is over never happens, and that is said.
+#[test]
+fn what_never_happens_is_warned_of() {
+    let folder = Folder::new();
+    folder.write(
+        "late.toml",
+        "base = \"hang\"\n[[hold]]\nalong = [0.97, 1]\n[[hold]]\nalong = [0, 0.1]\nfrom_s = 1\n",
+    );
+    let rays = "--rays 0,2,5:0,0,-1 0,-2,5:0,0,-1";
+    let cut = format!("hang {rays} --cut-at");
+    for (line, words) in [
+        (
+            format!("{cut} 1 --seconds 0.1"),
+            "the cut at 1 s is never made",
+        ),
+        (
+            format!("{cut} 0.1 --seconds 0.1"),
+            "the cut at 0.1 s is never made",
+        ),
+        (
+            format!("{cut} 0 --seconds 0"),
+            "the cut at 0 s is never made",
+        ),
+        (format!("{cut} 0.09 --seconds 0.1"), ""),
+        (
+            "late.toml --seconds 0.1".to_owned(),
+            "hold 2 is never taken",
+        ),
+        ("hang --seconds 0".to_owned(), ""),
+    ] {
+        let output = folder.run(&format!("tearmesh tear flag.obj --dry-run --scene {line}"));
+        let said = seen(&output);
+        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+        assert_eq!(
+            said.contains("W-SCENE-LATE"),
+            !words.is_empty(),
+            "{line}: {said}"
+        );
+        assert!(said.contains(words), "{line}: {said}");
+    }
+}
+
+/// Each with what is typed, and what it says; the numbers of lines are those of the file.
+#[test]
+fn what_would_be_ignored_is_refused() {
+    let folder = Folder::new();
+    folder.write("half.txt", "1 0.5\n");
+    let woven = "warp_n_per_m = 300\nweft_n_per_m = 300\n";
+    let woven = format!("[solver]\nmethod = \"implicit\"\n[fabric]\n{woven}");
+    for (scene, options, words) in [
+        (
+            "base = \"flag\"\n",
+            "--strength half.txt",
+            "error[E-USAGE]: `--strength`",
+        ),
+        (
+            "base = \"flag\"\n[[strength]]\nnear = [0, 1]\nfactor = 2\n",
+            "",
+            "error[E-SCENE-CLASH]: nothing tears in this scene at:2:1",
+        ),
+        (
+            "[[strength]]\nfactor = 2\nvertices = [999999]\n",
+            "",
+            "error[E-SCENE-RANGE]: strength 1 names the vertex 999999 at:3:12",
+        ),
+        (
+            "\n[[strength]]\nfactor = 2\nfrom = [8, 8, 8]\nto = [9, 9, 9]\n",
+            "",
+            "error[E-SCENE-EMPTY]: strength 1 holds no vertex at:2:1",
+        ),
+        (
+            "[[hold]]\nvertices = [1]\n[[hold]]\nvertices = [1, 999999]\n",
+            "",
+            "error[E-SCENE-RANGE]: hold 2 names the vertex 999999 at:4:12",
+        ),
+        (
+            "[solver]\nmethod = \"verlet\"\nsweeps = 3\n",
+            "",
+            "error[E-SCENE-CLASH]: `sweeps` goes with xpbd or pbd, and the method is verlet at:3:10",
+        ),
+        (
+            "[solver]\nmethod = \"verlet\"\nlimit_ratio = 1.2\n",
+            "",
+            "error[E-SCENE-CLASH]: `limit_ratio` at:3:15",
+        ),
+        (
+            "[solver]\norder = \"2\"\n",
+            "",
+            "error[E-SCENE-CLASH]: `order` goes with implicit, and the method is xpbd at:2:9",
+        ),
+        ("[solver]\norder = \"2\"\n", "--solver implicit", ""),
+        (
+            "[solver]\nmethod = \"xpbd\"\nsweeps = 2\n",
+            "--solver implicit",
+            "",
+        ),
+        (
+            "[tear]\nnever = true\nthreshold = 1.2\n",
+            "",
+            "error[E-SCENE-CLASH]: `never` and `threshold` cannot go together at:3:13",
+        ),
+        ("[tear]\nnever = false\nthreshold = 1.2\n", "", ""),
+        (
+            &format!("{woven}[tear]\nthreshold_n = 4\n"),
+            "",
+            "error[E-SCENE-CLASH]: `threshold_n` at:7:15",
+        ),
+        (
+            &woven,
+            "--threshold-newton 4",
+            "error[E-USAGE]: `--threshold-newton`",
+        ),
+        (
+            &format!("{woven}stretch_n_per_m = 100\n[tear]\nthreshold_n = 4\n"),
+            "",
+            "",
+        ),
+    ] {
+        folder.write("s.toml", scene);
+        let line = "tearmesh tear flag.obj --scene s.toml --seconds 0.01 --dry-run";
+        let output = folder.run(&format!("{line} {options}"));
+        let said = seen(&output);
+        let wanted = if words.is_empty() { 0 } else { 2 };
+        assert_eq!(
+            output.status.code(),
+            Some(wanted),
+            "{scene} {options}: {said}"
+        );
+        let (words, at) = words.split_once(" at:").unwrap_or((words, ""));
+        assert!(said.contains(words), "{words}: {said}");
+        assert!(
+            at.is_empty() || said.contains(&format!("s.toml:{at}\n")),
+            "{at}: {said}"
+        );
+    }
+}
+
+/// Whoever wrote the file is told where to look.
+#[test]
+fn faults_of_a_scene_file_have_its_lines() {
+    let folder = Folder::new();
+    let woven = "[solver]\nmethod = \"implicit\"\n[fabric]\nwarp_n_per_m = 9\nweft_n_per_m = 9\n";
+    for (scene, words, shown) in [
+        (
+            "[[cut]]\nrays = [\"0,1,5:0,0,-1\", \"0,1,5:0,0,-1\"]\n",
+            "error[E-SCENE-RANGE]: the two rays are the same line, so they span no cutting plane at:2:8",
+            "2 | rays = [\"0,1,5:0,0,-1\", \"0,1,5:0,0,-1\"]",
+        ),
+        (
+            "[[hold]]\nnear = [0, 1]\n\n[[hold]]\nfrom = [8, 8, 8]\nto = [9, 9, 9]\n",
+            "error[E-SCENE-EMPTY]: hold 2 holds no vertex at:4:1",
+            "4 | [[hold]]",
+        ),
+        (
+            "[tear]\nthreshold_warp = 1.2\nthreshold_weft = 1.2\nwarp = [0, 0, 0]\n",
+            "error[E-SCENE-RANGE]: the axis (0, 0, 0) of the warp has no direction at:4:8",
+            "4 | warp = [0, 0, 0]",
+        ),
+        (
+            &format!("{woven}warp = [0, 0, 0]\n"),
+            "error[E-SCENE-RANGE]: the warp (0, 0, 0) has no direction in the face at:6:8",
+            "6 | warp = [0, 0, 0]",
+        ),
+        (
+            // The mesh lies in the plane of x and y.
+            &format!("{woven}warp = [0, 0, 1]\n"),
+            "error[E-SCENE-RANGE]: the warp (0, 0, 1) has no direction in the face at:6:8",
+            "6 | warp = [0, 0, 1]",
+        ),
+        (
+            "\n[[cut]]\nrays = [\n  \"0,1,5:0,0,-1\",\n  \"0,1,x:0,0,-1\",\n]\n",
+            "error[E-RAY-SYNTAX]: cannot read the ray `0,1,x:0,0,-1` at:5:8",
+            "5 |   \"0,1,x:0,0,-1\",",
+        ),
+        (
+            "\u{feff}seconds = -1\n",
+            "error[E-SCENE-RANGE] at:1:11",
+            "1 | seconds = -1",
+        ),
+        (
+            "[wind]\nvelocity_m_per_s = [1, 0, 0]\nsway_m_per_s = [1, 0, 0]\nperiod_s = 1e-320\n",
+            "error[E-SCENE-RANGE]: `period_s` at:4:12",
+            "4 | period_s = 1e-320",
+        ),
+    ] {
+        folder.write("s.toml", scene);
+        let line = "tearmesh tear sheet.obj --scene s.toml --seconds 0.01 --dry-run";
+        let output = folder.run(line);
+        let said = seen(&output);
+        assert_eq!(output.status.code(), Some(2), "{scene}: {said}");
+        let (words, at) = words.split_once(" at:").expect("a place");
+        assert!(said.contains(words), "{words}: {said}");
+        assert!(said.contains(&format!("s.toml:{at}\n")), "{at}: {said}");
+        assert!(said.contains(shown), "{shown}: {said}");
+    }
+}
+
 /// The rest is what is there, less what was there and what was put in and taken.
 #[test]
 fn the_report_says_what_the_method_made() {
@@ -347,6 +565,14 @@ fn help_fits_a_screen_and_has_two_examples_and_every_key() {
         assert!(long.contains(key), "{key}");
     }
     assert!(!long.contains('\x1b'));
+    let words = long.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "replace all of that kind that the base has",
+        "any [tear] lets the scene tear",
+        "without the last ones that lines `#~ fan` of a torn file name",
+    ] {
+        assert!(words.contains(said), "{said}");
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::fmt;
 use crate::cloth::sheet::ClothError;
 use crate::cloth::system::SystemError;
 use crate::cloth::tearing::TearingError;
+use crate::id::VertexId;
 use crate::scissor::ScissorError;
 
 /// Why a scene was refused.
@@ -30,6 +31,22 @@ pub enum RunError {
     NothingHeld {
         /// The number of the hold in the scene.
         number: usize,
+    },
+    /// No vertex lies where some are to bear more or less.
+    NothingStrong {
+        /// The number of the strength in the scene.
+        number: usize,
+    },
+    /// A hold or a strength names a vertex that the mesh does not have.
+    NoVertex {
+        /// What names it.
+        named_by: Names,
+        /// Its number in the scene.
+        number: usize,
+        /// The first such vertex.
+        vertex: VertexId,
+        /// How many vertices the mesh has.
+        vertices: usize,
     },
     /// The times of a hold do not ascend.
     Moves {
@@ -59,6 +76,24 @@ pub enum RunError {
     Tearing(TearingError),
 }
 
+/// What can name vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Names {
+    /// A hold of the scene.
+    Hold,
+    /// A strength of the scene.
+    Strength,
+}
+
+impl fmt::Display for Names {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Names::Hold => "hold",
+            Names::Strength => "strength",
+        })
+    }
+}
+
 impl From<ClothError> for RunError {
     fn from(error: ClothError) -> RunError {
         RunError::Cloth(error)
@@ -77,6 +112,19 @@ impl fmt::Display for RunError {
             RunError::NothingHeld { number } => {
                 write!(f, "hold {} holds no vertex", number + 1)
             }
+            RunError::NothingStrong { number } => {
+                write!(f, "strength {} holds no vertex", number + 1)
+            }
+            RunError::NoVertex {
+                named_by,
+                number,
+                vertex,
+                vertices,
+            } => write!(
+                f,
+                "{named_by} {} names {vertex}, and the mesh has {vertices} vertices",
+                number + 1
+            ),
             RunError::Moves { number } => {
                 write!(f, "the times of hold {} do not ascend", number + 1)
             }

@@ -196,7 +196,9 @@ pub(crate) struct TearArgs {
     /// A file of lines `vertex strength`.
     ///
     /// A vertex tears at so many times the load of the threshold. Vertices count from 1, as in OBJ;
-    /// those not named have strength 1. `#` begins a comment.
+    /// those not named have strength 1. `#` begins a comment. In a torn file the last `v`, which its
+    /// comments `#~ fan` name first, are written for another fan of a vertex and do not count: name
+    /// the vertex, the number that stands behind.
     #[arg(long, value_name = "FILE")]
     pub(crate) strength: Option<PathBuf>,
 

@@ -43,32 +43,10 @@ pub(crate) fn pair(text: &str, origin: &str, line: usize) -> Result<Pair, Fault>
         ..Fault::default()
     };
     let spans: Vec<_> = split_pair(text).collect();
-    let (a, b) = match &spans[..] {
-        [a, b] => (a.clone(), b.clone()),
-        [.., last] => {
-            let message = match spans.len() {
-                1 => "a cut takes two rays, and one was given".to_owned(),
-                count => format!("a cut takes two rays, and {count} were given"),
-            };
-            let label = if spans.len() == 1 {
-                "a second ray is missing"
-            } else {
-                "one too many"
-            };
-            let help = "write both, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
-            return Err(fault("E-RAY-COUNT", message, last.clone(), label, help));
-        }
-        [] => {
-            let message = "a cut takes two rays, and none was given".to_owned();
-            let help = "write both, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
-            return Err(fault(
-                "E-RAY-COUNT",
-                message,
-                0..text.len(),
-                "two rays missing",
-                help,
-            ));
-        }
+    let [a, b] = &spans[..] else {
+        let (message, label) = miscounted(spans.len());
+        let last = spans.last().cloned().unwrap_or(0..text.len());
+        return Err(fault("E-RAY-COUNT", message, last, label, PAIR_HELP));
     };
     let read = |span: Range<usize>| {
         ray(&text[span.clone()]).map_err(
@@ -79,13 +57,27 @@ pub(crate) fn pair(text: &str, origin: &str, line: usize) -> Result<Pair, Fault>
                  label,
              }| {
                 let part = span.start + part.start..span.start + part.end;
-                let help =
-                    "write origin:direction as in 0,1,5:0,0,-1, or origin@target as in 0,1,5@0,1,0";
-                fault(code, message, part, label, help)
+                fault(code, message, part, label, RAY_HELP)
             },
         )
     };
-    Ok([read(a)?, read(b)?])
+    Ok([read(a.clone())?, read(b.clone())?])
+}
+
+/// How to write two rays.
+pub(crate) const PAIR_HELP: &str = "write both, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
+/// How to write one.
+pub(crate) const RAY_HELP: &str =
+    "write origin:direction as in 0,1,5:0,0,-1, or origin@target as in 0,1,5@0,1,0";
+
+/// What is wrong with so many rays, and what to say where they stand.
+pub(crate) fn miscounted(count: usize) -> (String, &'static str) {
+    let (given, label) = match count {
+        0 => ("none was given".to_owned(), "two rays missing"),
+        1 => ("one was given".to_owned(), "a second ray is missing"),
+        _ => (format!("{count} were given"), "one too many"),
+    };
+    (format!("a cut takes two rays, and {given}"), label)
 }
 
 /// Reads a file of rays: two a line; `#` begins a comment.
@@ -102,14 +94,15 @@ pub(crate) fn file(text: &str, path: &str) -> Result<Vec<Pair>, Fault> {
 
 /// What is wrong with the text of a ray, and where.
 #[derive(Debug)]
-struct Unreadable {
-    code: &'static str,
-    message: String,
-    part: Range<usize>,
-    label: &'static str,
+pub(crate) struct Unreadable {
+    pub(crate) code: &'static str,
+    pub(crate) message: String,
+    pub(crate) part: Range<usize>,
+    pub(crate) label: &'static str,
 }
 
-fn ray(text: &str) -> Result<Ray, Unreadable> {
+/// Reads one ray.
+pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
     let separator = [("->", true), ("@", true), (":", false)]
         .into_iter()
         .find_map(|(mark, aimed)| Some((text.find(mark)?, mark.len(), aimed)));

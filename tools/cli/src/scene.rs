@@ -67,6 +67,28 @@ impl Source {
         }
     }
 
+    /// A fault of a part of the scene: with the line of a key, or of the table that lacks it, where
+    /// a file has such a table of this number.
+    pub(crate) fn blame(
+        &self,
+        (table, number, key): (&str, usize, &str),
+        code: &'static str,
+        message: String,
+    ) -> Fault {
+        match self {
+            Source::Ready(_) => Fault::error(code, message),
+            Source::File(file) => file.blame((table, number, key), code, message),
+        }
+    }
+
+    /// Whether it is a file that has such a key, or such a table where the key is empty.
+    pub(crate) fn has(&self, table: &str, key: &str) -> bool {
+        match self {
+            Source::Ready(_) => false,
+            Source::File(file) => file.has(table, key),
+        }
+    }
+
     /// Which way is up, as the scene says.
     pub(crate) fn up(&self) -> Axis {
         match self {

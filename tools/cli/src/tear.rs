@@ -43,13 +43,14 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
     let mut scene = source.scene(&frame, args.solver)?;
     settle(args, cuts, &mut scene);
+    check::tearing(args, &scene, &source)?;
     let is_step_chosen = scene.step_s.is_some();
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
-    let mut run = run.map_err(|error| check::refused(&error, &opened))?;
+    let mut run = run.map_err(|error| check::refused(&error, &opened, &source))?;
     if let Some(path) = &args.strength {
         let strengths = strength::read(path, run.mesh().vertex_count(), streams)?;
         let with = run.with_strengths(strengths);
-        run = with.map_err(|error| check::refused(&error, &opened))?;
+        run = with.map_err(|error| check::refused(&error, &opened, &source))?;
     }
     session.faults.extend(check::warnings(&run, &frame));
     session.faults.extend(times::warnings(&run, args));
@@ -218,14 +219,12 @@ impl Play<'_> {
             let step = run.step();
             run.edits().replay(torn);
             frames.follow(run.edits());
+            for cut in run.cuts_made() {
+                self.note_cut(run.scene(), cut, session);
+                torn.next_cut();
+            }
             match step {
-                Ok(step) => {
-                    for cut in &step.cuts {
-                        self.note_cut(run.scene(), cut, session);
-                        torn.next_cut();
-                    }
-                    frames.shoot(run, torn)?;
-                }
+                Ok(_) => frames.shoot(run, torn)?,
                 Err(error) => {
                     ended = Ended::Failed(error);
                     break;

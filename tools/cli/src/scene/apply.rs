@@ -7,7 +7,7 @@ use tearmesh::cloth::{
     Axis, Bending, Breeze, Collider, Copies, Frame, Hold, Limiter, Method, Pbd, Region, Scene,
     Tearing, Threshold, TimedCut, Unbend, Weave, Wind, Xpbd,
 };
-use tearmesh::{Plane, Point, Vector, VertexId};
+use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 
 use super::read::{Content, SceneFile, Table, Value};
 use crate::args::SolverName;
@@ -80,6 +80,23 @@ impl SceneFile {
         self.tables.get(table).map_or(&[], Vec::as_slice)
     }
 
+    pub(super) fn has(&self, table: &str, key: &str) -> bool {
+        let has = |table: &Table| key.is_empty() || table.values.contains_key(key);
+        self.all(table).iter().any(has)
+    }
+
+    pub(super) fn blame(
+        &self,
+        (table, number, key): (&str, usize, &str),
+        code: &'static str,
+        message: String,
+    ) -> Fault {
+        match self.all(table).get(number) {
+            Some(table) => *self.fault(table, key, code, message),
+            None => Fault::error(code, message),
+        }
+    }
+
     pub(super) fn up(&self) -> Axis {
         let up = self.first("").and_then(|top| top.word("up"));
         up.and_then(|up| super::axis(up).ok()).unwrap_or(Axis::Y)
@@ -95,7 +112,7 @@ impl SceneFile {
         let mut scene = super::base(top.unwrap_or("fall"), frame);
         let mut faults = Vec::new();
         self.world(&mut scene, frame);
-        self.solver(&mut scene, solver);
+        self.solver(&mut scene, solver, &mut faults);
         if let Err(fault) = self.bend(&mut scene) {
             faults.push(*fault);
         }
@@ -262,7 +279,8 @@ impl SceneFile {
         self.has_forces(scene, table, key, "have no triangles")
     }
 
-    fn solver(&self, scene: &mut Scene, typed: Option<SolverName>) {
+    /// The method: its keys are those of the file's or of the one that was typed in its place.
+    fn solver(&self, scene: &mut Scene, typed: Option<SolverName>, faults: &mut Vec<Fault>) {
         let table = self.first("solver");
         let word = table.and_then(|table| table.word("method"));
         let named = word.and_then(SolverName::of);
@@ -273,6 +291,15 @@ impl SceneFile {
             return;
         };
         scene.step_s = table.number("dt_s").or(scene.step_s);
+        let method = word.unwrap_or("xpbd");
+        for (key, readers) in OF_METHODS {
+            let is_read = |reader: &&str| *reader == method || SolverName::of(reader) == typed;
+            if table.values.contains_key(key) && !readers.iter().any(is_read) {
+                let readers = readers.join(" or ");
+                let message = format!("`{key}` goes with {readers}, and the method is {method}");
+                faults.push(*self.fault(table, key, "E-SCENE-CLASH", message));
+            }
+        }
         match &mut scene.solver {
             Method::Provot(limiter) => provot(table, limiter),
             Method::Pbd(pbd) => set_pbd(table, pbd),
@@ -289,6 +316,12 @@ impl SceneFile {
         let Some(table) = self.first("wind") else {
             return;
         };
+        let period_s = table.number("period_s").unwrap_or(1.0);
+        if !(scene.duration_s / period_s).is_finite() {
+            let message = "`period_s` is too short: the sways of the scene are without number";
+            let message = message.to_owned();
+            faults.push(*self.fault(table, "period_s", "E-SCENE-RANGE", message));
+        }
         match table.vector("velocity_m_per_s") {
             Some(velocity_m_per_s) => {
                 scene.breeze = Some(Breeze {
@@ -297,7 +330,7 @@ impl SceneFile {
                         coefficient: table.number("coefficient").unwrap_or(1.5),
                     },
                     sway_m_per_s: table.vector("sway_m_per_s").unwrap_or_else(Vector::zeros),
-                    period_s: table.number("period_s").unwrap_or(1.0),
+                    period_s,
                 });
             }
             None => faults.push(*self.missing(table, "wind", "velocity_m_per_s")),
@@ -387,6 +420,8 @@ impl SceneFile {
         let Some(Content::Rays(rays)) = table.values.get("rays").map(|value| &value.content) else {
             return Err(self.missing(table, "cut", "rays"));
         };
+        Scissor::new(&rays[0], &rays[1])
+            .map_err(|error| self.fault(table, "rays", "E-SCENE-RANGE", error.to_string()))?;
         Ok(TimedCut {
             at_s: table.number("at_s").unwrap_or(0.0),
             rays: **rays,
@@ -402,7 +437,12 @@ impl SceneFile {
 
     fn tear(&self, table: &Table, frame: &Frame) -> Result<Option<Tearing>, Box<Fault>> {
         if table.bool("never") == Some(true) {
-            return Ok(None);
+            let others = table.values.iter().filter(|(key, _)| **key != "never");
+            let Some((key, _)) = others.min_by_key(|(_, value)| value.span.start) else {
+                return Ok(None);
+            };
+            let message = format!("`never` and `{key}` cannot go together");
+            return Err(self.fault(table, key, "E-SCENE-CLASH", message));
         }
         self.one_of(
             table,
@@ -497,6 +537,19 @@ impl SceneFile {
         Box::new(self.source.fault(code, message, &span, ""))
     }
 }
+
+/// The keys of [solver] that not all methods read, and which do.
+const OF_METHODS: [(&str, &[&str]); 9] = [
+    ("substeps", &["xpbd"]),
+    ("sweeps", &["xpbd", "pbd"]),
+    ("stiffness", &["pbd"]),
+    ("bend_stiffness", &["pbd"]),
+    ("limit_ratio", &["provot"]),
+    ("limit_passes", &["provot"]),
+    ("order", &["implicit"]),
+    ("newton_iterations", &["implicit"]),
+    ("tolerance", &["implicit"]),
+];
 
 /// What a region begun with one key lacks.
 fn other_half(table: &Table) -> &'static str {

@@ -91,16 +91,20 @@ impl Source {
         }
     }
 
-    fn line(&self, span: &Range<usize>) -> usize {
-        self.text[..span.start.min(self.text.len())]
-            .matches('\n')
-            .count()
-            + 1
+    /// Where a part of a string stands; the whole string if it is written with escapes.
+    fn within(&self, string: &Range<usize>, content: &str, part: Range<usize>) -> Range<usize> {
+        let written = self.text.get(string.clone()).unwrap_or_default();
+        match written.find(content) {
+            Some(at) => string.start + at + part.start..string.start + at + part.end,
+            None => string.clone(),
+        }
     }
 }
 
 /// Reads a scene file, or says everything that is wrong with it.
 pub(crate) fn file(path: &str, text: &str) -> Result<SceneFile, Vec<Fault>> {
+    // A mark of the byte order is no column.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source::new(path, text);
     let parsed = match DeTable::parse(text) {
         Ok(parsed) => parsed,
@@ -295,11 +299,11 @@ impl Reader<'_> {
             },
             Kind::Rays => {
                 let array = value.as_array().ok_or_else(wrong)?;
-                let words: Option<Vec<&str>> =
-                    array.iter().map(|ray| ray.get_ref().as_str()).collect();
-                let text = words.ok_or_else(wrong)?.join(";");
-                let line = self.source.line(&span);
-                let pair = rays::pair(&text, &self.source.path, line).map_err(Box::new)?;
+                let words: Option<Vec<_>> = array
+                    .iter()
+                    .map(|ray| Some((ray.get_ref().as_str()?, ray.span())))
+                    .collect();
+                let pair = self.rays(&words.ok_or_else(wrong)?, &span)?;
                 Ok(Content::Rays(Box::new(pair)))
             }
             Kind::Numbers => {
@@ -328,6 +332,35 @@ impl Reader<'_> {
                 Ok(Content::Rows(rows))
             }
         }
+    }
+}
+
+impl Reader<'_> {
+    /// Two rays, in strings that stand in the text at these places.
+    fn rays(
+        &self,
+        strings: &[(&str, Range<usize>)],
+        all: &Range<usize>,
+    ) -> Result<Pair, Box<Fault>> {
+        let mut found = Vec::new();
+        for (text, span) in strings {
+            for part in rays::split_pair(text) {
+                let ray = rays::ray(&text[part.clone()]).map_err(|wrong| {
+                    let part = part.start + wrong.part.start..part.start + wrong.part.end;
+                    let at = self.source.within(span, text, part);
+                    let fault = self
+                        .source
+                        .fault(wrong.code, wrong.message, &at, wrong.label);
+                    Box::new(fault.help(rays::RAY_HELP))
+                })?;
+                found.push(ray);
+            }
+        }
+        Pair::try_from(found).map_err(|found| {
+            let (message, label) = rays::miscounted(found.len());
+            let fault = self.source.fault("E-RAY-COUNT", message, all, label);
+            Box::new(fault.help(rays::PAIR_HELP))
+        })
     }
 }
 

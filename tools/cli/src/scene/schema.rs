@@ -192,7 +192,10 @@ pub(crate) fn tables() -> Vec<&'static str> {
 /// The schema in words, for `--help`.
 pub(crate) fn schema() -> String {
     let mut text = String::from(
-        "Scene files (TOML): all keys are optional but those marked; what stands last is the default.\n",
+        "Scene files (TOML): all keys are optional but those marked; what stands last is the default.\n\
+         Any [[hold]], [[cut]], [[strength]] or [[collider]] replace all of that kind that the base\n\
+         has, and any [tear] lets the scene tear, also base = \"flag\", but for never = true.\n\
+         Vertices count from 1 as in OBJ, without the last ones that lines `#~ fan` of a torn file name.\n",
     );
     for table in tables() {
         let title = match table {

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use tearmesh::Scissor;
-use tearmesh::cloth::{ClothError, Frame, Method, Run, RunError, TimedCut};
+use tearmesh::cloth::{
+    ClothError, Frame, Method, Run, RunError, Scene, TearingError, Threshold, TimedCut,
+};
+use tearmesh::{FaceId, Scissor, Vector};
 
 use super::words::two_digits;
 use crate::Exit;
@@ -11,6 +13,7 @@ use crate::args::TearArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::rays;
 use crate::say::{Fault, count, short};
+use crate::scene::Source;
 use crate::session::{Opened, Stop};
 
 /// Refuses numbers out of range, and streams that are wanted twice.
@@ -88,8 +91,88 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
     Ok(cuts)
 }
 
+/// Refuses what would make no difference to how the scene tears.
+pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &Source) -> Result<(), Stop> {
+    let blame = |at, message: &str, help: &str| {
+        let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
+        Err(Stop::new(Exit::Usage, fault.help(help)))
+    };
+    let Some(tearing) = &scene.tearing else {
+        let help = "add --threshold, or a threshold in [tear] of a scene file";
+        if args.strength.is_some() {
+            let message = "`--strength` makes no difference: nothing tears in this scene";
+            return refuse(message.to_owned(), help);
+        }
+        if source.has("strength", "") {
+            let message = "nothing tears in this scene, however strong it is";
+            return blame(("strength", 0, ""), message, help);
+        }
+        return Ok(());
+    };
+    let fabric = &scene.fabric;
+    let has_springs = fabric.weave.is_none() || fabric.stretch_n_per_m > 0.0;
+    if has_springs || !matches!(tearing.threshold, Threshold::Force(_)) {
+        return Ok(());
+    }
+    let lack = "is the pull of springs, and this fabric is of triangles";
+    if args.threshold_newton.is_some() {
+        return refuse(format!("`--threshold-newton` {lack}"), "take --toughness");
+    }
+    let help = "take toughness_j_per_m or principal_stretch, or add stretch_n_per_m to [fabric]";
+    blame(
+        ("tear", 0, "threshold_n"),
+        &format!("`threshold_n` {lack}"),
+        help,
+    )
+}
+
 /// Why a scene cannot be played with this mesh.
-pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
+pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Stop {
+    let blame = |at, code, message, help: Option<&str>| {
+        let mut fault = source.blame(at, code, message);
+        fault.help = help.map(str::to_owned);
+        Stop::new(Exit::Usage, fault)
+    };
+    match *error {
+        _ if opened.mesh.face_count() == 0 => {}
+        RunError::NothingHeld { number } | RunError::NothingStrong { number } => {
+            let is_hold = matches!(error, RunError::NothingHeld { .. });
+            let table = if is_hold { "hold" } else { "strength" };
+            let help = "give it a larger region, or `near` with a place";
+            return blame(
+                (table, number, ""),
+                "E-SCENE-EMPTY",
+                error.to_string(),
+                Some(help),
+            );
+        }
+        RunError::NoVertex {
+            named_by,
+            number,
+            vertex,
+            vertices,
+        } => {
+            let message = format!(
+                "{named_by} {} names the vertex {}, and the mesh has the vertices 1 to {vertices}",
+                number + 1,
+                vertex.index() + 1
+            );
+            let table = named_by.to_string();
+            return blame((&table, number, "vertices"), "E-SCENE-RANGE", message, None);
+        }
+        RunError::Tearing(TearingError::Axis { .. }) => {
+            return blame(
+                ("tear", 0, "warp"),
+                "E-SCENE-RANGE",
+                error.to_string(),
+                None,
+            );
+        }
+        RunError::Cloth(ClothError::Face { face, warp }) => {
+            return flat(face, warp, opened, source);
+        }
+        _ => {}
+    }
     let (exit, code, help) = match error {
         _ if opened.mesh.face_count() == 0 => (
             Exit::Input,
@@ -105,17 +188,30 @@ pub(super) fn refused(error: &RunError, opened: &Opened) -> Stop {
         }
         RunError::Cloth(ClothError::Mass(_)) => (Exit::Input, "E-MASS", None),
         RunError::Cloth(_) => (Exit::Input, "E-SIM-MESH", None),
-        RunError::NothingHeld { .. } => (
-            Exit::Usage,
-            "E-SCENE-EMPTY",
-            Some("give it a larger region, or `near` with a place"),
-        ),
         RunError::Times => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
         _ => (Exit::Usage, "E-SCENE-RANGE", None),
     };
     let mut fault = Fault::error(code, error.to_string());
     fault.help = help.map(str::to_owned);
     Stop::new(exit, fault)
+}
+
+/// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
+fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
+    let corners = opened.mesh.corners(face);
+    let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
+    let name = corners.map(|v| (v.index() + 1).to_string()).join("-");
+    if (b - a).cross(&(c - a)) == Vector::zeros() {
+        let message = format!("the face {name} has no area at rest");
+        let help = "a triangle without area has no strain: take the face out";
+        let fault = Fault::error("E-SIM-MESH", message).help(help);
+        return Stop::new(Exit::Input, fault);
+    }
+    let [x, y, z] = <[f64; 3]>::from(warp);
+    let message = format!("the warp ({x}, {y}, {z}) has no direction in the face {name}");
+    let help = "name a `warp` in [fabric] that lies in no face's normal";
+    let fault = source.blame(("fabric", 0, "warp"), "E-SCENE-RANGE", message);
+    Stop::new(Exit::Usage, fault.help(help))
 }
 
 /// What may tear, or not tear, for reasons that are none of the cloth's.
@@ -130,6 +226,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
         warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
     }
     warnings.extend(endless(run));
+    warnings.extend(late(run));
     if run.scene().tearing.is_none() {
         return warnings;
     }
@@ -180,6 +277,29 @@ fn endless(run: &Run) -> Option<Fault> {
 
 /// Hours of a mesh of a few thousand vertices.
 const STEPS_MANY: u64 = 10_000_000;
+
+/// What is to happen when the scene is over. Where no step is taken at all, nothing has to be held.
+fn late(run: &Run) -> Vec<Fault> {
+    let scene = run.scene();
+    let over = short(run.steps_planned() as f64 * run.step_s());
+    let late = |what: String, at_s: f64| {
+        let message = format!("{what}: the scene is over after {over} s");
+        let help = format!("--seconds above {}, or an earlier time", short(at_s));
+        Fault::warning("W-SCENE-LATE", message).help(help)
+    };
+    let cuts = scene.cuts.iter().filter(|cut| !run.reaches(cut.at_s));
+    let cuts = cuts.map(|cut| {
+        let at = short(cut.at_s);
+        late(format!("the cut at {at} s is never made"), cut.at_s)
+    });
+    let holds = scene.holds.iter().enumerate();
+    let holds = holds.filter(|(_, hold)| run.steps_planned() > 0 && !run.reaches(hold.from_s));
+    let holds = holds.map(|(number, hold)| {
+        let number = number + 1;
+        late(format!("hold {number} is never taken"), hold.from_s)
+    });
+    cuts.chain(holds).collect()
+}
 
 /// Few sweeps or large steps leave a cloth softer than its fabric, and it tears of its own weight.
 fn coarse(run: &Run) -> Option<Fault> {
