@@ -67,7 +67,7 @@ pub use run::{
 };
 pub use scene::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
-pub use solver::{Failure, Solver, StepError, StepReport};
+pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
 pub use stability::Frequency;
 pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};

@@ -482,6 +482,12 @@ fn what_cannot_be_is_refused_with_what_was_given() {
     // A chain has no faces, so some thresholds mean nothing to it.
     assert_eq!(
         Tearing::new(Threshold::PrincipalStretch(1.1)).cut_links(&mut chain(0.0)),
-        []
+        Ok(Vec::new())
+    );
+    // A threshold that is none cuts nothing.
+    let (given, limit) = (-1.0, 0.0);
+    assert_eq!(
+        Tearing::new(Threshold::Force(given)).cut_links(&mut chain(0.0)),
+        Err(TearingError::Threshold { given, limit })
     );
 }

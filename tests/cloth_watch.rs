@@ -1,9 +1,10 @@
 //! The watch over stability after something went wrong: a state that was no number, one that was
 //! set, a step that failed.
 
+use tearmesh::cloth::implicit::{Settings, Tolerance};
 use tearmesh::cloth::{
-    Cloth, Fabric, Failure, Frequency, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver,
-    StepError, System, Verlet, Wind, Xpbd,
+    Cloth, Fabric, Failure, Frequency, ImplicitCloth, Limiter, Loads, Path, Pbd, Provot, Rk4,
+    SettingError, Solver, StepError, System, Verlet, Wind, Xpbd,
 };
 use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
 
@@ -359,4 +360,77 @@ impl Solver for Late {
         system.set_stretch_ratio_max(0.5);
         Err(Failure::BlowUp)
     }
+}
+
+#[test]
+fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
+    let mut refused: Vec<(Box<dyn Solver>, &str, f64)> = Vec::new();
+    for given in [f64::NAN, -1.0, 2.0] {
+        let stiffness = Pbd {
+            stiffness: given,
+            ..Pbd::default()
+        };
+        let bend_stiffness = Pbd {
+            bend_stiffness: given,
+            ..Pbd::default()
+        };
+        refused.push((Box::new(stiffness), "stiffness", given));
+        refused.push((Box::new(bend_stiffness), "bend_stiffness", given));
+    }
+    for stretch_ratio_max in [f64::NAN, 0.0, -1.0] {
+        let limiter = Limiter {
+            stretch_ratio_max,
+            ..Limiter::default()
+        };
+        let provot = Provot::new(limiter);
+        refused.push((Box::new(provot), "stretch_ratio_max", stretch_ratio_max));
+        let (mut provot, mut system) = (provot, stiff());
+        let before = system.positions().to_vec();
+        assert!(matches!(
+            provot.limit(&mut system, 0.01),
+            Err(StepError::Setting(_))
+        ));
+        assert_eq!(system.positions(), before);
+    }
+    for tolerance in [Tolerance::Fixed(f64::NAN), Tolerance::Tied(-1.0)] {
+        let (Tolerance::Fixed(given) | Tolerance::Tied(given)) = tolerance;
+        let settings = Settings {
+            tolerance,
+            ..Settings::default()
+        };
+        refused.push((Box::new(ImplicitCloth::new(settings)), "tolerance", given));
+    }
+    for (mut solver, name, number) in refused {
+        let mut system = stiff();
+        let before = system.positions().to_vec();
+        let error = system.step(&mut *solver, 0.001).expect_err(name);
+        let StepError::Setting(SettingError { setting, given, .. }) = error else {
+            panic!("{name} {number}: {error}");
+        };
+        assert_eq!((setting, given.to_bits()), (name, number.to_bits()));
+        assert_eq!(system.positions(), before);
+    }
+    let mut system = stiff();
+    system.set_stretch_ratio_max(f64::NAN);
+    let error = system.step(&mut Xpbd::default(), 0.001).expect_err("NaN");
+    assert_eq!(
+        error.to_string(),
+        "stretch_ratio_max is NaN, and may be any above 0"
+    );
+    for dt_s in [0.0, -0.1, f64::NAN] {
+        let error = Provot::default().limit(&mut stiff(), dt_s);
+        assert!(matches!(error, Err(StepError::Step { .. })), "{error:?}");
+    }
+}
+
+#[test]
+fn no_sweep_counts_as_one() {
+    let moved = |sweeps| {
+        let mut system = row(10, 0.01, 1000.0, 0.1, Vector::x() * 0.1);
+        system.state_mut().0[3].x += 0.01;
+        system.step(&mut Pbd::new(sweeps), 0.01).expect("a step");
+        system.positions().to_vec()
+    };
+    assert_eq!(moved(0), moved(1));
+    assert_ne!(moved(1), moved(2));
 }

@@ -8,7 +8,7 @@
 //! [`System::strain_rms`].
 
 use super::kernel;
-use super::solver::{Failure, Solver};
+use super::solver::{Failure, SettingError, Solver};
 use super::system::{Forces, Model, System};
 use crate::geometry::{Point, Vector};
 
@@ -16,7 +16,7 @@ use crate::geometry::{Point, Vector};
 /// soft as [`Pbd::stiffness`] says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pbd {
-    /// Sweeps over all constraints a step.
+    /// Sweeps over all constraints a step; none counts as one.
     pub sweeps: u32,
     /// The part of an error that a step corrects, 0 to 1, whatever the number of
     /// sweeps: each corrects 1 − (1 − k)^(1/n) (Müller et al. 2007, §3.3).
@@ -48,11 +48,21 @@ impl Pbd {
 
     /// The part of an error that a sweep corrects, of stretch and of bend constraints.
     pub(super) fn fractions(&self) -> [f64; 2] {
-        [self.stiffness, self.bend_stiffness].map(|k| 1.0 - root(1.0 - k, self.sweeps))
+        [self.stiffness, self.bend_stiffness].map(|k| 1.0 - root(1.0 - k, self.sweeps.max(1)))
     }
 }
 
 impl Solver for Pbd {
+    fn check(&self) -> Result<(), SettingError> {
+        for (setting, given) in [
+            ("stiffness", self.stiffness),
+            ("bend_stiffness", self.bend_stiffness),
+        ] {
+            SettingError::unless((0.0..=1.0).contains(&given), setting, given, "0 to 1")?;
+        }
+        Ok(())
+    }
+
     fn air_limit(&self) -> Option<f64> {
         Some(2.0)
     }
@@ -67,7 +77,7 @@ impl Solver for Pbd {
             ..
         } = system;
         model.clear_multipliers();
-        for _ in 0..self.sweeps {
+        for _ in 0..self.sweeps.max(1) {
             for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
                 for (batch, multipliers) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;

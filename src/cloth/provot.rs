@@ -12,7 +12,7 @@
 //! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
 use super::kernel;
-use super::solver::{Failure, Solver};
+use super::solver::{Failure, SettingError, Solver, StepError};
 use super::system::{Forces, System};
 use super::verlet::accelerate;
 
@@ -91,9 +91,22 @@ impl Provot {
     }
 
     /// Applies the limiter, and rewrites velocities by what it moved in the last `dt_s` seconds.
-    pub fn limit(&mut self, system: &mut System, dt_s: f64) -> LimiterReport {
+    ///
+    /// # Errors
+    ///
+    /// [`StepError::Step`] and [`StepError::Setting`], and nothing has changed.
+    pub fn limit(&mut self, system: &mut System, dt_s: f64) -> Result<LimiterReport, StepError> {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return Err(StepError::Step { given_s: dt_s });
+        }
+        self.check().map_err(StepError::Setting)?;
+        self.shorten(system, dt_s);
+        Ok(self.report)
+    }
+
+    fn shorten(&mut self, system: &mut System, dt_s: f64) {
         let Some(limiter) = self.limiter else {
-            return self.report;
+            return;
         };
         system.scratch.is_fresh = false;
         let System {
@@ -144,11 +157,18 @@ impl Provot {
             report.is_infeasible = report.excess > 1e-9 && last - largest < 0.01 * report.excess;
         }
         self.report = report;
-        report
     }
 }
 
 impl Solver for Provot {
+    fn check(&self) -> Result<(), SettingError> {
+        let Some(limiter) = self.limiter else {
+            return Ok(());
+        };
+        let given = limiter.stretch_ratio_max;
+        SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "1 or more")
+    }
+
     fn frequency_limit(&self) -> Option<f64> {
         Some(2.0)
     }
@@ -186,7 +206,7 @@ impl Solver for Provot {
             }
             *x += *v * dt_s;
         }
-        self.limit(system, dt_s);
+        self.shorten(system, dt_s);
         system.collide();
         Ok(())
     }

@@ -57,6 +57,15 @@ pub trait Solver {
         false
     }
 
+    /// Whether the settings of the method can be used. A step asks first.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingError`] names the first that cannot.
+    fn check(&self) -> Result<(), SettingError> {
+        Ok(())
+    }
+
     /// Whether the method takes in the forces of [`System::triangles`]. One that does not is
     /// refused where there are any.
     fn takes_triangles(&self) -> bool {
@@ -87,6 +96,10 @@ impl<S: Solver + ?Sized> Solver for &mut S {
         (**self).takes_drag_explicitly()
     }
 
+    fn check(&self) -> Result<(), SettingError> {
+        (**self).check()
+    }
+
     fn takes_triangles(&self) -> bool {
         (**self).takes_triangles()
     }
@@ -95,6 +108,46 @@ impl<S: Solver + ?Sized> Solver for &mut S {
         (**self).takes_buckling()
     }
 }
+
+/// A setting that a method cannot be used with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SettingError {
+    /// The name of the setting.
+    pub setting: &'static str,
+    /// The number as given.
+    pub given: f64,
+    /// The numbers that it may have.
+    pub allowed: &'static str,
+}
+
+impl SettingError {
+    pub(crate) fn unless(
+        holds: bool,
+        setting: &'static str,
+        given: f64,
+        allowed: &'static str,
+    ) -> Result<(), SettingError> {
+        let error = SettingError {
+            setting,
+            given,
+            allowed,
+        };
+        if holds { Ok(()) } else { Err(error) }
+    }
+}
+
+impl fmt::Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let SettingError {
+            setting,
+            given,
+            allowed,
+        } = self;
+        write!(f, "{setting} is {given}, and may be {allowed}")
+    }
+}
+
+impl std::error::Error for SettingError {}
 
 /// Why a method did not advance a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,6 +195,8 @@ pub enum StepError {
         /// The step as given.
         given_s: f64,
     },
+    /// The method, or the system, has a setting that cannot be used.
+    Setting(SettingError),
     /// The method knows springs alone, and would leave the triangles without force.
     Triangles {
         /// How many there are.
@@ -217,6 +272,10 @@ impl System {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return Err(StepError::Step { given_s: dt_s });
         }
+        solver.check().map_err(StepError::Setting)?;
+        let ratio = self.model.stretch_ratio_max;
+        SettingError::unless(ratio > 0.0, "stretch_ratio_max", ratio, "any above 0")
+            .map_err(StepError::Setting)?;
         let count = self.triangles().len();
         if count > 0 && !solver.takes_triangles() {
             return Err(StepError::Triangles { count });
@@ -420,6 +479,7 @@ impl fmt::Display for StepError {
             StepError::Step { given_s } => {
                 write!(f, "dt {given_s} s is not a positive finite step")
             }
+            StepError::Setting(error) => error.fmt(f),
             StepError::Triangles { count } => write!(
                 f,
                 "the method knows springs alone, and {count} triangles resist stretch"
@@ -481,6 +541,7 @@ impl std::error::Error for StepError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             StepError::Implicit { error, .. } => Some(error),
+            StepError::Setting(error) => Some(error),
             _ => None,
         }
     }

@@ -4,8 +4,10 @@
 //! families, the bends that buckle, the triangles, gravity, wind and drag over as slices, and takes
 //! back positions and velocities.
 
-use super::implicit::{self, Bend, Filter, Implicit, ModelError, Part, Settings, Spring};
-use super::solver::{Failure, Solver};
+use super::implicit::{
+    self, Bend, Filter, Implicit, ModelError, Part, Settings, Spring, Tolerance,
+};
+use super::solver::{Failure, SettingError, Solver};
 use super::system::System;
 use crate::geometry::Vector;
 
@@ -111,6 +113,12 @@ impl ImplicitCloth {
 }
 
 impl Solver for ImplicitCloth {
+    fn check(&self) -> Result<(), SettingError> {
+        let (Tolerance::Tied(given) | Tolerance::Fixed(given)) = self.settings.tolerance;
+        let holds = given > 0.0 && given.is_finite();
+        SettingError::unless(holds, "tolerance", given, "any above 0")
+    }
+
     /// That of backward Euler, with which BDF2 begins, and begins anew after an edit.
     fn air_limit(&self) -> Option<f64> {
         Some(2.0)

@@ -2,7 +2,9 @@
 
 use super::quality::{Limited, Quality, Solved};
 use crate::cloth::scene::Method;
-use crate::cloth::{Failure, ImplicitCloth, Pbd, Provot, Solver, System, Verlet, Xpbd};
+use crate::cloth::{
+    Failure, ImplicitCloth, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd,
+};
 
 /// A method with its state.
 #[derive(Clone, Debug)]
@@ -77,6 +79,10 @@ impl Solver for Engine {
 
     fn takes_drag_explicitly(&self) -> bool {
         self.solver().takes_drag_explicitly()
+    }
+
+    fn check(&self) -> Result<(), SettingError> {
+        self.solver().check()
     }
 
     fn takes_triangles(&self) -> bool {

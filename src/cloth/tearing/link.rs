@@ -1,6 +1,6 @@
 //! Links without a mesh: chains and nets whose constraints go when they are overloaded.
 
-use super::Tearing;
+use super::{Tearing, TearingError};
 use crate::cloth::constraint::{Constraint, ConstraintId};
 use crate::cloth::system::System;
 
@@ -22,10 +22,15 @@ impl Tearing {
     /// first, ids breaking ties, up to the cap. Weakening, delay and holds need a mesh and play no
     /// part here.
     ///
+    /// # Errors
+    ///
+    /// Those of [`Tearing::check`], and nothing is cut.
+    ///
     /// # Panics
     ///
     /// If the system is that of a cloth.
-    pub fn cut_links(&self, system: &mut System) -> Vec<CutLink> {
+    pub fn cut_links(&self, system: &mut System) -> Result<Vec<CutLink>, TearingError> {
+        self.check()?;
         let load = |id| Some((self.threshold.load(system, id)?, id));
         let loads = system.stretches().iter().filter_map(load);
         let mut torn: Vec<_> = loads.filter(|&(load, _)| load >= 1.0).collect();
@@ -40,6 +45,6 @@ impl Tearing {
                 energy_j,
             }
         };
-        torn.into_iter().map(cut).collect()
+        Ok(torn.into_iter().map(cut).collect())
     }
 }

@@ -200,6 +200,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
             "E-SIM-UNSTABLE"
         }
         StepError::Implicit { .. } => "E-SIM-UNSOLVED",
+        StepError::Setting(_) => "E-SCENE-RANGE",
         _ => "E-SIM-BLOWUP",
     };
     let after = match run.elapsed_s() {
