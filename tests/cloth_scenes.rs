@@ -570,14 +570,15 @@ fn scenes_that_make_no_sense_are_refused() {
         change(&mut scene);
         Run::new(mesh, &positions, scene, &frame).expect_err("no scene")
     };
-    assert_eq!(refused(&|scene| scene.step_s = Some(0.0)), RunError::Times);
-    assert_eq!(
-        refused(&|scene| scene.step_s = Some(1e-30)),
-        RunError::Times
-    );
-    assert_eq!(
-        refused(&|scene| scene.duration_s = f64::NAN),
-        RunError::Times
+    for step_s in [0.0, 1e-30] {
+        let duration_s = 2.0;
+        let refused = refused(&|scene| scene.step_s = Some(step_s));
+        assert_eq!(refused, RunError::Times { step_s, duration_s });
+    }
+    let timeless = refused(&|scene| scene.duration_s = f64::NAN).to_string();
+    assert!(
+        timeless.starts_with("NaN s cannot be taken in steps of 0.00"),
+        "{timeless}"
     );
     let drag = refused(&|scene| scene.drag_per_s = -1.0);
     assert_eq!(

@@ -119,12 +119,12 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
     let (mesh, positions) = shapes::grid(2, 2);
     let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let made = |fabric: Fabric| Cloth::new(&mesh, &positions, masses.clone(), fabric);
-    for (warp, weft, shear) in [
-        (0.0, 1.0, 1.0),
-        (1.0, -1.0, 1.0),
-        (1.0, 1.0, -1.0),
-        (f64::NAN, 1.0, 1.0),
-        (1.0, 1.0, f64::INFINITY),
+    for (warp, weft, shear, named) in [
+        (0.0, 1.0, 1.0, "weave.warp_n_per_m is 0,"),
+        (1.0, -1.0, 1.0, "weave.weft_n_per_m is -1,"),
+        (1.0, 1.0, -1.0, "weave.shear_n_per_m is -1,"),
+        (f64::NAN, 1.0, 1.0, "weave.warp_n_per_m is NaN,"),
+        (1.0, 1.0, f64::INFINITY, "weave.shear_n_per_m is inf,"),
     ] {
         let weave = Weave {
             warp_n_per_m: warp,
@@ -132,15 +132,12 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
             shear_n_per_m: shear,
             ..weave()
         };
-        assert_eq!(
-            made(Fabric::woven(weave)).expect_err("no modulus"),
-            ClothError::Stiffness
-        );
+        let error = made(Fabric::woven(weave)).expect_err("no modulus");
+        assert!(error.to_string().starts_with(named), "{error}");
     }
-    assert_eq!(
-        made(Fabric::new(0.0)).expect_err("nothing at all"),
-        ClothError::Stiffness
-    );
+    let nothing = made(Fabric::new(0.0)).expect_err("nothing at all");
+    let (field, given) = ("stretch_n_per_m", 0.0);
+    assert_eq!(nothing, ClothError::Stiffness { field, given });
     for warp in [
         Vector::z(),
         Vector::zeros(),
@@ -181,7 +178,12 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
         let error = system
             .triangle(corners, places, stiffness)
             .expect_err("none");
-        assert_eq!(error, SystemError::Triangle { corners });
+        let given = SystemError::Triangle {
+            corners,
+            material_m: places,
+            stiffness_n_per_m: stiffness,
+        };
+        assert_eq!(error, given);
     }
     assert_eq!(system.triangle([0, 1, 2], places, [1.0; 3]), Ok(0));
 }

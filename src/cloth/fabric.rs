@@ -70,14 +70,19 @@ impl Fabric {
 impl Fabric {
     pub(super) fn check(&self) -> Result<(), ClothError> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
-        let none = self.stretch_n_per_m == 0.0 && self.weave.is_some();
-        let stretch = none || positive(self.stretch_n_per_m);
-        let weave = self.weave.is_none_or(|weave| weave.is_usable());
-        let bend = self.bend.is_none_or(|bend| positive(bend.number()));
-        if stretch && weave && bend {
-            Ok(())
-        } else {
-            Err(ClothError::Stiffness)
+        let is_woven_alone = self.stretch_n_per_m == 0.0 && self.weave.is_some();
+        if !(is_woven_alone || positive(self.stretch_n_per_m)) {
+            return Err(ClothError::Stiffness {
+                field: "stretch_n_per_m",
+                given: self.stretch_n_per_m,
+            });
+        }
+        let weave = self.weave.and_then(|weave| weave.fault());
+        let bend = self.bend.map(|bend| bend.number());
+        let bend = bend.filter(|(_, given)| !positive(*given));
+        match weave.or(bend) {
+            Some((field, given)) => Err(ClothError::Stiffness { field, given }),
+            None => Ok(()),
         }
     }
 }
@@ -121,10 +126,11 @@ pub enum Bending {
 }
 
 impl Bending {
-    fn number(&self) -> f64 {
+    /// The field that says how stiff it is, and its number.
+    pub(super) fn number(&self) -> (&'static str, f64) {
         match *self {
-            Bending::Spring { stiffness_n_per_m } => stiffness_n_per_m,
-            Bending::Buckling { flexural_n_m2, .. } => flexural_n_m2,
+            Bending::Spring { stiffness_n_per_m } => ("bend.stiffness_n_per_m", stiffness_n_per_m),
+            Bending::Buckling { flexural_n_m2, .. } => ("bend.flexural_n_m2", flexural_n_m2),
         }
     }
 

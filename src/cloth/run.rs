@@ -182,12 +182,11 @@ impl Run {
             Some(step_s) => step_s,
             None => step_size::suggested_s(&scene, &engine, &mut cloth),
         };
-        if !(step_s > 0.0 && step_s.is_finite() && scene.duration_s >= 0.0) {
-            return Err(RunError::Times);
-        }
-        let steps_planned = (scene.duration_s / step_s).round();
-        if steps_planned > Run::STEPS_MAX as f64 {
-            return Err(RunError::Times);
+        let duration_s = scene.duration_s;
+        let steps_planned = (duration_s / step_s).round();
+        let is_countable = (0.0..=Run::STEPS_MAX as f64).contains(&steps_planned);
+        if !(step_s > 0.0 && step_s.is_finite() && duration_s >= 0.0 && is_countable) {
+            return Err(RunError::Times { step_s, duration_s });
         }
         let last_s = Run::STEPS_MAX as f64 * step_s;
         let uncounted = |breeze: &Breeze| !(last_s / breeze.period_s).is_finite();

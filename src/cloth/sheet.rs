@@ -226,7 +226,8 @@ impl Cloth {
                     let stiffness = bend.stiffness_n_per_m(length_m);
                     cloth.constraint(apexes, stiffness.unwrap_or(0.0))?;
                     let id = cloth.bend_across([h, pair]);
-                    id.ok_or(ClothError::Stiffness)?;
+                    let (field, given) = bend.number();
+                    id.ok_or(ClothError::Stiffness { field, given })?;
                 }
             }
         }
@@ -446,8 +447,13 @@ impl Place for Cloth {
 pub enum ClothError {
     /// The masses cannot be.
     Mass(MassError),
-    /// A stiffness is not a positive finite number.
-    Stiffness,
+    /// A stiffness is not a positive finite number, or that of some bend would not be.
+    Stiffness {
+        /// The field of [`Fabric`].
+        field: &'static str,
+        /// The number as given.
+        given: f64,
+    },
     /// Two vertices that a constraint is to join are at one place, or not at any.
     Length {
         /// The vertices.
@@ -490,7 +496,10 @@ impl fmt::Display for ClothError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ClothError::Mass(error) => error.fmt(f),
-            ClothError::Stiffness => write!(f, "a stiffness is not a positive finite number"),
+            ClothError::Stiffness { field, given } => write!(
+                f,
+                "{field} is {given}, which makes no positive finite stiffness"
+            ),
             ClothError::Length {
                 ends: [a, b],
                 given,

@@ -288,7 +288,11 @@ impl System {
         );
         match triangle.filter(|_| distinct) {
             Some(triangle) => Ok(self.push_triangle(triangle)),
-            None => Err(SystemError::Triangle { corners }),
+            None => Err(SystemError::Triangle {
+                corners,
+                material_m,
+                stiffness_n_per_m,
+            }),
         }
     }
 
@@ -445,7 +449,8 @@ impl System {
     }
 
     /// Sets how many times its rest length a constraint may have before the system counts as
-    /// blown up: 100 unless set. PBD stretches a hanging sheet of 64 × 64 cells twelvefold.
+    /// blown up: 100 unless set. PBD stretches a hanging sheet of 64 × 64 cells twelvefold. A step
+    /// refuses one that is not above 0.
     pub fn set_stretch_ratio_max(&mut self, ratio: f64) {
         self.model.stretch_ratio_max = ratio;
     }

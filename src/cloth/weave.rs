@@ -55,11 +55,17 @@ pub fn warp_of_texture(rest: [Point; 3], texture: [[f64; 2]; 3]) -> Option<Vecto
 }
 
 impl Weave {
-    /// Whether these can be moduli.
-    pub(super) fn is_usable(&self) -> bool {
+    /// The first number that can be no modulus: its field, and the number as given.
+    pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
         let usable = |x: f64| x >= 0.0 && x.is_finite();
-        let all = [self.warp_n_per_m, self.weft_n_per_m, self.shear_n_per_m];
-        all.into_iter().all(usable) && self.warp_n_per_m > 0.0 && self.weft_n_per_m > 0.0
+        [
+            ("weave.warp_n_per_m", self.warp_n_per_m, true),
+            ("weave.weft_n_per_m", self.weft_n_per_m, true),
+            ("weave.shear_n_per_m", self.shear_n_per_m, false),
+        ]
+        .into_iter()
+        .find(|&(_, given, is_needed)| !usable(given) || is_needed && given == 0.0)
+        .map(|(field, given, _)| (field, given))
     }
 }
 

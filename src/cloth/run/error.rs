@@ -14,9 +14,14 @@ use crate::scissor::ScissorError;
 pub enum RunError {
     /// No cloth can be made of the mesh.
     Cloth(ClothError),
-    /// The step is not positive, or the scene would take more than
-    /// [`Run::STEPS_MAX`](super::Run::STEPS_MAX) of them.
-    Times,
+    /// The step is not positive, the scene does not last a finite time, or it would take more than
+    /// [`Run::STEPS_MAX`](super::Run::STEPS_MAX) steps.
+    Times {
+        /// The step, in seconds.
+        step_s: f64,
+        /// How long the scene lasts, in seconds.
+        duration_s: f64,
+    },
     /// A number of a load is not finite, or negative where it must not be.
     Loads(SystemError),
     /// The wind would not be usable at all times: its sway added to it is no number, or its period
@@ -104,7 +109,9 @@ impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             RunError::Cloth(error) => error.fmt(f),
-            RunError::Times => write!(f, "the step is not positive, or too short for the scene"),
+            RunError::Times { step_s, duration_s } => {
+                write!(f, "{duration_s} s cannot be taken in steps of {step_s} s")
+            }
             RunError::Loads(error) => error.fmt(f),
             RunError::Breeze { field, given } => {
                 write!(f, "{field} is {given}, with which no wind can blow")

@@ -41,6 +41,10 @@ pub enum SystemError {
     Triangle {
         /// The corners as given.
         corners: [usize; 3],
+        /// The places as given, in metres.
+        material_m: [[f64; 2]; 3],
+        /// The stiffness as given, in N/m.
+        stiffness_n_per_m: [f64; 3],
     },
     /// A number of a load is not finite, or negative where it must not be.
     Loads {
@@ -75,10 +79,14 @@ impl fmt::Display for SystemError {
                     given.rest_length_m, given.stiffness_n_per_m
                 )
             }
-            SystemError::Triangle { corners: [a, b, c] } => write!(
+            SystemError::Triangle {
+                corners: [a, b, c],
+                material_m,
+                stiffness_n_per_m,
+            } => write!(
                 f,
-                "a triangle of the particles {a}, {b} and {c} cannot have that stiffness and \
-                 those places in the material"
+                "a triangle of the particles {a}, {b} and {c} cannot have the places {material_m:?} \
+                 m in the material and the stiffness {stiffness_n_per_m:?} N/m"
             ),
             SystemError::Loads { field, given } => {
                 write!(f, "{field} is {given}, which is not finite, or negative")

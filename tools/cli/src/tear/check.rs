@@ -188,7 +188,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
         }
         RunError::Cloth(ClothError::Mass(_)) => (Exit::Input, "E-MASS", None),
         RunError::Cloth(_) => (Exit::Input, "E-SIM-MESH", None),
-        RunError::Times => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
+        RunError::Times { .. } => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
         _ => (Exit::Usage, "E-SCENE-RANGE", None),
     };
     let mut fault = Fault::error(code, error.to_string());
