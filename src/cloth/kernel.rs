@@ -158,7 +158,7 @@ pub(crate) fn triangle_stiffness_times(
 /// it would be one by one.
 ///
 /// Fewer or more at a time are slower. What is left is to fetch two ends and to put them back, not
-/// arithmetic: intrinsics, which need `unsafe`, gain 6 % with SSE2 and 30 % with AVX2.
+/// arithmetic: intrinsics, which need `unsafe`, gain 2 % with SSE2 and about 30 % with AVX2.
 const TOGETHER: usize = 8;
 
 /// Moves the ends of each constraint by the part `fraction` of the way to its rest length, by
