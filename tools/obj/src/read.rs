@@ -82,10 +82,12 @@ struct Reader {
     widths: Widths,
 }
 
+/// A byte order mark, which only the start of a file has.
+pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
+
 impl Reader {
     /// Drops a byte order mark, and recognises what is no OBJ file from its first bytes.
     fn start(&mut self, lines: &mut Lines<impl Read>) -> Result<(), ReadError> {
-        const MARK: &[u8] = b"\xef\xbb\xbf";
         if lines.peek(3)?.starts_with(MARK) {
             while lines.peek(3)?.starts_with(MARK) {
                 lines.skip(3);

@@ -32,6 +32,7 @@ use tearmesh::{Mesh, Positions};
 use self::number::{write_integer, write_number};
 pub(crate) use self::prepare::Prepared;
 use crate::document::Document;
+use crate::read::MARK;
 use crate::read::attached_length;
 use crate::record::Hash;
 use crate::said;
@@ -190,7 +191,12 @@ impl<W: Write> Writer<'_, W> {
         let (mut vertices, mut texture, mut normals, mut polygons) = (0, 0, 0, 0);
         let mut text = &document.text[..];
         // They say something of no vertex, and go on doing so.
-        self.out.text(self.prepared.said.late(0))?;
+        let late = self.prepared.said.late(0);
+        if late.is_empty() && text.starts_with(MARK) {
+            // What was before it is no text, and at the start of a file it would be dropped.
+            self.out.text(b"\n")?;
+        }
+        self.out.text(late)?;
         for (i, run) in runs.iter().enumerate() {
             let count = run.count as usize;
             match run.kind {
