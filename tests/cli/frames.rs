@@ -3,6 +3,8 @@
 
 use std::fs;
 
+#[cfg(unix)]
+use crate::harness::interrupted_at;
 use crate::harness::{Folder, seen};
 
 /// The number of vertices of a frame, and the vertex of each corner, from 1.
@@ -63,25 +65,12 @@ fn steps_longer_than_a_frame_are_warned_of() {
 #[cfg(unix)]
 #[test]
 fn a_simulation_is_saved_when_the_writing_of_its_frames_is_interrupted() {
-    use std::process::{Command, Stdio};
-
     let folder = Folder::new();
     let line = "tear flag.obj --scene hang --solver pbd --dt 0.033 --seconds 20 --frames f \
                 --frames-topology final -o saved.obj --report r.json";
     let mut command = folder.command();
     command.args(line.split_whitespace());
-    let child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn();
-    let child = child.expect("a run");
-    while !folder.path("f/frame_00002.obj").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    let id = child.id().to_string();
-    let killed = Command::new("kill").args(["-INT", &id]).status();
-    assert!(killed.expect("kill runs").success());
-    let output = child.wait_with_output().expect("an end");
+    let output = interrupted_at(&mut command, &folder.path("f/frame_00002.obj"));
     let said = seen(&output);
     assert_eq!(output.status.code(), Some(130), "{said}");
     let frames = count(&folder, "f");

@@ -107,3 +107,20 @@ pub(crate) fn seen(output: &Output) -> String {
     }
     text
 }
+
+/// What a command leaves that is interrupted, as by Ctrl-C, as soon as there is this file.
+#[cfg(unix)]
+pub(crate) fn interrupted_at(command: &mut Command, file: &Path) -> Output {
+    let child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let child = child.expect("a run");
+    while !file.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    let killed = Command::new("kill").args(["-INT", &id]).status();
+    assert!(killed.expect("kill runs").success());
+    child.wait_with_output().expect("an end")
+}

@@ -2,8 +2,9 @@
 //! report, interruptions, and the same bytes on every run.
 
 use std::fs;
-use std::process::Stdio;
 
+#[cfg(unix)]
+use crate::harness::interrupted_at;
 use crate::harness::{Folder, seen};
 
 /// A file's vertices, and its faces by vertices, read in the simplest way.
@@ -594,20 +595,7 @@ fn an_interrupted_simulation_is_saved() {
     let mut command = folder.command();
     command.args(["tear", "flag.obj", "--scene", "hang", "--seconds", "100000"]);
     command.args(["--frames", "f", "-o", "saved.obj", "--report", "r.json"]);
-    let child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn();
-    let child = child.expect("a run");
-    while !folder.path("f/frame_00002.obj").exists() {
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    let id = child.id().to_string();
-    let killed = std::process::Command::new("kill")
-        .args(["-INT", &id])
-        .status();
-    assert!(killed.expect("kill runs").success());
-    let output = child.wait_with_output().expect("an end");
+    let output = interrupted_at(&mut command, &folder.path("f/frame_00002.obj"));
     assert_eq!(output.status.code(), Some(130));
     let said = seen(&output);
     assert!(
