@@ -109,6 +109,7 @@ pub(crate) fn write(
         out: Output {
             sink: out,
             pending: Vec::with_capacity(CHUNK + 4096),
+            has_begun: false,
         },
     };
     writer.write()?;
@@ -190,12 +191,7 @@ impl<W: Write> Writer<'_, W> {
         let (mut vertices, mut texture, mut normals, mut polygons) = (0, 0, 0, 0);
         let mut text = &document.text[..];
         // They say something of no vertex, and go on doing so.
-        let late = self.prepared.said.late(0);
-        if late.is_empty() && text.starts_with(MARK) {
-            // What was before it is no text, and at the start of a file it would be dropped.
-            self.out.text(b"\n")?;
-        }
-        self.out.text(late)?;
+        self.out.text(self.prepared.said.late(0))?;
         for (i, run) in runs.iter().enumerate() {
             let count = run.count as usize;
             match run.kind {
@@ -443,6 +439,8 @@ fn attached_to(run: Run, lines: &[u8]) -> usize {
 struct Output<'o, W> {
     sink: &'o mut W,
     pending: Vec<u8>,
+    /// Whether the sink has anything.
+    has_begun: bool,
 }
 
 impl<W: Write> Output<'_, W> {
@@ -457,8 +455,13 @@ impl<W: Write> Output<'_, W> {
     }
 
     fn text(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if !self.has_begun && self.pending.is_empty() && bytes.starts_with(MARK) {
+            // At the start of a file it would be dropped; what was before it was no text.
+            self.pending.push(b'\n');
+        }
         if bytes.len() > CHUNK {
             self.flush()?;
+            self.has_begun = true;
             return self.sink.write_all(bytes);
         }
         self.pending.extend_from_slice(bytes);
@@ -475,6 +478,7 @@ impl<W: Write> Output<'_, W> {
     }
 
     fn flush(&mut self) -> io::Result<()> {
+        self.has_begun |= !self.pending.is_empty();
         self.sink.write_all(&self.pending)?;
         self.pending.clear();
         Ok(())
