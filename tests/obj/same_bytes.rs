@@ -191,13 +191,11 @@ fn corners_are_the_same(before: &Document, mesh: &Mesh, positions: &Positions, a
             for axis in 0..3 {
                 assert_eq!(is[axis].to_bits(), was[axis].to_bits(), "{v} of {f}");
             }
-            // A copy that the file has may have numbers of its own; another one has its root's.
-            let is_in_file = v.index() < before.positions().len();
-            let said_of = if is_in_file { v } else { mesh.root(v) };
-            assert_eq!(
-                after.extra_numbers(triangle[i] as usize),
-                before.extra_numbers(said_of.index())
-            );
+            // Not those of the root: in the file a copy may have numbers of its own.
+            let was_at = before.triangles()[f.index()][i];
+            let [was, is] = [(before, was_at), (after, triangle[i])]
+                .map(|(document, vertex)| document.extra_numbers(vertex as usize));
+            assert_eq!(is, was, "{v} of {f}");
             let [was, is] = [before, after].map(|document| document.corner(f.index(), i));
             assert_eq!((is.texture, is.normal), (was.texture, was.normal));
         }
