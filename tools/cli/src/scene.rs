@@ -1,6 +1,9 @@
 //! Scenes: those that stand ready, and scene files.
 
 mod apply;
+mod fabric;
+mod file;
+mod method;
 mod read;
 mod schema;
 
@@ -10,7 +13,7 @@ use std::path::Path;
 use tearmesh::cloth::{Axis, Frame, Scene};
 
 pub(crate) use self::apply::threshold;
-pub(crate) use self::read::SceneFile;
+pub(crate) use self::file::SceneFile;
 pub(crate) use self::schema::schema;
 use self::schema::{AXES, NAMES};
 use crate::args::SolverName;

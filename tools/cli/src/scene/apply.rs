@@ -2,101 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use tearmesh::cloth::implicit::{self, Buckling, Settings, Tolerance};
 use tearmesh::cloth::{
-    Axis, Bending, Breeze, Collider, Copies, Frame, Hold, Limiter, Method, Pbd, Region, Scene,
-    Tearing, Threshold, TimedCut, Unbend, Weave, Wind, Xpbd,
+    Axis, Breeze, Collider, Frame, Hold, Region, Scene, Tearing, Threshold, TimedCut, Wind,
 };
-use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
+use tearmesh::{Plane, Scissor, Vector, VertexId};
 
-use super::read::{Content, SceneFile, Table, Value};
+use super::file::{Content, SceneFile, Table};
 use crate::args::SolverName;
 use crate::say::Fault;
 
-impl Table {
-    fn number(&self, name: &str) -> Option<f64> {
-        match self.values.get(name)?.content {
-            Content::Number(x) => Some(x),
-            _ => None,
-        }
-    }
-
-    fn count(&self, name: &str) -> Option<u32> {
-        self.number(name).map(|x| x as u32)
-    }
-
-    fn bool(&self, name: &str) -> Option<bool> {
-        match self.values.get(name)?.content {
-            Content::Bool(x) => Some(x),
-            _ => None,
-        }
-    }
-
-    fn word(&self, name: &str) -> Option<&str> {
-        match &self.values.get(name)?.content {
-            Content::Text(word) => Some(word),
-            _ => None,
-        }
-    }
-
-    fn rows(&self, name: &str) -> Option<&[Vec<f64>]> {
-        match &self.values.get(name)?.content {
-            Content::Rows(rows) => Some(rows),
-            _ => None,
-        }
-    }
-
-    fn row(&self, name: &str) -> Option<&[f64]> {
-        self.rows(name)?.first().map(Vec::as_slice)
-    }
-
-    fn pair(&self, name: &str) -> Option<[f64; 2]> {
-        self.row(name)?.try_into().ok()
-    }
-
-    fn vector(&self, name: &str) -> Option<Vector> {
-        let [x, y, z] = self.row(name)?.try_into().ok()?;
-        Some(Vector::new(x, y, z))
-    }
-
-    fn point(&self, name: &str) -> Option<Point> {
-        self.vector(name).map(Point::from)
-    }
-
-    /// Which of these keys stand in the table.
-    fn those_of<'n>(&self, names: &[&'n str]) -> Vec<&'n str> {
-        let mut found = names.to_vec();
-        found.retain(|name| self.values.contains_key(name));
-        found
-    }
-}
-
 impl SceneFile {
-    fn first(&self, table: &str) -> Option<&Table> {
-        self.tables.get(table)?.first()
-    }
-
-    fn all(&self, table: &str) -> &[Table] {
-        self.tables.get(table).map_or(&[], Vec::as_slice)
-    }
-
-    pub(super) fn has(&self, table: &str, key: &str) -> bool {
-        let has = |table: &Table| key.is_empty() || table.values.contains_key(key);
-        self.all(table).iter().any(has)
-    }
-
-    pub(super) fn blame(
-        &self,
-        (table, number, key): (&str, usize, &str),
-        code: &'static str,
-        message: String,
-    ) -> Fault {
-        match self.all(table).get(number) {
-            Some(table) => *self.fault(table, key, code, message),
-            None => Fault::error(code, message),
-        }
-    }
-
     pub(super) fn up(&self) -> Axis {
         let up = self.first("").and_then(|top| top.word("up"));
         up.and_then(|up| super::axis(up).ok()).unwrap_or(Axis::Y)
@@ -113,12 +28,7 @@ impl SceneFile {
         let mut faults = Vec::new();
         self.world(&mut scene, frame);
         self.solver(&mut scene, solver, &mut faults);
-        if let Err(fault) = self.bend(&mut scene) {
-            faults.push(*fault);
-        }
-        if let Err(fault) = self.weave(&mut scene, frame) {
-            faults.push(*fault);
-        }
+        self.fabric(&mut scene, frame, &mut faults);
         self.wind(&mut scene, &mut faults);
         self.fill(&mut scene.colliders, "collider", &mut faults, |table| {
             self.collider(table)
@@ -179,136 +89,6 @@ impl SceneFile {
             if let Some(drag) = top.number("drag_per_s") {
                 scene.drag_per_s = drag;
             }
-        }
-        let Some(table) = self.first("fabric") else {
-            return;
-        };
-        let fabric = &mut scene.fabric;
-        if let Some(density) = table.number("density_kg_per_m2") {
-            scene.areal_density_kg_per_m2 = density;
-        }
-        if let Some(stretch) = table.number("stretch_n_per_m") {
-            fabric.stretch_n_per_m = stretch;
-        }
-        match table.word("copies") {
-            Some("whole") => fabric.copies = Copies::Whole,
-            Some(_) => fabric.copies = Copies::Halved,
-            None => {}
-        }
-        match table.word("unbend") {
-            Some("vertex") => fabric.unbend = Unbend::Vertex,
-            Some(_) => fabric.unbend = Unbend::Seam,
-            None => {}
-        }
-    }
-
-    /// What resists bending: springs, or arcs that buckle.
-    fn bend(&self, scene: &mut Scene) -> Result<(), Box<Fault>> {
-        let Some(table) = self.first("fabric") else {
-            return Ok(());
-        };
-        let is_arc = table.word("bend_law") == Some("buckling");
-        let foreign: &[&'static str] = if is_arc {
-            &["bend_n_per_m"]
-        } else {
-            &["flexural_n_m2", "buckles_below"]
-        };
-        if let Some(&key) = table.those_of(foreign).first() {
-            let law = if is_arc { "spring" } else { "buckling" };
-            let message = format!("`{key}` goes with bend_law = \"{law}\"");
-            return Err(self.fault(table, key, "E-SCENE-CLASH", message));
-        }
-        if !is_arc {
-            if let Some(stiffness_n_per_m) = table.number("bend_n_per_m") {
-                let spring = Bending::Spring { stiffness_n_per_m };
-                scene.fabric.bend = (stiffness_n_per_m > 0.0).then_some(spring);
-            }
-            return Ok(());
-        }
-        let flexural_n_m2 = table.number("flexural_n_m2");
-        let flexural_n_m2 =
-            flexural_n_m2.ok_or_else(|| self.missing(table, "fabric", "flexural_n_m2"))?;
-        let law = Buckling::new(table.number("buckles_below").unwrap_or(0.95));
-        let law = law.ok_or_else(|| {
-            let message = "`buckles_below` is above 0.592 and under 1".to_owned();
-            self.fault(table, "buckles_below", "E-SCENE-RANGE", message)
-        })?;
-        scene.fabric.bend = Some(Bending::Buckling { flexural_n_m2, law });
-        self.has_forces(scene, table, "bend_law", "know no arcs")
-    }
-
-    /// Refuses methods that move springs, where a key asks for something else.
-    fn has_forces(
-        &self,
-        scene: &Scene,
-        table: &Table,
-        key: &str,
-        lack: &str,
-    ) -> Result<(), Box<Fault>> {
-        if matches!(scene.solver, Method::Pbd(_) | Method::Xpbd(_)) {
-            let message = format!("pbd and xpbd move springs, and {lack}");
-            let fault = self.fault(table, key, "E-SCENE-CLASH", message);
-            let help = "add method = \"implicit\" to [solver]; verlet and provot do as well";
-            return Err(Box::new(fault.help(help.to_owned())));
-        }
-        Ok(())
-    }
-
-    /// A fabric of triangles, which stands for springs on edges unless these are named as well.
-    fn weave(&self, scene: &mut Scene, frame: &Frame) -> Result<(), Box<Fault>> {
-        let Some(table) = self.first("fabric") else {
-            return Ok(());
-        };
-        let keys = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
-        let Some(&key) = table.those_of(&keys).first() else {
-            return Ok(());
-        };
-        let required = |key: &'static str| {
-            let modulus = table.number(key);
-            modulus.ok_or_else(|| self.missing(table, "fabric", key))
-        };
-        scene.fabric.weave = Some(Weave {
-            warp_n_per_m: required(keys[0])?,
-            weft_n_per_m: required(keys[1])?,
-            shear_n_per_m: table.number(keys[2]).unwrap_or(0.0),
-            warp: table
-                .vector(keys[3])
-                .unwrap_or_else(|| frame.along.vector()),
-        });
-        scene.fabric.stretch_n_per_m = table.number("stretch_n_per_m").unwrap_or(0.0);
-        self.has_forces(scene, table, key, "have no triangles")
-    }
-
-    /// The method: its keys are those of the file's or of the one that was typed in its place.
-    fn solver(&self, scene: &mut Scene, typed: Option<SolverName>, faults: &mut Vec<Fault>) {
-        let table = self.first("solver");
-        let word = table.and_then(|table| table.word("method"));
-        let named = word.and_then(SolverName::of);
-        if let Some(name) = typed.or(named) {
-            scene.solver = name.method();
-        }
-        let Some(table) = table else {
-            return;
-        };
-        scene.step_s = table.number("dt_s").or(scene.step_s);
-        let method = word.unwrap_or("xpbd");
-        for (key, readers) in OF_METHODS {
-            let is_read = |reader: &&str| *reader == method || SolverName::of(reader) == typed;
-            if table.values.contains_key(key) && !readers.iter().any(is_read) {
-                let readers = readers.join(" or ");
-                let message = format!("`{key}` goes with {readers}, and the method is {method}");
-                faults.push(*self.fault(table, key, "E-SCENE-CLASH", message));
-            }
-        }
-        match &mut scene.solver {
-            Method::Provot(limiter) => provot(table, limiter),
-            Method::Pbd(pbd) => set_pbd(table, pbd),
-            Method::Verlet => {}
-            Method::Xpbd(xpbd) => {
-                xpbd.substeps = table.count("substeps").unwrap_or(xpbd.substeps);
-                xpbd.sweeps = table.count("sweeps").unwrap_or(xpbd.sweeps);
-            }
-            Method::Implicit(settings) => set_implicit(table, settings),
         }
     }
 
@@ -524,32 +304,7 @@ impl SceneFile {
             }
         }
     }
-
-    fn missing(&self, table: &Table, name: &str, key: &str) -> Box<Fault> {
-        let message = format!("[{name}] lacks `{key}`");
-        let code = "E-SCENE-MISSING";
-        Box::new(self.source.fault(code, message, &table.span, ""))
-    }
-
-    fn fault(&self, table: &Table, key: &str, code: &'static str, message: String) -> Box<Fault> {
-        let span = table.values.get(key).map(|Value { span, .. }| span.clone());
-        let span = span.unwrap_or_else(|| table.span.clone());
-        Box::new(self.source.fault(code, message, &span, ""))
-    }
 }
-
-/// The keys of [solver] that not all methods read, and which do.
-const OF_METHODS: [(&str, &[&str]); 9] = [
-    ("substeps", &["xpbd"]),
-    ("sweeps", &["xpbd", "pbd"]),
-    ("stiffness", &["pbd"]),
-    ("bend_stiffness", &["pbd"]),
-    ("limit_ratio", &["provot"]),
-    ("limit_passes", &["provot"]),
-    ("order", &["implicit"]),
-    ("newton_iterations", &["implicit"]),
-    ("tolerance", &["implicit"]),
-];
 
 /// What a region begun with one key lacks.
 fn other_half(table: &Table) -> &'static str {
@@ -566,63 +321,6 @@ fn other_half(table: &Table) -> &'static str {
         }
     }
     "centre"
-}
-
-fn provot(table: &Table, limiter: &mut Limiter) {
-    if let Some(ratio) = table.number("limit_ratio") {
-        limiter.stretch_ratio_max = ratio;
-    }
-    if let Some(passes) = table.count("limit_passes") {
-        limiter.passes_max = passes;
-    }
-}
-
-fn set_pbd(table: &Table, pbd: &mut Pbd) {
-    pbd.sweeps = table.count("sweeps").unwrap_or(pbd.sweeps);
-    pbd.stiffness = table.number("stiffness").unwrap_or(pbd.stiffness);
-    pbd.bend_stiffness = table.number("bend_stiffness").unwrap_or(pbd.bend_stiffness);
-}
-
-fn set_implicit(table: &Table, settings: &mut Settings) {
-    if let Some(iterations) = table.count("newton_iterations") {
-        settings.newton_iterations_max = iterations;
-    }
-    if let Some(tolerance) = table.number("tolerance") {
-        settings.tolerance = Tolerance::Tied(tolerance);
-    }
-    match table.word("order") {
-        Some("2") => settings.method = implicit::Method::Bdf2,
-        Some(_) => settings.method = implicit::Method::BackwardEuler,
-        None => {}
-    }
-}
-
-impl SolverName {
-    fn of(word: &str) -> Option<SolverName> {
-        Some(match word {
-            "provot" => SolverName::Provot,
-            "pbd" => SolverName::Pbd,
-            "verlet" => SolverName::Verlet,
-            "xpbd" => SolverName::Xpbd,
-            "implicit" => SolverName::Implicit,
-            _ => return None,
-        })
-    }
-
-    /// The method with its default settings. Of XPBD a step is one sweep, so that tears are looked
-    /// for after each; the implicit method may err by 0.2 mm/s in a step of 1/240 s.
-    pub(crate) fn method(self) -> Method {
-        match self {
-            SolverName::Provot => Method::Provot(Limiter::default()),
-            SolverName::Pbd => Method::Pbd(Pbd::default()),
-            SolverName::Verlet => Method::Verlet,
-            SolverName::Xpbd => Method::Xpbd(Xpbd::new(1, 1)),
-            SolverName::Implicit => Method::Implicit(Settings {
-                tolerance: Tolerance::Tied(10.0),
-                ..Settings::default()
-            }),
-        }
-    }
 }
 
 /// The threshold that was typed, if any.

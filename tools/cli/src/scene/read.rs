@@ -5,101 +5,10 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
+use super::file::{Content, SceneFile, Source, Table, Value};
 use super::schema::{Key, Kind, LISTS, keys_of, tables};
 use crate::rays::{self, Pair};
-use crate::say::{Excerpt, Fault};
-
-/// A value that its schema admits, and where it stands in the text.
-#[derive(Clone, Debug)]
-pub(crate) struct Value {
-    pub(crate) content: Content,
-    pub(crate) span: Range<usize>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Content {
-    Number(f64),
-    Bool(bool),
-    Text(String),
-    /// Numbers in rows: one for a pair or a vector.
-    Rows(Vec<Vec<f64>>),
-    Rays(Box<Pair>),
-}
-
-/// A table: its keys, and where it stands.
-#[derive(Clone, Debug)]
-pub(crate) struct Table {
-    pub(crate) values: BTreeMap<&'static str, Value>,
-    pub(crate) span: Range<usize>,
-}
-
-/// A scene file whose every value has the right kind.
-#[derive(Clone, Debug)]
-pub(crate) struct SceneFile {
-    pub(crate) source: Source,
-    /// By the name of the table; one, or any number of those in lists.
-    pub(crate) tables: BTreeMap<&'static str, Vec<Table>>,
-}
-
-/// The text, for those who find fault with it.
-#[derive(Clone, Debug)]
-pub(crate) struct Source {
-    pub(crate) path: String,
-    text: String,
-}
-
-impl Source {
-    pub(crate) fn new(path: &str, text: &str) -> Source {
-        Source {
-            path: path.to_owned(),
-            text: text.to_owned(),
-        }
-    }
-
-    /// A fault with the line in which a part of the text begins.
-    pub(crate) fn fault(
-        &self,
-        code: &'static str,
-        message: String,
-        span: &Range<usize>,
-        label: &str,
-    ) -> Fault {
-        let mut start = span.start.min(self.text.len());
-        while !self.text.is_char_boundary(start) {
-            start -= 1;
-        }
-        let line_start = self.text[..start].rfind('\n').map_or(0, |at| at + 1);
-        let rest = &self.text[line_start..];
-        let line_text = rest.lines().next().unwrap_or_default();
-        let at = (start - line_start).min(line_text.len());
-        let mut end = (span.end.max(start) - line_start).clamp(at, line_text.len());
-        while !line_text.is_char_boundary(end) {
-            end += 1;
-        }
-        Fault {
-            code,
-            message,
-            excerpt: Some(Box::new(Excerpt {
-                path: self.path.clone(),
-                line: self.text[..line_start].matches('\n').count() + 1,
-                text: line_text.to_owned(),
-                first_column: 1,
-                span: at..end,
-                label: label.to_owned(),
-            })),
-            ..Fault::default()
-        }
-    }
-
-    /// Where a part of a string stands; the whole string if it is written with escapes.
-    fn within(&self, string: &Range<usize>, content: &str, part: Range<usize>) -> Range<usize> {
-        let written = self.text.get(string.clone()).unwrap_or_default();
-        match written.find(content) {
-            Some(at) => string.start + at + part.start..string.start + at + part.end,
-            None => string.clone(),
-        }
-    }
-}
+use crate::say::Fault;
 
 /// Reads a scene file, or says everything that is wrong with it.
 pub(crate) fn file(path: &str, text: &str) -> Result<SceneFile, Vec<Fault>> {
