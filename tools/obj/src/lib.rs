@@ -154,6 +154,7 @@ mod diagnostic;
 mod document;
 mod keyword;
 mod mesh;
+mod opening;
 #[cfg(feature = "obj-rs")]
 mod raw;
 mod read;

@@ -35,6 +35,7 @@ use self::scan::Scan;
 use self::usual::Widths;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::{Document, Polygons};
+use crate::opening::{MARK, Opening};
 use crate::store::{Column, Kind, Rows, push};
 use crate::triangulate::Triangulation;
 
@@ -82,16 +83,11 @@ struct Reader {
     widths: Widths,
 }
 
-/// A byte order mark, which only the start of a file has.
-pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
-
 impl Reader {
     /// Drops a byte order mark, and recognises what is no OBJ file from its first bytes.
     fn start(&mut self, lines: &mut Lines<impl Read>) -> Result<(), ReadError> {
-        if lines.peek(3)?.starts_with(MARK) {
-            while lines.peek(3)?.starts_with(MARK) {
-                lines.skip(3);
-            }
+        let mut opening = Opening::of(lines.peek(Opening::LENGTH)?);
+        if opening == Opening::Mark {
             self.document.diagnostics.push(Diagnostic {
                 level: Level::Note,
                 code: "W-OBJ-BOM",
@@ -101,19 +97,18 @@ impl Reader {
                 help: None,
             });
         }
-        let first = lines.peek(4)?;
-        // Without a byte order mark, UTF-16 shows by every other byte being zero.
-        let zeros: Vec<bool> = first.iter().take(4).map(|&byte| byte == 0).collect();
-        let fault = match first {
-            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => utf16(),
-            _ if zeros == [true, false, true, false] || zeros == [false, true, false, true] => {
-                utf16()
-            }
-            [b'g', b'l', b'T', b'F', ..] => binary(0, b'g'),
-            _ => return Ok(()),
+        while opening == Opening::Mark {
+            lines.skip(MARK.len());
+            opening = Opening::of(lines.peek(Opening::LENGTH)?);
+        }
+        let fault = match opening {
+            Opening::Text | Opening::Mark => return Ok(()),
+            Opening::Utf16 => utf16(),
+            Opening::Binary => binary(0, b'g'),
         };
+        let first = lines.peek(Opening::LENGTH)?;
         Err(fault.at(&Line {
-            bytes: &first[..first.len().min(4)],
+            bytes: &first[..first.len().min(Opening::LENGTH)],
             number: 1,
         }))
     }

@@ -32,7 +32,8 @@ use tearmesh::{Mesh, Positions};
 use self::number::{write_integer, write_number};
 pub(crate) use self::prepare::Prepared;
 use crate::document::Document;
-use crate::read::{MARK, attached_length};
+use crate::opening::Opening;
+use crate::read::attached_length;
 use crate::record::Hash;
 use crate::said;
 use crate::store::{Kind, Run};
@@ -455,14 +456,9 @@ impl<W: Write> Output<'_, W> {
     }
 
     fn text(&mut self, bytes: &[u8]) -> io::Result<()> {
-        if !self.has_begun && self.pending.is_empty() && bytes.starts_with(MARK) {
-            // At the start of a file it would be dropped; what was before it was no text.
-            self.pending.push(b'\n');
-        }
         if bytes.len() > CHUNK {
             self.flush()?;
-            self.has_begun = true;
-            return self.sink.write_all(bytes);
+            return self.send(bytes);
         }
         self.pending.extend_from_slice(bytes);
         self.flush_if_full()
@@ -478,9 +474,20 @@ impl<W: Write> Output<'_, W> {
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.has_begun |= !self.pending.is_empty();
-        self.sink.write_all(&self.pending)?;
-        self.pending.clear();
+        let mut pending = std::mem::take(&mut self.pending);
+        self.send(&pending)?;
+        pending.clear();
+        self.pending = pending;
         Ok(())
+    }
+
+    /// What comes first is kept from being taken for more than text: where it stood, behind what is
+    /// dropped or was moved, it was no more.
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if !self.has_begun && Opening::of(bytes) != Opening::Text {
+            self.sink.write_all(b"\n")?;
+        }
+        self.has_begun |= !bytes.is_empty();
+        self.sink.write_all(bytes)
     }
 }
