@@ -17,8 +17,9 @@
 //! **The record** (`record.rs`) is the end of the file.
 //!
 //! **Bytes.** Line ends are `\n`; numbers have the shortest digits that read back
-//! as the same bits; everything else keeps its bytes. Reading what was written, and
-//! writing it again, gives the same bytes.
+//! as the same bits; everything else keeps its bytes. A line which would say at the start of the
+//! file what it does not elsewhere (`opening.rs`) has an empty one before it there. Reading what
+//! was written, and writing it again, gives the same bytes.
 
 mod number;
 mod prepare;
