@@ -30,6 +30,7 @@ mod balance;
 mod buckle;
 mod constraint;
 mod culprit;
+mod digits;
 mod fabric;
 mod follow;
 pub mod implicit;

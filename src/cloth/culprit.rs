@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::constraint::ConstraintId;
+use super::digits::Digits;
 use super::implicit::triangle;
-use super::solver::Digits;
 use super::system::{Family, Model};
 use crate::geometry::{Point, Vector, check_point, dot, length};
 

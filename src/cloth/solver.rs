@@ -8,6 +8,7 @@ use std::fmt;
 use super::air::{AirRate, AirShare};
 use super::balance::Noted;
 use super::culprit::Culprit;
+use super::digits::Digits;
 use super::implicit;
 use super::stability::Frequency;
 use super::system::{Left, System, Unstable};
@@ -543,28 +544,6 @@ impl std::error::Error for StepError {
             StepError::Implicit { error, .. } => Some(error),
             StepError::Setting(error) => Some(error),
             _ => None,
-        }
-    }
-}
-
-/// A number to three digits or all of those before the point.
-pub(crate) struct Digits(pub(crate) f64);
-
-impl fmt::Display for Digits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let x = self.0.abs();
-        if x >= 100.0 || x == 0.0 {
-            write!(f, "{:.0}", self.0)
-        } else if x < 1e-6 {
-            write!(f, "{:.2e}", self.0)
-        } else {
-            let mut digits = 1;
-            let mut scale = 10.0;
-            while x < scale {
-                digits += 1;
-                scale /= 10.0;
-            }
-            write!(f, "{:.digits$}", self.0)
         }
     }
 }
