@@ -411,12 +411,26 @@ pub(crate) enum Tips {
 impl Method {
     /// As it is typed, and as it stands in the report.
     pub(crate) fn name(self) -> &'static str {
+        cut_name(self.of_library())
+    }
+
+    pub(crate) fn of_library(self) -> tearmesh::Method {
         match self {
-            Method::Exact => "exact",
-            Method::Partition => "partition",
-            Method::Uniform => "uniform",
-            Method::Alternating => "alternating",
+            Method::Exact => tearmesh::Method::Exact,
+            Method::Partition => tearmesh::Method::Partition,
+            Method::Uniform => tearmesh::Method::Uniform,
+            Method::Alternating => tearmesh::Method::Alternating,
         }
+    }
+}
+
+/// [`Method::name`] of a method of the library.
+pub(crate) fn cut_name(method: tearmesh::Method) -> &'static str {
+    match method {
+        tearmesh::Method::Partition => "partition",
+        tearmesh::Method::Uniform => "uniform",
+        tearmesh::Method::Alternating => "alternating",
+        _ => "exact",
     }
 }
 

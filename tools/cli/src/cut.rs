@@ -51,7 +51,12 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     for (i, pair) in pairs.iter().enumerate() {
         let number = (pairs.len() > 1).then_some(i + 1);
         let scissor = scissor(args, pair, last.as_ref(), &positions)?;
-        let done = scissor.cut(method(args), &mut mesh, &mut positions, &mut edits);
+        let done = scissor.cut(
+            args.method.of_library(),
+            &mut mesh,
+            &mut positions,
+            &mut edits,
+        );
         let done = done.expect("positions that follow every cut are in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
@@ -102,15 +107,6 @@ fn scissor(
     };
     let scissor = scissor.through(args.through).tips(tips);
     Ok(scissor.snap(args.snap).snap_move(args.snap_move))
-}
-
-fn method(args: &CutArgs) -> tearmesh::Method {
-    match args.method {
-        Method::Exact => tearmesh::Method::Exact,
-        Method::Partition => tearmesh::Method::Partition,
-        Method::Uniform => tearmesh::Method::Uniform,
-        Method::Alternating => tearmesh::Method::Alternating,
-    }
 }
 
 /// The options that the report repeats.

@@ -14,6 +14,7 @@ use tearmesh::cloth::{Axis, Frame, Scene};
 
 pub(crate) use self::apply::threshold;
 pub(crate) use self::file::SceneFile;
+pub(crate) use self::method::method_name;
 pub(crate) use self::schema::schema;
 use self::schema::{AXES, NAMES};
 use crate::args::SolverName;

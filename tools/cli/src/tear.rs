@@ -11,15 +11,15 @@ use std::io::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tearmesh::cloth::{CutMade, Frame, Method, Run, Scene, StepError, Tearing, TimedCut};
+use tearmesh::cloth::{CutMade, Frame, Run, Scene, StepError, Tearing, TimedCut};
 use tearmesh::{Positions, Scissor};
 use tearmesh_obj::TornDocument;
 
 use self::frames::Frames;
-use crate::args::TearArgs;
+use crate::args::{TearArgs, cut_name};
 use crate::interrupt::Guard;
 use crate::say::Fault;
-use crate::scene::{Source, threshold};
+use crate::scene::{Source, method_name, threshold};
 use crate::session::{Clock, Opened, Session, Stop};
 use crate::{Exit, Streams, files, report};
 
@@ -131,7 +131,7 @@ impl Play<'_> {
         };
         let tear = report::Tear {
             scene: self.name.clone(),
-            solver: name(&run.scene().solver),
+            solver: method_name(&run.scene().solver),
             status,
             steps: tally.steps,
             dt_s: run.step_s(),
@@ -242,7 +242,7 @@ impl Play<'_> {
             return; // It was made with these rays.
         };
         let how = report::How {
-            method: words::method(cut.method),
+            method: cut_name(cut.method),
             through: cut.through,
             tips: "vertex",
             snap: (cut.method == tearmesh::Method::Exact).then_some(Scissor::SNAP),
@@ -288,15 +288,4 @@ fn places(run: &Run) -> Result<Positions, Stop> {
         let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
         Stop::new(Exit::Simulation, fault)
     })
-}
-
-/// The method, as it is typed.
-fn name(method: &Method) -> &'static str {
-    match method {
-        Method::Provot(_) => "provot",
-        Method::Pbd(_) => "pbd",
-        Method::Verlet => "verlet",
-        Method::Xpbd(_) => "xpbd",
-        Method::Implicit(_) => "implicit",
-    }
 }

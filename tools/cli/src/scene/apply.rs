@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use clap::ValueEnum as _;
 use tearmesh::cloth::{
     Axis, Breeze, Collider, Frame, Hold, Region, Scene, Tearing, Threshold, TimedCut, Wind,
 };
 use tearmesh::{Plane, Scissor, Vector, VertexId};
 
 use super::file::{Content, SceneFile, Table};
-use crate::args::SolverName;
+use crate::args::{Method as CutMethod, SolverName};
 use crate::say::Fault;
 
 impl SceneFile {
@@ -202,16 +203,13 @@ impl SceneFile {
         };
         Scissor::new(&rays[0], &rays[1])
             .map_err(|error| self.fault(table, "rays", "E-SCENE-RANGE", error.to_string()))?;
+        let method = table.word("method");
+        let method = method.and_then(|word| CutMethod::from_str(word, false).ok());
         Ok(TimedCut {
             at_s: table.number("at_s").unwrap_or(0.0),
             rays: **rays,
             through: table.bool("through").unwrap_or(false),
-            method: match table.word("method") {
-                Some("partition") => tearmesh::Method::Partition,
-                Some("uniform") => tearmesh::Method::Uniform,
-                Some("alternating") => tearmesh::Method::Alternating,
-                _ => tearmesh::Method::Exact,
-            },
+            method: method.unwrap_or_default().of_library(),
         })
     }
 

@@ -1,5 +1,6 @@
 //! What `[solver]` says, and the methods with their defaults.
 
+use clap::ValueEnum as _;
 use tearmesh::cloth::implicit::{self, Settings, Tolerance};
 use tearmesh::cloth::{Limiter, Method, Pbd, Scene, Xpbd};
 
@@ -17,7 +18,8 @@ impl SceneFile {
     ) {
         let table = self.first("solver");
         let word = table.and_then(|table| table.word("method"));
-        let named = word.and_then(SolverName::of);
+        let method = word.unwrap_or(method_name(&scene.solver));
+        let named = word.and_then(typed_as);
         if let Some(name) = typed.or(named) {
             scene.solver = name.method();
         }
@@ -25,9 +27,8 @@ impl SceneFile {
             return;
         };
         scene.step_s = table.number("dt_s").or(scene.step_s);
-        let method = word.unwrap_or("xpbd");
         for (key, readers) in OF_METHODS {
-            let is_read = |reader: &&str| *reader == method || SolverName::of(reader) == typed;
+            let is_read = |reader: &&str| *reader == method || typed_as(reader) == typed;
             if table.values.contains_key(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");
@@ -90,17 +91,6 @@ fn set_implicit(table: &Table, settings: &mut Settings) {
 }
 
 impl SolverName {
-    fn of(word: &str) -> Option<SolverName> {
-        Some(match word {
-            "provot" => SolverName::Provot,
-            "pbd" => SolverName::Pbd,
-            "verlet" => SolverName::Verlet,
-            "xpbd" => SolverName::Xpbd,
-            "implicit" => SolverName::Implicit,
-            _ => return None,
-        })
-    }
-
     /// The method with its default settings. Of XPBD a step is one sweep, so that tears are looked
     /// for after each; the implicit method may err by 0.2 mm/s in a step of 1/240 s.
     pub(crate) fn method(self) -> Method {
@@ -114,5 +104,20 @@ impl SolverName {
                 ..Settings::default()
             }),
         }
+    }
+}
+
+fn typed_as(word: &str) -> Option<SolverName> {
+    SolverName::from_str(word, false).ok()
+}
+
+/// As it is typed, and as it stands in the report.
+pub(crate) fn method_name(method: &Method) -> &'static str {
+    match method {
+        Method::Provot(_) => "provot",
+        Method::Pbd(_) => "pbd",
+        Method::Verlet => "verlet",
+        Method::Xpbd(_) => "xpbd",
+        Method::Implicit(_) => "implicit",
     }
 }

@@ -183,16 +183,6 @@ pub(super) fn counters(run: &Run) -> report::Counters {
     }
 }
 
-/// The method of a cut, as it is typed.
-pub(super) fn method(method: tearmesh::Method) -> &'static str {
-    match method {
-        tearmesh::Method::Partition => "partition",
-        tearmesh::Method::Uniform => "uniform",
-        tearmesh::Method::Alternating => "alternating",
-        _ => "exact",
-    }
-}
-
 /// Why the simulation failed, with vertices counted as in OBJ, and what would help.
 pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fault {
     let code = match error {
