@@ -309,8 +309,8 @@ fn coarse(run: &Run) -> Option<Fault> {
     }
     let times = run.step_s() / wanted_s;
     let sweeps = match &run.scene().solver {
-        Method::Pbd(pbd) => pbd.sweeps,
-        Method::Xpbd(xpbd) => xpbd.substeps * xpbd.sweeps,
+        Method::Pbd(pbd) => u64::from(pbd.sweeps),
+        Method::Xpbd(xpbd) => u64::from(xpbd.substeps) * u64::from(xpbd.sweeps),
         _ => 1,
     };
     let message = format!(
@@ -329,6 +329,24 @@ mod tests {
     use super::*;
     use tearmesh::cloth::{Axis, Scene};
     use tearmesh::{Mesh, Positions};
+
+    #[test]
+    fn any_number_of_sweeps_is_counted() {
+        use tearmesh::cloth::{Tearing, Xpbd};
+
+        let (mesh, positions) = tearmesh::shapes::grid(2, 2);
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let scene = Scene {
+            solver: Method::Xpbd(Xpbd::new(100_000, 100_000)),
+            step_s: Some(1e12),
+            duration_s: 1e12,
+            tearing: Some(Tearing::default()),
+            ..Scene::hang(&frame)
+        };
+        let run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
+        let message = coarse(&run).expect("a warning").message;
+        assert!(message.contains(" with 10000000000 sweeps "), "{message}");
+    }
 
     #[test]
     fn steps_without_end_are_warned_of_with_the_edge() {
