@@ -39,6 +39,7 @@ mod properties;
 #[path = "data/random.rs"]
 mod random;
 mod rays;
+mod same_bytes;
 mod scissor;
 mod straight;
 mod straight_polylines;

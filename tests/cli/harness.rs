@@ -60,6 +60,27 @@ impl Folder {
         names
     }
 
+    /// Adds the names and bytes of all files to a number that stands for them (FNV-1a).
+    pub(crate) fn digest(&self, digest: &mut u64) {
+        let mut paths = vec![self.folder.path().to_owned()];
+        let mut next = 0;
+        while let Some(path) = paths.get(next).cloned() {
+            next += 1;
+            if path.is_dir() {
+                let entries = fs::read_dir(&path).expect("a folder");
+                paths.extend(entries.map(|entry| entry.expect("an entry").path()));
+            }
+        }
+        paths.sort();
+        for path in paths.iter().filter(|path| path.is_file()) {
+            let name = path.strip_prefix(self.folder.path()).expect("in here");
+            let bytes = fs::read(path).expect("a file");
+            for byte in name.to_string_lossy().bytes().chain(bytes) {
+                *digest = (*digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        }
+    }
+
     /// The command, ready to run in this folder, without a terminal.
     pub(crate) fn command(&self) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_tearmesh"));
