@@ -239,7 +239,7 @@ fn list(v: Vector) -> String {
 }
 
 /// Whether every coordinate is finite and small enough; the first that is not.
-pub(crate) fn check_point(p: Point) -> Result<(), f64> {
+pub fn check_point(p: Point) -> Result<(), f64> {
     match p
         .coords
         .iter()
@@ -264,18 +264,18 @@ pub(crate) fn scaled(v: Vector) -> Option<Vector> {
 }
 
 /// The largest absolute component.
-pub(crate) fn max_abs(v: Vector) -> f64 {
+pub fn max_abs(v: Vector) -> f64 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
 /// The dot product, summed x, y, z.
 #[inline]
-pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
+pub fn dot(a: Vector, b: Vector) -> f64 {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 /// The cross product.
-pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
+pub fn cross(a: Vector, b: Vector) -> Vector {
     Vector::new(
         a.y * b.z - a.z * b.y,
         a.z * b.x - a.x * b.z,
@@ -284,13 +284,13 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
 }
 
 /// The point at the part `t` of the way from `p` to `q`: `p` itself where both are one point.
-pub(crate) fn between(p: Point, q: Point, t: f64) -> Point {
+pub fn between(p: Point, q: Point, t: f64) -> Point {
     // Not p + (q − p) t, which is the same but of −0 and −0 makes 0.
     p - (p - q) * t
 }
 
 /// The length.
-pub(crate) fn length(v: Vector) -> f64 {
+pub fn length(v: Vector) -> f64 {
     dot(v, v).sqrt()
 }
 

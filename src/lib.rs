@@ -66,8 +66,7 @@
 //! | 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) |
 //! | 2 | [`split`], [`mend`] (merges), [`subdivide`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] |
 //! | 3 | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods), [`tear`] (the rule for an overstretched edge) |
-//! | 4 | [`cloth`] (particles and constraints, a file for each solver, and the follower) |
-//! | 5 | `script` (drives a kernel from bytes or text; behind a feature) |
+//! | 4 | `script` (drives a kernel from bytes or text; behind a feature) |
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
 //! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a link,
@@ -90,10 +89,9 @@
 
 mod attribute;
 pub mod classify;
-pub mod cloth;
 mod edit;
 mod exact;
-mod geometry;
+pub mod geometry;
 mod id;
 mod mass;
 pub mod mend;
@@ -123,8 +121,3 @@ pub use mesh::{
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
-
-/// The library's example in the README is a test.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -79,7 +79,7 @@
 //!                 }
 //!                 self.divided.clear();
 //!             }
-//!             _ => {} // A slide moves a vertex, and no corner.
+//!             Edit::Slide(_) => {} // It moves a vertex, and no corner.
 //!         }
 //!         self.next = edit.number() + 1;
 //!     }

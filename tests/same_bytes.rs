@@ -104,7 +104,6 @@ impl Digest {
                 self.vertices([slide.vertex, slide.toward]);
                 self.float(slide.t);
             }
-            _ => unreachable!("there are four kinds of edit"),
         }
     }
 }

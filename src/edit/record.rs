@@ -4,7 +4,6 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// One change of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Edit<'e> {
     /// A vertex was split.
     Split(Split<'e>),

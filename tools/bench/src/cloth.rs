@@ -11,7 +11,7 @@ mod sheet;
 mod splits;
 
 use tearmesh::Point;
-use tearmesh::cloth::{Cloth, Pbd, Solver, Xpbd};
+use tearmesh_cloth::{Cloth, Pbd, Solver, Xpbd};
 
 use crate::measure::timed_on_cpu;
 use crate::options::Options;

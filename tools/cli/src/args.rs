@@ -218,7 +218,7 @@ pub(crate) struct TearArgs {
 
     /// Which way is up: x, y, z, -x, -y or -z (default y).
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
-    pub(crate) up: Option<tearmesh::cloth::Axis>,
+    pub(crate) up: Option<tearmesh_cloth::scene::Axis>,
 
     /// Cut between two rays, at the time --cut-at.
     ///

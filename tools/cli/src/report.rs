@@ -202,7 +202,7 @@ pub(crate) struct Gain {
     pub(crate) put_in_j: f64,
 }
 
-/// What the method says of its own steps; see [`tearmesh::cloth::Quality`].
+/// What the method says of its own steps; see [`tearmesh_cloth::scene::Quality`].
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Quality {

@@ -10,7 +10,7 @@ mod schema;
 use std::io::Read as _;
 use std::path::Path;
 
-use tearmesh::cloth::{Axis, Frame, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
 pub(crate) use self::apply::threshold;
 pub(crate) use self::file::SceneFile;

@@ -11,8 +11,9 @@ use std::io::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tearmesh::cloth::{CutMade, Frame, Run, Scene, StepError, Tearing, TimedCut};
 use tearmesh::{Positions, Scissor};
+use tearmesh_cloth::scene::{CutMade, Frame, Run, Scene, TimedCut};
+use tearmesh_cloth::{StepError, Tearing};
 use tearmesh_obj::TornDocument;
 
 use self::frames::Frames;

@@ -17,8 +17,9 @@ pub use self::csv::csv;
 pub use self::svg::svg;
 
 use serde::Serialize;
-use tearmesh::cloth::{Axis, Frame, Run, RunError, Scene, StepError, Tearing, Threshold};
 use tearmesh::{Mesh, Point, Positions};
+use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene};
+use tearmesh_cloth::{StepError, Tearing, Threshold};
 
 /// Width and height of the strip, in metres.
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];

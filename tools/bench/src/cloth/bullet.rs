@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use tearmesh::Point;
-use tearmesh::cloth::System;
+use tearmesh_cloth::System;
 
 use super::Run;
 use super::sheet::{GRAVITY_M_PER_S2, STEP_S};

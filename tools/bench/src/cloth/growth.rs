@@ -1,7 +1,7 @@
 //! What a step costs a constraint, as sheets grow.
 
-use tearmesh::cloth::implicit::Settings;
-use tearmesh::cloth::{Cloth, ImplicitCloth, Pbd, Solver, Verlet, Xpbd};
+use tearmesh_cloth::implicit::Settings;
+use tearmesh_cloth::{Cloth, ImplicitCloth, Pbd, Solver, Verlet, Xpbd};
 
 use super::bullet::{Bullet, Order, Program};
 use super::median;

@@ -1,7 +1,7 @@
 //! A sheet that hangs by its upper edge.
 
-use tearmesh::cloth::{Cloth, Fabric, Loads, System};
 use tearmesh::{Masses, Mesh, Point, Vector, shapes};
+use tearmesh_cloth::{Cloth, Fabric, Loads, System};
 
 pub(super) const GRAVITY_M_PER_S2: f64 = -9.81;
 pub(super) const STEP_S: f64 = 1.0 / 60.0;

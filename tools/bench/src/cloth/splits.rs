@@ -1,7 +1,7 @@
 //! A step with a hundred splits in it beside one with none: of ours alone.
 
-use tearmesh::cloth::{Cloth, Pbd, Solver, Verlet, Xpbd};
 use tearmesh::{Edits, Mesh, VertexId, split};
+use tearmesh_cloth::{Cloth, Pbd, Solver, Verlet, Xpbd};
 
 use super::median;
 use super::sheet::{STEP_S, hanging};

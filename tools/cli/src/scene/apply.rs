@@ -3,10 +3,9 @@
 use std::collections::BTreeSet;
 
 use clap::ValueEnum as _;
-use tearmesh::cloth::{
-    Axis, Breeze, Collider, Frame, Hold, Region, Scene, Tearing, Threshold, TimedCut, Wind,
-};
 use tearmesh::{Plane, Scissor, Vector, VertexId};
+use tearmesh_cloth::scene::{Axis, Breeze, Frame, Hold, Region, Scene, TimedCut};
+use tearmesh_cloth::{Collider, Tearing, Threshold, Wind};
 
 use super::file::{Content, SceneFile, Table};
 use crate::args::{Method as CutMethod, SolverName};

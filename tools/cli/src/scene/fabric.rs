@@ -1,7 +1,8 @@
 //! What `[fabric]` says: its weight, and what resists stretch and bending.
 
-use tearmesh::cloth::implicit::Buckling;
-use tearmesh::cloth::{Bending, Copies, Frame, Method, Scene, Unbend, Weave};
+use tearmesh_cloth::implicit::Buckling;
+use tearmesh_cloth::scene::{Frame, Method, Scene};
+use tearmesh_cloth::{Bending, Copies, Unbend, Weave};
 
 use super::file::{SceneFile, Table};
 use crate::say::Fault;

@@ -1,8 +1,9 @@
 //! What `[solver]` says, and the methods with their defaults.
 
 use clap::ValueEnum as _;
-use tearmesh::cloth::implicit::{self, Settings, Tolerance};
-use tearmesh::cloth::{Limiter, Method, Pbd, Scene, Xpbd};
+use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+use tearmesh_cloth::scene::{Method, Scene};
+use tearmesh_cloth::{Limiter, Pbd, Xpbd};
 
 use super::file::{SceneFile, Table};
 use crate::args::SolverName;

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use tearmesh::cloth::{
-    ClothError, Frame, Method, Run, RunError, Scene, TearingError, Threshold, TimedCut,
-};
 use tearmesh::{FaceId, Scissor, Vector};
+use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, TimedCut};
+use tearmesh_cloth::{ClothError, TearingError, Threshold};
 
 use super::words::two_digits;
 use crate::Exit;
@@ -327,12 +326,12 @@ fn coarse(run: &Run) -> Option<Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tearmesh::cloth::{Axis, Scene};
     use tearmesh::{Mesh, Positions};
+    use tearmesh_cloth::scene::{Axis, Scene};
 
     #[test]
     fn any_number_of_sweeps_is_counted() {
-        use tearmesh::cloth::{Tearing, Xpbd};
+        use tearmesh_cloth::{Tearing, Xpbd};
 
         let (mesh, positions) = tearmesh::shapes::grid(2, 2);
         let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);

@@ -10,8 +10,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use tearmesh::cloth::Run;
 use tearmesh::{Edit, Edits, Location, Mesh, Point, Positions, VertexId};
+use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 
 use crate::args::{TearArgs, Topology};

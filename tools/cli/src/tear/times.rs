@@ -1,6 +1,6 @@
 //! Times that steps do not make up: the whole, and that between frames.
 
-use tearmesh::cloth::Run;
+use tearmesh_cloth::scene::Run;
 
 use super::frames::RATE_PER_S;
 use super::words::two_digits;

@@ -1,7 +1,8 @@
 //! What is said of a simulation.
 
-use tearmesh::cloth::implicit;
-use tearmesh::cloth::{Culprit, Method, Quality, Run, Shortened, StepError};
+use tearmesh_cloth::implicit;
+use tearmesh_cloth::scene::{Method, Quality, Run, Shortened};
+use tearmesh_cloth::{Culprit, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};

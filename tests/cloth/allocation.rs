@@ -1,0 +1,109 @@
+//! What promises not to allocate does not.
+
+use allocation_counter::measure;
+use tearmesh::{Edits, Masses, Vector, shapes};
+
+/// The number of allocations that something takes.
+fn allocations(of: impl FnOnce()) -> u64 {
+    measure(of).count_total
+}
+
+#[test]
+fn steps_of_a_cloth_do_not_allocate() {
+    use tearmesh_cloth::{
+        Bending, Cloth, Fabric, Loads, Pbd, Provot, Rk4, Solver, Unstable, Verlet, Xpbd,
+    };
+
+    let (mesh, positions) = shapes::grid(10, 10);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let fabric = Fabric {
+        bend: Some(Bending::Spring {
+            stiffness_n_per_m: 1.0,
+        }),
+        ..Fabric::new(50.0)
+    };
+    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+        drag_per_s: Some(1.0),
+        ..Loads::default()
+    };
+    let system = cloth.system_mut();
+    system.set_loads(loads).expect("loads");
+    system.hold(0);
+    system.when_unstable(Unstable::Substep);
+    let (mut provot, mut rk4) = (Provot::default(), Rk4::new());
+    let methods: [&mut dyn Solver; 5] = [
+        &mut Verlet::new(),
+        &mut provot,
+        &mut Pbd::default(),
+        &mut Xpbd::default(),
+        &mut rk4,
+    ];
+    for method in methods {
+        // The first step makes room.
+        cloth.step(&mut *method, 0.005).expect("a step");
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                cloth.step(&mut *method, 0.005).expect("a step");
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}
+
+#[test]
+fn steps_of_a_cloth_of_triangles_do_not_allocate() {
+    use tearmesh_cloth::{Cloth, Fabric, ImplicitCloth, Rk4, Solver, Unstable, Verlet, Weave};
+
+    let (mesh, positions) = shapes::grid(10, 10);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let fabric = Fabric::woven(Weave {
+        warp_n_per_m: 50.0,
+        weft_n_per_m: 40.0,
+        shear_n_per_m: 5.0,
+        warp: Vector::x(),
+    });
+    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let system = cloth.system_mut();
+    system.hold(0);
+    system.state_mut().1[60] = Vector::new(0.1, 0.1, 0.3);
+    system.when_unstable(Unstable::Substep);
+    let (mut implicit, mut rk4) = (ImplicitCloth::default(), Rk4::new());
+    let methods: [&mut dyn Solver; 3] = [&mut Verlet::new(), &mut rk4, &mut implicit];
+    for method in methods {
+        // The first step makes room.
+        cloth.step(&mut *method, 0.005).expect("a step");
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                cloth.step(&mut *method, 0.005).expect("a step");
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}
+
+#[test]
+fn looking_for_tears_allocates_nothing() {
+    use tearmesh_cloth::{Cloth, Fabric, Tear, Tearing, Threshold};
+
+    let (mut mesh, positions) = shapes::grid(10, 10);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    for x in cloth.system_mut().state_mut().0 {
+        x.x *= 1.2;
+    }
+    let mut edits = Edits::new();
+    for threshold in [Threshold::Stretch(1.5), Threshold::PrincipalStretch(1.5)] {
+        let mut tear = Tear::new(&cloth, Tearing::new(threshold)).expect("a tear");
+        // The first look makes room.
+        tear.apply(&mut mesh, &mut cloth, &mut edits, 0.01);
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                let report = tear.apply(&mut mesh, &mut cloth, &mut edits, 0.01);
+                assert_eq!((report.splits, report.worst.is_some()), (0, true));
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}

@@ -1,0 +1,408 @@
+//! Bends that buckle, in systems and cloths: against the formulas of Choi and Ko, the implicit
+//! solver by itself, and dense eigenvalues.
+
+use nalgebra::DMatrix;
+use tearmesh::{Masses, Point, Positions, Vector, shapes};
+use tearmesh_cloth::implicit::{
+    Bend, Block, Buckling, Filter, Implicit, Model, RestSettings, Settings, Spring, Tolerance,
+    bend, spring,
+};
+use tearmesh_cloth::{
+    Bending, Cloth, Fabric, ImplicitCloth, Loads, Pbd, Provot, Rk4, Solver, StepError, System,
+    Verlet, Xpbd,
+};
+
+use crate::answers::{G, near};
+use crate::random::Random;
+
+fn law(buckles_below: f64) -> Buckling {
+    Buckling::new(buckles_below).expect("between 0 and 1")
+}
+
+fn arcs(flexural_n_m2: f64, buckles_below: f64) -> Fabric {
+    let law = law(buckles_below);
+    Fabric {
+        bend: Some(Bending::Buckling { flexural_n_m2, law }),
+        ..Fabric::new(200.0)
+    }
+}
+
+/// A sheet of 3 × 3 cells, whose vertices were all thrown up to `by` metres.
+fn crumpled(fabric: Fabric, by: f64, seed: u64) -> Cloth {
+    let (mesh, positions) = shapes::grid(3, 3);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let mut random = Random(seed);
+    for x in cloth.system_mut().state_mut().0 {
+        let mut next = || 2.0 * random.next() - 1.0;
+        *x += by * Vector::new(next(), next(), next());
+    }
+    cloth
+}
+
+/// The arc's force by the formula of the paper, with sines: κ by bisection.
+fn arc_force(k: f64, l: f64, d: f64) -> f64 {
+    let sinc = |t: f64| if t == 0.0 { 1.0 } else { t.sin() / t };
+    let (mut low, mut high) = (0.0, std::f64::consts::PI);
+    for _ in 0..200 {
+        let t = 0.5 * (low + high);
+        if sinc(t) > d / l { low = t } else { high = t }
+    }
+    let t = 0.5 * (low + high);
+    let kappa = 2.0 * t / l;
+    k * kappa * kappa / (t.cos() - sinc(t))
+}
+
+/// Its energy, ½ k κ² L.
+fn arc_energy(k: f64, l: f64, d: f64) -> f64 {
+    let (mut low, mut high) = (0.0_f64, std::f64::consts::PI);
+    for _ in 0..200 {
+        let t = 0.5 * (low + high);
+        if t.sin() > t * (d / l) {
+            low = t;
+        } else {
+            high = t;
+        }
+    }
+    0.5 * k * (2.0 * low / l).powi(2) * l
+}
+
+#[test]
+fn one_bend_has_the_force_of_an_arc_or_of_the_spring_before_it() {
+    let (l, c) = (0.2, 7.0);
+    for below in [0.6, 0.8, 0.95, 0.999] {
+        let points = [Point::origin(), Point::new(l, 0.0, 0.0)];
+        let mut system = System::new(points, vec![1.0; 2]).expect("two particles");
+        system.bend([0, 1], l, c).expect("a bend");
+        system.set_buckling(Some(law(below)));
+        // The flexural stiffness is the one whose arc has the spring's force at the change-over.
+        let k = c * (below * l - l) / arc_force(1.0, l, below * l);
+        near(law(below).compression_n_per_m(k, l), c, 1e-12 * c);
+        let whole = Bend::new([0, 1], l, k, c).expect("stiff enough");
+        let change = 0.5 * c * (l - below * l).powi(2) - arc_energy(k, l, below * l);
+        for i in 1..=120 {
+            let d = l * f64::from(i) / 100.0;
+            system.state_mut().0[1].x = d;
+            let spring = c * (d - l);
+            let force = if d >= l {
+                0.0
+            } else if d < below * l {
+                arc_force(k, l, d)
+            } else {
+                spring
+            };
+            // Which of both acts is the larger of both, tension positive.
+            if d < l {
+                near(force, arc_force(k, l, d).max(spring), 1e-9);
+            }
+            near(-system.reaction_n(0).x, force, 1e-9);
+            let energy = if d >= l {
+                0.0
+            } else if d < below * l {
+                arc_energy(k, l, d) + change
+            } else {
+                0.5 * c * (d - l).powi(2)
+            };
+            near(system.elastic_energy_j(), energy, 1e-12);
+            let [p, q] = [system.positions()[0], system.positions()[1]];
+            near(system.elastic_energy_j(), bend::energy(&whole, p, q), 1e-14);
+        }
+    }
+}
+
+#[test]
+fn forces_of_a_crumpled_cloth_are_the_gradient_of_its_energy() {
+    for seed in 0..6 {
+        let mut cloth = crumpled(arcs(2e-3, 0.9), 0.15, seed);
+        let system = cloth.system_mut();
+        let mut accelerations = Vec::new();
+        system.accelerations(&mut accelerations);
+        let mut worst = 0.0_f64;
+        for (particle, acceleration) in accelerations.iter().enumerate() {
+            let hand = system.reaction_n(particle);
+            for axis in 0..3 {
+                let h = 1e-6;
+                let mut energy = |by: f64| {
+                    system.state_mut().0[particle][axis] += by;
+                    let energy = system.elastic_energy_j();
+                    system.state_mut().0[particle][axis] -= by;
+                    energy
+                };
+                let gradient = (energy(h) - energy(-h)) / (2.0 * h);
+                let force = acceleration[axis] * system.masses()[particle];
+                worst = worst.max((force + gradient).abs());
+                near(hand[axis], -force, 1e-12);
+            }
+        }
+        assert!(worst < 1e-6, "{worst}");
+    }
+}
+
+/// The product with the stiffness matrix, column by column; and the same matrix made of the
+/// functions of the implicit solver.
+#[test]
+fn the_stiffness_is_that_of_the_implicit_solver() {
+    for seed in 0..4 {
+        let mut cloth = crumpled(arcs(2e-3, 0.9), 0.2, seed);
+        let system = cloth.system_mut();
+        let x = system.positions().to_vec();
+        let mut expected = vec![vec![Vector::zeros(); x.len()]; 3 * x.len()];
+        let law = system.buckling().expect("they buckle");
+        let mut add = |ends: [usize; 2], block: Block| {
+            for (from, to, sign) in [(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)] {
+                for axis in 0..3 {
+                    let mut unit = Vector::zeros();
+                    unit[axis] = sign;
+                    expected[3 * ends[from] + axis][ends[to]] += block.times(unit);
+                }
+            }
+        };
+        for id in system.bends().iter() {
+            let bend = system.bends().get(id);
+            let ends = bend.ends.map(|end| end as u32);
+            let whole = law.bend(ends, bend.rest_length_m, bend.stiffness_n_per_m);
+            let [p, q] = bend.ends.map(|end| x[end]);
+            add(bend.ends, bend::hessian(&whole, p, q, true).0);
+        }
+        for id in system.stretches().iter() {
+            let edge = system.stretches().get(id);
+            let [p, q] = edge.ends.map(|end| x[end]);
+            let whole = Spring {
+                ends: edge.ends.map(|end| end as u32),
+                rest_length: edge.rest_length_m,
+                stiffness: edge.stiffness_n_per_m,
+                tension_only: false,
+            };
+            add(edge.ends, spring::hessian(&whole, p, q, true).0);
+        }
+        for (column, expected) in expected.iter().enumerate() {
+            let mut unit = vec![Vector::zeros(); x.len()];
+            unit[column / 3][column % 3] = 1.0;
+            for (have, want) in system.stiffness_times(&unit).iter().zip(expected) {
+                near((have - want).norm(), 0.0, 1e-9);
+            }
+        }
+    }
+}
+
+/// The largest eigenvalue of M^-½ K M^-½.
+fn square_max(system: &mut System) -> f64 {
+    let n = system.positions().len();
+    let weights: Vec<f64> = system.inverse_masses().iter().map(|w| w.sqrt()).collect();
+    let mut matrix = DMatrix::zeros(3 * n, 3 * n);
+    for column in 0..3 * n {
+        let mut unit = vec![Vector::zeros(); n];
+        unit[column / 3][column % 3] = weights[column / 3];
+        let product = system.stiffness_times(&unit);
+        for row in 0..3 * n {
+            matrix[(row, column)] = product[row / 3][row % 3] * weights[row / 3];
+        }
+    }
+    matrix.symmetric_eigen().eigenvalues.max()
+}
+
+/// However it is crumpled, and also where arcs are far stiffer than the springs before them.
+#[test]
+fn no_frequency_is_beyond_the_bound_and_a_measure_on_the_flat_holds_when_folded() {
+    for (flexural, below) in [(1e-3, 0.95), (1e-2, 0.6), (0.3, 0.6), (0.05, 0.9)] {
+        let fabric = arcs(flexural, below);
+        let mut flat = crumpled(fabric, 0.0, 0);
+        let measured = flat.system_mut().measure_frequency(1e-9, 20_000);
+        let bound = flat.system_mut().frequency_bound();
+        let mut most = 0.0_f64;
+        for seed in 0..12 {
+            let by = [0.02, 0.1, 0.3, 1.0][seed as usize % 4];
+            let mut cloth = crumpled(fabric, by, seed);
+            // Some ends meet.
+            let meet = cloth.system().positions()[3];
+            cloth.system_mut().state_mut().0[9] = meet;
+            most = most.max(square_max(cloth.system_mut()).sqrt());
+        }
+        println!(
+            "k {flexural}, {below}: bound {bound:.1}, flat {:.1}, folded {most:.1}",
+            measured.omega_rad_per_s
+        );
+        assert!(most <= bound, "{most} {bound}");
+        assert!(measured.omega_rad_per_s <= bound * (1.0 + 1e-9));
+        // Springs turn aside and so does the measure; arcs must not add to that.
+        let springs = most / measured.omega_rad_per_s;
+        assert!(springs < 1.25, "{springs}");
+    }
+}
+
+/// Two particles and an arc: the limit is that of the arc at its stiffest, where both ends meet.
+#[test]
+fn the_limit_is_known_before_it_folds() {
+    let (l, c, m) = (0.1, 5.0, 0.01);
+    for below in [0.6, 0.7, 0.95] {
+        let points = [Point::origin(), Point::new(l, 0.0, 0.0)];
+        let mut system = System::new(points, vec![m; 2]).expect("two particles");
+        system.bend([0, 1], l, c).expect("a bend");
+        let of_springs = system.frequency().omega_rad_per_s;
+        near(of_springs, (2.0 * c / m).sqrt(), 1e-6);
+        system.set_buckling(Some(law(below)));
+        system.hold(0);
+        let omega = system.frequency().omega_rad_per_s;
+        let bound = system.frequency_bound();
+        // By a difference of the paper's force near the place where the ends meet.
+        let k = c * (below * l - l) / arc_force(1.0, l, below * l);
+        let h = 1e-7 * l;
+        let slope = (arc_force(k, l, 3.0 * h) - arc_force(k, l, h)) / (2.0 * h);
+        near(omega * omega * m / slope.max(c), 1.0, 1e-4);
+        assert!(bound >= omega * (1.0 - 1e-12), "{bound} {omega}");
+    }
+}
+
+fn hung(cloth: &mut Cloth, held: &[usize]) {
+    let system = cloth.system_mut();
+    system
+        .set_loads(Loads {
+            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -G)),
+            drag_per_s: Some(4.0),
+            ..Loads::default()
+        })
+        .expect("loads");
+    held.iter().for_each(|&particle| system.hold(particle));
+}
+
+/// A strip that is held at both ends, which are nearer than they were: it buckles.
+#[test]
+fn a_folded_strip_rests_where_the_implicit_solver_by_itself_says() {
+    for (name, flexural, below, gap) in [
+        ("hanging", 2e-4, 0.95, 1.0),
+        ("folded", 5e-5, 0.998, 0.8),
+        ("folded far", 2e-5, 0.995, 0.5),
+    ] {
+        let (mesh, square) = shapes::grid(10, 2);
+        let points = square.as_slice().iter();
+        let points = points.map(|p| Point::new(p.x, 0.2 * p.y, p.z));
+        let positions = Positions::new(points).expect("a strip");
+        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+        let fabric = arcs(flexural, below);
+        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+        let flat = cloth.positions().to_vec();
+        let ends: Vec<usize> = (0..flat.len())
+            .filter(|&v| flat[v].x < 0.01 || (gap < 1.0 && flat[v].x > 0.99))
+            .collect();
+        for x in cloth.system_mut().state_mut().0 {
+            // Pushed together, and a little up in the middle.
+            let arch = 0.3 * (1.0 - gap) * x.x * (1.0 - x.x) * 4.0;
+            (x.x, x.z) = (x.x * gap, arch);
+        }
+        hung(&mut cloth, &ends);
+        let settings = Settings {
+            tolerance: Tolerance::Fixed(1e-10),
+            newton_iterations_max: 100,
+            ..Settings::default()
+        };
+        let mut solver = ImplicitCloth::new(settings);
+        for _ in 0..1500 {
+            cloth.step(&mut solver, 0.05).expect("a step");
+        }
+
+        // The same by hand: bends by their own numbers, from the edges of the mesh.
+        let rest = |[a, b]: [usize; 2]| (flat[b] - flat[a]).norm();
+        let (mut springs, mut bends) = (Vec::new(), Vec::new());
+        for h in mesh.edges() {
+            let ends = [mesh.origin(h), mesh.target(h)].map(|v| v.index());
+            springs.push(Spring {
+                ends: ends.map(|end| end as u32),
+                rest_length: rest(ends),
+                stiffness: 200.0,
+                tension_only: false,
+            });
+            if let Some(pair) = mesh.pair(h) {
+                let ends = [h, pair].map(|h| mesh.origin(mesh.prev(h)).index());
+                let l = rest(ends);
+                // c at which the spring has the arc's force at the change-over.
+                let c = arc_force(flexural, l, below * l) / (below * l - l);
+                let ends = ends.map(|end| end as u32);
+                bends.push(Bend::new(ends, l, flexural, c).expect("stiff enough"));
+            }
+        }
+        let filters: Vec<Filter> = (0..flat.len())
+            .map(|v| {
+                if ends.contains(&v) {
+                    Filter::Fixed
+                } else {
+                    Filter::Free
+                }
+            })
+            .collect();
+        let accelerations = vec![Vector::new(0.0, 0.0, -G); flat.len()];
+        let model = Model {
+            masses: cloth.system().masses(),
+            filters: &filters,
+            accelerations: &accelerations,
+            springs: &springs,
+            bends: &bends,
+            ..Model::default()
+        };
+        near(
+            model.energy(cloth.positions()),
+            cloth.system().elastic_energy_j(),
+            1e-12,
+        );
+        let mut random = Random(3);
+        let mut x = cloth.positions().to_vec();
+        for (x, filter) in x.iter_mut().zip(&filters) {
+            if *filter == Filter::Free {
+                let mut next = || 1e-3 * (random.next() - 0.5);
+                *x += Vector::new(next(), next(), next());
+            }
+        }
+        let mut alone = Implicit::new(&model).expect("a solver");
+        alone
+            .rest(&model, &mut x, &RestSettings::default())
+            .expect("a state of rest");
+        let apart = x.iter().zip(cloth.positions());
+        let apart = apart.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        let lowest = x.iter().map(|x| x.z).fold(f64::INFINITY, f64::min);
+        let buckled = bends.iter().filter(|bend| {
+            let [p, q] = bend.ends().map(|end| x[end as usize]);
+            (q - p).norm() < bend.buckles_below()
+        });
+        let (buckled, count) = (buckled.count(), bends.len());
+        println!("{name}: {apart:e} m apart, lowest {lowest}, {buckled} of {count} bends buckled");
+        assert!(buckled > 4 || gap == 1.0, "{name}: {buckled}");
+        assert!(apart < 1e-8, "{name}: {apart:e}");
+    }
+}
+
+#[test]
+fn methods_that_project_springs_are_refused_and_those_with_forces_run() {
+    let mut cloth = crumpled(arcs(1e-3, 0.9), 0.05, 1);
+    let count = cloth.system().bends().len();
+    for solver in [&mut Pbd::default() as &mut dyn Solver, &mut Xpbd::default()] {
+        let before = cloth.positions().to_vec();
+        let error = cloth.step(solver, 1e-3).expect_err("springs alone");
+        assert_eq!(error, StepError::Buckling { count });
+        assert_eq!(cloth.positions(), before);
+        assert!(error.to_string().contains("bends buckle"), "{error}");
+    }
+    let dt_s = 0.1 * cloth.system_mut().stable_step_s(2.0);
+    let energy =
+        |cloth: &Cloth| cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j();
+    let before = energy(&cloth);
+    for solver in [
+        &mut Verlet::new() as &mut dyn Solver,
+        &mut Rk4::new(),
+        &mut Provot::unlimited(),
+    ] {
+        let mut cloth = cloth.clone();
+        let mut buckled = false;
+        for _ in 0..2000 {
+            cloth.step(solver, dt_s).expect("a step");
+            buckled |= cloth.system().bends().iter().any(|id| {
+                let bend = cloth.system().bends().get(id);
+                let [p, q] = bend.ends.map(|end| cloth.positions()[end]);
+                (q - p).norm() < 0.9 * bend.rest_length_m
+            });
+        }
+        assert!(buckled);
+        near(energy(&cloth) / before, 1.0, 0.05);
+    }
+    cloth
+        .step(&mut ImplicitCloth::default(), 0.01)
+        .expect("a step");
+}

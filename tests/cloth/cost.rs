@@ -1,0 +1,200 @@
+//! What cloth costs: by counters always, by a clock when asked.
+
+use std::time::Instant;
+
+use tearmesh::{Edits, Masses, Mesh, Plane, Point, Vector, shapes, split};
+use tearmesh_cloth::{
+    Cloth, Collider, Fabric, ImplicitCloth, Loads, Pbd, Solver, Unstable, Verlet, Xpbd,
+};
+
+/// A sheet of n × n cells that hangs by its upper edge.
+fn hanging(n: u32, stiffness: f64) -> (Mesh, Cloth) {
+    let (mesh, positions) = shapes::grid(n, n);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(stiffness)).expect("a cloth");
+    let system = cloth.system_mut();
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+        drag_per_s: Some(1.0),
+        ..Loads::default()
+    };
+    system.set_loads(loads).expect("loads");
+    let row = n as usize + 1;
+    (row * (row - 1)..row * row).for_each(|top| system.hold(top));
+    (mesh, cloth)
+}
+
+fn run(cloth: &mut Cloth, mut solver: impl Solver, steps: usize) -> f64 {
+    for _ in 0..steps {
+        cloth.step(&mut solver, 1.0 / 60.0).expect("a step");
+    }
+    cloth.system().strain_rms()
+}
+
+/// Macklin et al. 2019: the same projections, and far less strain.
+#[test]
+fn ten_substeps_of_one_sweep_strain_less_than_one_step_of_ten_sweeps() {
+    let strain = |solver: &mut dyn Solver| {
+        let (_, mut cloth) = hanging(64, 1e5);
+        let strain = run(&mut cloth, solver, 90);
+        (strain, cloth.system().counters().projections)
+    };
+    let (small, of_small) = strain(&mut Xpbd::new(10, 1));
+    let (large, of_large) = strain(&mut Xpbd::new(1, 10));
+    let (pbd, of_pbd) = strain(&mut Pbd::new(10));
+    println!("rms strain, 64 × 64: ten substeps {small}, ten sweeps {large}, PBD {pbd}");
+    assert_eq!([of_small, of_small], [of_large, of_pbd]);
+    assert!(large > 5.0 * small && pbd > 5.0 * small);
+    assert!(small < 0.2, "{small}");
+}
+
+/// Without colliders, the end of a substep and the begin of the next are one pass.
+#[test]
+fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {
+    let (_, mut free) = hanging(12, 1e4);
+    let mut loads = free.system().loads().clone();
+    let floor = Plane::new(Point::new(0.0, -1e3, 0.0), Vector::y()).expect("a plane");
+    loads.colliders.push(Collider::Plane(floor));
+    let mut above = free.clone();
+    above.system_mut().set_loads(loads).expect("loads");
+    for _ in 0..20 {
+        for cloth in [&mut free, &mut above] {
+            cloth
+                .step(&mut Xpbd::new(5, 2), 1.0 / 60.0)
+                .expect("a step");
+        }
+        assert_eq!(free.positions(), above.positions());
+        assert_eq!(free.system().velocities(), above.system().velocities());
+    }
+    assert_eq!(above.system().counters().collider_passes, 20 * 5);
+}
+
+#[test]
+fn no_substeps_and_no_sweeps_are_one() {
+    let (_, cloth) = hanging(6, 1e4);
+    let [one, none] = [Xpbd::new(1, 1), Xpbd::new(0, 0)].map(|solver| {
+        let mut cloth = cloth.clone();
+        run(&mut cloth, solver, 10);
+        (cloth.positions().to_vec(), cloth.system().counters())
+    });
+    assert_eq!(one, none);
+}
+
+#[test]
+fn an_edit_costs_no_matrix_product_and_a_step_measures_only_what_the_bound_leaves_open() {
+    let (mut mesh, mut cloth) = hanging(16, 50.0);
+    let mut edits = Edits::new();
+    let omega = cloth.system_mut().frequency_bound();
+    for v in mesh.vertices().skip(20).take(40) {
+        let face = mesh.faces_of(v).next().expect("a face");
+        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        edits.replay(&mut cloth);
+        assert_eq!(cloth.system().counters().matrix_products, 0);
+    }
+    assert_eq!(cloth.effects().len(), 40);
+    let bound = cloth.system().known_frequency_bound().expect("it is known");
+    assert!(bound >= omega);
+    cloth.step(&mut Verlet::new(), 1.9 / bound).expect("a step");
+    assert_eq!(cloth.system().counters().matrix_products, 0);
+    cloth.system_mut().when_unstable(Unstable::Substep);
+    let report = cloth.step(&mut Verlet::new(), 2.1 / bound);
+    assert_eq!(report.expect("a step").substeps, 2);
+    assert_eq!(cloth.system().counters().matrix_products, 0);
+    cloth.system_mut().when_unstable(Unstable::Refuse);
+    cloth.step(&mut Verlet::new(), 2.1 / bound).expect("a step");
+    let products = cloth.system().counters().matrix_products;
+    assert!(products > 0);
+    // It is measured again after so many steps, and not before.
+    for _ in 1..64 {
+        cloth.step(&mut Verlet::new(), 2.1 / bound).expect("a step");
+        assert_eq!(cloth.system().counters().matrix_products, products);
+    }
+    cloth.step(&mut Verlet::new(), 2.1 / bound).expect("a step");
+    assert!(cloth.system().counters().matrix_products > products);
+}
+
+/// Nanoseconds of the fastest of five.
+fn fastest(mut what: impl FnMut()) -> f64 {
+    let took = |_| {
+        let start = Instant::now();
+        what();
+        start.elapsed().as_nanos() as f64
+    };
+    (0..5).map(took).fold(f64::INFINITY, f64::min)
+}
+
+/// Printed, not judged: `cargo test --release --test main -- --ignored --nocapture times_`.
+#[test]
+#[ignore = "reads a clock"]
+fn times_of_projections_steps_and_splits() {
+    for n in [16, 32, 64, 128, 256, 578] {
+        let (_, mut cloth) = hanging(n, 1e3);
+        cloth.system_mut().when_unstable(Unstable::Allow);
+        let constraints = cloth.system().stretches().len() as f64;
+        let mut step = |solver: &mut dyn Solver, dt: f64| {
+            cloth.step(solver, dt).expect("a step");
+            fastest(|| {
+                cloth.step(solver, dt).expect("a step");
+            }) / constraints
+        };
+        println!(
+            "{constraints} constraints, {} colours: ns a constraint: PBD sweep {:.2}, XPBD substep {:.2}, Verlet step {:.2}",
+            hanging(n, 1e3).1.system().stretches().colour_count(),
+            step(&mut Pbd::new(10), 1e-4) / 10.0,
+            step(&mut Xpbd::new(10, 1), 1e-4) / 10.0,
+            step(&mut Verlet::new(), 1e-6),
+        );
+    }
+    for n in [16, 32, 64] {
+        let (_, mut springs) = hanging(n, 1e3);
+        let (_, _, mut woven) = crate::weave::sheet(n, crate::weave::weave());
+        let [spring, triangle] = [&mut springs, &mut woven].map(|cloth| {
+            cloth.system_mut().when_unstable(Unstable::Allow);
+            let faces = cloth.indices().len() as f64 / 3.0;
+            let mut step = |solver: &mut dyn Solver| {
+                cloth.step(solver, 1e-6).expect("a step");
+                fastest(|| {
+                    cloth.step(solver, 1e-6).expect("a step");
+                }) / faces
+            };
+            [
+                step(&mut Verlet::new()),
+                step(&mut ImplicitCloth::default()),
+            ]
+        });
+        println!(
+            "{n}²: ns a face: Verlet on springs {:.1}, on triangles {:.1}; implicit {:.0} and {:.0}",
+            spring[0], triangle[0], spring[1], triangle[1]
+        );
+    }
+    for n in [64, 128, 256] {
+        let (mut mesh, mut cloth) = hanging(n, 1e3);
+        let dt = 1.8 / cloth.system_mut().frequency_bound();
+        cloth.step(&mut Verlet::new(), dt).expect("a step");
+        let none = fastest(|| {
+            cloth.step(&mut Verlet::new(), dt).expect("a step");
+        });
+        let mut edits = Edits::new();
+        let inner: Vec<_> = mesh.vertices().skip(n as usize + 5).step_by(7).collect();
+        let mut splits = inner.into_iter();
+        let some = fastest(|| {
+            for v in splits.by_ref().take(100) {
+                let face = mesh.faces_of(v).next().expect("a face");
+                let _ = split::faces(&mut mesh, v, &[face], &mut edits);
+            }
+            edits.replay(&mut cloth);
+            edits.clear();
+            cloth.step(&mut Xpbd::new(1, 1), dt).expect("a step");
+        });
+        let plain = fastest(|| {
+            cloth.step(&mut Xpbd::new(1, 1), dt).expect("a step");
+        });
+        println!(
+            "{n}²: Verlet step {:.0} µs, XPBD substep {:.0} µs, with 100 splits {:.0} µs: {:.2} µs a split",
+            none / 1e3,
+            plain / 1e3,
+            some / 1e3,
+            (some - plain) / 1e5
+        );
+    }
+}

@@ -1,0 +1,495 @@
+//! Where methods fail: each failure is reported, with numbers, and the last good state is kept.
+
+use tearmesh::{Plane, Point, Vector};
+use tearmesh_cloth::{
+    Collider, Constraint, Culprit, Limiter, Loads, Path, Pbd, Provot, Rk4, Solver, StepError,
+    System, SystemError, Unstable, Verlet, Wind, Xpbd,
+};
+
+use crate::answers::{chain, framed, gravity, near, row, run};
+
+/// What became of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Class {
+    /// It ran, and the energy stayed within four times what it was.
+    Stable,
+    /// It ran on, with ever more energy.
+    Grown,
+    /// It was refused beforehand.
+    Refused,
+    /// Blow-up was noticed.
+    BlownUp,
+}
+
+/// The scenes of the map, at rest but for a push at one particle.
+fn scene(name: &str, stiffness: f64) -> System {
+    let mut system = match name {
+        "chain" => row(16, 0.01, stiffness, 0.1, Vector::new(0.1, 0.0, 0.0)),
+        "string" => {
+            let mut string = row(16, 0.01, stiffness, 0.095, Vector::new(0.1, 0.0, 0.0));
+            string.hold(16);
+            string
+        }
+        _ => framed(4, stiffness, 0.0),
+    };
+    system.set_loads(Loads::default()).expect("loads");
+    let particle = if name == "frame" { 7 } else { 5 };
+    system.state_mut().1[particle] = Vector::new(1e-6, 0.3e-6, 0.2e-6);
+    system
+}
+
+fn class(mut system: System, solver: &mut dyn Solver, part: f64, unstable: Unstable) -> Class {
+    let limit = solver.frequency_limit().expect("an explicit method");
+    let omega = system.measure_frequency(1e-6, 20_000).omega_rad_per_s;
+    let dt = part * limit / omega;
+    system.when_unstable(unstable);
+    let energy = |system: &System| system.kinetic_energy_j() + system.elastic_energy_j();
+    let rest = system.elastic_energy_j();
+    let push = system.kinetic_energy_j();
+    let mut most = 0.0_f64;
+    for _ in 0..600 {
+        match system.step(&mut *solver, dt) {
+            Ok(_) => most = most.max(energy(&system) - rest),
+            Err(StepError::Unstable { .. }) => return Class::Refused,
+            Err(StepError::BlowUp { .. }) => {
+                assert!(system.positions().iter().all(|p| p.coords.norm() < 1e3));
+                return Class::BlownUp;
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
+    if most > 400.0 * push {
+        Class::Grown
+    } else {
+        Class::Stable
+    }
+}
+
+/// A method by name.
+type Method = (&'static str, fn() -> Box<dyn Solver>);
+
+/// Rows F1, F2 and F4: every cell of step × stiffness × scene × method.
+#[test]
+fn the_blow_up_map() {
+    let methods: [Method; 3] = [
+        ("Verlet", || Box::new(Verlet::new())),
+        ("Provot", || Box::new(Provot::unlimited())),
+        ("RK4", || Box::new(Rk4::new())),
+    ];
+    for (method, make) in methods {
+        for name in ["chain", "string", "frame"] {
+            for stiffness in [1e2, 1e3, 1e4, 1e5] {
+                let at = |part: f64, unstable| {
+                    class(scene(name, stiffness), &mut *make(), part, unstable)
+                };
+                let cells = [0.9, 0.99, 1.01, 1.1].map(|part| at(part, Unstable::Allow));
+                println!("{method} {name} {stiffness:e}: {cells:?}");
+                assert_eq!(
+                    cells[..2],
+                    [Class::Stable; 2],
+                    "{method} {name} {stiffness}"
+                );
+                for cell in &cells[2..] {
+                    assert!(
+                        matches!(cell, Class::Grown | Class::BlownUp),
+                        "{method} {name} {stiffness}: {cells:?}"
+                    );
+                }
+                // Watched, nothing beyond the limit runs.
+                let watched = [0.9, 1.01, 1.1].map(|part| at(part, Unstable::Refuse));
+                assert_eq!(
+                    watched,
+                    [Class::Stable, Class::Refused, Class::Refused],
+                    "{method} {name} {stiffness}"
+                );
+                let divided = [1.01, 1.1].map(|part| at(part, Unstable::Substep));
+                assert_eq!(divided, [Class::Stable; 2], "{method} {name} {stiffness}");
+            }
+        }
+    }
+}
+
+#[test]
+fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
+    // λ + 1/λ = z² − 2 at ω Δt = z.
+    let z: f64 = 2.002;
+    let half = (z * z - 2.0) / 2.0;
+    let growth = half + (half * half - 1.0).sqrt();
+    near(growth, 1.0936, 5e-5);
+    let mut system = row(1, 0.01, 40.0, 1.0, Vector::new(1.0, 0.0, 0.0));
+    system.state_mut().0[1].x = 1.0 + 1e-9;
+    let dt = z / 4000.0_f64.sqrt();
+    let error = system.step(&mut Verlet::new(), dt).expect_err("too long");
+    assert_eq!(
+        error.to_string(),
+        "dt 0.03165439937828547 s exceeds the stability limit 0.0316 s \
+         (largest frequency 63.2 rad/s at edge 0-1)"
+    );
+    assert_eq!(system.elapsed_s(), 0.0);
+    system.when_unstable(Unstable::Substep);
+    let report = system.clone().step(&mut Verlet::new(), dt).expect("two");
+    assert_eq!(report.substeps, 2);
+
+    system.when_unstable(Unstable::Allow);
+    run(&mut system, Verlet::new(), dt, 60);
+    let before = system.positions()[1].x - 1.0;
+    run(&mut system, Verlet::new(), dt, 1);
+    near(-(system.positions()[1].x - 1.0) / before, growth, 1e-4);
+    let error = (0..1000).find_map(|_| {
+        let good = system.positions().to_vec();
+        let error = system.step(&mut Verlet::new(), dt).err()?;
+        assert_eq!(system.positions(), good, "the last good state is kept");
+        Some(error)
+    });
+    let Some(StepError::BlowUp { at, .. }) = error else {
+        panic!("{error:?}");
+    };
+    assert!(
+        matches!(at, Culprit::Constraint { ends: [0, 1], stretch_ratio } if stretch_ratio > 100.0)
+    );
+}
+
+/// A light particle between two springs whose far ends are led from a right angle to one side. At a
+/// right angle each direction has one spring: ω² = k/m. Side by side both pull along one line:
+/// 2 k/m. Between them the step is stable before and unstable after.
+fn closing(unstable: Unstable) -> (System, f64) {
+    let (mass, stiffness) = (1e-3, 40.0);
+    let at = [(1.0, 0.0), (0.0, 0.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y, 0.0));
+    let mut system = System::new(at, vec![1.0, mass, 1.0]).expect("a system");
+    for end in [0, 2] {
+        system.stretch([1, end], 1.0, stiffness).expect("a spring");
+    }
+    system.hold(0);
+    let turned = Point::new(1.0, 1e-3, 0.0);
+    let corner = Point::new(1.0, 1.0, 0.0);
+    let way = [(0.0, at[2]), (1.0, corner), (2.0, turned)];
+    system.grab(2, Path::new(way).expect("a path"));
+    system.when_unstable(unstable);
+    let drag_per_s = Some(1.0);
+    let loads = Loads {
+        drag_per_s,
+        ..Loads::default()
+    };
+    system.set_loads(loads).expect("loads");
+    (system, 1.7 / (stiffness / mass).sqrt())
+}
+
+#[test]
+fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
+    let steps = |dt: f64| (4.0 / dt) as usize;
+    let (mut system, dt) = closing(Unstable::Substep);
+    let mut fastest = 0.0_f64;
+    for _ in 0..steps(dt) {
+        system.step(&mut Verlet::new(), dt).expect("a step");
+        fastest = fastest.max(system.velocities()[1].norm());
+    }
+    assert!(fastest < 10.0, "{fastest} m/s, led at 1 m/s");
+
+    let (mut system, dt) = closing(Unstable::Refuse);
+    let error = (0..steps(dt)).find_map(|_| system.step(&mut Verlet::new(), dt).err());
+    let Some(StepError::Unstable { frequency, .. }) = error else {
+        panic!("{error:?}");
+    };
+    assert!(frequency.omega_rad_per_s * dt > 1.89);
+    assert!(system.velocities()[1].norm() < 10.0);
+
+    let (mut system, dt) = closing(Unstable::Allow);
+    let mut fastest = 0.0_f64;
+    for _ in 0..steps(dt) {
+        if system.step(&mut Verlet::new(), dt).is_err() {
+            fastest = f64::INFINITY;
+            break;
+        }
+        fastest = fastest.max(system.velocities()[1].norm());
+    }
+    assert!(fastest > 30.0, "unwatched it shakes: {fastest} m/s");
+}
+
+#[test]
+fn f4_the_bound_is_cheap_and_holds_and_power_iteration_is_better() {
+    for stiffness in [1e2, 1e5] {
+        let mut net = framed(12, stiffness, 0.0);
+        let (bound, omega) = (net.frequency_bound(), net.frequency().omega_rad_per_s);
+        println!("bound {bound}, measured {omega}, ratio {}", omega / bound);
+        assert!(omega < bound && omega > 0.5 * bound);
+        let exact = net.measure_frequency(1e-6, 20_000).omega_rad_per_s;
+        assert!(
+            omega <= exact * (1.0 + 1e-12) && omega > 0.97 * exact,
+            "{omega} {exact}"
+        );
+        // Known until something changes.
+        let counted = net.counters().matrix_products;
+        net.frequency();
+        assert_eq!(net.counters().matrix_products, counted);
+        let id = net.stretches().between(84, 85).expect("a spring");
+        net.set_stiffness(id, 9.0 * stiffness).expect("a stiffness");
+        let stiffer = net.frequency();
+        assert!(stiffer.omega_rad_per_s > 1.2 * omega);
+        assert_eq!(
+            stiffer
+                .ends
+                .map(|ends| net.stretches().between(ends[0], ends[1])),
+            Some(Some(id))
+        );
+        assert!(net.counters().matrix_products > counted);
+        assert!(net.frequency_bound() >= stiffer.omega_rad_per_s);
+    }
+}
+
+#[test]
+fn f5_the_limiter_needs_the_velocity_rewrite_and_says_what_it_did() {
+    // A weight that pulls a soft chain beyond the limit.
+    let heavy = || {
+        let points = (0..11).map(|i| Point::new(0.0, 0.0, -0.1 * f64::from(i)));
+        let mut chain = System::new(points, vec![0.02; 11]).expect("particles");
+        for i in 0..10 {
+            chain.stretch([i, i + 1], 0.1, 50.0).expect("a spring");
+        }
+        chain.hold(0);
+        chain.set_loads(gravity(0.0)).expect("loads");
+        chain
+    };
+    let energy_after = |rewrites_velocities: bool, passes_max: u32| {
+        let limiter = Limiter {
+            passes_max,
+            rewrites_velocities,
+            ..Limiter::default()
+        };
+        let mut chain = heavy();
+        let dt = 0.9 * 2.0 / chain.measure_frequency(1e-6, 10_000).omega_rad_per_s;
+        let mut provot = Provot::new(limiter);
+        for _ in 0..2000 {
+            if chain.step(&mut provot, dt).is_err() {
+                return f64::INFINITY;
+            }
+        }
+        chain.kinetic_energy_j()
+    };
+    for passes in [1, 20] {
+        let (with, without) = (energy_after(true, passes), energy_after(false, passes));
+        println!("kinetic energy with {passes} passes: {with:e} J, not rewritten {without:e} J");
+        assert!(with < 1.0 && without > 10.0 * with);
+    }
+    let mut provot = Provot::default();
+    let mut chain = heavy();
+    run(&mut chain, &mut provot, 0.005, 400);
+    let report = provot.report();
+    assert!(report.passes > 1 && !report.is_infeasible, "{report:?}");
+    assert!(
+        report.stretch_ratio_before > 1.1 && report.excess < 0.1,
+        "{report:?}"
+    );
+
+    // Nails 1.3 m apart, for links of one metre in all.
+    let mut taut = row(10, 0.02, 50.0, 0.1, Vector::new(0.13, 0.0, 0.0));
+    taut.hold(10);
+    run(&mut taut, &mut provot, 0.005, 10);
+    let report = provot.report();
+    assert!(report.is_infeasible && report.passes == 20, "{report:?}");
+    assert!(report.excess > 0.15, "{report:?}");
+}
+
+#[test]
+fn f6_f7_pbd_depends_on_iterations_and_has_no_limit() {
+    let hang = |sweeps: u32, dt: f64, seconds: f64| {
+        let mut chain = chain(2.0);
+        run(&mut chain, Pbd::new(sweeps), dt, (seconds / dt) as usize);
+        -chain.positions()[10].z
+    };
+    let lengths = [1, 5, 20, 200].map(|sweeps| hang(sweeps, 1.0 / 60.0, 20.0));
+    println!("PBD hangs at 60 Hz: {lengths:?}");
+    assert!(
+        lengths
+            .windows(2)
+            .all(|pair| pair[0] > pair[1] && pair[1] > 1.0)
+    );
+    assert!(lengths[0] > 1.05 && lengths[1] < 1.05 && lengths[3] < 1.001);
+
+    // However soft, it gets stiff as the step falls: x = g Δt² (1 − k) / (k (1 + c Δt)).
+    for dt in [1.0 / 60.0, 1.0 / 240.0, 1.0 / 960.0] {
+        let mut weight = row(1, 0.01, 1.0, 1.0, Vector::new(0.0, 0.0, -1.0));
+        weight.set_loads(gravity(5.0)).expect("loads");
+        let soft = Pbd {
+            sweeps: 4,
+            stiffness: 0.01,
+            ..Pbd::default()
+        };
+        run(&mut weight, soft, dt, (20.0 / dt) as usize);
+        let extension = 9.81 * dt * dt * 99.0 / (1.0 + 5.0 * dt);
+        near(-weight.positions()[1].z - 1.0, extension, 1e-12);
+    }
+}
+
+#[test]
+fn f8_xpbd_says_that_it_is_wrong_under_pretension() {
+    // A stiff net in a frame, 2 % pretension, one sweep: the forces do not balance.
+    let (dt, steps) = (1.0 / 60.0, 60);
+    let mut net = framed(8, 1e4, 10.0);
+    net.when_unstable(Unstable::Substep);
+    run(&mut net, Verlet::new(), dt, steps);
+    let verlet = net.positions()[40].z;
+    let wrong = |solver: Xpbd| {
+        let mut net = framed(8, 1e4, 10.0);
+        run(&mut net, solver, dt, steps);
+        let sag = net.positions()[40].z;
+        (solver.residual_n(&net), (sag - verlet).abs() / verlet.abs())
+    };
+    let few = wrong(Xpbd::new(16, 1));
+    let many = wrong(Xpbd::new(1024, 1));
+    println!("residual in N and error with 16 × 1: {few:?}, with 1024 × 1: {many:?}");
+    assert!(few.0 > 1.0 && few.1 > 0.5, "{few:?}");
+    assert!(many.0 < 0.01 * few.0 && many.1 < 0.1 * few.1, "{many:?}");
+}
+
+#[test]
+fn f14_a_light_particle_shortens_the_step() {
+    let mut chain = row(3, 1.0, 100.0, 1.0, Vector::new(1.0, 0.0, 0.0));
+    let before = chain.stable_step_s(2.0);
+    let masses = vec![1.0, 0.01, 1.0, 1.0];
+    let points = chain.positions().to_vec();
+    let mut light = System::new(points, masses).expect("particles");
+    for i in 0..3 {
+        light.stretch([i, i + 1], 1.0, 100.0).expect("a spring");
+    }
+    light.hold(0);
+    let after = light.stable_step_s(2.0);
+    println!(
+        "a hundredth of the mass: the step {} times shorter",
+        before / after
+    );
+    assert!(before / after > 6.0);
+    assert!(light.frequency().ends.is_some_and(|ends| ends.contains(&1)));
+}
+
+#[test]
+fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
+    let points = || (0..3).map(|i| Point::new(f64::from(i), 0.0, 0.0));
+    let error = System::new(points(), vec![1.0, 0.0, 1.0]).expect_err("no mass");
+    assert_eq!(
+        error.to_string(),
+        "particle 1 has the mass 0 kg, which is not positive and finite"
+    );
+    let nan = points().chain([Point::new(0.0, f64::NAN, 0.0)]);
+    let error = System::new(nan, vec![1.0; 4]).expect_err("no number");
+    assert_eq!(
+        error.to_string(),
+        "particle 3 is at (0, NaN, 0), which is not usable"
+    );
+    let error = System::new(points(), vec![1.0]).expect_err("too few");
+    assert_eq!(
+        error,
+        SystemError::Counts {
+            points: 3,
+            masses: 1
+        }
+    );
+    let mut system = System::new(points(), vec![1.0; 3]).expect("particles");
+    for (ends, rest, stiffness) in [
+        ([0, 1], 0.0, 1.0),
+        ([0, 1], 1.0, 0.0),
+        ([0, 1], f64::NAN, 1.0),
+        ([0, 1], 1.0, f64::INFINITY),
+        ([0, 0], 1.0, 1.0),
+        ([0, 3], 1.0, 1.0),
+    ] {
+        let error = system
+            .stretch(ends, rest, stiffness)
+            .expect_err("no spring");
+        let given = Constraint {
+            ends,
+            rest_length_m: rest,
+            stiffness_n_per_m: stiffness,
+        };
+        assert_eq!(
+            format!("{error:?}"),
+            format!("{:?}", SystemError::Constraint { given })
+        );
+        assert!(system.bend(ends, rest, stiffness).is_err());
+    }
+    assert!(system.stretches().is_empty());
+    let wind = Wind {
+        velocity_m_per_s: Vector::x(),
+        coefficient: f64::NAN,
+    };
+    let loads = Loads {
+        wind: Some(wind),
+        ..Loads::default()
+    };
+    let error = system.set_loads(loads).expect_err("no wind");
+    assert_eq!(
+        error.to_string(),
+        "wind.coefficient is NaN, which is not finite, or negative"
+    );
+    for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = system.step(&mut Verlet::new(), dt).expect_err("no step");
+        assert!(matches!(error, StepError::Step { .. }), "{error}");
+    }
+    system.state_mut().1[2].y = f64::NAN;
+    let error = system
+        .step(&mut Xpbd::default(), 0.1)
+        .expect_err("no number");
+    assert_eq!(
+        error.to_string(),
+        "the system blew up after 0 s: particle 2 is not finite; the last good state is kept"
+    );
+    assert!(Path::new([(1.0, Point::origin()), (1.0, Point::origin())]).is_none());
+}
+
+#[test]
+fn loads_do_what_they_say() {
+    // Pushed down on a plane and a ball, a weight ends on them.
+    for (collider, height) in [
+        (
+            Collider::Plane(Plane::new(Point::new(0.0, 0.0, -0.3), Vector::z()).expect("a plane")),
+            -0.3,
+        ),
+        (
+            Collider::Sphere {
+                centre: Point::new(0.0, 0.0, -1.0),
+                radius_m: 0.75,
+            },
+            -0.25,
+        ),
+    ] {
+        let methods: [&mut dyn Solver; 5] = [
+            &mut Verlet::new(),
+            &mut Rk4::new(),
+            &mut Provot::default(),
+            &mut Pbd::default(),
+            &mut Xpbd::default(),
+        ];
+        for method in methods {
+            let mut weight = System::new([Point::origin()], vec![1.0]).expect("a particle");
+            let loads = Loads {
+                colliders: vec![collider],
+                ..gravity(0.0)
+            };
+            weight.set_loads(loads).expect("loads");
+            run(&mut weight, method, 0.01, 200);
+            near(weight.positions()[0].z, height, 1e-12);
+            assert!(weight.velocities()[0].z.abs() < 1e-12);
+            assert!(weight.counters().collider_passes >= 200);
+        }
+    }
+    // A grabbed particle is where its path is, whatever the method.
+    let to = Point::new(0.0, 1.0, 0.0);
+    for method in [
+        &mut Verlet::new() as &mut dyn Solver,
+        &mut Rk4::new(),
+        &mut Xpbd::default(),
+    ] {
+        let mut pair = row(1, 1.0, 10.0, 1.0, Vector::new(1.0, 0.0, 0.0));
+        pair.grab(
+            0,
+            Path::new([(0.5, Point::origin()), (1.5, to)]).expect("a path"),
+        );
+        for _ in 0..200 {
+            pair.step(&mut *method, 0.01).expect("a step");
+            let y = (pair.elapsed_s() - 0.5).clamp(0.0, 1.0);
+            near(pair.positions()[0].y, y, 1e-12);
+        }
+        pair.release(0);
+        run(&mut pair, method, 0.01, 10);
+        assert_ne!(pair.positions()[0], to);
+    }
+}

@@ -1,0 +1,678 @@
+//! A cloth that is split, subdivided and sewn while it moves is the cloth that one would make anew.
+
+use std::collections::BTreeMap;
+
+use tearmesh::subdivide::Plan;
+use tearmesh::{
+    Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split,
+};
+use tearmesh_cloth::implicit::Buckling;
+use tearmesh_cloth::{
+    Bending, Cloth, Constraint, Copies, Fabric, Loads, Rk4, Unbend, Unstable, Verlet, Weave, Xpbd,
+};
+
+use crate::answers::near;
+use crate::random::Random;
+
+/// Edges with their rest length, and apexes across edges, as sets: what a cloth must have.
+fn expected(mesh: &Mesh, cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
+    let rest = |[a, b]: [VertexId; 2]| {
+        (cloth.rest_positions().at(b) - cloth.rest_positions().at(a)).norm()
+    };
+    let mut sets = [BTreeMap::new(), BTreeMap::new()];
+    let mut add = |family: usize, ends: [VertexId; 2]| {
+        let mut key = ends.map(VertexId::index);
+        key.sort_unstable();
+        let lengths: &mut Vec<u64> = sets[family].entry(key).or_default();
+        lengths.push(rest(ends).to_bits());
+    };
+    for h in mesh.edges() {
+        add(0, [mesh.origin(h), mesh.target(h)]);
+        if let Some(pair) = mesh.pair(h) {
+            add(1, [h, pair].map(|h| mesh.origin(mesh.prev(h))));
+        }
+    }
+    sets
+}
+
+/// The same of the constraints that there are.
+fn found(cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
+    [cloth.system().stretches(), cloth.system().bends()].map(|family| {
+        let mut set: BTreeMap<_, Vec<u64>> = BTreeMap::new();
+        for id in family.iter() {
+            let constraint = family.get(id);
+            let mut key = constraint.ends;
+            key.sort_unstable();
+            set.entry(key)
+                .or_default()
+                .push(constraint.rest_length_m.to_bits());
+        }
+        set
+    })
+}
+
+/// Everything that holds of a cloth at all times.
+fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
+    assert_eq!(cloth.indices(), mesh.indices());
+    let system = cloth.system();
+    assert_eq!(system.positions().len(), mesh.vertex_count());
+    let [mut edges, mut across] = expected(mesh, cloth);
+    let [mut have, mut have_across] = found(cloth);
+    // The last bit of a length depends on which end comes first.
+    let close = |set: &mut BTreeMap<[usize; 2], Vec<u64>>| {
+        for lengths in set.values_mut() {
+            for bits in lengths.iter_mut() {
+                *bits = (f64::from_bits(*bits) * 1e9).round() as u64;
+            }
+            lengths.sort_unstable();
+        }
+    };
+    [&mut edges, &mut across, &mut have, &mut have_across]
+        .into_iter()
+        .for_each(close);
+    assert_eq!(have, edges, "stretch constraints");
+    if bends {
+        assert_eq!(have_across, across, "bend constraints");
+    }
+    for h in mesh.half_edges() {
+        let constraint = system.stretches().get(cloth.stretch(h));
+        let mut ends = [mesh.origin(h), mesh.target(h)].map(VertexId::index);
+        let mut given = constraint.ends;
+        ends.sort_unstable();
+        given.sort_unstable();
+        assert_eq!(given, ends, "the constraint of {h}");
+        let edge = cloth.edge(cloth.stretch(h));
+        assert!(
+            edge == h || Some(edge) == mesh.pair(h),
+            "the edge of the constraint of {h}"
+        );
+    }
+    for family in [system.stretches(), system.bends()] {
+        for particle in 0..system.positions().len() {
+            let mut colours: Vec<usize> = family.of(particle).map(|id| family.colour(id)).collect();
+            let count = colours.len();
+            colours.sort_unstable();
+            colours.dedup();
+            assert_eq!(colours.len(), count, "colours at particle {particle}");
+        }
+    }
+    for v in mesh.vertices() {
+        let mass = cloth.masses().at(v).max(cloth.masses().unit());
+        assert_eq!(system.masses()[v.index()], mass);
+        let inverse = if system.is_held(v.index()) {
+            0.0
+        } else {
+            1.0 / mass
+        };
+        assert_eq!(system.inverse_masses()[v.index()], inverse);
+    }
+    assert!(cloth.masses().ledger().is_balanced());
+}
+
+/// Triangles, bit for bit those of a cloth that is made anew of the mesh and the rest positions;
+/// and by definition: at rest warp and weft are unit vectors in the face, warp along the
+/// projection of its direction. Returns how many there are.
+fn check_triangles(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
+    let Some(weave) = fabric.weave else {
+        assert!(cloth.system().triangles().is_empty());
+        assert_eq!(cloth.system().counters().triangle_evaluations, 0);
+        return 0;
+    };
+    let (rest, masses) = (cloth.rest_positions(), cloth.masses().clone());
+    let triangles = cloth.system().triangles();
+    let anew = Cloth::new(mesh, rest, masses, fabric).expect("a cloth made anew");
+    assert_eq!(triangles, anew.system().triangles());
+    assert_eq!(triangles.len(), mesh.face_count());
+    for (f, triangle) in mesh.faces().zip(triangles) {
+        let corners = mesh.corners(f);
+        assert_eq!(triangle.vertices, corners.map(|v| v.index() as u32));
+        let [p, q, r] = corners.map(|v| rest.at(v));
+        let normal = (q - p).cross(&(r - p));
+        near(triangle.area, 0.5 * normal.norm(), 1e-12);
+        let normal = normal.normalize();
+        let warp = (weave.warp - normal * weave.warp.dot(&normal)).normalize();
+        let [w_u, w_v] = triangle.derivatives([p, q, r]);
+        assert!((w_u - warp).norm() < 1e-9, "{w_u} {warp}");
+        assert!((w_v - normal.cross(&warp)).norm() < 1e-9);
+        let [w_u, w_v] = triangle.derivatives(corners.map(|v| cloth.at(v)));
+        let [warp, weft] = cloth.warp_weft_stretch(f);
+        near(warp, w_u.norm(), 1e-9);
+        near(weft, w_v.norm(), 1e-9);
+    }
+    triangles.len()
+}
+
+/// Bends, bit for bit those of a cloth that is made anew of the mesh and the rest positions.
+fn check_bends(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
+    let (rest, masses) = (cloth.rest_positions(), cloth.masses().clone());
+    let anew = Cloth::new(mesh, rest, masses, fabric).expect("a cloth made anew");
+    let all = |cloth: &Cloth| {
+        let bends = cloth.system().bends();
+        let of = |id| {
+            let Constraint {
+                mut ends,
+                rest_length_m,
+                stiffness_n_per_m,
+            } = bends.get(id);
+            ends.sort_unstable();
+            (ends, rest_length_m.to_bits(), stiffness_n_per_m.to_bits())
+        };
+        let mut all: Vec<_> = bends.iter().map(of).collect();
+        all.sort_unstable();
+        all
+    };
+    assert_eq!(cloth.system().buckling(), anew.system().buckling());
+    assert_eq!(all(cloth), all(&anew));
+    all(cloth).len()
+}
+
+/// Σ m v of all that is free, exactly.
+pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
+    let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
+    let system = cloth.system();
+    for (m, v) in system.masses().iter().zip(system.velocities()) {
+        for (sum, v) in sums.iter_mut().zip(v.iter()) {
+            let product = m * v;
+            sum.add(product);
+            sum.add(m.mul_add(*v, -product));
+        }
+    }
+    sums
+}
+
+fn energy(cloth: &Cloth) -> f64 {
+    cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j()
+}
+
+fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
+    Fabric {
+        bend: bend.then_some(Bending::Spring {
+            stiffness_n_per_m: 3.0,
+        }),
+        copies,
+        unbend,
+        ..Fabric::new(50.0)
+    }
+}
+
+/// A cloth in motion, strained and shaken.
+fn shaken(
+    mesh: &Mesh,
+    positions: &tearmesh::Positions,
+    fabric: Fabric,
+    random: &mut Random,
+) -> Cloth {
+    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(mesh, positions, masses, fabric).expect("a cloth");
+    let system = cloth.system_mut();
+    system
+        .set_loads(Loads {
+            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+            ..Loads::default()
+        })
+        .expect("loads");
+    system.when_unstable(Unstable::Substep);
+    let (points, velocities) = system.state_mut();
+    for (p, v) in points.iter_mut().zip(velocities) {
+        let mut next = || random.next() - 0.5;
+        *p += 0.02 * Vector::new(next(), next(), next());
+        *v = Vector::new(next(), next(), next());
+    }
+    cloth
+}
+
+enum Done {
+    Nothing,
+    Split,
+    Insert,
+    Merge,
+    Slide,
+}
+
+/// One random edit.
+fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) -> Done {
+    let mut below = |n: usize| ((random.next() * n as f64) as usize).min(n - 1);
+    match below(6) {
+        0 | 1 => {
+            let v = VertexId::new(below(mesh.vertex_count())).expect("a vertex");
+            let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| below(2) == 0).collect();
+            match split::faces(mesh, v, &faces, edits) {
+                Ok(_) => Done::Split,
+                Err(_) => Done::Nothing,
+            }
+        }
+        2 => {
+            let mut plan = Plan::new();
+            let h = mesh
+                .half_edges()
+                .nth(below(mesh.half_edge_count()))
+                .expect("a half-edge");
+            plan.on_edge(h, 0.2 + 0.6 * below(1000) as f64 / 1000.0);
+            if below(2) == 0 {
+                let f = mesh.faces().nth(below(mesh.face_count())).expect("a face");
+                plan.in_face(f, [0.2, 0.3, 0.5]);
+            }
+            match plan.apply(mesh, edits) {
+                Ok(_) => Done::Insert,
+                Err(_) => Done::Nothing,
+            }
+        }
+        3 => {
+            let h = mesh
+                .half_edges()
+                .nth(below(mesh.half_edge_count()))
+                .expect("a half-edge");
+            let t = 0.01 + 0.2 * below(1000) as f64 / 1000.0;
+            slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
+            Done::Slide
+        }
+        _ => {
+            let stitches = mend::stitches(mesh, |_| true);
+            if stitches.is_empty() {
+                return Done::Nothing;
+            }
+            let stitch = stitches[below(stitches.len())];
+            let weights = [stitch.kept(), stitch.gone()].map(|v| cloth.masses().at(v));
+            match mend::merge(mesh, stitch.kept(), stitch.gone(), weights, edits) {
+                Ok(_) => Done::Merge,
+                Err(_) => Done::Nothing,
+            }
+        }
+    }
+}
+
+#[test]
+fn a_running_cloth_follows_every_edit_as_if_made_anew() {
+    let mut counts = [0; 4];
+    let (mut triangles, mut bends) = (0, 0);
+    for seed in 0..130 {
+        let mut random = Random(seed);
+        let (mut mesh, positions) = match seed % 4 {
+            0 => shapes::grid(3, 3),
+            1 => shapes::fan(7, true),
+            2 => shapes::tube(4, 3),
+            _ => shapes::octahedron(),
+        };
+        let copies = if seed % 3 == 0 {
+            Copies::Whole
+        } else {
+            Copies::Halved
+        };
+        let with_bends = seed % 5 < 3;
+        let unbend = if seed % 5 == 2 {
+            Unbend::Vertex
+        } else {
+            Unbend::Seam
+        };
+        let mut fabric = fabric(copies, unbend, with_bends);
+        // Thirty are of triangles, every second of them without springs along edges.
+        if (60..90).contains(&seed) {
+            fabric.weave = Some(Weave {
+                warp_n_per_m: 60.0,
+                weft_n_per_m: 35.0,
+                shear_n_per_m: 4.0,
+                warp: Vector::new(1.0, 0.3, 0.15),
+            });
+            fabric.stretch_n_per_m *= f64::from(u32::from(seed % 2 == 0));
+        }
+        // The last forty buckle where they bend.
+        if seed >= 90 && with_bends {
+            fabric.bend = Some(Bending::Buckling {
+                flexural_n_m2: 1e-3,
+                law: Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
+            });
+        }
+        let triangles_alone = fabric.stretch_n_per_m == 0.0 && !with_bends;
+        let mut cloth = shaken(&mesh, &positions, fabric, &mut random);
+        let check =
+            |mesh: &Mesh, cloth: &Cloth| check(mesh, cloth, with_bends && unbend == Unbend::Seam);
+        check(&mesh, &cloth);
+        let mut edits = Edits::new();
+        for _ in 0..40 {
+            let (before, ledger) = (energy(&cloth), cloth.ledger());
+            let elastic = cloth.system().elastic_energy_j();
+            let moving = momentum(&cloth);
+            let done = edit(&mut mesh, &cloth, &mut edits, &mut random);
+            edits.replay(&mut cloth);
+            check(&mesh, &cloth);
+            triangles += check_triangles(&mesh, &cloth, fabric);
+            if with_bends && unbend == Unbend::Seam {
+                bends += check_bends(&mesh, &cloth, fabric);
+            }
+            let now = momentum(&cloth);
+            match done {
+                Done::Nothing => continue,
+                Done::Split => {
+                    counts[0] += 1;
+                    assert_eq!(now, moving, "a split keeps momentum bit for bit");
+                    let made = cloth.ledger().split_elastic_j - ledger.split_elastic_j;
+                    assert!(
+                        made == 0.0 || copies == Copies::Whole || with_bends,
+                        "{made}"
+                    );
+                    if triangles_alone {
+                        assert_eq!(cloth.system().elastic_energy_j(), elastic);
+                    }
+                }
+                Done::Insert => {
+                    counts[1] += 1;
+                    if triangles_alone {
+                        near(cloth.system().elastic_energy_j(), elastic, 1e-11 * elastic);
+                    }
+                }
+                Done::Merge => counts[2] += 1,
+                Done::Slide => {
+                    counts[3] += 1;
+                    assert_eq!(now, moving, "a slide keeps momentum bit for bit");
+                }
+            }
+            for (now, moving) in now.iter().zip(&moving) {
+                near(now.to_f64(), moving.to_f64(), 1e-15);
+            }
+            let told = cloth.ledger().total_j() - ledger.total_j();
+            near(energy(&cloth) - before, told, 1e-12 * (1.0 + before));
+
+            // The bound is that of a cloth made anew, or above it.
+            let known = cloth.system_mut().frequency_bound();
+            let measured = cloth.system().clone().measure_frequency(1e-3, 500);
+            assert!(measured.omega_rad_per_s <= known * (1.0 + 1e-12));
+            if random.next() < 0.3 {
+                if fabric.weave.is_some() || cloth.system().buckling().is_some() {
+                    cloth.step(&mut Rk4::new(), 1e-3).expect("a step");
+                } else {
+                    cloth.step(&mut Xpbd::new(1, 1), 1e-3).expect("a step");
+                }
+                check(&mesh, &cloth);
+            }
+        }
+        cloth.system_mut().when_unstable(Unstable::Substep);
+        assert!(mesh.check().is_empty());
+    }
+    println!(
+        "{counts:?} splits, insertions, merges and slides; {triangles} triangles and {bends} bends seen"
+    );
+    assert!(triangles > 10_000 && bends > 10_000, "{triangles} {bends}");
+    assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+}
+
+#[test]
+fn pieces_of_a_face_without_area_fall_and_meet_again() {
+    // The second face is on a line, and weighs three units; its three pieces have nine corners.
+    let points = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [2.0, -1.0, 0.0],
+    ];
+    let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a strip");
+    let positions = tearmesh::Positions::new(points).expect("numbers");
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    let mut edits = Edits::new();
+    let [a, b] = [2, 3].map(|v| VertexId::new(v).expect("a vertex"));
+    let long = mesh.half_edges().find(|&h| {
+        let ends = [mesh.origin(h), mesh.target(h)];
+        ends == [a, b] || ends == [b, a]
+    });
+    let mut plan = Plan::new();
+    plan.on_edge(long.expect("the long edge"), 0.4);
+    plan.on_edge(long.expect("the long edge"), 0.7);
+    plan.apply(&mut mesh, &mut edits).expect("an insertion");
+    edits.replay(&mut cloth);
+    loop {
+        let fan = |v: &VertexId| mesh.faces_of(*v).count() > 1;
+        let Some(v) = mesh.vertices().find(fan) else {
+            break;
+        };
+        let face = mesh.faces_of(v).next().expect("a face");
+        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        edits.replay(&mut cloth);
+    }
+    let light = mesh.vertices().filter(|&v| cloth.masses().at(v) == 0.0);
+    assert!(light.count() > 1, "the pieces have nothing to weigh");
+    assert!(cloth.masses().ledger().is_balanced());
+    let unit = cloth.masses().unit();
+    let mut particles = cloth.system().masses().iter();
+    assert!(particles.all(|&mass| mass >= unit));
+
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+        ..Loads::default()
+    };
+    cloth.system_mut().set_loads(loads).expect("loads");
+    cloth.step(&mut Xpbd::new(1, 1), 0.01).expect("a step");
+    for x in cloth.positions() {
+        near(x.z, -9.81e-4, 1e-9);
+    }
+    // Two that weigh nothing have no velocity in common, if theirs are weighed by masses.
+    let (_, velocities) = cloth.system_mut().state_mut();
+    for (speed, v) in (0..).zip(velocities) {
+        v.z = f64::from(speed);
+    }
+    let stitches = mend::stitches(&mesh, |_| true);
+    let masses = cloth.masses().clone();
+    let weight = |v| masses.at(v);
+    mend::sew(&mut mesh, &cloth, &stitches, weight, 1.0, &mut edits).expect("copies");
+    edits.replay(&mut cloth);
+    assert_eq!(mesh.vertex_count(), 6);
+    assert!(cloth.system().velocities().iter().all(|v| v.norm() < 10.0));
+}
+
+#[test]
+fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
+    let (mesh, positions) = shapes::grid(6, 6);
+    for (copies, unbend) in [
+        (Copies::Halved, Unbend::Seam),
+        (Copies::Whole, Unbend::Vertex),
+    ] {
+        let mut mesh = mesh.clone();
+        let mut cloth = shaken(
+            &mesh,
+            &positions,
+            fabric(copies, unbend, false),
+            &mut Random(1),
+        );
+        let v = VertexId::new(24).expect("the centre");
+        let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
+        let mut edits = Edits::new();
+        let before = cloth.system().elastic_energy_j();
+        let torn: Vec<_> = {
+            let split = split::faces(&mut mesh, v, &faces, &mut edits).expect("a split");
+            split.torn.to_vec()
+        };
+        let extension = |cloth: &Cloth, h| {
+            let constraint = cloth.system().stretches().get(cloth.stretch(h));
+            cloth.system().stretch_ratio(cloth.stretch(h)) * constraint.rest_length_m
+                - constraint.rest_length_m
+        };
+        let made: f64 = torn
+            .iter()
+            .map(|link| 25.0 * extension(&cloth, link.stayed).powi(2))
+            .sum();
+        edits.replay(&mut cloth);
+        assert_eq!(torn.len(), 2);
+        assert!(made > 1e-6);
+        let stiffness = |h| {
+            cloth
+                .system()
+                .stretches()
+                .get(cloth.stretch(h))
+                .stiffness_n_per_m
+        };
+        for link in torn {
+            let each = if copies == Copies::Halved { 25.0 } else { 50.0 };
+            assert_eq!(
+                (stiffness(link.stayed), stiffness(link.moved)),
+                (each, each)
+            );
+        }
+        let answer = if copies == Copies::Halved { 0.0 } else { made };
+        near(cloth.ledger().split_elastic_j, answer, 1e-15);
+        near(cloth.system().elastic_energy_j() - before, answer, 1e-13);
+        // What the split did to the limit is on record.
+        let effect = cloth.effects()[0];
+        assert_eq!((effect.number, effect.vertex), (0, v));
+        assert!(effect.bound_after_rad_per_s >= effect.bound_before_rad_per_s);
+        cloth.step(&mut Xpbd::default(), 0.01).expect("a step");
+        assert!(cloth.effects().is_empty());
+    }
+}
+
+#[test]
+fn a_merge_undoes_a_split_and_pins_are_inherited() {
+    let (mut mesh, positions) = shapes::grid(4, 4);
+    for copies in [Copies::Halved, Copies::Whole] {
+        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+        let mut cloth = Cloth::new(
+            &mesh,
+            &positions,
+            masses,
+            fabric(copies, Unbend::Seam, true),
+        )
+        .expect("a cloth");
+        cloth.system_mut().hold(12);
+        let sets = |cloth: &Cloth| {
+            [cloth.system().stretches(), cloth.system().bends()].map(|family| {
+                let mut all: Vec<_> = family
+                    .iter()
+                    .map(|id| {
+                        let constraint = family.get(id);
+                        let mut ends = constraint.ends;
+                        ends.sort_unstable();
+                        (ends, constraint.stiffness_n_per_m.to_bits())
+                    })
+                    .collect();
+                all.sort_unstable();
+                all
+            })
+        };
+        let before = sets(&cloth);
+        let mut edits = Edits::new();
+        let v = VertexId::new(12).expect("the centre");
+        let faces: Vec<FaceId> = mesh.faces_of(v).take(2).collect();
+        let new = split::faces(&mut mesh, v, &faces, &mut edits)
+            .expect("a split")
+            .new;
+        edits.replay(&mut cloth);
+        assert!(cloth.system().is_held(new.index()));
+        assert_eq!(
+            (
+                cloth.free_mass(new),
+                cloth
+                    .free_mass(VertexId::new(0).expect("a vertex"))
+                    .is_some()
+            ),
+            (None, true)
+        );
+        assert_ne!(sets(&cloth), before);
+        mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
+        edits.replay(&mut cloth);
+        assert_eq!(sets(&cloth), before);
+        assert_eq!(cloth.ledger().total_j(), 0.0);
+    }
+}
+
+#[test]
+fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
+    let (mut mesh, positions) = shapes::grid(2, 2);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let v = VertexId::new(4).expect("the centre");
+    let mut edits = Edits::new();
+    let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
+    let new = split::faces(&mut mesh, v, &faces, &mut edits)
+        .expect("a split")
+        .new;
+    edits.replay(&mut cloth);
+    let pin = cloth.at(new);
+    cloth.system_mut().hold(new.index());
+    let (points, _) = cloth.system_mut().state_mut();
+    points[v.index()] += Vector::new(0.0, 0.0, 2.0);
+    mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
+    edits.replay(&mut cloth);
+    assert!(cloth.system().is_held(v.index()));
+    assert_eq!(cloth.at(v), pin);
+}
+
+#[test]
+#[should_panic(expected = "the constraints of a cloth follow its mesh")]
+fn a_cloth_takes_no_constraint_from_elsewhere() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let _ = cloth.system_mut().bend([0, 2], 0.5, 1.0);
+}
+
+#[test]
+fn a_cloth_that_cannot_be_is_refused_with_ids() {
+    let (mesh, positions) = shapes::grid(1, 1);
+    let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");
+    let error =
+        Cloth::new(&mesh, &positions, masses.clone(), Fabric::new(-1.0)).expect_err("no stiffness");
+    assert_eq!(
+        error.to_string(),
+        "stretch_n_per_m is -1, which makes no positive finite stiffness"
+    );
+    let twice = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
+    let twice = tearmesh::Positions::new(twice).expect("positions");
+    let error = Cloth::new(&mesh, &twice, masses.clone(), Fabric::new(1.0)).expect_err("one place");
+    assert!(
+        error.to_string().ends_with("has the rest length 0 m"),
+        "{error}"
+    );
+    let few = tearmesh::Positions::new([[0.0; 3]]).expect("positions");
+    let error = Cloth::new(&mesh, &few, masses, Fabric::new(1.0)).expect_err("too few");
+    assert_eq!(
+        error.to_string(),
+        "4 vertices have 1 positions and 4 masses"
+    );
+}
+
+#[test]
+fn a_hanging_cloth_is_uploaded_while_it_tears() {
+    let (mut mesh, positions) = shapes::grid(8, 8);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+        drag_per_s: Some(2.0),
+        ..Loads::default()
+    };
+    cloth.system_mut().set_loads(loads).expect("loads");
+    cloth.system_mut().when_unstable(Unstable::Substep);
+    (72..81).for_each(|top| cloth.system_mut().hold(top));
+    let mut edits = Edits::new();
+    let (mut splits, mut buffer, mut tail) = (0, Vec::new(), Vec::new());
+    cloth.write_f32(0, &mut buffer);
+    for _ in 0..60 {
+        cloth.step(&mut Verlet::new(), 1.0 / 120.0).expect("a step");
+        let worst = cloth.overstretched(1.05).max_by(|&a, &b| {
+            let ratio = |h| cloth.system().stretch_ratio(cloth.stretch(h));
+            ratio(a).total_cmp(&ratio(b))
+        });
+        let Some(edge) = worst else { continue };
+        let v = mesh.origin(edge);
+        if cloth.free_mass(v).is_none() {
+            continue;
+        }
+        let plane = tearmesh::Plane::new(cloth.at(v), cloth.at(mesh.target(edge)) - cloth.at(v))
+            .expect("a plane");
+        let old = cloth.positions().len();
+        splits += usize::from(
+            split::by_plane(&mut mesh, v, &plane, cloth.positions(), &mut edits).is_some(),
+        );
+        edits.replay(&mut cloth);
+        edits.clear();
+        cloth.write_f32(old, &mut tail);
+        buffer.extend(&tail);
+        assert_eq!(buffer.len(), mesh.vertex_count());
+        check(&mesh, &cloth, false);
+    }
+    assert!(splits > 3, "{splits}");
+    assert_eq!(cloth.system().counters().wind_evaluations, 0);
+}

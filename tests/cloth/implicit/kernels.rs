@@ -1,0 +1,311 @@
+//! Forces are gradients, Jacobians are derivatives, and clamped ones are semidefinite.
+
+use super::{Scene, order, spring};
+use crate::random::Random;
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::implicit::{Bend, Hessian, Layout, Model, Triangle, triangle};
+
+/// Models of one constraint each, in a general position: name and scene.
+fn specimens() -> Vec<(&'static str, Scene)> {
+    let mut random = Random(5);
+    let mut specimens = Vec::new();
+    let points = |n: usize, size: f64, random: &mut Random| {
+        let point = |_| [0, 1, 2].map(|_| size * (2.0 * random.next() - 1.0));
+        (0..n).map(point).collect::<Vec<[f64; 3]>>()
+    };
+    for (name, part) in [("stretched spring", 0.7), ("compressed spring", 1.4)] {
+        let ends = points(2, 1.0, &mut random);
+        let mut scene = Scene::particles(ends, 1.0);
+        let length = (scene.x[1] - scene.x[0]).norm();
+        scene.springs.push(spring(0, 1, part * length, 3.0));
+        specimens.push((name, scene.clone()));
+        scene.springs[0].tension_only = true;
+        specimens.push((
+            if part < 1.0 {
+                "taut thread"
+            } else {
+                "slack thread"
+            },
+            scene,
+        ));
+    }
+    // d/L well inside the arc, near its ends, in the spring's range, beyond L.
+    for (name, part) in [
+        ("arc, folded", 0.05),
+        ("arc", 0.5),
+        ("arc, nearly flat", 0.97),
+        ("bend before buckling", 0.995),
+        ("bend beyond L", 1.2),
+    ] {
+        let ends = points(2, 1.0, &mut random);
+        let mut scene = Scene::particles(ends, 1.0);
+        let l = (scene.x[1] - scene.x[0]).norm() / part;
+        let bend = Bend::new([0, 1], l, 1.0, 1500.0 / (l * l * l)).expect("stiff enough");
+        scene.bends.push(bend);
+        specimens.push((name, scene));
+    }
+    for (name, size) in [("stretched triangle", 2.0), ("compressed triangle", 0.3)] {
+        let mut scene = Scene::particles(points(3, size, &mut random), 1.0);
+        let material = [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]];
+        let triangle = Triangle::new([0, 1, 2], material, [3.0, 2.0, 0.7]);
+        scene.triangles.push(triangle.expect("it has area"));
+        specimens.push((name, scene));
+    }
+    specimens
+}
+
+/// Internal forces, as one list.
+fn forces(model: &Model<'_>, x: &[Point]) -> Vec<Vector> {
+    let mut out = Vec::new();
+    model.forces(x, &mut out);
+    out
+}
+
+fn moved(x: &[Point], coordinate: usize, by: f64) -> Vec<Point> {
+    let mut x = x.to_vec();
+    x[coordinate / 3][coordinate % 3] += by;
+    x
+}
+
+/// The Hessian as a dense matrix.
+pub(super) fn dense(model: &Model<'_>, x: &[Point], clamp: bool) -> (Vec<Vec<f64>>, u64) {
+    let (mut layout, mut hessian) = (Layout::default(), Hessian::default());
+    layout.follow(model);
+    let clamped = model.hessian(x, &layout, clamp, &mut hessian);
+    let n = 3 * x.len();
+    let columns = (0..n).map(|c| {
+        let mut unit = vec![Vector::zeros(); x.len()];
+        unit[c / 3][c % 3] = 1.0;
+        let mut column = Vec::new();
+        hessian.product(layout.pairs(), &unit, &mut column);
+        column.iter().flat_map(|v| [v.x, v.y, v.z]).collect()
+    });
+    (columns.collect(), clamped)
+}
+
+/// The error of central differences of width h, of the gradient and of its derivative,
+/// relative to the largest force and second derivative.
+fn errors(scene: &Scene, h: f64) -> [f64; 2] {
+    let (model, x) = (scene.model(), &scene.x);
+    let exact = forces(&model, x);
+    let (hessian, _) = dense(&model, x, false);
+    let mut errors = [0.0f64; 2];
+    let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(1e-300f64, |m, x| m.max(x.abs()));
+    let force = largest(&mut exact.iter().flat_map(|v| [v.x, v.y, v.z]));
+    let second = largest(&mut hessian.iter().flatten().copied());
+    for (c, column) in hessian.iter().enumerate() {
+        let (plus, minus) = (moved(x, c, h), moved(x, c, -h));
+        let gradient = (model.energy(&plus) - model.energy(&minus)) / (2.0 * h);
+        errors[0] = errors[0].max((gradient + exact[c / 3][c % 3]).abs() / force);
+        let (plus, minus) = (forces(&model, &plus), forces(&model, &minus));
+        for (r, entry) in column.iter().enumerate() {
+            let difference = (minus[r / 3][r % 3] - plus[r / 3][r % 3]) / (2.0 * h);
+            errors[1] = errors[1].max((difference - entry).abs() / second);
+        }
+    }
+    errors
+}
+
+#[test]
+fn forces_are_gradients_and_jacobians_their_derivatives_to_order_two() {
+    let mut measured = 0;
+    for (name, scene) in specimens() {
+        let (coarse, fine) = (errors(&scene, 1e-3), errors(&scene, 5e-4));
+        for (what, (coarse, fine)) in coarse.into_iter().zip(fine).enumerate() {
+            if fine < 1e-12 {
+                // Nothing acts, or a parabola: differences are exact.
+                continue;
+            }
+            let order = order(coarse, fine);
+            println!(
+                "{name}, derivative {}: {fine:.1e}, order {order:.3}",
+                what + 1
+            );
+            assert!(fine < 1e-3, "{name}, derivative {}: {fine}", what + 1);
+            assert!((order - 2.0).abs() < 0.05, "{name}: order {order}");
+            measured += 1;
+        }
+    }
+    assert!(measured >= 18, "only {measured} orders were measured");
+}
+
+#[test]
+fn internal_forces_sum_to_zero() {
+    for (name, scene) in specimens() {
+        let forces = forces(&scene.model(), &scene.x);
+        let sum: Vector = forces.iter().sum();
+        let size = super::norm(&forces);
+        assert!(sum.norm() <= 4e-16 * size, "{name}: {sum} of {size}");
+        let torque: Vector = forces
+            .iter()
+            .zip(&scene.x)
+            .map(|(f, x)| x.coords.cross(f))
+            .sum();
+        assert!(torque.norm() <= 4e-15 * size, "{name}: torque {torque}");
+    }
+}
+
+/// Whether a Cholesky factor exists: dense, naive.
+pub(super) fn is_definite(mut a: Vec<Vec<f64>>) -> bool {
+    for c in 0..a.len() {
+        if a[c][c] <= 0.0 {
+            return false;
+        }
+        for r in c + 1..a.len() {
+            let factor = a[r][c] / a[c][c];
+            super::matrix::subtract(&mut a, r, c, factor);
+        }
+    }
+    true
+}
+
+#[test]
+fn clamped_jacobians_are_semidefinite_where_exact_ones_are_not() {
+    let mut random = Random(11);
+    let (mut indefinite, mut clamps) = (0, 0);
+    for _ in 0..300 {
+        for (name, mut scene) in specimens() {
+            for p in &mut scene.x {
+                *p += Vector::from_fn(|_, _| random.next() - 0.5);
+            }
+            let shifted = |clamp| {
+                let (mut a, clamped) = dense(&scene.model(), &scene.x, clamp);
+                let largest = a.iter().flatten().fold(1e-3f64, |m, x| m.max(x.abs()));
+                for (i, row) in a.iter_mut().enumerate() {
+                    row[i] += 1e-12 * largest;
+                }
+                (is_definite(a), clamped)
+            };
+            let (definite, none) = shifted(false);
+            assert_eq!(none, 0, "{name}");
+            let (always, clamped) = shifted(true);
+            assert!(always, "{name} is clamped and not semidefinite");
+            assert!(
+                definite || clamped > 0,
+                "{name} is indefinite and nothing was dropped"
+            );
+            indefinite += u32::from(!definite);
+            clamps += clamped;
+        }
+    }
+    println!("{indefinite} indefinite of 3300, {clamps} terms clamped");
+    assert!(indefinite > 500);
+}
+
+#[test]
+fn a_triangles_product_is_that_of_its_clamped_matrix() {
+    let mut random = Random(9);
+    let mut next = || 2.0 * random.next() - 1.0;
+    for _ in 0..200 {
+        let mut scene = Scene::particles((0..3).map(|_| [next(), next(), next()]), 1.0);
+        let material = [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]];
+        let one = Triangle::new([0, 1, 2], material, [3.0, 2.0, 0.7]).expect("it has area");
+        scene.triangles.push(one);
+        let (matrix, _) = dense(&scene.model(), &scene.x, true);
+        let u = [0; 3].map(|_| Vector::new(next(), next(), next()));
+        let corners = [scene.x[0], scene.x[1], scene.x[2]];
+        let product = triangle::stiffness_times(&one, corners, u);
+        let flat: Vec<f64> = u.iter().flat_map(|u| [u.x, u.y, u.z]).collect();
+        for (i, row) in matrix.iter().enumerate() {
+            let entry: f64 = row.iter().zip(&flat).map(|(a, b)| a * b).sum();
+            assert!(
+                (product[i / 3][i % 3] - entry).abs() < 1e-12,
+                "{product:?} {entry}"
+            );
+        }
+    }
+}
+
+#[test]
+fn where_nothing_is_compressed_or_sheared_nothing_is_dropped() {
+    let mut scene = Scene::sheet(3, 0.1, [10.0, 7.0, 2.0]);
+    for x in &mut scene.x {
+        x.x *= 1.1;
+        x.y *= 1.02;
+    }
+    let ((exact, _), (clamped, count)) = (
+        dense(&scene.model(), &scene.x, false),
+        dense(&scene.model(), &scene.x, true),
+    );
+    let apart = exact.iter().flatten().zip(clamped.iter().flatten());
+    let apart = apart.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+    // Shear is rounding here, and its negative half may be dropped.
+    assert!(apart < 1e-13 && count <= 18, "{apart} {count}");
+}
+
+#[test]
+fn bending_is_an_arc() {
+    // Half a circle of length L has its ends 2L/π apart and κ = π/L.
+    let (l, k) = (0.3f64, 0.02f64);
+    let bend = Bend::new([0, 1], l, k, 1e3).expect("stiff enough");
+    let pi = std::f64::consts::PI;
+    let mut scene = Scene::particles([[0.0; 3], [2.0 * l / pi, 0.0, 0.0]], 1.0);
+    scene.bends.push(bend);
+    let curvature = pi / l;
+    // f = k κ² / (cos ½π − sinc ½π), negative: it pushes apart.
+    let truth = k * curvature * curvature / (0.0 - 2.0 / pi);
+    let force = forces(&scene.model(), &scene.x)[0].x;
+    assert!((force / truth - 1.0).abs() < 1e-14, "{force} {truth}");
+    // Energy between two distances of the arc: the difference of ½ k κ² L.
+    let energy = scene.model().energy(&scene.x);
+    scene.x[1].x = 0.0;
+    let more = scene.model().energy(&scene.x) - energy;
+    let truth = 0.5 * k * l * (4.0 - 1.0) * curvature * curvature;
+    assert!((more / truth - 1.0).abs() < 1e-14, "{more} {truth}");
+    // It starts to buckle at Euler's load for this arc, 12 k / L², as c → ∞.
+    let start = bend.buckles_below();
+    let load = 1e3 * (l - start);
+    let euler = 12.0 * k / (l * l);
+    assert!((load / euler - 1.0).abs() < 0.02, "{load} {euler}");
+}
+
+#[test]
+fn bending_energy_is_the_work_of_its_force_across_the_change_over() {
+    let (l, k, c) = (0.3, 0.02, 60.0);
+    let bend = Bend::new([0, 1], l, k, c).expect("stiff enough");
+    let change = bend.buckles_below();
+    assert!(change > 0.5 * l && change < 0.97 * l, "{change}");
+    let at = |d: f64| {
+        let mut scene = Scene::particles([[0.0; 3], [d, 0.0, 0.0]], 1.0);
+        scene.bends.push(bend);
+        let force = forces(&scene.model(), &scene.x)[0].x;
+        (scene.model().energy(&scene.x), force)
+    };
+    // Simpson's rule on both sides of the change-over, where the force has a kink.
+    let work = |from: f64, to: f64| {
+        let n = 200;
+        let h = (to - from) / f64::from(n);
+        let weight = |i: i32| match i {
+            0 => 1.0,
+            i if i == n => 1.0,
+            i => f64::from(2 + 2 * (i % 2)),
+        };
+        let sum: f64 = (0..=n)
+            .map(|i| weight(i) * at(from + h * f64::from(i)).1)
+            .sum();
+        -sum * h / 3.0
+    };
+    let half = 0.5 * l;
+    let total = work(half, change) + work(change, l);
+    let energy = at(half).0;
+    assert!((total / energy - 1.0).abs() < 1e-8, "{total} {energy}");
+    assert!((at(change * (1.0 - 1e-12)).1 / at(change).1 - 1.0).abs() < 1e-9);
+    assert_eq!(at(l), (0.0, 0.0));
+}
+
+#[test]
+fn the_common_polynomial_is_a_fit_of_the_arc_when_multiplied() {
+    let (l, k) = (0.25, 0.6);
+    let bend = Bend::new([0, 1], l, k, 1e7).expect("stiff enough");
+    let mut worst = 0.0f64;
+    for i in 1..1000 {
+        let x = f64::from(i) / 1000.0;
+        let mut scene = Scene::particles([[0.0; 3], [x * l, 0.0, 0.0]], 1.0);
+        scene.bends.push(bend);
+        let force = forces(&scene.model(), &scene.x)[0].x;
+        let fit = (((-11.541 * x + 34.193) * x - 39.083) * x + 23.116) * x - 9.713;
+        worst = worst.max((force / (4.0 * k / (l * l) * fit) - 1.0).abs());
+    }
+    println!("polynomial against arc: {worst:.2e}");
+    assert!(worst < 0.02, "{worst}");
+}

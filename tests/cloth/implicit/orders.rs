@@ -1,0 +1,263 @@
+//! Orders of convergence against a fine solution by Runge and Kutta's method, and what a fixed
+//! tolerance of the solver does to them (F13).
+
+use super::{G, Scene, order, spring};
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::implicit::{Filter, Implicit, Jacobian, Method, Settings, Tolerance};
+
+/// A frame with 2 % pretension and drag, pushed in the middle: smooth and well conditioned.
+fn frame() -> Scene {
+    let mut scene = Scene::sheet(4, 0.05, [20.0, 16.0, 4.0]);
+    for (i, x) in scene.x.iter_mut().enumerate() {
+        let bump = (x.x * (1.0 - x.x)) * (x.y * (1.0 - x.y));
+        scene.v[i] = Vector::new(0.3 * bump, -0.2 * bump, 8.0 * bump);
+        *x = Point::new(1.02 * x.x, 1.02 * x.y, 0.0);
+    }
+    for i in Scene::rim(4) {
+        scene.filters[i] = Filter::Fixed;
+    }
+    scene.springs.push(spring(6, 12, 0.3, 5.0));
+    scene.accelerations.fill(Vector::new(0.0, 0.0, -G));
+    scene.drag = 1.0;
+    scene
+}
+
+/// Runge and Kutta's method of order four.
+fn reference(scene: &Scene, end: f64, steps: u32) -> Vec<Point> {
+    let h = end / f64::from(steps);
+    let mut forces = Vec::new();
+    let mut rate = |x: &[Point], v: &[Vector]| -> Vec<Vector> {
+        scene.model().forces(x, &mut forces);
+        let free = |i: usize| scene.filters[i] == Filter::Free;
+        let one = |i: usize| forces[i] / scene.masses[i] - v[i] * scene.drag;
+        (0..x.len())
+            .map(|i| if free(i) { one(i) } else { Vector::zeros() })
+            .collect()
+    };
+    let along = |x: &[Point], d: &[Vector], h: f64| -> Vec<Point> {
+        x.iter().zip(d).map(|(x, d)| x + d * h).collect()
+    };
+    let also = |x: &[Vector], d: &[Vector], h: f64| -> Vec<Vector> {
+        x.iter().zip(d).map(|(x, d)| x + d * h).collect()
+    };
+    let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+    for _ in 0..steps {
+        let a1 = rate(&x, &v);
+        let v2 = also(&v, &a1, h / 2.0);
+        let a2 = rate(&along(&x, &v, h / 2.0), &v2);
+        let v3 = also(&v, &a2, h / 2.0);
+        let a3 = rate(&along(&x, &v2, h / 2.0), &v3);
+        let v4 = also(&v, &a3, h);
+        let a4 = rate(&along(&x, &v3, h), &v4);
+        for i in 0..x.len() {
+            x[i] += (v[i] + v2[i] * 2.0 + v3[i] * 2.0 + v4[i]) * (h / 6.0);
+            v[i] += (a1[i] + a2[i] * 2.0 + a3[i] * 2.0 + a4[i]) * (h / 6.0);
+        }
+    }
+    x
+}
+
+/// The error of displacements at the end, relative; and the iterations of the solver.
+fn error(scene: &Scene, truth: &[Point], end: f64, steps: u32, settings: &Settings) -> (f64, u64) {
+    let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    for _ in 0..steps {
+        let time_step = end / f64::from(steps);
+        let report = solver.step(&scene.model(), &mut x, &mut v, time_step, settings);
+        let report = report.expect("a step");
+        assert!(report.residual <= report.limit);
+    }
+    let apart: Vec<Vector> = x.iter().zip(truth).map(|(x, t)| x - t).collect();
+    let way: Vec<Vector> = scene.x.iter().zip(truth).map(|(x, t)| x - t).collect();
+    (
+        super::norm(&apart) / super::norm(&way),
+        solver.work().solver_iterations,
+    )
+}
+
+#[test]
+fn backward_euler_is_of_order_one_and_bdf2_of_order_two() {
+    let (scene, end) = (frame(), 0.2);
+    let truth = reference(&scene, end, 2000);
+    let check = reference(&scene, end, 1000);
+    let apart: Vec<Vector> = check.iter().zip(&truth).map(|(x, t)| x - t).collect();
+    assert!(
+        super::norm(&apart) < 1e-9,
+        "the reference has an error of its own"
+    );
+    for (method, newton, p) in [
+        (Method::BackwardEuler, 1, 1.0),
+        (Method::BackwardEuler, 20, 1.0),
+        (Method::Bdf2, 1, 2.0),
+        (Method::Bdf2, 20, 2.0),
+    ] {
+        let settings = Settings {
+            method,
+            newton_iterations_max: newton,
+            ..Settings::default()
+        };
+        let steps = [40, 80, 160, 320];
+        let errors = steps.map(|n| error(&scene, &truth, end, n, &settings).0);
+        let orders: Vec<f64> = errors.windows(2).map(|e| order(e[0], e[1])).collect();
+        println!("{method:?}, {newton} iterations: errors {errors:?} orders {orders:.3?}");
+        for order in &orders[1..] {
+            assert!((order - p).abs() < 0.2, "{method:?}: order {order}");
+        }
+    }
+}
+
+#[test]
+fn dropping_terms_always_costs_bdf2_its_order() {
+    // Squeezed along x, so that what is dropped is not small.
+    let mut scene = frame();
+    for p in &mut scene.x {
+        p.x *= 0.93;
+    }
+    let end = 0.1;
+    let truth = reference(&scene, end, 2000);
+    let run = |jacobian| {
+        let settings = Settings {
+            method: Method::Bdf2,
+            jacobian,
+            ..Settings::default()
+        };
+        let errors = [160, 320].map(|n| error(&scene, &truth, end, n, &settings).0);
+        (errors[1], order(errors[0], errors[1]))
+    };
+    let (exact, clamped) = (run(Jacobian::UnlessIndefinite), run(Jacobian::Clamped));
+    println!("compressed frame, BDF2: exact {exact:.3?}, clamped {clamped:.3?}");
+    assert!((exact.1 - 2.0).abs() < 0.2, "{exact:?}");
+    assert!(clamped.1 < 1.4 && clamped.0 > 4.0 * exact.0, "{clamped:?}");
+}
+
+#[test]
+fn f13_with_a_fixed_tolerance_the_error_rises_as_the_step_falls() {
+    let (scene, end) = (frame(), 0.2);
+    let truth = reference(&scene, end, 2000);
+    let run = |tolerance| {
+        let settings = Settings {
+            method: Method::Bdf2,
+            tolerance,
+            ..Settings::default()
+        };
+        [80, 320, 1280].map(|n| error(&scene, &truth, end, n, &settings))
+    };
+    let fixed = run(Tolerance::Fixed(2e-3));
+    let tied = run(Tolerance::Tied(1.0));
+    println!("fixed: {fixed:?}");
+    println!("tied:  {tied:?}");
+    assert!(fixed[2].0 > 2.0 * fixed[1].0, "{fixed:?}");
+    assert!(
+        tied[1].0 < 0.1 * tied[0].0 && tied[2].0 < 0.1 * tied[1].0,
+        "{tied:?}"
+    );
+}
+
+#[test]
+fn bdf2_keeps_its_order_when_the_step_changes_and_over_a_split() {
+    let scene = frame();
+    let truth = reference(&scene, 0.2, 2000);
+    let run = |steps: u32| {
+        let mut scene = scene.clone();
+        let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+        let mut solver = Implicit::new(&scene.model()).expect("a good model");
+        let settings = Settings {
+            method: Method::Bdf2,
+            ..Settings::default()
+        };
+        // Two lengths of step by turns, 1.4 and 0.6.
+        let length = |step: u32| 0.2 / f64::from(steps) * [1.4, 0.6][step as usize % 2];
+        for step in 0..steps {
+            let h = length(step);
+            let report = solver
+                .step(&scene.model(), &mut x, &mut v, h, &settings)
+                .expect("a step");
+            let euler = step == 0;
+            assert_eq!(report.method == Method::BackwardEuler, euler, "step {step}");
+            if step == steps / 2 {
+                // A particle is added that nothing acts on: history has to go on.
+                x.push(x[7]);
+                v.push(v[7]);
+                scene.masses.push(0.05);
+                scene.filters.push(Filter::Free);
+                scene.accelerations.push(Vector::zeros());
+                solver.split(7);
+            }
+        }
+        let apart: Vec<Vector> = x.iter().zip(&truth).map(|(x, t)| x - t).collect();
+        super::norm(&apart)
+    };
+    let errors = [80, 160, 320].map(run);
+    let orders = [order(errors[0], errors[1]), order(errors[1], errors[2])];
+    println!("uneven steps: {errors:?} orders {orders:.3?}");
+    assert!((orders[1] - 2.0).abs() < 0.2);
+}
+
+#[test]
+fn a_copy_on_which_the_same_acts_flies_as_its_original() {
+    let mut scene = Scene::particles([[5.0, 0.0, 1.0], [0.0; 3]], 0.1);
+    scene.accelerations.fill(Vector::new(0.0, 0.0, -G));
+    scene.drag = 0.7;
+    let (mut x, mut v) = (
+        scene.x.clone(),
+        vec![Vector::x(), Vector::new(0.0, 3.0, 1.0)],
+    );
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    let settings = Settings {
+        method: Method::Bdf2,
+        ..Settings::default()
+    };
+    for step in 0..20 {
+        let report = solver
+            .step(&scene.model(), &mut x, &mut v, 0.01, &settings)
+            .expect("a step");
+        assert_eq!(report.method == Method::Bdf2, step > 0);
+        if step == 9 {
+            x.push(x[1]);
+            v.push(v[1]);
+            scene.masses.push(0.1);
+            scene.filters.push(Filter::Free);
+            scene.accelerations.push(scene.accelerations[1]);
+            solver.split(1);
+        }
+    }
+    assert_eq!((x[2], v[2]), (x[1], v[1]));
+}
+
+/// A wall moves along its normal as it likes; what slides on it moves along it as if there were none.
+#[test]
+fn what_slides_on_a_wall_keeps_to_it_and_moves_along_it_as_if_free() {
+    let normal = Vector::new(1.0, 2.0, -2.0) / 3.0;
+    let along = [
+        Vector::new(2.0, -2.0, -1.0) / 3.0,
+        Vector::new(2.0, 1.0, 2.0) / 3.0,
+    ];
+    for filter in [Filter::Plane(normal), Filter::Line(along[0])] {
+        let mut scene = Scene::particles([[0.0; 3]; 2], 0.1);
+        scene.filters[0] = filter;
+        scene.accelerations.fill(Vector::new(0.3, 0.0, -G));
+        scene.drag = 0.7;
+        let (mut x, mut v) = (scene.x.clone(), vec![along[0] - along[1] * 0.5; 2]);
+        v[0] = filter.apply(v[0]);
+        let mut solver = Implicit::new(&scene.model()).expect("a good model");
+        let settings = Settings {
+            method: Method::Bdf2,
+            ..Settings::default()
+        };
+        let (mut way, mut worst) = (0.0, 0.0_f64);
+        for step in 0..20 {
+            let h = [0.014, 0.006][step as usize % 2];
+            let speed = (1.0 + f64::from(step)).sin();
+            let change = speed - normal.dot(&v[0]);
+            v[0] += normal * change;
+            way += h * speed;
+            solver
+                .step(&scene.model(), &mut x, &mut v, h, &settings)
+                .expect("a step");
+            let apart = filter.apply(x[0] - x[1]).norm();
+            worst = worst.max((normal.dot(&x[0].coords) - way).abs().max(apart));
+        }
+        println!("{filter:?}: off by up to {worst:e} m");
+        assert!(worst < 1e-14, "{worst}");
+    }
+}

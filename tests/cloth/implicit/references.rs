@@ -1,0 +1,374 @@
+//! Where an answer is known, it is met: R1 to R4, R6c, R8 to R10 of the reference answers.
+
+use super::{G, Scene, kernels::dense, spring};
+use tearmesh::Vector;
+use tearmesh_cloth::implicit::{
+    Filter, Implicit, Method, RestSettings, Settings, Tolerance, Triangle, damping,
+};
+
+fn settings(method: Method) -> Settings {
+    Settings {
+        method,
+        tolerance: Tolerance::Fixed(1e-13),
+        ..Settings::default()
+    }
+}
+
+/// R1: m = .01 kg on k = 40 N/m, along its axis.
+fn oscillator() -> Scene {
+    let mut scene = Scene::chain(1, 0.01, 40.0, 1.0);
+    scene.accelerations.fill(Vector::zeros());
+    scene.x[1].z -= 0.125;
+    scene
+}
+
+#[test]
+fn r1_backward_euler_damps_an_oscillator_by_the_closed_form() {
+    let scene = oscillator();
+    let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+    let omega2 = 40.0 / 0.01;
+    // For this linear system the quantity v² + ω² u² falls by 1/(1 + z²) in every step.
+    let size = |x: &[tearmesh::Point], v: &[Vector]| {
+        let u = x[1].z + 1.0;
+        (v[1].z * v[1].z + omega2 * u * u).sqrt()
+    };
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    for step in 0..60 {
+        let before = size(&x, &v);
+        let euler = settings(Method::BackwardEuler);
+        solver
+            .step(&scene.model(), &mut x, &mut v, 0.01, &euler)
+            .expect("a step");
+        let factor = size(&x, &v) / before;
+        let exact = 0.845_154_254_728_517;
+        assert!((factor - exact).abs() < 1e-11, "step {step}: {factor}");
+    }
+    let factor = damping::factor(Method::BackwardEuler, 63.245_553_203_367_6 * 0.01);
+    assert!((factor - 0.845_154_254_728_517).abs() < 1e-15, "{factor}");
+}
+
+#[test]
+fn r1_bdf2_damps_an_oscillator_by_the_root_of_its_polynomial() {
+    let scene = oscillator();
+    let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+    let omega = 63.245_553_203_367_6;
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    let mut sizes = Vec::new();
+    for _ in 0..80 {
+        let u = x[1].z + 1.0;
+        sizes.push((v[1].z * v[1].z + omega * omega * u * u).sqrt());
+        let bdf2 = settings(Method::Bdf2);
+        solver
+            .step(&scene.model(), &mut x, &mut v, 0.005, &bdf2)
+            .expect("a step");
+    }
+    // The other root dies out at once (its modulus is about 1/3).
+    let factor = (sizes[79] / sizes[49]).powf(1.0 / 30.0);
+    let closed = damping::factor(Method::Bdf2, omega * 0.005);
+    println!("BDF2 factor {factor}, closed form {closed}");
+    assert!((factor - closed).abs() < 1e-12, "{factor} {closed}");
+}
+
+#[test]
+fn r2_a_hanging_chain_has_its_length_at_every_time_step() {
+    for method in [Method::BackwardEuler, Method::Bdf2] {
+        for (time_step, steps) in [(1.0, 60), (0.1, 200), (1.0 / 60.0, 600), (1e-3, 5000)] {
+            let mut scene = Scene::chain(10, 0.01, 50.0, 0.1);
+            scene.drag = 20.0;
+            let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+            let mut solver = Implicit::new(&scene.model()).expect("a good model");
+            for _ in 0..steps {
+                let settings = settings(method);
+                solver
+                    .step(&scene.model(), &mut x, &mut v, time_step, &settings)
+                    .expect("a step");
+            }
+            let length = -x[10].z;
+            assert!(
+                (length - 1.10791).abs() < 1e-10,
+                "{method:?} {time_step}: {length}"
+            );
+        }
+    }
+    let mut scene = Scene::chain(10, 0.01, 50.0, 0.1);
+    let mut x = scene.x.clone();
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    solver
+        .rest(&scene.model(), &mut x, &RestSettings::default())
+        .expect("it hangs");
+    assert!((x[10].z + 1.10791).abs() < 1e-11, "{}", x[10].z);
+    // And from far off: folded up sideways.
+    for (i, x) in scene.x.iter_mut().enumerate().skip(1) {
+        *x = tearmesh::Point::new(0.03 * i as f64, if i % 2 == 0 { 0.05 } else { 0.0 }, 0.01);
+    }
+    let mut x = scene.x.clone();
+    let report = solver
+        .rest(&scene.model(), &mut x, &RestSettings::default())
+        .expect("it falls");
+    println!("folded chain: {report:?}");
+    assert!((x[10].z + 1.10791).abs() < 1e-11, "{}", x[10].z);
+}
+
+/// 31 particles between two pins, pitch a, springs of rest length l0; free along `axis`.
+fn strung(pitch: f64, rest_length: f64, axis: Vector) -> Scene {
+    let points = (0..33).map(|i| [pitch * f64::from(i), 0.0, 0.0]);
+    let mut scene = Scene::particles(points, 0.02);
+    scene.springs = (0..32)
+        .map(|i| spring(i, i + 1, rest_length, 1000.0))
+        .collect();
+    scene.filters.fill(Filter::Line(axis));
+    scene.filters[0] = Filter::Fixed;
+    scene.filters[32] = Filter::Fixed;
+    scene
+}
+
+/// ω of the mode sin(j π i / 32), from the product of the matrix and the mode.
+fn frequency(scene: &Scene, axis: Vector, j: u32) -> f64 {
+    let (hessian, _) = dense(&scene.model(), &scene.x, false);
+    let shape = |i: usize| (f64::from(j) * std::f64::consts::PI * i as f64 / 32.0).sin();
+    let c = if axis == Vector::x() { 0 } else { 2 };
+    let (mut above, mut below) = (0.0, 0.0);
+    for i in 1..32 {
+        let force: f64 = (1..32)
+            .map(|k| hessian[3 * k + c][3 * i + c] * shape(k))
+            .sum();
+        above += shape(i) * force;
+        below += 0.02 * shape(i) * shape(i);
+    }
+    // Rayleigh's quotient alone would also be right for what is no mode.
+    let omega2: f64 = above / below;
+    for i in 1..32 {
+        let force: f64 = (1..32)
+            .map(|k| hessian[3 * k + c][3 * i + c] * shape(k))
+            .sum();
+        assert!(
+            (force - omega2 * 0.02 * shape(i)).abs() < 1e-9,
+            "mode {j} at {i}"
+        );
+    }
+    omega2.sqrt()
+}
+
+#[test]
+fn r3_and_r4_modes_of_a_chain_and_of_a_string() {
+    let pitch = 1.0 / 32.0;
+    let along = strung(pitch, pitch, Vector::x());
+    for j in 1..32 {
+        let closed = 2.0 * 50_000.0_f64.sqrt() * (f64::from(j) * std::f64::consts::PI / 64.0).sin();
+        let omega = frequency(&along, Vector::x(), j);
+        assert!(
+            (omega / closed - 1.0).abs() < 1e-12,
+            "{j}: {omega} {closed}"
+        );
+    }
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+    assert!(near(frequency(&along, Vector::x(), 1), 21.943_731_058_786));
+    assert!(near(frequency(&along, Vector::x(), 31), 446.674_907_138_54));
+    let across = strung(pitch, 0.03, Vector::z());
+    assert!(near(
+        frequency(&across, Vector::z(), 1),
+        4.388_746_211_757_1
+    ));
+    assert!(near(
+        frequency(&across, Vector::z(), 2),
+        8.766_919_549_481_3
+    ));
+
+    // The slowest of them, as the solver finds it.
+    for (scene, truth) in [(along, 21.943_731_058_786), (across, 4.388_746_211_757_1)] {
+        let mut solver = Implicit::new(&scene.model()).expect("a good model");
+        let slowest = solver
+            .slowest_frequency(&scene.model(), &scene.x, 0.0)
+            .expect("good");
+        let slowest = slowest.expect("a stable state");
+        println!("slowest {slowest:?}");
+        assert!(slowest.converged);
+        assert!(
+            (slowest.frequency / truth - 1.0).abs() < 1e-9,
+            "{}",
+            slowest.frequency
+        );
+    }
+}
+
+#[test]
+fn r6c_elastic_links_between_two_pins() {
+    let points = (0..17).map(|i| [f64::from(i) / 16.0, 0.0, 0.0]);
+    let mut scene = Scene::particles(points, 0.01);
+    scene.springs = (0..16).map(|i| spring(i, i + 1, 0.08, 200.0)).collect();
+    scene.accelerations.fill(Vector::new(0.0, 0.0, -G));
+    scene.filters[0] = Filter::Fixed;
+    scene.filters[16] = Filter::Fixed;
+    let mut x = scene.x.clone();
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    let report = solver
+        .rest(&scene.model(), &mut x, &RestSettings::default())
+        .expect("it rests");
+    println!("R6c: {report:?}");
+    assert!(
+        (x[8].z + 0.390_722_835_980_581_3).abs() < 1e-10,
+        "sag {}",
+        x[8].z
+    );
+    let mut forces = Vec::new();
+    scene.model().forces(&x, &mut forces);
+    assert!(
+        (forces[0].x - 0.441_288_464_343_035_3).abs() < 1e-10,
+        "pull {}",
+        forces[0].x
+    );
+}
+
+/// The stiffness per area of a patch against strain (εx, εy, γ), from the matrix and affine
+/// displacements: [C11, C12, C13; C21, …].
+fn moduli(scene: &Scene, area: f64) -> [[f64; 3]; 3] {
+    let (hessian, _) = dense(&scene.model(), &scene.x, false);
+    let strain = |mode: usize| -> Vec<f64> {
+        let of = |p: &tearmesh::Point| match mode {
+            0 => [p.x, 0.0, 0.0],
+            1 => [0.0, p.y, 0.0],
+            _ => [0.5 * p.y, 0.5 * p.x, 0.0],
+        };
+        scene.x.iter().flat_map(of).collect()
+    };
+    [0, 1, 2].map(|a| {
+        [0, 1, 2].map(|b| {
+            let (a, b) = (strain(a), strain(b));
+            let rows = hessian.iter().zip(&a);
+            let sum = rows.map(|(row, a)| a * row.iter().zip(&b).map(|(h, b)| h * b).sum::<f64>());
+            sum.sum::<f64>() / area
+        })
+    })
+}
+
+/// `E_x`, ν and γ / εx under tension along x.
+fn under_tension(c: [[f64; 3]; 3]) -> [f64; 3] {
+    let strain = super::matrix::solve(c.map(Vec::from).to_vec(), vec![1.0, 0.0, 0.0]);
+    [
+        1.0 / strain[0],
+        -strain[1] / strain[0],
+        strain[2] / strain[0],
+    ]
+}
+
+#[test]
+fn r8_moduli_of_nets_and_of_the_triangle() {
+    // One triangle carries half of each spring at its edges.
+    let height = 0.75f64.sqrt();
+    let mut net = Scene::particles([[0.0; 3], [1.0, 0.0, 0.0], [0.5, height, 0.0]], 1.0);
+    net.springs = [[0, 1], [1, 2], [2, 0]]
+        .map(|[a, b]| spring(a, b, 1.0, 500.0))
+        .to_vec();
+    let [e, nu, coupling] = under_tension(moduli(&net, 0.5 * height));
+    println!("equilateral net: E {e}, nu {nu}, coupling {coupling}");
+    assert!((e - 1_154.700_538_379_25).abs() < 1e-9, "{e}");
+    assert!((nu - 1.0 / 3.0).abs() < 1e-13 && coupling.abs() < 1e-12);
+
+    // A cell with one diagonal; its sides are shared with the neighbours.
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    let mut net = Scene::particles(corners, 1.0);
+    net.springs = [[0, 1], [2, 3], [0, 2], [1, 3]]
+        .map(|[a, b]| spring(a, b, 1.0, 500.0))
+        .to_vec();
+    net.springs.push(spring(0, 3, 2.0f64.sqrt(), 1000.0));
+    let [e, nu, coupling] = under_tension(moduli(&net, 1.0));
+    println!("right-triangle net: E {e}, nu {nu}, coupling {coupling}");
+    assert!((e - 1000.0).abs() < 1e-9 && nu.abs() < 1e-13 && (coupling + 1.0).abs() < 1e-12);
+
+    // The triangle's own: k_u, k_v and k_s, whatever its shape and size.
+    let material = [[0.3, 0.1], [0.9, -0.2], [0.5, 0.7]];
+    let mut one = Scene::particles(material.map(|[u, v]| [u, v, 0.0]), 1.0);
+    let triangle = Triangle::new([0, 1, 2], material, [1000.0, 300.0, 70.0]).expect("area");
+    one.triangles.push(triangle);
+    let c = moduli(&one, triangle.area);
+    let truth = [[1000.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 70.0]];
+    for (c, truth) in c.iter().flatten().zip(truth.iter().flatten()) {
+        assert!((c - truth).abs() < 1e-10, "{c} {truth}");
+    }
+    // And at any strain: pulled to λ, a width of one carries k_u (λ − 1).
+    let mut sheet = Scene::sheet(3, 1.0, [1000.0, 300.0, 70.0]);
+    for p in &mut sheet.x {
+        p.x *= 1.7;
+    }
+    let mut forces = Vec::new();
+    sheet.model().forces(&sheet.x, &mut forces);
+    let pull: f64 = (0..16).filter(|i| i % 4 == 0).map(|i| forces[i].x).sum();
+    assert!((pull - 700.0).abs() < 1e-10, "{pull}");
+}
+
+#[test]
+fn r9_free_fall_is_the_sum_of_the_steps_and_strains_nothing() {
+    for (method, newton) in [
+        (Method::BackwardEuler, 1),
+        (Method::BackwardEuler, 9),
+        (Method::Bdf2, 1),
+    ] {
+        let mut scene = Scene::sheet(4, 0.01, [1000.0, 1000.0, 100.0]);
+        scene.springs.push(spring(0, 1, 0.25, 500.0));
+        scene.accelerations.fill(Vector::new(0.0, 0.0, -G));
+        let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+        let mut solver = Implicit::new(&scene.model()).expect("a good model");
+        let settings = Settings {
+            newton_iterations_max: newton,
+            ..Settings {
+                method,
+                ..Settings::default()
+            }
+        };
+        for _ in 0..60 {
+            solver
+                .step(&scene.model(), &mut x, &mut v, 1.0 / 60.0, &settings)
+                .expect("a step");
+        }
+        for (now, then) in x.iter().zip(&scene.x) {
+            assert!((now.x - then.x).abs() < 1e-12 && (now.y - then.y).abs() < 1e-12);
+            assert!((now.z - x[0].z).abs() < 1e-12, "strain");
+            // BDF2 is exact for a parabola but for its first step, which is Euler's.
+            match method {
+                Method::BackwardEuler => assert!((now.z + 4.986_75).abs() < 1e-11, "{}", now.z),
+                Method::Bdf2 => assert!((now.z + 4.905).abs() < 0.003, "{}", now.z),
+            }
+        }
+        println!("R9 {method:?}: {}, {:?}", x[0].z, solver.work());
+    }
+}
+
+#[test]
+fn r10_a_rotating_pair_keeps_its_distance() {
+    // Both particles circle at radius r where the spring balances: k (2r − 1) = m ω² r.
+    let r = 0.526_315_789_473_684_2;
+    let run = |steps: u32| {
+        let mut scene = Scene::particles([[-r, 0.0, 0.0], [r, 0.0, 0.0]], 0.1);
+        scene.springs.push(spring(0, 1, 1.0, 100.0));
+        scene.v = vec![
+            Vector::new(0.0, -10.0 * r, 0.0),
+            Vector::new(0.0, 10.0 * r, 0.0),
+        ];
+        let mut forces = Vec::new();
+        scene.model().forces(&scene.x, &mut forces);
+        assert!((forces[0].x - 0.1 * 100.0 * r).abs() < 1e-13);
+        let energy = |x: &[tearmesh::Point], v: &[Vector]| {
+            scene.model().energy(x) + 0.05 * (v[0].dot(&v[0]) + v[1].dot(&v[1]))
+        };
+        let start = energy(&scene.x, &scene.v);
+        assert!((start - 2.908_587_257_617_729).abs() < 1e-14, "{start}");
+        let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+        let mut solver = Implicit::new(&scene.model()).expect("a good model");
+        for _ in 0..steps {
+            let time_step = 0.5 / f64::from(steps);
+            let bdf2 = settings(Method::Bdf2);
+            solver
+                .step(&scene.model(), &mut x, &mut v, time_step, &bdf2)
+                .expect("a step");
+        }
+        let distance = ((x[1] - x[0]).norm() / 2.0 - r).abs();
+        [distance, (energy(&x, &v) - start).abs()]
+    };
+    let (coarse, fine) = (run(2000), run(4000));
+    println!("R10: {coarse:?} {fine:?}");
+    assert!(fine[0] < 1e-5 && fine[1] < 1e-4);
+    assert!(
+        fine[0] < 0.3 * coarse[0] && fine[1] < 0.3 * coarse[1],
+        "order two at least"
+    );
+}

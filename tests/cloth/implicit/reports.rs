@@ -1,0 +1,333 @@
+//! What a user is told: indefinite matrices (F12), numerical damping (F10), failures that
+//! leave the state as it was, and work.
+
+use super::{Scene, spring};
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::implicit::{
+    Filter, Implicit, Jacobian, Method, ModelError, Part, RestError, RestSettings, Settings,
+    StepError, StepReport, Tolerance, damping,
+};
+
+/// F12: one free particle between two compressed springs, k = 1e3, m = .01, L₀ = .1, l = .095.
+fn squeezed() -> Scene {
+    let points = [[-0.095, 0.0, 0.0], [0.0; 3], [0.095, 0.0, 0.0]];
+    let mut scene = Scene::particles(points, 0.01);
+    scene.filters[0] = Filter::Fixed;
+    scene.filters[2] = Filter::Fixed;
+    scene.springs = vec![spring(0, 1, 0.1, 1e3), spring(1, 2, 0.1, 1e3)];
+    scene
+}
+
+type Outcome = Result<StepReport, StepError>;
+
+/// One step from the start, and the positions and velocities after it.
+fn one(scene: &Scene, time_step: f64, settings: &Settings) -> (Outcome, Vec<Point>, Vec<Vector>) {
+    let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    (
+        solver.step(&scene.model(), &mut x, &mut v, time_step, settings),
+        x,
+        v,
+    )
+}
+
+#[test]
+fn f12_the_threshold_of_indefiniteness_is_the_closed_form() {
+    let exact = Settings {
+        jacobian: Jacobian::Exact,
+        ..Settings::default()
+    };
+    for drag in [0.0, 3.0] {
+        let scene = Scene { drag, ..squeezed() };
+        let (mut low, mut high) = (1e-3, 1e-1);
+        for _ in 0..70 {
+            let middle = 0.5 * (low + high);
+            match one(&scene, middle, &exact).0 {
+                Ok(report) => {
+                    assert_eq!((report.indefinite, report.clamped), (0, 0));
+                    low = middle;
+                }
+                Err(StepError::Indefinite { time_step_s }) => {
+                    assert_eq!(time_step_s, middle);
+                    high = middle;
+                }
+                Err(other) => panic!("{other}"),
+            }
+        }
+        // With drag c: m (1 + c Δt) = Δt² q, q = 2k (L₀/l − 1).
+        let (m, q) = (0.01, 2e3 * (0.1 / 0.095 - 1.0));
+        let closed = (drag * m + (drag * m * drag * m + 4.0 * m * q).sqrt()) / (2.0 * q);
+        println!("F12: indefinite from {high:.17e} s, closed form {closed:.17e}");
+        assert!((high / closed - 1.0).abs() < 1e-13, "{high} {closed}");
+        if drag == 0.0 {
+            assert!(
+                (high / 9.746_794_344_808_97e-3 - 1.0).abs() < 1e-13,
+                "{high}"
+            );
+        }
+    }
+}
+
+#[test]
+fn f12_terms_are_dropped_only_where_the_matrix_is_indefinite_and_counted() {
+    let mut scene = squeezed();
+    scene.x[1].y = 1e-4;
+    let step = |time_step, jacobian| {
+        let settings = Settings {
+            jacobian,
+            ..Settings::default()
+        };
+        one(&scene, time_step, &settings).0
+    };
+    let counts = |r: Outcome| r.map(|r| (r.indefinite, r.clamped, r.work.hessian_evaluations));
+    assert_eq!(
+        counts(step(9e-3, Jacobian::UnlessIndefinite)),
+        Ok((0, 0, 1))
+    );
+    assert_eq!(
+        counts(step(11e-3, Jacobian::UnlessIndefinite)),
+        Ok((1, 2, 2))
+    );
+    assert_eq!(counts(step(9e-3, Jacobian::Clamped)), Ok((0, 2, 1)));
+    assert!(matches!(
+        step(11e-3, Jacobian::Exact),
+        Err(StepError::Indefinite { .. })
+    ));
+}
+
+#[test]
+fn f12_newton_converges_beyond_the_threshold_and_reports_its_halvings() {
+    // Nearly on the ridge, with a step ten times beyond the threshold: it has to buckle.
+    let mut scene = squeezed();
+    scene.x[1].y = 1e-5;
+    scene.drag = 1.0;
+    let settings = Settings {
+        newton_iterations_max: 60,
+        tolerance: Tolerance::Fixed(1e-12),
+        ..Settings::default()
+    };
+    let (report, x, v) = one(&scene, 0.1, &settings);
+    let report = report.expect("Newton's method converges");
+    println!("F12 Newton: {report:?}");
+    assert!(report.indefinite > 0 && report.clamped > 0 && report.halvings > 0);
+    assert!(report.residual <= report.limit);
+    // The equation itself, with forces computed here.
+    let l = (0.095f64 * 0.095 + x[1].y * x[1].y).sqrt();
+    let force = -2e3 * (l - 0.1) * x[1].y / l;
+    let change = 0.01 * v[1].y - 0.1 * (force - 0.01 * v[1].y);
+    assert!(change.abs() < 1e-12, "{change}");
+    assert!((x[1].y - 1e-5 - 0.1 * v[1].y).abs() < 1e-15);
+    assert!(x[1].y.abs() > 0.03, "it buckled: {}", x[1].y);
+    // Too few iterations: an error with the residual, and nothing is moved.
+    let few = Settings {
+        newton_iterations_max: 2,
+        ..settings
+    };
+    let (refused, x, v) = one(&scene, 0.1, &few);
+    let Err(StepError::NotConverged {
+        residual,
+        limit,
+        newton_iterations,
+        solver_iterations,
+    }) = refused
+    else {
+        panic!("{refused:?}");
+    };
+    assert_eq!(newton_iterations, 2);
+    assert!(solver_iterations >= 2);
+    assert!(residual > limit && (limit - 1e-12).abs() < 1e-25);
+    assert_eq!((x, v), (scene.x.clone(), scene.v.clone()));
+}
+
+#[test]
+fn steps_that_fail_leave_everything_as_it_was() {
+    let scene = super::matrix::crumpled(3, 5);
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    let (mut x, mut v) = (scene.x.clone(), scene.v.clone());
+    let bdf2 = Settings {
+        method: Method::Bdf2,
+        ..Settings::default()
+    };
+    let mut twin = solver.clone();
+    solver
+        .step(&scene.model(), &mut x, &mut v, 0.01, &bdf2)
+        .expect("a step");
+    let (good_x, good_v) = (x.clone(), v.clone());
+    let starved = Settings {
+        solver_iterations_max: 1,
+        tolerance: Tolerance::Fixed(1e-12),
+        ..bdf2
+    };
+    let refused = solver.step(&scene.model(), &mut x, &mut v, 0.01, &starved);
+    assert!(
+        matches!(refused, Err(StepError::NotConverged { .. })),
+        "{refused:?}"
+    );
+    for given in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = solver.step(&scene.model(), &mut x, &mut v, given, &bdf2);
+        assert!(matches!(refused, Err(StepError::TimeStep { .. })));
+    }
+    x[3].y = f64::NAN;
+    let refused = solver.step(&scene.model(), &mut x, &mut v, 0.01, &bdf2);
+    let bad = ModelError::Unusable {
+        part: Part::Position,
+        index: 3,
+    };
+    assert_eq!(refused, Err(StepError::Model(bad)));
+    x[3].y = good_x[3].y;
+    v[4].z = f64::INFINITY;
+    let refused = solver.step(&scene.model(), &mut x, &mut v, 0.01, &bdf2);
+    let bad = ModelError::Unusable {
+        part: Part::Velocity,
+        index: 4,
+    };
+    assert_eq!(refused, Err(StepError::Model(bad)));
+    v[4].z = good_v[4].z;
+    assert_eq!((&x, &v), (&good_x, &good_v));
+    // History too: the next step is what it would have been.
+    solver
+        .step(&scene.model(), &mut x, &mut v, 0.01, &bdf2)
+        .expect("a step");
+    let (mut other_x, mut other_v) = (scene.x.clone(), scene.v.clone());
+    for _ in 0..2 {
+        twin.step(&scene.model(), &mut other_x, &mut other_v, 0.01, &bdf2)
+            .expect("a step");
+    }
+    assert_eq!((x, v), (other_x, other_v));
+    // A particle that would leave the world.
+    let mut far = Scene::particles([[0.0; 3], [1e75, 0.0, 0.0]], 1.0);
+    far.v[1].x = 1e75;
+    let (refused, x, v) = one(&far, 10.0, &Settings::default());
+    assert_eq!(refused.err(), Some(StepError::NotFinite { particle: 1 }));
+    assert_eq!((x, v), (far.x, far.v));
+}
+
+#[test]
+fn a_state_that_does_not_rest_is_an_error_and_keeps_its_positions() {
+    // Nothing holds it: it falls for ever.
+    let mut scene = super::matrix::crumpled(2, 6);
+    scene.accelerations.fill(Vector::new(0.0, 0.0, -9.81));
+    let mut x = scene.x.clone();
+    let mut solver = Implicit::new(&scene.model()).expect("a good model");
+    let settings = RestSettings {
+        iterations_max: 30,
+        ..RestSettings::default()
+    };
+    let refused = solver.rest(&scene.model(), &mut x, &settings);
+    let Err(RestError::NotConverged {
+        residual,
+        iterations,
+        ..
+    }) = refused
+    else {
+        panic!("{refused:?}");
+    };
+    assert!(
+        residual > 0.01 && iterations == 30,
+        "{residual} {iterations}"
+    );
+    assert_eq!(x, scene.x);
+}
+
+#[test]
+fn f10_five_hertz_lose_all_in_a_second_of_backward_euler() {
+    let z = 2.0 * std::f64::consts::PI * 5.0 / 60.0;
+    let left = damping::factor(Method::BackwardEuler, z).powi(60);
+    println!("F10: {left:.2e} of the amplitude is left");
+    assert!(left < 1e-3, "{left}");
+    // BDF2 is far better, and of order four in z: 1 − ¼ z⁴ + ….
+    let bdf2 = damping::factor(Method::Bdf2, z).powi(60);
+    assert!(bdf2 > 0.4, "{bdf2}");
+    for z in [0.01, 0.02, 0.04] {
+        let loss = 1.0 - damping::factor(Method::Bdf2, z);
+        assert!(
+            (loss / (0.25 * z * z * z * z) - 1.0).abs() < 0.02,
+            "{z}: {loss}"
+        );
+    }
+    // A model's slowest mode decides: a pendulum's is √(g/L).
+    let mut pendulum = Scene::chain(1, 0.1, 1e6, 1.0);
+    pendulum.springs[0].rest_length = 1.0 - 0.1 * 9.81 / 1e6;
+    let mut solver = Implicit::new(&pendulum.model()).expect("a good model");
+    let slowest = solver.slowest_frequency(&pendulum.model(), &pendulum.x, 0.0);
+    let slowest = slowest.expect("good").expect("stable");
+    assert!(
+        (slowest.frequency - 9.81f64.sqrt()).abs() < 1e-9,
+        "{slowest:?}"
+    );
+    // Without a restoring force there is none without a floor, and zero with one.
+    let flat = Scene::sheet(2, 0.1, [10.0; 3]);
+    let mut solver = Implicit::new(&flat.model()).expect("a good model");
+    assert_eq!(
+        solver.slowest_frequency(&flat.model(), &flat.x, 0.0),
+        Ok(None)
+    );
+    let slowest = solver.slowest_frequency(&flat.model(), &flat.x, 0.1);
+    let slowest = slowest.expect("good").expect("with a floor");
+    assert!(slowest.frequency < 1e-6, "{slowest:?}");
+}
+
+#[test]
+fn work_is_counted() {
+    let scene = super::matrix::crumpled(3, 9);
+    let (report, ..) = one(&scene, 0.005, &Settings::default());
+    let work = report.expect("a step").work;
+    assert_eq!((work.force_evaluations, work.hessian_evaluations), (1, 1));
+    // One product for the right-hand side, one for each iteration.
+    assert_eq!(work.matrix_products, work.solver_iterations + 1);
+    assert_eq!(
+        work.energy_evaluations, 2,
+        "a linearised step is compared with where it started"
+    );
+    let newton = Settings {
+        newton_iterations_max: 20,
+        ..Settings::default()
+    };
+    let report = one(&scene, 0.005, &newton).0.expect("a step");
+    assert_eq!(
+        report.work.hessian_evaluations,
+        u64::from(report.newton_iterations)
+    );
+    assert!(report.work.energy_evaluations > u64::from(report.newton_iterations));
+    assert_eq!(report.work.matrix_products, report.work.solver_iterations);
+}
+
+#[test]
+fn only_what_is_fixed_may_lack_a_mass() {
+    let mut scene = Scene::particles([[0.0; 3], [1.0, 0.0, 0.0]], 0.1);
+    scene.masses[1] = 0.0;
+    let refused = ModelError::Unusable {
+        part: Part::Mass,
+        index: 1,
+    };
+    for filter in [
+        Filter::Free,
+        Filter::Plane(Vector::x()),
+        Filter::Line(Vector::x()),
+    ] {
+        scene.filters[1] = filter;
+        assert_eq!(scene.model().check(), Err(refused), "{filter:?}");
+    }
+    scene.filters[1] = Filter::Fixed;
+    assert_eq!(scene.model().check(), Ok(()));
+    // Where nothing has a mass there is no residual.
+    let nothing = Scene {
+        masses: vec![0.0; 2],
+        filters: vec![Filter::Fixed; 2],
+        springs: vec![spring(0, 1, 0.5, 1e3)],
+        ..scene.clone()
+    };
+    for newton_iterations_max in [1, 20] {
+        let settings = Settings {
+            newton_iterations_max,
+            ..Settings::default()
+        };
+        let (report, x, _) = one(&nothing, 0.01, &settings);
+        assert_eq!(report.map(|report| report.residual), Ok(0.0));
+        assert_eq!(x, nothing.x);
+    }
+    for mass in [-1.0, f64::NAN, f64::INFINITY] {
+        scene.masses[1] = mass;
+        assert_eq!(scene.model().check(), Err(refused), "{mass}");
+    }
+}

@@ -1,0 +1,150 @@
+//! F5: what Provot's limiter does to stability where velocities are not rewritten.
+//!
+//! Protocol: no drag; Δt as a part of 2/ω of the springs alone; passes 1, 2, 5 and 20.
+//!
+//! * *Shaken*: nets without weight that start within the limit of 1.1, at speeds up to a tenth of
+//!   the shortest rest length times ω; four seeds, 2000 steps; stable where energy stays below four
+//!   times what it was. The limiter shortens the stable step of none, whatever the passes; where the
+//!   springs alone fail, just below 2/ω, it holds them together.
+//! * *Loaded*: a chain too heavy for the limit, and a string between nails too far apart for it.
+//!   Positions are held while velocities go on to grow, so no step is stable, however short. With
+//!   the rewrite the chain comes to rest at every step.
+//!
+//! So there is no threshold to be quoted as a part of 2/ω: it is the load that decides.
+
+use tearmesh::Vector;
+use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable};
+
+use crate::answers::{framed, gravity, row};
+use crate::random::Random;
+
+const PASSES: [u32; 4] = [1, 2, 5, 20];
+
+/// The limiter with so many passes, none for springs alone.
+fn limited(passes_max: u32, rewrites_velocities: bool) -> Provot {
+    if passes_max == 0 {
+        return Provot::unlimited();
+    }
+    Provot::new(Limiter {
+        passes_max,
+        rewrites_velocities,
+        ..Limiter::default()
+    })
+}
+
+fn omega(system: &mut System) -> f64 {
+    system.measure_frequency(1e-6, 20_000).omega_rad_per_s
+}
+
+/// Nets without weight, kicked.
+fn kicked(name: &str, seed: u64) -> System {
+    let taut = |pitch: f64| {
+        let mut string = row(32, 0.02, 1000.0, 0.03, Vector::x() * pitch);
+        string.hold(32);
+        string
+    };
+    let mut system = match name {
+        "chain" => row(31, 0.02, 1000.0, 0.03, Vector::x() * 0.03),
+        "string" => taut(1.0 / 32.0),
+        "nails" => taut(0.036),
+        _ => framed(6, 100.0, 0.0),
+    };
+    system.set_loads(Loads::default()).expect("no load");
+    system.when_unstable(Unstable::Allow);
+    let springs = system.stretches();
+    let rests = springs.iter().map(|id| springs.get(id).rest_length_m);
+    let speed = 0.1 * rests.fold(f64::INFINITY, f64::min) * omega(&mut system);
+    let mut random = Random(seed);
+    for i in 0..system.positions().len() {
+        if !system.is_held(i) {
+            let mut next = || random.next() - 0.5;
+            system.state_mut().1[i] = Vector::new(next(), next(), next()) * speed;
+        }
+    }
+    system
+}
+
+/// Whether energy stays below four times what it was, and in how many steps the limiter worked.
+fn survives(mut system: System, mut provot: Provot, part: f64) -> (bool, u32) {
+    let dt = part * 2.0 / omega(&mut system);
+    let energy = |system: &System| system.kinetic_energy_j() + system.elastic_energy_j();
+    let start = energy(&system);
+    let mut worked = 0;
+    for _ in 0..2000 {
+        let taken = system.step(&mut provot, dt);
+        if taken.is_err() || energy(&system) > 4.0 * start {
+            return (false, worked);
+        }
+        worked += u32::from(provot.report().stretch_ratio_before > 1.1);
+    }
+    (true, worked)
+}
+
+/// How many of four seeds survive.
+fn survivors(name: &str, passes: u32, part: f64) -> usize {
+    let run = |&seed: &u64| survives(kicked(name, seed), limited(passes, false), part).0;
+    (0..4).filter(run).count()
+}
+
+#[test]
+fn table_of_shaken_nets_under_the_limiter_without_a_rewrite() {
+    println!("\nF5, shaken: of four seeds so many keep their energy at .2 .5 .8 .999 of 2/ω");
+    println!("passes      0     1     2     5    20");
+    for name in ["chain", "string", "frame"] {
+        let mut line = format!("{name:8}");
+        for passes in [0, 1, 2, 5, 20] {
+            let cells = [0.2, 0.5, 0.8, 0.999].map(|part| survivors(name, passes, part));
+            line.extend(cells.map(|cell| cell.to_string()));
+            line.push_str("  ");
+            assert_eq!(cells[..3], [4; 3], "{name}, {passes} passes");
+            assert_eq!(cells[3] == 4, passes > 0, "{name}, {passes} passes");
+        }
+        println!("{line}");
+        let (_, worked) = survives(kicked(name, 0), limited(1, false), 0.5);
+        assert!(worked > 10, "{name}: the limiter worked in {worked} steps");
+    }
+    // Nails too far apart: it works in each step, and none of them is short enough.
+    for passes in PASSES {
+        for part in [0.05, 0.2, 0.5, 0.9] {
+            assert_eq!(survivors("nails", passes, part), 0, "{passes} at {part}");
+        }
+    }
+}
+
+#[test]
+fn table_of_a_chain_too_heavy_for_the_limit() {
+    println!("\nF5, loaded: kinetic energy after 20 s in J, at this part of 2/ω; B blown up");
+    println!("passes      1        2        5       20   with rewrite: 1       20");
+    for part in [0.05, 0.2, 0.5, 0.9] {
+        let mut line = format!("{part:5}");
+        let settings = PASSES.map(|passes| (passes, false));
+        for (passes, rewrites) in settings.into_iter().chain([(1, true), (20, true)]) {
+            let mut chain = row(10, 0.02, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
+            chain.set_loads(gravity(0.0)).expect("loads");
+            chain.when_unstable(Unstable::Allow);
+            let dt = part * 2.0 / omega(&mut chain);
+            let mut provot = limited(passes, rewrites);
+            let ran = (0..(20.0 / dt) as usize).all(|_| chain.step(&mut provot, dt).is_ok());
+            let kinetic = if ran {
+                chain.kinetic_energy_j()
+            } else {
+                f64::INFINITY
+            };
+            line.push_str(&if ran {
+                format!(" {kinetic:8.1e}")
+            } else {
+                "        B".into()
+            });
+            // It could fall by a tenth of a metre: 0.2 J at most.
+            assert!(
+                if rewrites {
+                    kinetic < 0.2
+                } else {
+                    kinetic > 1e3
+                },
+                "{line}"
+            );
+        }
+        println!("{line}");
+    }
+}

@@ -1,0 +1,30 @@
+//! Tests of `tearmesh-cloth` through its public interface.
+
+#![expect(clippy::print_stdout, reason = "tests say how much they did")]
+
+mod air;
+mod allocation;
+mod answers;
+mod balance;
+mod bending;
+mod cost;
+mod failures;
+mod follow;
+mod implicit;
+mod limiter;
+#[path = "../data/random.rs"]
+#[allow(dead_code, reason = "shared with the tests of the library")]
+mod random;
+mod reaction;
+mod scenes;
+mod stiff;
+mod stiff_held;
+mod strain;
+mod tables;
+mod tearing;
+mod tearing_links;
+mod tearing_order;
+mod tearing_runs;
+mod watch;
+mod weave;
+mod weave_limits;

@@ -1,0 +1,121 @@
+//! The stretch of faces against deformations whose singular values are known.
+
+use tearmesh::{FaceId, Masses, Mesh, Point, Positions, Vector, VertexId, shapes};
+use tearmesh_cloth::{Cloth, Fabric};
+
+use crate::answers::near;
+use crate::random::Random;
+
+fn cloth_of(mesh: &Mesh, positions: &Positions) -> Cloth {
+    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
+    Cloth::new(mesh, positions, masses, Fabric::new(50.0)).expect("a cloth")
+}
+
+/// Moves every particle by a map.
+fn deform(cloth: &mut Cloth, map: impl Fn(Point) -> Point) {
+    for p in cloth.system_mut().state_mut().0 {
+        *p = map(*p);
+    }
+}
+
+/// A turn about an axis by an angle: columns.
+fn turn(axis: Vector, angle: f64) -> [Vector; 3] {
+    let axis = axis.normalize();
+    [Vector::x(), Vector::y(), Vector::z()].map(|e| {
+        e * angle.cos() + axis.cross(&e) * angle.sin() + axis * (axis.dot(&e) * (1.0 - angle.cos()))
+    })
+}
+
+fn apply([x, y, z]: [Vector; 3], p: Point) -> Point {
+    Point::from(x * p.x + y * p.y + z * p.z)
+}
+
+#[test]
+fn every_face_of_every_shape_has_stretch_one_at_rest_however_it_is_turned() {
+    for (mesh, positions) in [
+        shapes::grid(3, 3),
+        shapes::tube(5, 3),
+        shapes::octahedron(),
+        shapes::torus(6, 5),
+    ] {
+        let mut cloth = cloth_of(&mesh, &positions);
+        for _ in 0..2 {
+            for f in mesh.faces() {
+                near(cloth.principal_stretch(f), 1.0, 1e-13);
+                let [warp, weft] = cloth.warp_weft_stretch(f);
+                near(warp, 1.0, 1e-13);
+                near(weft, 1.0, 1e-13);
+            }
+            let turned = turn(Vector::new(1.0, 2.0, -0.5), 1.3);
+            deform(&mut cloth, |p| {
+                apply(turned, p) + Vector::new(3.0, -1.0, 2.0)
+            });
+        }
+    }
+}
+
+/// An affine map stretches faces that lie in the plane by its singular values, all alike.
+#[test]
+fn an_affine_map_stretches_every_face_by_its_larger_singular_value() {
+    let mut random = Random(5);
+    let mut next = || random.next() - 0.5;
+    for _ in 0..200 {
+        let (mesh, positions) = shapes::grid(3, 2);
+        let mut cloth = cloth_of(&mesh, &positions);
+        // Stretch by s and t along two axes at an angle, then turn in space.
+        let (s, t, angle) = (1.0 + next(), 1.0 + next(), 6.0 * next());
+        let (c, d) = (angle.cos(), angle.sin());
+        let [e, f] = [Vector::new(c, d, 0.0), Vector::new(-d, c, 0.0)];
+        let pull = [Vector::x(), Vector::y()].map(|x| e * (s * e.dot(&x)) + f * (t * f.dot(&x)));
+        let turned = turn(Vector::new(next(), next(), 1.0), 6.0 * next());
+        deform(&mut cloth, |p| {
+            apply(turned, Point::from(pull[0] * p.x + pull[1] * p.y))
+        });
+        for face in mesh.faces() {
+            near(cloth.principal_stretch(face), s.max(t), 1e-12);
+            let [warp, weft] = cloth.warp_weft_stretch(face);
+            near(warp, pull[0].norm(), 1e-12);
+            near(weft, pull[1].norm(), 1e-12);
+        }
+    }
+}
+
+/// No direction in a face is stretched more, and one is as much: by trying them.
+#[test]
+fn no_direction_is_stretched_more_than_the_principal_one() {
+    let mut random = Random(11);
+    let (mesh, positions) = shapes::octahedron();
+    let mut cloth = cloth_of(&mesh, &positions);
+    for p in cloth.system_mut().state_mut().0 {
+        *p += Vector::new(random.next(), random.next(), random.next()) * 0.6;
+    }
+    for f in mesh.faces() {
+        let v = mesh.corners(f).map(VertexId::index);
+        let [rest, now] = [positions.as_slice(), cloth.positions()]
+            .map(|points| [points[v[1]] - points[v[0]], points[v[2]] - points[v[0]]]);
+        let tried = (0..20_000).map(|i| {
+            let (s, c) = (std::f64::consts::PI * f64::from(i) / 20_000.0).sin_cos();
+            let along = |[a, b]: [Vector; 2]| (a * c + b * s).norm();
+            along(now) / along(rest)
+        });
+        let tried = tried.fold(0.0, f64::max);
+        let principal = cloth.principal_stretch(f);
+        assert!(tried <= principal * (1.0 + 1e-14) && tried > principal * (1.0 - 1e-6));
+    }
+}
+
+#[test]
+fn a_face_without_area_at_rest_is_a_thread() {
+    let mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a face");
+    let positions = Positions::new([[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]]).expect("points");
+    let spread = Positions::new([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).expect("points");
+    let masses = Masses::area(&mesh, &spread, 1.0).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(1.0)).expect("a cloth");
+    let f = FaceId::new(0).expect("a face");
+    assert_eq!(cloth.principal_stretch(f), 1.0);
+    deform(&mut cloth, |p| {
+        Point::new(0.0, if p.x == 1.0 { 2.0 } else { p.x }, 0.0)
+    });
+    assert_eq!(cloth.principal_stretch(f), 2.0);
+    assert_eq!(cloth.warp_weft_stretch(f), [2.0; 2]);
+}

@@ -1,0 +1,138 @@
+//! The blow-up map: every cell of step × stiffness × scene × method has the class it should.
+
+use tearmesh::Vector;
+use tearmesh_cloth::{Loads, Solver, StepError, System, Unstable};
+
+use super::{Links, METHODS, method};
+use crate::answers::{framed, row};
+
+/// What became of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Class {
+    /// It ran 600 steps, and the energy that a push brought did not grow.
+    Stable,
+    /// It ran on with more energy than it should have.
+    Grown,
+    /// Blow-up was noticed, and the last good state kept.
+    BlownUp,
+    /// The method knows no triangles.
+    Refused,
+}
+
+impl Class {
+    fn letter(self) -> char {
+        match self {
+            Class::Stable => 's',
+            Class::Grown => 'g',
+            Class::BlownUp => 'B',
+            Class::Refused => '–',
+        }
+    }
+}
+
+const SCENES: [&str; 4] = ["chain", "string", "frame", "strip"];
+const STIFFNESSES: [f64; 4] = [1e2, 1e3, 1e4, 1e5];
+const PARTS: [f64; 4] = [0.9, 0.99, 1.01, 1.1];
+
+/// A scene, at rest but for a push at one particle.
+fn scene(name: &str, stiffness: f64) -> System {
+    let along = Vector::new(0.1, 0.0, 0.0);
+    let mut system = match name {
+        "chain" => row(16, 0.01, stiffness, 0.1, along),
+        "string" => {
+            let mut string = row(16, 0.01, stiffness, 0.095, along);
+            string.hold(16);
+            string
+        }
+        "frame" => framed(4, stiffness, 0.0),
+        _ => Links::Triangles.row(16, 0.01, stiffness, 0.1, along),
+    };
+    system.set_loads(Loads::default()).expect("loads");
+    let particle = if name == "frame" { 7 } else { 5 };
+    system.state_mut().1[particle] = Vector::new(1e-6, 0.3e-6, 0.2e-6);
+    system
+}
+
+/// A run at this part of the limit of the method, or of Verlet's where it has none.
+fn class(mut system: System, solver: &mut dyn Solver, part: f64) -> Class {
+    let limit = solver.frequency_limit().unwrap_or(2.0);
+    let omega = system.measure_frequency(1e-6, 20_000).omega_rad_per_s;
+    let dt = part * limit / omega;
+    system.when_unstable(Unstable::Allow);
+    let (rest, push) = (system.elastic_energy_j(), system.kinetic_energy_j());
+    // What projects shakes a pretensioned net by what it stores; what has forces does not.
+    let shaken = if solver.frequency_limit().is_some() {
+        0.0
+    } else {
+        rest
+    };
+    let mut most = 0.0_f64;
+    for _ in 0..600 {
+        match system.step(&mut *solver, dt) {
+            Ok(_) => {
+                let energy = system.kinetic_energy_j() + system.elastic_energy_j();
+                most = most.max(energy - rest);
+            }
+            Err(StepError::BlowUp { .. }) => {
+                assert!(system.positions().iter().all(|p| p.coords.norm() < 1e3));
+                return Class::BlownUp;
+            }
+            Err(StepError::Triangles { .. }) => return Class::Refused,
+            Err(other) => panic!("{other}"),
+        }
+    }
+    if most > 400.0 * push + shaken {
+        Class::Grown
+    } else {
+        Class::Stable
+    }
+}
+
+/// The classes at .9, .99, 1.01 and 1.1 of the limit.
+///
+/// Beyond it a chain grows until its links turn aside, which softens them, and RK4 damps what lies
+/// above its limit by ever less; so both may go on with more energy than they should have. PBD
+/// shakes nets that cannot reach their rest lengths, the more the shorter the step (F7).
+fn expected(name: &str, scene: &str, stiffness: f64) -> [Class; 4] {
+    use Class::{BlownUp, Grown, Refused, Stable};
+    match (name, scene) {
+        ("XPBD" | "PBD", "strip") => [Refused; 4],
+        ("PBD", "string" | "frame") => [Grown; 4],
+        ("RK4", _) => [Stable, Stable, Grown, Grown],
+        ("Verlet", "string") if stiffness > 5e3 => [Stable, Stable, BlownUp, BlownUp],
+        ("Provot" | "Verlet", "chain" | "string") => [Stable, Stable, Grown, BlownUp],
+        ("Provot" | "Verlet", _) => [Stable, Stable, BlownUp, BlownUp],
+        _ => [Stable; 4],
+    }
+}
+
+#[test]
+fn table_of_blow_up() {
+    println!(
+        "\nblow-up map: Δt over the limit (2/ω; RK4 2√2/ω) .9 .99 1.01 1.1, at k = 1e2, 1e3, 1e4, 1e5"
+    );
+    println!("s stable, g grown, B blown up and noticed, – refused");
+    println!(
+        "{:8}{}",
+        "",
+        SCENES.map(|scene| format!("{scene:22}")).concat()
+    );
+    let mut wrong = Vec::new();
+    for name in METHODS {
+        let mut line = format!("{name:8}");
+        for at in SCENES {
+            for stiffness in STIFFNESSES {
+                let cell = |part| class(scene(at, stiffness), &mut *method(name, 10), part);
+                let cells = PARTS.map(cell);
+                line.extend(cells.map(Class::letter));
+                line.push(' ');
+                if cells != expected(name, at, stiffness) {
+                    wrong.push(format!("{name} {at} {stiffness:e}: {cells:?}"));
+                }
+            }
+            line.push_str("  ");
+        }
+        println!("{line}");
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}

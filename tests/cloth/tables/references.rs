@@ -1,0 +1,448 @@
+//! R1–R11 by every method, with chains of springs and with strips of triangles.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+use tearmesh::{Masses, Point, Vector, shapes};
+use tearmesh_cloth::{Cloth, Fabric, Solver, Weave};
+
+use super::{Links, METHODS, method, theory};
+use crate::answers::{catenary, framed, gravity, modulus, relaxed, run};
+use crate::weave::{self, moduli, weave};
+
+/// An error, and the largest that it may be; `None` where the answer is none of the method's.
+type Cell = Option<(f64, f64)>;
+
+/// A row of the table: what is compared, and how.
+type Row = (&'static str, fn(Links, &str) -> Cell);
+
+fn projects(name: &str) -> bool {
+    name == "XPBD" || name == "PBD"
+}
+
+fn is_implicit(name: &str) -> bool {
+    name == "Euler" || name == "BDF2"
+}
+
+/// The largest difference from the method's own discrete oscillation, relative to the amplitude.
+fn oscillation(
+    name: &str,
+    z: f64,
+    steps: usize,
+    mut step: impl FnMut(&mut dyn Solver) -> f64,
+) -> Option<f64> {
+    let theory = theory::oscillation(name, z, steps)?;
+    let mut solver = method(name, 400);
+    let apart = theory[1..].iter().map(|x| (step(&mut *solver) - x).abs());
+    Some(apart.fold(0.0, f64::max))
+}
+
+fn r1(links: Links, name: &str) -> Cell {
+    let mut system = links.row(1, 0.01, 40.0, 1.0, Vector::x());
+    links.change(&mut system, 1, |p, _| p.x = 1.1);
+    let z = 4000.0_f64.sqrt() * 0.01;
+    let error = oscillation(name, z, 60, |solver| {
+        run(&mut system, solver, 0.01, 1);
+        (links.point(&system, 1).x - 1.0) / 0.1
+    })?;
+    Some((error, 1e-9))
+}
+
+fn r2(links: Links, name: &str) -> Cell {
+    if name == "PBD" {
+        return None;
+    }
+    let mut chain = links.row(10, 0.01, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
+    chain.set_loads(gravity(4.0)).expect("loads");
+    let dt = if projects(name) || is_implicit(name) {
+        0.1
+    } else {
+        0.008
+    };
+    run(
+        &mut chain,
+        &mut *method(name, 400),
+        dt,
+        (30.0 / dt) as usize,
+    );
+    Some(((-links.point(&chain, 10).z - 1.107_91).abs(), 1e-8))
+}
+
+/// A mode of a chain in motion, against the oscillation of the method with the mode's frequency.
+fn mode(links: Links, name: &str, j: f64, across: bool) -> Cell {
+    let pitch = if across { 1.0 / 32.0 } else { 0.03 };
+    let mut chain = links.row(32, 0.02, 1000.0, 0.03, Vector::x() * pitch);
+    links.hold(&mut chain, 32);
+    let (direction, amplitude) = if across {
+        (Vector::z(), 1e-5)
+    } else {
+        (Vector::x(), 1e-3)
+    };
+    let shape = |i: usize| (j * PI * i as f64 / 32.0).sin();
+    for i in 1..32 {
+        links.change(&mut chain, i, |p, _| {
+            *p += direction * (amplitude * shape(i));
+        });
+    }
+    let stiffness = 1000.0 * (1.0 - if across { 0.03 / pitch } else { 0.0 });
+    let omega = 2.0 * (stiffness / 0.02_f64).sqrt() * (j * PI / 64.0).sin();
+    let dt = 0.9 * 2.0 / 446.674_907_138_54;
+    let error = oscillation(name, omega * dt, 60, |solver| {
+        run(&mut chain, solver, dt, 1);
+        let p = links.point(&chain, 7).coords - Vector::x() * (7.0 * pitch);
+        p.dot(&direction) / (amplitude * shape(7))
+    })?;
+    // Across, tension grows with the square of the amplitude, and sweeps converge slowly (F8).
+    let tolerance = match (across, name) {
+        (false, _) => 1e-8,
+        (true, "XPBD") => 1e-3,
+        (true, _) => 1e-6,
+    };
+    Some((error, tolerance))
+}
+
+fn r3_slow(links: Links, name: &str) -> Cell {
+    mode(links, name, 1.0, false)
+}
+
+fn r3_fast(links: Links, name: &str) -> Cell {
+    mode(links, name, 31.0, false)
+}
+
+fn r4(links: Links, name: &str) -> Cell {
+    mode(links, name, 1.0, true)
+}
+
+/// Twice the time between every second passage of the lowest point.
+fn period(links: Links, name: &str, stiffness: f64, dt: f64, angle: f64) -> f64 {
+    let start = Vector::new(angle.sin(), 0.0, -angle.cos());
+    let mut system = links.row(1, 1.0, stiffness, 1.0, start);
+    system.set_loads(gravity(0.0)).expect("loads");
+    let mut solver = method(name, 1);
+    let mut crossings = Vec::new();
+    let mut last = links.point(&system, 1).x;
+    while crossings.len() < 3 {
+        run(&mut system, &mut *solver, dt, 1);
+        let now = links.point(&system, 1).x;
+        if (last < 0.0) != (now < 0.0) {
+            crossings.push(system.elapsed_s() - dt * now / (now - last));
+        }
+        last = now;
+    }
+    crossings[2] - crossings[0]
+}
+
+fn r5(links: Links, name: &str, angle: f64, answer: f64) -> Cell {
+    let dt = if is_implicit(name) || projects(name) {
+        2e-4
+    } else {
+        1e-4
+    };
+    if name == "PBD" {
+        return Some(((period(links, name, 1.0, dt, angle) - answer).abs(), 4e-3));
+    }
+    // What the rod's stiffness leaves is linear in 1/k.
+    let [soft, stiff] = [1e5, 2e5].map(|k| period(links, name, k, dt, angle));
+    let order_one = name == "Euler" || name == "XPBD";
+    Some((
+        (2.0 * stiff - soft - answer).abs(),
+        if order_one { 4e-3 } else { 1e-5 },
+    ))
+}
+
+fn r5_45(links: Links, name: &str) -> Cell {
+    r5(links, name, FRAC_PI_4, 2.086_255_872_614_367)
+}
+
+fn r5_90(links: Links, name: &str) -> Cell {
+    r5(links, name, FRAC_PI_2, 2.367_841_947_576_237)
+}
+
+fn r6b(links: Links, name: &str) -> Cell {
+    if name != "PBD" || links == Links::Triangles {
+        return None;
+    }
+    let mut net = catenary(16, 0.01, 1.0, 1.5 / 16.0, 5.0);
+    run(&mut net, &mut *method(name, 300), 1.0 / 960.0, 9600);
+    Some((
+        (-net.positions()[8].z - 0.503_908_189_207_115_7).abs(),
+        2e-6,
+    ))
+}
+
+fn r6c(links: Links, name: &str) -> Cell {
+    if name == "PBD" {
+        return None;
+    }
+    let mut net = links.row(16, 0.01, 200.0, 0.08, Vector::x() / 16.0);
+    links.hold(&mut net, 16);
+    net.set_loads(gravity(5.0)).expect("loads");
+    for i in 1..16 {
+        let x = i as f64 / 16.0;
+        links.change(&mut net, i, |p, _| p.z = -2.0 * x * (1.0 - x));
+    }
+    let (dt, tolerance) = match name {
+        "XPBD" => (1.0 / 3840.0, 2e-6),
+        "Euler" | "BDF2" => (0.1, 1e-9),
+        _ => (0.004, 1e-9),
+    };
+    run(&mut net, &mut *method(name, 10), dt, (20.0 / dt) as usize);
+    Some((
+        (-links.point(&net, 8).z - 0.390_722_835_980_581_3).abs(),
+        tolerance,
+    ))
+}
+
+/// The strain of the top link under the force that is to bring it to its threshold, as a weight.
+fn r7(links: Links, name: &str) -> Cell {
+    if name == "PBD" {
+        return None;
+    }
+    // 1.519 N more at the end: m g N + F = k L ε.
+    let mut chain = links.row(1, 0.01 * 10.0 + 1.519 / 9.81, 50.0, 0.1, Vector::z() * -0.1);
+    chain.set_loads(gravity(6.0)).expect("loads");
+    let dt = if projects(name) || is_implicit(name) {
+        0.1
+    } else {
+        0.01
+    };
+    run(
+        &mut chain,
+        &mut *method(name, 400),
+        dt,
+        (30.0 / dt) as usize,
+    );
+    let strain = -links.point(&chain, 1).z / 0.1 - 1.0;
+    let energy = chain.elastic_energy_j();
+    Some(((strain - 0.5).abs().max((energy - 0.0625).abs()), 1e-9))
+}
+
+fn r9(links: Links, name: &str) -> Cell {
+    let mut sheet = links.row(4, 0.1, 20.0, 0.25, Vector::x() * 0.25);
+    links.at(0).for_each(|particle| sheet.release(particle));
+    sheet.set_loads(gravity(0.0)).expect("loads");
+    run(&mut sheet, &mut *method(name, 3), 1.0 / 60.0, 60);
+    let fallen = theory::fall(name, 1.0 / 60.0, 60);
+    let strain = sheet.elastic_energy_j().sqrt();
+    let off = sheet.positions().iter().map(|p| (p.z + fallen).abs());
+    Some((off.fold(strain, f64::max), 1e-12))
+}
+
+fn r10(links: Links, name: &str) -> Cell {
+    if name == "PBD" {
+        return None;
+    }
+    let r = 100.0 / 190.0;
+    let mut pair = links.row(1, 0.1, 100.0, 1.0, Vector::x() * (2.0 * r));
+    links.at(0).for_each(|particle| pair.release(particle));
+    for i in 0..2 {
+        let side = 2.0 * i as f64 - 1.0;
+        links.change(&mut pair, i, |p, v| {
+            p.x -= r;
+            v.z = side * 10.0 * r;
+        });
+    }
+    let (dt, tolerance) = match name {
+        "Verlet" => (2e-4, 1e-5),
+        "RK4" => (1e-3, 1e-8),
+        "Provot" => (1e-4, 1e-2),
+        "BDF2" => (2e-4, 1e-3),
+        _ => (1e-5, 1e-2),
+    };
+    run(
+        &mut pair,
+        &mut *method(name, 1),
+        dt,
+        (0.5_f64 / dt).round() as usize,
+    );
+    let energy = pair.elastic_energy_j() + pair.kinetic_energy_j();
+    let radius = (links.point(&pair, 1) - links.point(&pair, 0)).norm() / 2.0;
+    let error = (radius / r - 1.0)
+        .abs()
+        .max((energy / 2.908_587_257_617_729 - 1.0).abs());
+    Some((error, tolerance))
+}
+
+/// A net or a sheet in a frame, against an answer by relaxation.
+fn r11(links: Links, name: &str) -> Cell {
+    if name == "PBD" {
+        return None;
+    }
+    let (dt, tolerance) = match name {
+        "XPBD" => (0.02 / 16.0, 1e-4),
+        "Euler" | "BDF2" => (0.05, 1e-9),
+        _ => (0.004, 1e-9),
+    };
+    let (mut net, answer) = match links {
+        Links::Springs => {
+            let net = framed(6, 100.0, 8.0);
+            let answer = relaxed(&net);
+            (net, answer)
+        }
+        Links::Triangles => {
+            let sheet = weave::framed(6, weave());
+            let answer = relaxed_sheet(&sheet);
+            (sheet.system().clone(), answer)
+        }
+    };
+    run(&mut net, &mut *method(name, 20), dt, (15.0 / dt) as usize);
+    let apart = net.positions().iter().zip(&answer);
+    let off = apart.map(|(p, q)| (p - q).norm());
+    Some((off.fold(0.0, f64::max), tolerance))
+}
+
+/// Statics of a flat sheet of triangles with no dynamics and no code in common: particle by particle,
+/// each goes the way of its force until none has any.
+fn relaxed_sheet(sheet: &Cloth) -> Vec<Point> {
+    let Weave { warp, .. } = weave();
+    let e = warp.normalize();
+    let f = Vector::new(-e.y, e.x, 0.0);
+    let [k_u, k_v, k_s] = [
+        weave().warp_n_per_m,
+        weave().weft_n_per_m,
+        weave().shear_n_per_m,
+    ];
+    let rest = sheet.rest_positions().as_slice();
+    // By face: corners, area, and how w_u and w_v change with each corner.
+    let faces: Vec<_> = sheet
+        .indices()
+        .chunks_exact(3)
+        .map(|face| {
+            let corners = [0, 1, 2].map(|i| face[i] as usize);
+            let [p, q, r] = corners.map(|v| rest[v].coords);
+            let normal = (q - p).cross(&(r - p));
+            // The height over each side, turned a quarter, over twice the area.
+            let slope = |from: Vector, to: Vector| normal.cross(&(to - from)) / normal.dot(&normal);
+            let slopes = [slope(q, r), slope(r, p), slope(p, q)];
+            (
+                corners,
+                0.5 * normal.norm(),
+                slopes.map(|s| [s.dot(&e), s.dot(&f)]),
+            )
+        })
+        .collect();
+    let mut points = sheet.positions().to_vec();
+    let masses = sheet.system().masses();
+    for _ in 0..6000 {
+        for i in 0..points.len() {
+            if sheet.system().is_held(i) {
+                continue;
+            }
+            let mut force = Vector::new(0.0, 0.0, -9.81 * masses[i]);
+            let mut stiffness = 0.0;
+            for (corners, area, slopes) in &faces {
+                let Some(own) = corners.iter().position(|&v| v == i) else {
+                    continue;
+                };
+                let w = |c: usize| {
+                    let parts = corners.iter().zip(slopes);
+                    parts.fold(Vector::zeros(), |w, (&v, s)| w + points[v].coords * s[c])
+                };
+                let (w_u, w_v) = (w(0), w(1));
+                let shear = k_s * w_u.dot(&w_v);
+                let p_u = w_u * (k_u * (1.0 - 1.0 / w_u.norm())) + w_v * shear;
+                let p_v = w_v * (k_v * (1.0 - 1.0 / w_v.norm())) + w_u * shear;
+                let [g, h] = slopes[own];
+                force -= (p_u * g + p_v * h) * *area;
+                stiffness += area * ((k_u + 2.0 * k_s) * g * g + (k_v + 2.0 * k_s) * h * h);
+            }
+            points[i] += force / stiffness;
+        }
+    }
+    points
+}
+
+/// R8 is of the net, not of the method: E, Poisson's ratio, shear by pulling, and the shear modulus.
+fn print_moduli() {
+    let height = 0.75_f64.sqrt();
+    let nets: [(&str, f64, &[[f64; 2]]); 2] = [
+        (
+            "springs, three directions alike",
+            height,
+            &[[1.0, 0.0], [0.5, height], [-0.5, height]],
+        ),
+        (
+            "springs, one diagonal a cell",
+            1.0,
+            &[[1.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
+        ),
+    ];
+    println!("\nR8, moduli (k = 1000 N/m; of triangles 1000, 300, 70 N/m were asked for)");
+    for (name, area, springs) in nets {
+        let [xx, yy, xy, ss, xs] = modulus(area, springs, 1000.0);
+        // Pulled along x and free otherwise.
+        let det = yy * ss - xs * xs;
+        let (across, shear) = (-(xy * ss - xs * xs) / det, -(xs * yy - xy * xs) / det);
+        let e = xx + xy * across + xs * shear;
+        println!(
+            "{name:34} E {e:.9} nu {:.9} shear by pulling {shear:.9} G {ss:.9}",
+            -across
+        );
+    }
+    let fabric = Fabric::woven(Weave {
+        warp_n_per_m: 1000.0,
+        weft_n_per_m: 300.0,
+        shear_n_per_m: 70.0,
+        warp: Vector::x(),
+    });
+    let (mesh, positions) = shapes::fan(7, true);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let area = cloth.system().triangles().iter().map(|t| t.area).sum();
+    let c = moduli(&mut cloth, area, [Vector::x(), Vector::y()]);
+    let [[e, uv, us], [_, f, _], [.., g]] = c;
+    println!(
+        "triangles, a fan of seven           E {e:.9} {f:.9} coupling {uv:.1e} {us:.1e} G {g:.9}"
+    );
+}
+
+const ROWS: [Row; 12] = [
+    ("R1 oscillator, discrete motion (of amplitude)", r1),
+    ("R2 hanging chain, 1.10791 (m)", r2),
+    ("R3 mode 1 along, discrete motion", r3_slow),
+    ("R3 mode 31 along, discrete motion", r3_fast),
+    ("R4 mode 1 across, discrete motion", r4),
+    ("R5 pendulum from 45°, period (s)", r5_45),
+    ("R5 pendulum from 90°, period (s)", r5_90),
+    ("R6b rigid catenary, sag (m)", r6b),
+    ("R6c elastic catenary, sag (m)", r6c),
+    ("R7 onset at 1.519 N, strain and J", r7),
+    ("R9 free fall (m) and strain", r9),
+    ("R10 rotating pair, r and E, relative", r10),
+];
+
+#[test]
+fn table_of_reference_answers() {
+    let mut wrong = Vec::new();
+    let rows = ROWS
+        .into_iter()
+        .chain([("R11 drape in a frame (m)", r11 as fn(Links, &str) -> Cell)]);
+    let rows: Vec<Row> = rows.collect();
+    for links in [Links::Springs, Links::Triangles] {
+        println!("\nerrors against the reference answers, {links:?}; – is none of the method's");
+        println!(
+            "{:48}{}",
+            "",
+            METHODS.map(|name| format!("{name:>9}")).concat()
+        );
+        for &(title, row) in &rows {
+            let mut line = format!("{title:48}");
+            for name in METHODS {
+                let refused = links == Links::Triangles && projects(name);
+                match if refused { None } else { row(links, name) } {
+                    None => line.push_str("        –"),
+                    Some((error, tolerance)) => {
+                        line.push_str(&format!(" {error:8.1e}"));
+                        if error.is_nan() || error > tolerance {
+                            wrong.push(format!(
+                                "{title}, {links:?}, {name}: {error:e} > {tolerance:e}"
+                            ));
+                        }
+                    }
+                }
+            }
+            println!("{line}");
+        }
+    }
+    print_moduli();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}

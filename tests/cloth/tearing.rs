@@ -1,0 +1,493 @@
+//! The loop above the tearing rule: what a threshold means, what goes first, what holds, and what a
+//! tear keeps.
+
+use tearmesh::subdivide::Plan;
+use tearmesh::{
+    Edit, Edits, Masses, Mesh, Point, Positions, Vector, VertexId, mend, shapes, split,
+};
+use tearmesh_cloth::{
+    Cloth, Copies, Fabric, Provot, Tear, TearReport, Tearing, TearingError, Threshold, Verlet,
+};
+
+use crate::answers::{chain, near};
+use crate::follow::momentum;
+use crate::random::Random;
+
+/// A flat sheet whose inner vertices are off the grid, in generic position.
+pub(crate) fn sheet(columns: u32, rows: u32, seed: u64) -> (Mesh, Positions) {
+    let mut random = Random(seed);
+    let (mesh, positions) = shapes::grid_with_diagonals(columns, rows, |i, j| (i + j) % 2 == 0);
+    let (n, m) = (columns as usize, rows as usize);
+    let points = positions.as_slice().iter().enumerate().map(|(v, p)| {
+        let (i, j) = (v % (n + 1), v / (n + 1));
+        let inner = i > 0 && j > 0 && i < n && j < m;
+        let mut off = || {
+            if inner {
+                0.4 * (random.next() - 0.5)
+            } else {
+                0.0
+            }
+        };
+        [p.x * n as f64 + off(), p.y * m as f64 + off(), 0.0].map(|x| 0.1 * x)
+    });
+    (
+        mesh,
+        Positions::new(points.collect::<Vec<_>>()).expect("finite"),
+    )
+}
+
+pub(crate) fn cloth(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> Cloth {
+    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
+    Cloth::new(mesh, positions, masses, fabric).expect("a cloth")
+}
+
+/// Moves the particles of a cloth by a function of where they are.
+fn bend(cloth: &mut Cloth, mut to: impl FnMut(Point) -> Point) {
+    for x in cloth.system_mut().state_mut().0 {
+        *x = to(*x);
+    }
+}
+
+fn stretched(ratio: f64) -> impl FnMut(Point) -> Point {
+    move |p| Point::new(p.x, p.y * ratio, p.z)
+}
+
+/// A mesh, its cloth, and what tears it.
+pub(crate) struct Torn {
+    pub(crate) mesh: Mesh,
+    pub(crate) cloth: Cloth,
+    pub(crate) edits: Edits,
+    pub(crate) tear: Tear,
+}
+
+impl Torn {
+    pub(crate) fn new(
+        (mesh, positions): (Mesh, Positions),
+        fabric: Fabric,
+        tearing: Tearing,
+    ) -> Torn {
+        let cloth = cloth(&mesh, &positions, fabric);
+        let tear = Tear::new(&cloth, tearing).expect("usable numbers");
+        let edits = Edits::new();
+        Torn {
+            mesh,
+            cloth,
+            edits,
+            tear,
+        }
+    }
+
+    pub(crate) fn apply(&mut self, dt_s: f64) -> TearReport {
+        let report = self
+            .tear
+            .apply(&mut self.mesh, &mut self.cloth, &mut self.edits, dt_s);
+        assert_eq!(self.mesh.check(), []);
+        report
+    }
+
+    /// The vertices that were split, in order.
+    fn split(&self) -> Vec<VertexId> {
+        let old = |edit: Edit<'_>| match edit {
+            Edit::Split(split) => Some(split.old),
+            _ => None,
+        };
+        self.edits.iter().filter_map(old).collect()
+    }
+}
+
+#[test]
+fn the_worst_goes_first_and_a_cap_takes_the_rest() {
+    let tearing = Tearing::new(Threshold::Stretch(1.3));
+    let with_cap = |cap: Option<usize>| {
+        let tearing = Tearing {
+            splits_per_step_max: cap,
+            ..tearing
+        };
+        let mut torn = Torn::new(sheet(8, 8, 3), Fabric::new(50.0), tearing);
+        bend(&mut torn.cloth, |p| {
+            Point::new(p.x, p.y + 1.2 * p.y * p.y, 0.1 * p.x * p.x)
+        });
+        let worst = torn.mesh.edges().map(|h| {
+            let ratio = torn.cloth.system().stretch_ratio(torn.cloth.stretch(h));
+            ((ratio - 1.0) / 0.3, h)
+        });
+        let worst = worst.max_by(|a, b| a.0.total_cmp(&b.0)).expect("an edge");
+        let ends = [torn.mesh.origin(worst.1), torn.mesh.target(worst.1)];
+        let report = torn.apply(0.01);
+        let (edge, load) = report.worst.expect("a stretched edge");
+        assert_eq!(edge, worst.1);
+        near(load, worst.0, 1e-12);
+        (report, torn.split(), ends)
+    };
+    let (all, order, worst) = with_cap(None);
+    assert!(all.splits > 8 && !all.cap_hit, "{all:?}");
+    assert!(worst.contains(&order[0]));
+    // No vertex is split twice, nor an end of an edge that was relieved.
+    let mut once = order.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), order.len());
+    for cap in 0..=order.len() + 1 {
+        let (report, first, _) = with_cap(Some(cap));
+        assert_eq!(first, order[..cap.min(order.len())], "cap {cap}");
+        assert_eq!(report.cap_hit, cap < order.len(), "cap {cap}");
+        assert_eq!(report.overstretched, all.overstretched);
+    }
+    assert_eq!(
+        all.overstretched,
+        all.splits + all.relieved + all.refused + all.waiting
+    );
+}
+
+#[test]
+fn held_vertices_hold_unless_they_may_tear() {
+    for tears_held in [false, true] {
+        let tearing = Tearing {
+            tears_held,
+            ..Tearing::new(Threshold::Stretch(1.3))
+        };
+        let mut torn = Torn::new(sheet(5, 5, 1), Fabric::new(50.0), tearing);
+        (0..36)
+            .filter(|v| v % 2 == 0)
+            .for_each(|v| torn.cloth.system_mut().hold(v));
+        bend(&mut torn.cloth, stretched(1.4));
+        let report = torn.apply(0.01);
+        let split = torn.split();
+        let held = |v: &&VertexId| torn.cloth.system().is_held(v.index());
+        assert!(report.splits > 3);
+        assert_eq!(split.iter().filter(held).count() > 0, tears_held);
+        for edit in torn.edits.iter() {
+            if let Edit::Split(split) = edit {
+                let system = torn.cloth.system();
+                assert_eq!(
+                    system.is_held(split.old.index()),
+                    system.is_held(split.new.index())
+                );
+            }
+        }
+        // With all held there is nothing to split.
+        let mut torn = Torn::new(sheet(5, 5, 1), Fabric::new(50.0), tearing);
+        (0..36).for_each(|v| torn.cloth.system_mut().hold(v));
+        bend(&mut torn.cloth, stretched(1.4));
+        let report = torn.apply(0.01);
+        assert_eq!(report.splits == 0, !tears_held);
+        assert_eq!(report.refused == report.overstretched, !tears_held);
+    }
+}
+
+#[test]
+fn an_edge_tears_after_it_was_above_its_threshold_for_so_long() {
+    let tearing = Tearing {
+        delay_s: 0.05,
+        ..Tearing::new(Threshold::Stretch(1.3))
+    };
+    let new = || Torn::new(sheet(4, 4, 2), Fabric::new(50.0), tearing);
+    let mut torn = new();
+    bend(&mut torn.cloth, stretched(1.4));
+    // Found at 0, and above for 0.02, 0.04 and 0.06 s.
+    for waits in [true, true, true, false] {
+        let report = torn.apply(0.02);
+        assert_eq!(report.waiting == report.overstretched, waits);
+        assert_eq!(report.splits == 0, waits);
+    }
+    // A dip begins the wait anew.
+    let mut torn = new();
+    bend(&mut torn.cloth, stretched(1.4));
+    for _ in 0..3 {
+        assert_eq!(torn.apply(0.02).splits, 0);
+    }
+    bend(&mut torn.cloth, stretched(1.0 / 1.4));
+    assert_eq!(torn.apply(0.02).overstretched, 0);
+    bend(&mut torn.cloth, stretched(1.4));
+    for waits in [true, true, true, false] {
+        assert_eq!(torn.apply(0.02).splits == 0, waits);
+    }
+
+    // Cuts, mends and insertions by others keep the clocks.
+    let mut torn = new();
+    bend(&mut torn.cloth, stretched(1.4));
+    assert!(torn.apply(0.02).waiting > 0);
+    let v = VertexId::new(12).expect("the centre");
+    let faces: Vec<_> = torn.mesh.faces_of(v).take(3).collect();
+    let new_vertex = split::faces(&mut torn.mesh, v, &faces, &mut torn.edits)
+        .expect("a split")
+        .new;
+    assert_eq!(torn.apply(0.02).splits, 0);
+    mend::merge(&mut torn.mesh, v, new_vertex, [1.0; 2], &mut torn.edits).expect("a merge");
+    let mut plan = Plan::new();
+    for h in torn.mesh.edges() {
+        plan.on_edge(h, 0.3);
+    }
+    plan.apply(&mut torn.mesh, &mut torn.edits)
+        .expect("an insertion");
+    assert_eq!(torn.apply(0.02).splits, 0);
+    let report = torn.apply(0.02);
+    assert!(report.splits > 0, "{report:?}");
+    // The parts of divided edges had not to wait again; new edges had.
+    assert!(
+        report.waiting > 0 && report.waiting < report.overstretched,
+        "{report:?}"
+    );
+}
+
+#[test]
+fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
+    let load = |threshold: Threshold, to: &mut dyn FnMut(Point) -> Point| {
+        let (mesh, positions) = shapes::grid(6, 6);
+        let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
+        bend(&mut cloth, to);
+        let mut loads = [0.0_f64; 3];
+        for h in mesh.edges() {
+            let d = positions.at(mesh.target(h)) - positions.at(mesh.origin(h));
+            let class = if d.y.abs() < 1e-9 {
+                0
+            } else if d.x.abs() < 1e-9 {
+                1
+            } else {
+                2
+            };
+            let load = threshold.edge_load(&mesh, &cloth, h).unwrap_or(0.0);
+            loads[class] = loads[class].max(load);
+        }
+        loads
+    };
+    let threads = |axis: Vector| Threshold::WarpWeft {
+        warp: 1.2,
+        weft: 1.5,
+        axis,
+    };
+    let mut even = |p: Point| Point::from(p.coords * 1.3);
+    for (axis, expected) in [
+        (Vector::new(3.0, 0.0, 0.0), [1.5, 0.6, 0.0]),
+        (Vector::new(0.0, -1.0, 0.0), [0.6, 1.5, 0.0]),
+        // Seen in the plane of the face.
+        (Vector::new(1.0, 0.1, 5.0), [1.5, 0.6, 0.0]),
+    ] {
+        let loads = load(threads(axis), &mut even);
+        for (load, expected) in loads.into_iter().zip(expected) {
+            near(load, expected, 1e-9);
+        }
+    }
+    // Shear lengthens one diagonal alone, and no thread.
+    let mut shear = |p: Point| {
+        let (sin, cos) = (0.6, 0.8);
+        Point::new(p.x + sin * p.y, cos * p.y, 0.0)
+    };
+    let loads = load(threads(Vector::x()), &mut shear);
+    assert!(loads.iter().all(|load| load.abs() < 1e-9), "{loads:?}");
+    let loads = load(Threshold::Stretch(1.2), &mut shear);
+    assert!(loads[2] > 1.0, "a false tear: {loads:?}");
+    // Of a face only the most stretched edge tears, and at the stretch of the face.
+    let loads = load(Threshold::PrincipalStretch(1.2), &mut stretched(1.3));
+    near(loads[0], 0.0, 1e-9);
+    near(loads[1], 1.5, 1e-9);
+    near(loads[2], 0.0, 1e-9);
+}
+
+#[test]
+fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
+    for copies in [Copies::Halved, Copies::Whole] {
+        let fabric = Fabric {
+            copies,
+            ..Fabric::new(50.0)
+        };
+        let mut torn = Torn::new(sheet(8, 8, 5), fabric, Tearing::default());
+        let mut random = Random(4);
+        bend(&mut torn.cloth, stretched(1.5));
+        for v in torn.cloth.system_mut().state_mut().1 {
+            *v = Vector::new(random.next(), random.next(), random.next());
+        }
+        let total = torn.cloth.masses().total();
+        let mut splits = 0;
+        for _ in 0..40 {
+            let moving = momentum(&torn.cloth);
+            let (before, ledger) = (energy(&torn.cloth), torn.cloth.ledger().total_j());
+            let report = torn.apply(0.001);
+            splits += report.splits;
+            let told = torn.cloth.ledger().total_j() - ledger;
+            near(energy(&torn.cloth) - before, told, 1e-12);
+            assert_eq!(report.energy_released_j, -told);
+            let made = copies == Copies::Whole && report.tear_length_m > 0.0;
+            assert_eq!(told != 0.0, made, "{report:?}");
+            assert_eq!(momentum(&torn.cloth), moving);
+            assert_eq!(torn.cloth.masses().total(), total);
+            assert!(torn.cloth.masses().ledger().is_balanced());
+            torn.cloth.step(&mut Verlet::new(), 1e-3).expect("a step");
+        }
+        println!(
+            "{copies:?}: {splits} splits, {:e} J",
+            torn.cloth.ledger().total_j()
+        );
+        assert!(splits > 20);
+    }
+}
+
+fn energy(cloth: &Cloth) -> f64 {
+    cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j()
+}
+
+#[test]
+fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
+    // A seam of vertices that bear half as much: only they are split.
+    let mut torn = Torn::new(sheet(8, 8, 6), Fabric::new(50.0), Tearing::default());
+    let seam: Vec<usize> = (4 * 9..5 * 9).collect();
+    let strengths = (0..81).map(|v| if seam.contains(&v) { 0.5 } else { 1.0 });
+    torn.tear = torn
+        .tear
+        .with_strengths(strengths.collect())
+        .expect("strengths");
+    bend(&mut torn.cloth, stretched(1.3));
+    let report = torn.apply(0.01);
+    assert!(report.splits >= 3, "{report:?}");
+    let split = torn.split();
+    assert!(split.iter().all(|v| seam.contains(&v.index())), "{split:?}");
+    for v in split {
+        assert_eq!(torn.tear.strength(v), 0.5);
+    }
+    let news = torn.mesh.vertex_count() - 81;
+    assert!((0..news).all(|i| torn.tear.strength(VertexId::new(81 + i).expect("a vertex")) == 0.5));
+
+    // One split of a whole vertex has two tips, one on each side, and they run from there.
+    let tearing = Tearing {
+        weakening: Some(0.5),
+        ..Tearing::default()
+    };
+    let mut torn = Torn::new(sheet(9, 9, 7), Fabric::new(50.0), tearing);
+    let mut strengths = vec![1.0; 100];
+    strengths[44] = 0.6;
+    torn.tear = torn.tear.with_strengths(strengths).expect("strengths");
+    bend(&mut torn.cloth, stretched(1.35));
+    assert_eq!((torn.apply(0.01).splits, torn.split()[0].index()), (1, 44));
+    let tips: Vec<VertexId> = torn
+        .mesh
+        .vertices()
+        .filter(|&v| torn.tear.is_tip(v))
+        .collect();
+    assert_eq!(tips.len(), 2);
+    let places = torn.cloth.positions().to_vec();
+    let x = |v: VertexId| places[v.index()];
+    let at = x(torn.split()[0]);
+    assert!((x(tips[0]) - at).dot(&(x(tips[1]) - at)) < 0.0);
+    let mut last = 1;
+    while torn.apply(0.01).splits > 0 {
+        let split = torn.split();
+        assert!(
+            split.len() <= last + 2,
+            "two tips make at most two splits a step"
+        );
+        last = split.len();
+    }
+    // What a tear has gone through is a tip no more.
+    assert!(torn.split().iter().all(|&v| !torn.tear.is_tip(v)));
+    println!("{last} splits in a row of 10 vertices");
+    let rows: Vec<f64> = torn.split().iter().map(|&v| x(v).y / 1.35).collect();
+    assert!(last >= 8, "it ran from side to side: {last}");
+    assert!(rows.iter().all(|y| (y - 0.4).abs() < 0.16), "{rows:?}");
+    // Without weakening nothing else was overstretched.
+    let mut torn = Torn::new(sheet(9, 9, 7), Fabric::new(50.0), Tearing::default());
+    bend(&mut torn.cloth, stretched(1.35));
+    assert_eq!(torn.apply(0.01).overstretched, 0);
+}
+
+#[test]
+fn provots_limiter_does_not_hide_a_yank() {
+    // One row of vertices is thrown: in a step it gets far, and the limiter takes it back.
+    let tear = |limited: bool| {
+        let mut torn = Torn::new(sheet(4, 8, 8), Fabric::new(50.0), Tearing::default());
+        let system = torn.cloth.system_mut();
+        (0..20).for_each(|v| system.hold(v));
+        (25..45).for_each(|v| system.state_mut().1[v].y = 40.0);
+        let mut provot = if limited {
+            Provot::default()
+        } else {
+            Provot::unlimited()
+        };
+        torn.cloth.step(&mut provot, 0.002).expect("a step");
+        let longest = torn.cloth.overstretched(1.5).count();
+        (longest, torn.apply(0.002))
+    };
+    let (seen, free) = tear(false);
+    let (hidden, limited) = tear(true);
+    assert!(seen > 3 && hidden < seen, "{seen} {hidden}");
+    assert_eq!(limited.overstretched, free.overstretched);
+    assert!(limited.splits > 0);
+    assert_eq!(limited.worst, free.worst);
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_what_was_given() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let cloth = cloth(&mesh, &positions, Fabric::new(1.0));
+    let stretch = |ratio| Tearing::new(Threshold::Stretch(ratio));
+    let axis = Vector::zeros();
+    let threads = Threshold::WarpWeft {
+        warp: 1.1,
+        weft: 1.1,
+        axis,
+    };
+    let refusals = [
+        (stretch(1.0), "a tear threshold of 1 is not above 1"),
+        (stretch(f64::NAN), "a tear threshold of NaN is not above 1"),
+        (
+            Tearing::new(Threshold::Force(0.0)),
+            "a tear threshold of 0 is not above 0",
+        ),
+        (
+            Tearing::new(Threshold::Toughness(f64::INFINITY)),
+            "a tear threshold of inf is not above 0",
+        ),
+        (
+            Tearing::new(threads),
+            "the axis (0, 0, 0) of the warp has no direction",
+        ),
+        (
+            Tearing {
+                weakening: Some(1.5),
+                ..stretch(1.5)
+            },
+            "a weakening by 1.5 is not above 0 and at most 1",
+        ),
+        (
+            Tearing {
+                delay_s: -1.0,
+                ..stretch(1.5)
+            },
+            "a delay of -1 s cannot be waited",
+        ),
+    ];
+    for (tearing, text) in refusals {
+        assert_eq!(
+            Tear::new(&cloth, tearing).expect_err(text).to_string(),
+            text
+        );
+    }
+    let tear = Tear::new(&cloth, Tearing::default()).expect("a tear");
+    assert_eq!(
+        tear.clone()
+            .with_strengths(vec![1.0; 3])
+            .expect_err("too few"),
+        TearingError::Strengths {
+            given: 3,
+            vertices: 9
+        }
+    );
+    let mut strengths = vec![1.0; 9];
+    strengths[4] = 0.0;
+    assert_eq!(
+        tear.with_strengths(strengths)
+            .expect_err("none")
+            .to_string(),
+        "the strength 0 of v4 is not positive and finite"
+    );
+    // A chain has no faces, so some thresholds mean nothing to it.
+    assert_eq!(
+        Tearing::new(Threshold::PrincipalStretch(1.1)).cut_links(&mut chain(0.0)),
+        Ok(Vec::new())
+    );
+    // A threshold that is none cuts nothing.
+    let (given, limit) = (-1.0, 0.0);
+    assert_eq!(
+        Tearing::new(Threshold::Force(given)).cut_links(&mut chain(0.0)),
+        Err(TearingError::Threshold { given, limit })
+    );
+}

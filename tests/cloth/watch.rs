@@ -1,0 +1,436 @@
+//! The watch over stability after something went wrong: a state that was no number, one that was
+//! set, a step that failed.
+
+use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
+use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::{
+    Cloth, Fabric, Failure, Frequency, ImplicitCloth, Limiter, Loads, Path, Pbd, Provot, Rk4,
+    SettingError, Solver, StepError, System, Verlet, Wind, Xpbd,
+};
+
+use crate::answers::row;
+
+/// Ten springs of 1000 N/m between particles of 10 g: a step of 0.02 s is six times too long.
+fn stiff() -> System {
+    row(10, 0.01, 1000.0, 0.1, Vector::x() * 0.1)
+}
+
+const TOO_LONG_S: f64 = 0.02;
+
+fn refused(system: &mut System, dt_s: f64) -> StepError {
+    let taken = system.step(&mut Verlet::new(), dt_s);
+    taken.expect_err("a step that is refused")
+}
+
+#[test]
+fn a_state_that_was_no_number_does_not_switch_the_watch_off() {
+    let mut system = stiff();
+    let clean = refused(&mut system, TOO_LONG_S);
+    let StepError::Unstable { limit_s, .. } = clean else {
+        panic!("{clean}");
+    };
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        let mut system = stiff();
+        let good = system.positions()[3];
+        system.state_mut().0[3].x = bad;
+        let broken = refused(&mut system, TOO_LONG_S);
+        assert_eq!(
+            matches!(broken, StepError::BlowUp { .. }),
+            !bad.is_finite(),
+            "{broken}"
+        );
+        // Where nothing can be measured, the bound counts.
+        let bound = system.frequency_bound();
+        let Frequency {
+            omega_rad_per_s,
+            residual,
+            ends,
+        } = system.frequency();
+        if bad.is_finite() {
+            assert!(omega_rad_per_s > 0.5 * bound && residual.is_finite());
+        } else {
+            assert_eq!((omega_rad_per_s, residual, ends), (bound, 1.0, None));
+        }
+
+        system.state_mut().0[3] = good;
+        let again = refused(&mut system, TOO_LONG_S);
+        let StepError::Unstable { limit_s: limit, .. } = again else {
+            panic!("{again}");
+        };
+        assert!((limit / limit_s - 1.0).abs() < 0.01, "{limit} {limit_s}");
+        system.hold(10);
+        refused(&mut system, TOO_LONG_S);
+    }
+}
+
+/// A light particle between two springs at a right angle, each of which swings alone: ω² = k/m.
+fn cornered() -> System {
+    let points = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y, 0.0));
+    let mut system = System::new(points, vec![1e-3, 10.0, 10.0]).expect("particles");
+    for far in [1, 2] {
+        system.stretch([0, far], 1.0, 100.0).expect("a spring");
+    }
+    system
+}
+
+/// Where both springs are on one side: ω² = 2 k/m.
+fn turned() -> Point {
+    Point::new(0.999, 0.0447, 0.0)
+}
+
+/// Below the limit at a right angle, .0060 s with the margin, and above that on one side.
+const BETWEEN_S: f64 = 0.0059;
+
+#[test]
+fn a_frequency_is_measured_anew_where_the_state_was_set() {
+    let ways: [fn(&mut System); 2] = [
+        |system| system.state_mut().0[2] = turned(),
+        |system| {
+            let path = Path::new([(0.0, turned())]).expect("a path");
+            system.grab(2, path);
+        },
+    ];
+    for way in ways {
+        let mut fresh = cornered();
+        way(&mut fresh);
+        let expected = refused(&mut fresh, BETWEEN_S);
+        assert!(matches!(expected, StepError::Unstable { .. }), "{expected}");
+
+        let mut system = cornered();
+        system.step(&mut Verlet::new(), BETWEEN_S).expect("a step");
+        let before = system.frequency().omega_rad_per_s;
+        way(&mut system);
+        let taken = system.step(&mut Verlet::new(), BETWEEN_S);
+        assert!(
+            matches!(taken, Err(StepError::Unstable { .. })),
+            "{taken:?}"
+        );
+        let after = system.frequency().omega_rad_per_s;
+        let exact = system.measure_frequency(1e-9, 1000).omega_rad_per_s;
+        assert!(
+            after > 1.4 * before && after > 0.99 * exact,
+            "{after} {exact}"
+        );
+    }
+}
+
+#[test]
+fn a_frequency_is_measured_anew_where_a_step_blew_up() {
+    // Steps themselves turn the springs: the measure is of the right angle until it blows up.
+    let mut system = cornered();
+    system.set_stretch_ratio_max(1.5);
+    system.step(&mut Verlet::new(), BETWEEN_S).expect("a step");
+    system.state_mut().1[2] = Vector::new(0.999, -0.9553, 0.0) / (4.0 * BETWEEN_S);
+    system.state_mut().1[0] = Vector::x() * 1e-3;
+    let mut errors = (0..64).filter_map(|_| system.step(&mut Verlet::new(), BETWEEN_S).err());
+    let first = errors.next().expect("it blows up");
+    assert!(matches!(first, StepError::BlowUp { .. }), "{first}");
+    let next = errors.next().expect("it is refused");
+    assert!(matches!(next, StepError::Unstable { .. }), "{next}");
+}
+
+/// Inertia, by the one way that a method of another crate has.
+struct Outside;
+
+impl Solver for Outside {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let (positions, velocities) = system.state_mut();
+        for (x, v) in positions.iter_mut().zip(velocities) {
+            *x += *v * dt_s;
+        }
+        Ok(())
+    }
+
+    fn frequency_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+}
+
+#[test]
+fn steps_of_a_method_that_sets_the_state_measure_no_more_often() {
+    let mut system = cornered();
+    system.step(&mut Outside, BETWEEN_S).expect("a step");
+    let products = system.counters().matrix_products;
+    assert!(products > 0);
+    for _ in 1..64 {
+        system.step(&mut Outside, BETWEEN_S).expect("a step");
+    }
+    assert_eq!(system.counters().matrix_products, products);
+    let _ = system.state_mut();
+    system.step(&mut Outside, BETWEEN_S).expect("a step");
+    assert!(system.counters().matrix_products > products);
+    // Where the bound admits the step, none is.
+    let products = system.counters().matrix_products;
+    let short_s = 1.9 / system.frequency_bound();
+    for _ in 0..3 {
+        let _ = system.state_mut();
+        system.step(&mut Outside, short_s).expect("a step");
+    }
+    assert_eq!(system.counters().matrix_products, products);
+}
+
+/// Every method, by name.
+fn every() -> [(&'static str, Box<dyn Solver>); 7] {
+    [
+        ("Verlet", Box::new(Verlet::new())),
+        ("RK4", Box::new(Rk4::new())),
+        ("Provot", Box::new(Provot::default())),
+        ("unlimited", Box::new(Provot::unlimited())),
+        ("PBD", Box::new(Pbd::default())),
+        ("XPBD", Box::new(Xpbd::default())),
+        ("implicit", Box::new(ImplicitCloth::default())),
+    ]
+}
+
+/// What a blow-up names.
+fn named(system: &mut System, method: &mut dyn Solver, dt_s: f64) -> String {
+    let error = system.step(method, dt_s).expect_err("a blow-up");
+    let words = error.to_string();
+    let named = words.strip_prefix("the system blew up after 0 s: ");
+    let named = named.and_then(|words| words.strip_suffix("; the last good state is kept"));
+    named.unwrap_or(&words).to_owned()
+}
+
+fn on_a_line(places: &[f64]) -> System {
+    let points = places.iter().map(|&x| Point::new(x, 0.0, 0.0));
+    System::new(points, vec![0.1; places.len()]).expect("particles")
+}
+
+#[test]
+fn a_blow_up_names_what_is_too_long_before_it_is_projected_or_limited() {
+    // Implicit steps take a constraint of any length.
+    for (name, mut method) in every().into_iter().filter(|(name, _)| *name != "implicit") {
+        let mut chain = on_a_line(&[0.0, 1.0, 5000.0]);
+        chain.stretch([0, 1], 1.0, 10.0).expect("a spring");
+        chain.stretch([1, 2], 1.0, 10.0).expect("a spring");
+        let edge = "edge 1-2 has 4999 times its rest length";
+        assert_eq!(named(&mut chain, &mut *method, 0.01), edge, "{name}");
+
+        for with_stretch in [false, true] {
+            let mut chain = on_a_line(&[0.0, 1.0, 300.0]);
+            chain.bend([1, 2], 1.0, 1.0).expect("a bend");
+            if with_stretch {
+                chain.stretch([0, 1], 1.0, 1.0).expect("a spring");
+            }
+            let bend = "the bend 1-2 has 299 times its rest length";
+            assert_eq!(named(&mut chain, &mut *method, 0.01), bend, "{name}");
+        }
+
+        // What a step throws too far by itself; Provot's forces see that in the next step, or never.
+        if ["Provot", "unlimited"].contains(&name) {
+            continue;
+        }
+        let mut chain = on_a_line(&[0.0, 1.0, 2.0]);
+        chain.stretch([0, 1], 1.0, 1e-3).expect("a spring");
+        chain.stretch([1, 2], 1.0, 1e-3).expect("a spring");
+        chain.state_mut().1[2].x = 2e4;
+        let edge = named(&mut chain, &mut *method, 0.1);
+        assert!(edge.starts_with("edge 1-2 has "), "{name}: {edge}");
+    }
+}
+
+#[test]
+fn a_blow_up_names_the_particle_whose_numbers_are_too_large() {
+    for (name, mut method) in every() {
+        let mut pair = on_a_line(&[0.0, 1.0, 2.0]);
+        for v in &mut pair.state_mut().1[1..] {
+            v.x = 1.2e308;
+        }
+        let particle = "particle 1 is beyond all measure";
+        assert_eq!(named(&mut pair, &mut *method, 1e-308), particle, "{name}");
+        // And where it was none when the step began, that one; not those that it drags along.
+        let mut chain = on_a_line(&[0.0, 1.0, 2.0, 3.0]);
+        for a in 0..3 {
+            chain.stretch([a, a + 1], 1.0, 1.0).expect("a spring");
+        }
+        chain.state_mut().0[2].z = f64::NAN;
+        let particle = "particle 2 is not finite";
+        assert_eq!(named(&mut chain, &mut *method, 0.01), particle, "{name}");
+    }
+}
+
+/// A method that gives up.
+struct Never;
+
+impl Solver for Never {
+    fn advance(&mut self, _: &mut System, _: f64) -> Result<(), Failure> {
+        Err(Failure::BlowUp)
+    }
+}
+
+#[test]
+fn a_method_that_gives_up_blames_nothing_that_is_not_there() {
+    let mut alone = on_a_line(&[0.0]);
+    assert_eq!(named(&mut alone, &mut Never, 0.01), "the method gave up");
+}
+
+/// A sheet in a wind, held at a corner, with all that a step leaves behind.
+fn blown() -> (Mesh, Cloth) {
+    let (mesh, positions) = shapes::grid(4, 4);
+    let masses = Masses::area(&mesh, &positions, 0.15).expect("masses");
+    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(10.0)).expect("a cloth");
+    let system = cloth.system_mut();
+    let wind = Wind {
+        velocity_m_per_s: Vector::new(0.0, 0.0, 5.0),
+        coefficient: 0.5,
+    };
+    let loads = Loads {
+        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+        wind: Some(wind),
+        drag_per_s: Some(1.0),
+        ..Loads::default()
+    };
+    system.set_loads(loads).expect("loads");
+    let x = system.positions()[0];
+    let way = [(0.0, x), (1.0, x + Vector::new(-5.0, 0.0, 0.0))];
+    system.grab(0, Path::new(way).expect("a path"));
+    system.keep_balance();
+    (mesh, cloth)
+}
+
+/// All that can be asked of a cloth after a step, but the counters.
+fn left_behind(cloth: &Cloth) -> String {
+    let system = cloth.system();
+    let of = |id| {
+        let forces = (system.force_n(id), system.multiplier_n(id));
+        (forces, system.unlimited_ratio(id))
+    };
+    let links: Vec<_> = system.stretches().iter().map(of).collect();
+    let state = (system.positions(), system.velocities(), system.elapsed_s());
+    let hand = system.reaction_n(0);
+    format!(
+        "{state:?} {links:?} {hand:?} {:?} {:?}",
+        system.energy_balance(),
+        cloth.effects()
+    )
+}
+
+#[test]
+fn a_step_that_is_refused_leaves_all_as_it_was() {
+    // The balance is asked for between two samples of the wind, 1 ms apart.
+    let dt_s = 3e-4;
+    for (name, mut method) in every() {
+        let (mut mesh, mut cloth) = blown();
+        for _ in 0..8 {
+            cloth.step(&mut *method, dt_s).expect("a step");
+        }
+        let mut edits = Edits::new();
+        let v = VertexId::new(12).expect("a vertex");
+        let face = mesh.faces_of(v).next().expect("a face");
+        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        edits.replay(&mut cloth);
+        let before = left_behind(&cloth);
+        let mut untried = cloth.clone();
+
+        for dt_s in [-1.0, f64::NAN] {
+            cloth.step(&mut *method, dt_s).expect_err("no step");
+            assert_eq!(left_behind(&cloth), before, "{name}, {dt_s} s");
+        }
+        cloth.system_mut().set_stretch_ratio_max(0.5);
+        for mut other in [
+            &mut Xpbd::default() as &mut dyn Solver,
+            &mut Pbd::default(),
+            &mut Late,
+        ] {
+            cloth.step(&mut other, dt_s).expect_err("a blow-up");
+            assert_eq!(left_behind(&cloth), before, "{name}");
+        }
+        cloth.system_mut().set_stretch_ratio_max(100.0);
+        // And the balance goes on as if nothing had been.
+        for _ in 0..8 {
+            for cloth in [&mut cloth, &mut untried] {
+                cloth.step(&mut Xpbd::new(1, 1), dt_s).expect("a step");
+            }
+        }
+        assert_eq!(left_behind(&cloth), left_behind(&untried), "{name}");
+    }
+}
+
+/// Provot's limiter, by way of a step that is taken, and then a failure.
+struct Late;
+
+impl Solver for Late {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let _ = Pbd::default().advance(system, dt_s);
+        system.set_stretch_ratio_max(1e9);
+        for _ in 0..2 {
+            Xpbd::default().advance(system, dt_s)?;
+            Provot::default().advance(system, dt_s)?;
+        }
+        system.set_stretch_ratio_max(0.5);
+        Err(Failure::BlowUp)
+    }
+}
+
+#[test]
+fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
+    let mut refused: Vec<(Box<dyn Solver>, &str, f64)> = Vec::new();
+    for given in [f64::NAN, -1.0, 2.0] {
+        let stiffness = Pbd {
+            stiffness: given,
+            ..Pbd::default()
+        };
+        let bend_stiffness = Pbd {
+            bend_stiffness: given,
+            ..Pbd::default()
+        };
+        refused.push((Box::new(stiffness), "stiffness", given));
+        refused.push((Box::new(bend_stiffness), "bend_stiffness", given));
+    }
+    for stretch_ratio_max in [f64::NAN, 0.0, -1.0] {
+        let limiter = Limiter {
+            stretch_ratio_max,
+            ..Limiter::default()
+        };
+        let provot = Provot::new(limiter);
+        refused.push((Box::new(provot), "stretch_ratio_max", stretch_ratio_max));
+        let (mut provot, mut system) = (provot, stiff());
+        let before = system.positions().to_vec();
+        assert!(matches!(
+            provot.limit(&mut system, 0.01),
+            Err(StepError::Setting(_))
+        ));
+        assert_eq!(system.positions(), before);
+    }
+    for tolerance in [Tolerance::Fixed(f64::NAN), Tolerance::Tied(-1.0)] {
+        let (Tolerance::Fixed(given) | Tolerance::Tied(given)) = tolerance;
+        let settings = Settings {
+            tolerance,
+            ..Settings::default()
+        };
+        refused.push((Box::new(ImplicitCloth::new(settings)), "tolerance", given));
+    }
+    for (mut solver, name, number) in refused {
+        let mut system = stiff();
+        let before = system.positions().to_vec();
+        let error = system.step(&mut *solver, 0.001).expect_err(name);
+        let StepError::Setting(SettingError { setting, given, .. }) = error else {
+            panic!("{name} {number}: {error}");
+        };
+        assert_eq!((setting, given.to_bits()), (name, number.to_bits()));
+        assert_eq!(system.positions(), before);
+    }
+    let mut system = stiff();
+    system.set_stretch_ratio_max(f64::NAN);
+    let error = system.step(&mut Xpbd::default(), 0.001).expect_err("NaN");
+    assert_eq!(
+        error.to_string(),
+        "stretch_ratio_max is NaN, and may be any above 0"
+    );
+    for dt_s in [0.0, -0.1, f64::NAN] {
+        let error = Provot::default().limit(&mut stiff(), dt_s);
+        assert!(matches!(error, Err(StepError::Step { .. })), "{error:?}");
+    }
+}
+
+#[test]
+fn no_sweep_counts_as_one() {
+    let moved = |sweeps| {
+        let mut system = row(10, 0.01, 1000.0, 0.1, Vector::x() * 0.1);
+        system.state_mut().0[3].x += 0.01;
+        system.step(&mut Pbd::new(sweeps), 0.01).expect("a step");
+        system.positions().to_vec()
+    };
+    assert_eq!(moved(0), moved(1));
+    assert_ne!(moved(1), moved(2));
+}

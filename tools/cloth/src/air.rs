@@ -1,0 +1,114 @@
+//! How fast air slows particles, and so how long a step may be that takes it in by the velocities
+//! before.
+//!
+//! Wind presses on a face by the mean velocity of its corners, and a third of that acts at each
+//! ([`Wind`](super::Wind)). So between any two corners of a face of area A and normal n there is
+//! the damping c A n nᵀ/9, and the rates at which wind slows a system are the eigenvalues of M⁻¹ D
+//! with D the sum of these. By Gershgorin's rows, three blocks a face, none is beyond
+//!
+//! ```text
+//! λ = w Σ c A / 3
+//! ```
+//!
+//! of some particle, with w its inverse mass and the sum over its faces. A flat sheet whose masses
+//! are those of its areas has just this rate, c over its density, when it moves across. Held
+//! particles have w = 0. Drag adds its own rate where a method takes that by the velocities before.
+//!
+//! Let u be a mode of springs and air together. M, K and D are symmetric, so by u*Mu = 1 the mode is
+//! one of a single oscillator with ω² = u*Ku and λ = u*Du, neither beyond its bound; a step is
+//! stable in every mode where it is for each such oscillator. For symplectic Euler and for velocity
+//! Verlet that is so where (ωΔt/2)² + λΔt/l < 1, with l the limit of λΔt without springs. From
+//! ωΔt/2 + λΔt/l ≤ 1 that follows, and it can be solved for the step: the reciprocals of the two
+//! limits add up. For the Runge–Kutta method the sum was looked at on a grid of ω and λ. A method
+//! that takes springs implicitly has the limit of its air alone, as a spring only shortens what
+//! it does in a step.
+//!
+//! Areas grow with the cloth, so they are looked at once a step, where there is wind.
+
+use super::solver::Solver;
+use super::system::System;
+use tearmesh::geometry::{cross, dot};
+
+/// The largest rate at which air slows a system: a bound, and the particle that sets it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirRate {
+    /// The rate λ, in 1/s.
+    pub rate_per_s: f64,
+    /// The particle.
+    pub particle: usize,
+}
+
+/// What the air takes of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AirShare {
+    pub(crate) rate: AirRate,
+    /// One over the longest step in seconds that is stable without springs.
+    pub(crate) per_s: f64,
+}
+
+impl System {
+    /// The largest rate at which wind slows the system with its present areas; `None` where there
+    /// is none. A pass over all faces.
+    pub fn wind_rate(&mut self) -> Option<AirRate> {
+        let wind = self.model.loads.wind?;
+        let faces = &self.model.faces;
+        if faces.is_empty() {
+            return None;
+        }
+        self.counters.area_evaluations += 1;
+        let areas = &mut self.scratch.areas;
+        areas.clear();
+        areas.resize(self.positions.len(), 0.0);
+        for face in faces.chunks_exact(3) {
+            let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
+            let x = &self.positions;
+            let normal = cross(x[b] - x[a], x[c] - x[a]);
+            let area = dot(normal, normal).sqrt() / 2.0;
+            for corner in [a, b, c] {
+                areas[corner] += area;
+            }
+        }
+        let rates = areas.iter().zip(&self.model.inverse_masses);
+        let rates = rates.map(|(area, w)| w * wind.coefficient * area / 3.0);
+        let mut most = None;
+        for (particle, rate_per_s) in rates.enumerate() {
+            let largest = most.map_or(0.0, |rate: AirRate| rate.rate_per_s);
+            // A state that is not finite is for the step to find.
+            if rate_per_s > largest && rate_per_s.is_finite() {
+                most = Some(AirRate {
+                    rate_per_s,
+                    particle,
+                });
+            }
+        }
+        most
+    }
+
+    /// The rate of drag, and the first particle that feels it.
+    fn drag_rate(&self) -> Option<AirRate> {
+        let rate_per_s = self.model.loads.drag_per_s.filter(|drag| *drag > 0.0)?;
+        let particle = self.model.inverse_masses.iter().position(|w| *w > 0.0)?;
+        Some(AirRate {
+            rate_per_s,
+            particle,
+        })
+    }
+
+    /// What the air takes of a step by this method.
+    pub(crate) fn air_share(&mut self, solver: &(impl Solver + ?Sized)) -> Option<AirShare> {
+        let limit = solver.air_limit()?;
+        let drag = match solver.takes_drag_explicitly() {
+            true => self.drag_rate(),
+            false => None,
+        };
+        let rate = match (self.wind_rate(), drag) {
+            (Some(wind), Some(drag)) => AirRate {
+                rate_per_s: wind.rate_per_s + drag.rate_per_s,
+                ..wind
+            },
+            (wind, drag) => wind.or(drag)?,
+        };
+        let per_s = rate.rate_per_s / limit;
+        Some(AirShare { rate, per_s })
+    }
+}

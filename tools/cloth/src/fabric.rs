@@ -1,0 +1,176 @@
+//! What a cloth is made of: springs along edges, triangles, springs or arcs across edges; and what
+//! becomes of them where it tears.
+
+use super::implicit::Buckling;
+use super::sheet::ClothError;
+use super::weave::Weave;
+
+/// What a cloth is made of, and what becomes of constraints when it tears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fabric {
+    /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
+    /// 2/√3 of it. Zero with a [`Weave`]: edges are measured, for
+    /// [`Cloth::overstretched`](super::Cloth::overstretched), and pull at nothing.
+    pub stretch_n_per_m: f64,
+    /// Triangles that resist stretch and shear; `None` for none.
+    pub weave: Option<Weave>,
+    /// What resists bending, across each interior edge; `None` for nothing.
+    pub bend: Option<Bending>,
+    /// What a torn edge's two constraints have.
+    pub copies: Copies,
+    /// Which bend constraints a split takes away.
+    pub unbend: Unbend,
+}
+
+impl Fabric {
+    /// A fabric whose edges have this stiffness in N/m, without bending, and with the rules that
+    /// keep energy.
+    #[must_use]
+    pub fn new(stretch_n_per_m: f64) -> Fabric {
+        Fabric {
+            stretch_n_per_m,
+            weave: None,
+            bend: None,
+            copies: Copies::default(),
+            unbend: Unbend::default(),
+        }
+    }
+
+    /// A fabric of triangles alone, without springs along edges and without bending.
+    ///
+    /// ```
+    /// use tearmesh_cloth::{implicit, Cloth, Fabric, ImplicitCloth, Pbd, StepError, Weave};
+    /// use tearmesh::{shapes, Masses, Vector};
+    ///
+    /// let weave = Weave {
+    ///     warp_n_per_m: 800.0,
+    ///     weft_n_per_m: 500.0,
+    ///     shear_n_per_m: 40.0,
+    ///     warp: Vector::y(),
+    /// };
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let masses = Masses::area(&mesh, &positions, 0.15)?;
+    /// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::woven(weave))?;
+    /// cloth.step(&mut ImplicitCloth::new(implicit::Settings::default()), 1.0 / 60.0)?;
+    ///
+    /// // What projects springs alone would leave it without force, and is refused.
+    /// let error = cloth.step(&mut Pbd::default(), 1.0 / 60.0).unwrap_err();
+    /// assert_eq!(error, StepError::Triangles { count: 32 });
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn woven(weave: Weave) -> Fabric {
+        Fabric {
+            weave: Some(weave),
+            ..Fabric::new(0.0)
+        }
+    }
+}
+
+impl Fabric {
+    pub(super) fn check(&self) -> Result<(), ClothError> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let is_woven_alone = self.stretch_n_per_m == 0.0 && self.weave.is_some();
+        if !(is_woven_alone || positive(self.stretch_n_per_m)) {
+            return Err(ClothError::Stiffness {
+                field: "stretch_n_per_m",
+                given: self.stretch_n_per_m,
+            });
+        }
+        let weave = self.weave.and_then(|weave| weave.fault());
+        let bend = self.bend.map(|bend| bend.number());
+        let bend = bend.filter(|(_, given)| !positive(*given));
+        match weave.or(bend) {
+            Some((field, given)) => Err(ClothError::Stiffness { field, given }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What resists bending, between the two vertices opposite an interior edge.
+///
+/// ```
+/// use tearmesh_cloth::implicit::{Buckling, Settings};
+/// use tearmesh_cloth::{Bending, Cloth, Fabric, ImplicitCloth, StepError, Xpbd};
+/// use tearmesh::{shapes, Masses};
+///
+/// let bend = Bending::Buckling { flexural_n_m2: 1e-6, law: Buckling::new(0.95).unwrap() };
+/// let fabric = Fabric { bend: Some(bend), ..Fabric::new(500.0) };
+/// let (mesh, positions) = shapes::grid(4, 4);
+/// let masses = Masses::area(&mesh, &positions, 0.15)?;
+/// let mut cloth = Cloth::new(&mesh, &positions, masses, fabric)?;
+/// cloth.step(&mut ImplicitCloth::new(Settings::default()), 1.0 / 60.0)?;
+///
+/// // What projects springs would take arcs for such, and is refused.
+/// let error = cloth.step(&mut Xpbd::default(), 1.0 / 60.0).unwrap_err();
+/// assert_eq!(error, StepError::Buckling { count: 40 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bending {
+    /// A spring of the same stiffness across every edge (the flexion springs of Provot 1995, §2).
+    Spring {
+        /// The stiffness, in N/m; positive.
+        stiffness_n_per_m: f64,
+    },
+    /// A strip of the same flexural stiffness across every edge, which buckles into an arc when it
+    /// is pushed together (Choi and Ko 2002 §4.2). Its stiffness against compression, before it
+    /// does, follows from its length: the shorter, the stiffer, by the third power.
+    Buckling {
+        /// The flexural stiffness k, in N m²: the bending moment is k times the curvature.
+        /// Positive.
+        flexural_n_m2: f64,
+        /// Where it buckles.
+        law: Buckling,
+    },
+}
+
+impl Bending {
+    /// The field that says how stiff it is, and its number.
+    pub(super) fn number(&self) -> (&'static str, f64) {
+        match *self {
+            Bending::Spring { stiffness_n_per_m } => ("bend.stiffness_n_per_m", stiffness_n_per_m),
+            Bending::Buckling { flexural_n_m2, .. } => ("bend.flexural_n_m2", flexural_n_m2),
+        }
+    }
+
+    pub(super) fn law(&self) -> Option<Buckling> {
+        match *self {
+            Bending::Spring { .. } => None,
+            Bending::Buckling { law, .. } => Some(law),
+        }
+    }
+
+    /// The stiffness of a bend constraint of this length. `None` where it is beyond all numbers.
+    pub(super) fn stiffness_n_per_m(&self, rest_length_m: f64) -> Option<f64> {
+        let stiffness = match *self {
+            Bending::Spring { stiffness_n_per_m } => stiffness_n_per_m,
+            Bending::Buckling { flexural_n_m2, law } => {
+                law.compression_n_per_m(flexural_n_m2, rest_length_m)
+            }
+        };
+        (stiffness > 0.0 && stiffness.is_finite()).then_some(stiffness)
+    }
+}
+
+/// The stiffness of the two constraints that a torn edge has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Copies {
+    /// Half each: a split changes no energy.
+    #[default]
+    Halved,
+    /// All of it each, as in the paper (Souza et al. 2014 §IV-A): a split makes ½ k (l − L)² an
+    /// edge, which the [`EnergyLedger`](super::EnergyLedger) says.
+    Whole,
+}
+
+/// Which bend constraints a split takes away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Unbend {
+    /// Those across the edges that it tears.
+    #[default]
+    Seam,
+    /// Those, and all of the vertex that is split (Souza et al. 2014 §IV-A). A merge does not bring
+    /// these back.
+    Vertex,
+}

@@ -1,0 +1,481 @@
+//! A cloth follows the log: splits, insertions and merges change particles, constraints, triangles
+//! and the bound of frequencies where they are, and nowhere else.
+
+use super::constraint::{Constraint, ConstraintId, Constraints};
+use super::fabric::{Copies, Unbend};
+use super::sheet::{Cloth, Effect, NO_BEND};
+use tearmesh::Masses;
+use tearmesh::geometry::{Point, between, length};
+use tearmesh::{Child, Edit, Follower, Insert, Merge, Slide, Source, Split};
+use tearmesh::{HalfEdgeId, VertexId};
+
+/// Room that edits reuse.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Room {
+    ids: Vec<ConstraintId>,
+    vertices: Vec<usize>,
+    pieces: Vec<Piece>,
+}
+
+impl Follower for Cloth {
+    fn next_edit(&self) -> u64 {
+        self.next_edit
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        let bound_before_rad_per_s = self.system.bound_within_reach();
+        let moves_masses = matches!(edit, Edit::Merge(_) | Edit::Slide(_));
+        let before_j = self.system.before_edit_j(moves_masses);
+        let made_j = self.ledger.total_j();
+        let vertex = match edit {
+            Edit::Split(split) => {
+                self.split(split, edit);
+                split.old
+            }
+            Edit::Insert(insert) => {
+                self.insert(insert, edit);
+                insert.points[0].vertex
+            }
+            Edit::Merge(merge) => {
+                self.merge(merge, edit);
+                merge.kept
+            }
+            Edit::Slide(slide) => {
+                self.slide(slide, edit);
+                slide.vertex
+            }
+        };
+        let made_j = self.ledger.total_j() - made_j;
+        self.system.edited(made_j, before_j, moves_masses);
+        self.effects.push(Effect {
+            number: edit.number(),
+            vertex,
+            bound_before_rad_per_s,
+            bound_after_rad_per_s: self.system.bound_within_reach(),
+        });
+        self.next_edit = edit.number() + 1;
+    }
+}
+
+impl Cloth {
+    fn split(&mut self, split: &Split<'_>, edit: &Edit<'_>) {
+        let (old, new) = (split.old.index(), split.new.index());
+        let system = &mut self.system;
+        assert_eq!(
+            new,
+            system.positions.len(),
+            "a cloth is in step with its mesh"
+        );
+        let (x, v) = (system.positions[old], system.velocities[old]);
+        system.push_particle(x, v, Some(old));
+        self.masses.follow(edit);
+        self.rest.follow(edit);
+        self.reweigh(old);
+        self.reweigh(new);
+        let mut gained = 0.0;
+        for link in split.torn {
+            let id = self.stretch(link.stayed);
+            let mut copy = self.system.model.stretch.get(id);
+            let mut memory = self.system.model.stretch.memory(id);
+            let before = energy(&copy, &self.system.positions);
+            if self.fabric.copies == Copies::Halved {
+                copy.stiffness_n_per_m *= 0.5;
+                memory.multiplier *= 0.5;
+                let half = copy.stiffness_n_per_m;
+                self.system.model.stretch.set_stiffness(id, half);
+                self.system.model.stretch.remember(id, memory);
+            }
+            let each = energy(&copy, &self.system.positions);
+            gained += 2.0 * each - before;
+            let far = copy.ends[0] + copy.ends[1] - old;
+            copy.ends = copy.ends.map(|end| if end == old { new } else { end });
+            let copied = self.system.model.stretch.add(copy);
+            self.system.model.stretch.remember(copied, memory);
+            self.join(link.stayed, id);
+            self.join(link.moved, copied);
+            self.system.touched(&[far]);
+            gained -= self.unbend(link.stayed);
+        }
+        for &corner in split.corners {
+            self.system.model.faces[corner.index()] = new as u32;
+            for h in [corner, corner.prev()] {
+                let id = self.stretch(h);
+                let stretch = &mut self.system.model.stretch;
+                repoint(stretch, id, old, new);
+            }
+            if let Some(&id) = self.bend_of.get(corner.next().index())
+                && id != NO_BEND
+            {
+                repoint(&mut self.system.model.bend, id, old, new);
+            }
+        }
+        if self.fabric.unbend == Unbend::Vertex {
+            for particle in [old, new] {
+                self.room.ids.clear();
+                self.room.ids.extend(self.system.model.bend.of(particle));
+                for i in 0..self.room.ids.len() {
+                    gained -= self.unbend(self.bent_edge[self.room.ids[i].index()][0]);
+                }
+            }
+        }
+        self.split_triangles(split);
+        self.ledger.split_elastic_j += gained;
+        self.system.touched(&[old, new]);
+    }
+
+    fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
+        let (kept, gone) = (merge.kept.index(), merge.gone.index());
+        let elastic = self.system.elastic_at_j(kept) + self.system.elastic_at_j(gone);
+        let kinetic = self.system.kinetic_j(kept) + self.system.kinetic_j(gone);
+        for &corner in merge.corners {
+            self.system.model.faces[corner.index()] = kept as u32;
+        }
+        self.merge_triangles(merge);
+        for link in merge.sewn {
+            let (id, copied) = (self.stretch(link.stayed), self.stretch(link.moved));
+            let stretch = &mut self.system.model.stretch;
+            let sum = stretch.get(id).stiffness_n_per_m + stretch.remove(copied).stiffness_n_per_m;
+            let share = match self.fabric.copies {
+                Copies::Halved => 1.0,
+                Copies::Whole => 0.5,
+            };
+            stretch.set_stiffness(id, sum * share);
+            self.join(link.moved, id);
+            self.join(link.stayed, id);
+        }
+        let model = &mut self.system.model;
+        for family in [&mut model.stretch, &mut model.bend] {
+            self.room.ids.clear();
+            self.room.ids.extend(family.of(gone));
+            for &id in &self.room.ids {
+                family.repoint(id, gone, kept);
+            }
+        }
+        // Across a seam: between particles that are neither of the two.
+        let mut across = 0.0;
+        if !self.bend_of.is_empty() {
+            for link in merge.sewn {
+                if let Some(id) = self.bend_across([link.stayed, link.moved]) {
+                    across += self.bend_energy(id);
+                }
+            }
+        }
+        self.system.join_particles(kept, gone, merge.share);
+        if let Some(renumbered) = merge.renumbered {
+            for &corner in renumbered.corners {
+                self.system.model.faces[corner.index()] = renumbered.to.index() as u32;
+            }
+        }
+        // Copies that slid apart have different places at rest, and meet between.
+        let apart = self.rest.at(merge.kept) != self.rest.at(merge.gone);
+        self.masses.follow(edit);
+        self.rest.follow(edit);
+        self.reweigh(kept);
+        if apart {
+            self.measure_again(kept);
+        }
+        self.ledger.merge_elastic_j += self.system.elastic_at_j(kept) + across - elastic;
+        self.ledger.merge_kinetic_j += self.system.kinetic_j(kept) - kinetic;
+    }
+
+    fn slide(&mut self, slide: &Slide<'_>, edit: &Edit<'_>) {
+        let (particle, toward) = (slide.vertex.index(), slide.toward.index());
+        let elastic = self.system.elastic_at_j(particle);
+        let x = &mut self.system.positions;
+        x[particle] = between(x[particle], x[toward], slide.t);
+        self.masses.follow(edit);
+        self.rest.follow(edit);
+        self.measure_again(particle);
+        self.ledger.slide_elastic_j += self.system.elastic_at_j(particle) - elastic;
+    }
+
+    /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
+    /// Stretch constraints keep k L, as the parts of a divided edge do.
+    fn measure_again(&mut self, particle: usize) {
+        let mut ids = std::mem::take(&mut self.room.ids);
+        ids.clear();
+        ids.extend(self.system.model.stretch.of(particle));
+        for &id in &ids {
+            let before = self.system.model.stretch.get(id);
+            let shortest = before.rest_length_m * f64::EPSILON;
+            let rest_length_m = self.rest_length(before.ends).max(shortest);
+            let stretch = &mut self.system.model.stretch;
+            if rest_length_m != before.rest_length_m {
+                let k = before.stiffness_n_per_m * (before.rest_length_m / rest_length_m);
+                stretch.set_stiffness(id, k);
+                stretch.set_rest_length(id, rest_length_m);
+                self.system.touched(&before.ends);
+            }
+        }
+        ids.clear();
+        ids.extend(self.system.model.bend.of(particle));
+        for &id in &ids {
+            self.measure_bend(id);
+        }
+        self.system.touched(&[particle]);
+        self.room.ids = ids;
+        self.weave_again(particle);
+    }
+
+    fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
+        let count = self.system.positions.len();
+        let mut room = std::mem::take(&mut self.room);
+        room.vertices.clear();
+        let corners = insert.children.iter().flat_map(|child| child.vertices);
+        room.vertices.extend(corners.map(VertexId::index));
+        room.vertices.sort_unstable();
+        room.vertices.dedup();
+        let there = |&&v: &&usize| v < count;
+        let kinetic: f64 = room
+            .vertices
+            .iter()
+            .filter(there)
+            .map(|&v| self.system.kinetic_j(v))
+            .sum();
+
+        for point in insert.points {
+            assert_eq!(
+                point.vertex.index(),
+                self.system.positions.len(),
+                "a cloth is in step with its mesh"
+            );
+            let (x, v) = self.system.inserted(&point.at);
+            self.system.push_particle(x, v, None);
+        }
+        self.masses.follow(edit);
+        self.rest.follow(edit);
+        for &v in &room.vertices {
+            self.reweigh(v);
+        }
+        let now = room.vertices.iter().map(|&v| self.system.kinetic_j(v));
+        self.ledger.insert_kinetic_j += now.sum::<f64>() - kinetic;
+
+        room.pieces.clear();
+        for child in insert.children {
+            let pieces = (0..3).map(|corner| self.piece(child, corner));
+            room.pieces.extend(pieces);
+        }
+        room.pieces
+            .sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
+        let half_edges = insert
+            .children
+            .iter()
+            .map(|child| 3 * child.face.index() + 3);
+        let half_edges = half_edges.fold(self.stretch_of.len(), usize::max);
+        self.stretch_of.resize(half_edges, NO_BEND);
+        self.system.model.faces.resize(half_edges, 0);
+        if !self.bend_of.is_empty() {
+            self.bend_of.resize(half_edges, NO_BEND);
+        }
+        let mut gained = 0.0;
+        for child in insert.children {
+            for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
+                self.system.model.faces[h.index()] = v.index() as u32;
+                if let Some(bend) = self.bend_of.get_mut(h.index()) {
+                    *bend = NO_BEND;
+                }
+            }
+        }
+        // First what goes, then what comes: an id may be given again.
+        room.ids.clear();
+        room.ids.extend(
+            room.pieces
+                .iter()
+                .filter(|piece| piece.divided)
+                .map(|piece| piece.stretch),
+        );
+        room.ids.sort_unstable();
+        room.ids.dedup();
+        for &id in &room.ids {
+            let gone = self.system.model.stretch.remove(id);
+            gained -= energy(&gone, &self.system.positions);
+        }
+        room.ids.clear();
+        let divided = room
+            .pieces
+            .iter()
+            .filter(|piece| piece.divided && piece.bend != NO_BEND);
+        room.ids.extend(divided.map(|piece| piece.bend));
+        room.ids.sort_unstable();
+        room.ids.dedup();
+        for &id in &room.ids {
+            let gone = self.system.model.bend.remove(id);
+            gained -= self.system.bend_energy_of(&gone);
+        }
+        for edge in room.pieces.chunk_by(|one, other| one.ends == other.ends) {
+            gained += if edge[0].is_kept {
+                self.keep(edge)
+            } else {
+                self.put(edge)
+            };
+        }
+        gained += self.insert_triangles(insert);
+        self.ledger.insert_elastic_j += gained;
+        self.system.touched(&room.vertices);
+        self.room = room;
+    }
+
+    /// An edge that was there stays; what is across it may be another vertex.
+    fn keep(&mut self, edge: &[Piece]) -> f64 {
+        let mut gained = 0.0;
+        for piece in edge {
+            self.join(piece.half_edge, piece.stretch);
+            let id = piece.bend;
+            if id == NO_BEND {
+                continue;
+            }
+            gained -= self.bend_energy(id);
+            if piece.apex_before != piece.apex {
+                let bend = &mut self.system.model.bend;
+                bend.repoint(id, piece.apex_before, piece.apex);
+            }
+            self.measure_bend(id);
+            gained += self.bend_energy(id);
+            self.bend_of[piece.half_edge.index()] = id;
+            for h in &mut self.bent_edge[id.index()] {
+                if *h == piece.half_edge_before {
+                    *h = piece.half_edge;
+                }
+            }
+        }
+        gained
+    }
+
+    /// A part of a divided edge, or a new edge inside a face.
+    fn put(&mut self, edge: &[Piece]) -> f64 {
+        let piece = &edge[0];
+        // A part that rounding left no length for has next to none.
+        let shortest = piece.length * f64::EPSILON;
+        let rest_length_m = self.rest_length(piece.ends).max(shortest);
+        let constraint = Constraint {
+            ends: piece.ends,
+            rest_length_m,
+            stiffness_n_per_m: piece.stiffness_by_length / rest_length_m,
+        };
+        let mut gained = energy(&constraint, &self.system.positions);
+        let id = self.system.model.stretch.add(constraint);
+        for piece in edge {
+            self.join(piece.half_edge, id);
+        }
+        if let ([one, other], false) = (edge, self.bend_of.is_empty())
+            && let Some(id) = self.bend_across([one.half_edge, other.half_edge])
+        {
+            gained += self.bend_energy(id);
+        }
+        gained
+    }
+
+    /// Takes away the bend constraint across an edge, and returns the energy that it held.
+    fn unbend(&mut self, h: HalfEdgeId) -> f64 {
+        let Some(&id) = self.bend_of.get(h.index()) else {
+            return 0.0;
+        };
+        if id == NO_BEND {
+            return 0.0;
+        }
+        for h in self.bent_edge[id.index()] {
+            self.bend_of[h.index()] = NO_BEND;
+        }
+        let gone = self.system.model.bend.remove(id);
+        self.system.bend_energy_of(&gone)
+    }
+
+    fn bend_energy(&self, id: ConstraintId) -> f64 {
+        let bend = self.system.model.bend.get(id);
+        self.system.bend_energy_of(&bend)
+    }
+
+    /// The edge of a child that starts at this corner.
+    fn piece(&self, child: &Child, corner: usize) -> Piece {
+        let [a, b, apex] = [0, 1, 2].map(|i| child.vertices[(corner + i) % 3].index());
+        let sources = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
+        let parent = child.parent.half_edges();
+        let on = parent
+            .into_iter()
+            .find(|&h| sources.into_iter().all(|source| lies_on(source, h)));
+        let is_corner = |source: &Source| matches!(source, Source::Corner(_));
+        let by_length = |h: HalfEdgeId| {
+            let constraint = self.system.model.stretch.get(self.stretch(h));
+            constraint.stiffness_n_per_m * constraint.rest_length_m
+        };
+        let h = on.unwrap_or(parent[0]);
+        let stiffness_by_length = match on {
+            Some(h) => by_length(h),
+            None => parent.map(by_length).iter().sum::<f64>() / 3.0,
+        };
+        let is_kept = on.is_some() && sources.into_iter().all(is_corner);
+        Piece {
+            ends: [a.min(b), a.max(b)],
+            half_edge: child.face.half_edges()[corner],
+            half_edge_before: h,
+            apex,
+            apex_before: self.system.model.faces[h.prev().index()] as usize,
+            is_kept,
+            divided: on.is_some() && !is_kept,
+            stretch: self.stretch(h),
+            bend: match on {
+                Some(h) => self.bend_of.get(h.index()).copied().unwrap_or(NO_BEND),
+                None => NO_BEND,
+            },
+            stiffness_by_length,
+            length: self.system.model.stretch.get(self.stretch(h)).rest_length_m,
+        }
+    }
+
+    /// Takes over the mass of a vertex, which has a face.
+    fn reweigh(&mut self, particle: usize) {
+        let mass = weight(&self.masses, VertexId::new(particle).expect("I1: ids fit"));
+        self.system.model.masses[particle] = mass;
+        self.system.weigh(particle);
+    }
+}
+
+/// What the particle of a vertex with a face weighs: its exact mass, but a unit at least. What
+/// comes off a face without area may weigh nothing, and a particle without mass would stay
+/// where it is in the air.
+pub(super) fn weight(masses: &Masses, v: VertexId) -> f64 {
+    masses.at(v).max(masses.unit())
+}
+
+/// An edge of a child, from one of its sides.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    /// The lower particle first. They name the edge: no two edges have the same two.
+    ends: [usize; 2],
+    half_edge: HalfEdgeId,
+    /// The half-edge of the parent that it lies on; any for one inside.
+    half_edge_before: HalfEdgeId,
+    apex: usize,
+    apex_before: usize,
+    /// Whether it is a whole edge of the parent.
+    is_kept: bool,
+    /// Whether it is a part of an edge of the parent.
+    divided: bool,
+    /// The constraint of that edge.
+    stretch: ConstraintId,
+    bend: ConstraintId,
+    /// What k L shall be.
+    stiffness_by_length: f64,
+    length: f64,
+}
+
+/// Whether a corner of a child lies on this edge of its parent.
+pub(super) fn lies_on(source: &Source, h: HalfEdgeId) -> bool {
+    match *source {
+        Source::Corner(corner) => corner == h || corner == h.next(),
+        Source::Edge { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
+        Source::Face { .. } => false,
+    }
+}
+
+fn repoint(family: &mut Constraints, id: ConstraintId, from: usize, to: usize) {
+    if family.get(id).ends.contains(&from) {
+        family.repoint(id, from, to);
+    }
+}
+
+fn energy(constraint: &Constraint, positions: &[Point]) -> f64 {
+    let [a, b] = constraint.ends;
+    let extension = length(positions[b] - positions[a]) - constraint.rest_length_m;
+    0.5 * constraint.stiffness_n_per_m * extension * extension
+}

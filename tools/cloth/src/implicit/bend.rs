@@ -1,0 +1,445 @@
+//! Bending as buckling: Choi and Ko 2002 §4.2, between particles two apart.
+//!
+//! Pushed together from the rest distance L to d, the cloth between buckles into an arc of
+//! length L and curvature κ = (2/L) sinc⁻¹(d/L). With t = κL/2, d = L sin t / t:
+//!
+//! ```text
+//! energy  E(d) = ½ k κ² L = 2 k t² / L
+//! force   f(d) = E′ = k κ² / (cos t − sinc t)          (negative: it pushes apart)
+//! ```
+//!
+//! At d = L that force does not vanish: it is the buckling load 12 k / L². So near L a plain
+//! spring acts instead, f = `max(f_b, c (d − L))`; beyond L nothing does (threads that only pull
+//! take over there). The energy is continued across the change-over, so that forces are its
+//! exact gradient. For one change-over to exist the spring has to be stiffer than the arc at
+//! d = 0: c > 4π² k / L³ (see [`Bend::new`]).
+//!
+//! **Correction.** The polynomial of degree four in d/L that is in common use for `f_b`,
+//! −11.541 x⁴ + 34.193 x³ − 39.083 x² + 23.116 x − 9.713, has to be multiplied by 4 k / L². It is
+//! not used here.
+//!
+//! **No sine and no root.** With u = t², sinc t, (sinc t − cos t) / t² and what the slope needs
+//! are power series in u that converge at once for u up to π². So the inverse is found in u by
+//! Newton's method on a convex falling function from its left, where each step is monotone,
+//! and the force is −4 k / (L² p(u)) without cancellation at d = L, where the formula above
+//! divides zero by zero. Only + − × ÷ in a fixed order: the same bits on every machine.
+
+use super::matrix::Block;
+use super::spring::Line;
+use std::fmt;
+use tearmesh::geometry::{Point, Vector};
+
+/// What resists bending between two particles that are two apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bend {
+    ends: [u32; 2],
+    rest_length: f64,
+    stiffness: f64,
+    compression: f64,
+    /// The distance below which the arc acts.
+    buckles_below: f64,
+    /// What is added to the energy of the arc, so that energy is continuous.
+    energy_shift: f64,
+}
+
+impl Bend {
+    /// Between two particles at rest distance `rest_length` (m), with flexural stiffness
+    /// `stiffness` (k, N m²) and stiffness against compression before it buckles
+    /// `compression` (c, N/m).
+    ///
+    /// ```
+    /// use tearmesh_cloth::implicit::{Bend, BendError};
+    ///
+    /// let bend = Bend::new([0, 2], 0.1, 1e-6, 1.0)?;
+    /// assert_eq!(bend.ends(), [0, 2]);
+    /// assert!(matches!(Bend::new([0, 2], 0.1, 1e-6, 0.03), Err(BendError::Compression { .. })));
+    /// # Ok::<(), BendError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Where the ends are one particle, a number is not positive and finite, or `compression`
+    /// is not above 4π² k / L³.
+    pub fn new(
+        ends: [u32; 2],
+        rest_length: f64,
+        stiffness: f64,
+        compression: f64,
+    ) -> Result<Bend, BendError> {
+        if ends[0] == ends[1] {
+            return Err(BendError::Ends { given: ends[0] });
+        }
+        for given in [rest_length, stiffness, compression] {
+            if !(given > 0.0 && given.is_finite()) {
+                return Err(BendError::Number { given });
+            }
+        }
+        let pi = std::f64::consts::PI;
+        let limit = 4.0 * (pi * pi) * stiffness / (rest_length * rest_length * rest_length);
+        if !(compression > limit && limit.is_finite()) {
+            return Err(BendError::Compression {
+                given: compression,
+                limit,
+            });
+        }
+        let mut bend = Bend {
+            ends,
+            rest_length,
+            stiffness,
+            compression,
+            buckles_below: 0.0,
+            energy_shift: 0.0,
+        };
+        bend.buckles_below = bend.change_over();
+        let gap = bend.buckles_below - rest_length;
+        bend.energy_shift = 0.5 * compression * (gap * gap) - bend.arc(bend.buckles_below).energy;
+        Ok(bend)
+    }
+
+    /// The two particles.
+    #[must_use]
+    pub fn ends(&self) -> [u32; 2] {
+        self.ends
+    }
+
+    pub(crate) fn rest_length(&self) -> f64 {
+        self.rest_length
+    }
+
+    pub(crate) fn compression(&self) -> f64 {
+        self.compression
+    }
+
+    /// The same between other particles: for a tear that gives an end to a copy.
+    #[must_use]
+    pub fn between(&self, ends: [u32; 2]) -> Bend {
+        Bend { ends, ..*self }
+    }
+
+    /// The distance of the ends, in m, below which the cloth between them is an arc.
+    #[must_use]
+    pub fn buckles_below(&self) -> f64 {
+        self.buckles_below
+    }
+
+    /// Where `f_b(d)` = c (d − L). The arc's force is concave in d and below the spring's at
+    /// d = L, above it at 0, so there is one such d, found by bisection to the last bit.
+    fn change_over(&self) -> f64 {
+        let (mut low, mut high) = (0.0, self.rest_length);
+        // Halving the range of the significand, and as many for small d, with room.
+        for _ in 0..120 {
+            let middle = 0.5 * (low + high);
+            if self.arc(middle).force > self.compression * (middle - self.rest_length) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+
+    /// The arc at the distance d in 0 … L.
+    fn arc(&self, distance: f64) -> Axial {
+        let (k, l) = (self.stiffness, self.rest_length);
+        let u = inverse_sinc_squared(distance / l);
+        let Series { p, r, .. } = series(u);
+        Axial {
+            energy: 2.0 * k * u / l,
+            force: -4.0 * k / (l * l * p),
+            slope: 4.0 * k / (l * l * l) * (r / (p * p * p)),
+        }
+    }
+
+    /// Energy, force and slope with the ends so far apart.
+    pub(crate) fn axial(&self, distance: f64) -> Axial {
+        let gap = distance - self.rest_length;
+        if gap >= 0.0 {
+            return Axial {
+                energy: 0.0,
+                force: 0.0,
+                slope: 0.0,
+            };
+        }
+        if distance >= self.buckles_below {
+            return Axial {
+                energy: 0.5 * self.compression * (gap * gap),
+                force: self.compression * gap,
+                slope: self.compression,
+            };
+        }
+        let mut arc = self.arc(distance);
+        arc.energy += self.energy_shift;
+        arc
+    }
+}
+
+/// How bends of all lengths give way: the law of a [`Bend`] without its dimensions.
+///
+/// What a bend of rest length L is at d, relative to c L and c L², depends on d/L alone and on the
+/// number c L³ / k. That is known from the d/L at which the arc takes over from the spring, so
+/// bends of one law are made at once, without the search of [`Bend::new`].
+///
+/// ```
+/// use tearmesh_cloth::implicit::{Bend, Buckling};
+///
+/// let law = Buckling::new(0.9).unwrap();
+/// let (length_m, flexural_n_m2) = (0.1, 1e-6);
+/// let compression = law.compression_n_per_m(flexural_n_m2, length_m);
+/// let bend = law.bend([0, 2], length_m, compression);
+/// assert_eq!(bend.buckles_below(), 0.9 * 0.1);
+/// let same = Bend::new([0, 2], length_m, flexural_n_m2, compression)?;
+/// assert!((same.buckles_below() - bend.buckles_below()).abs() < 1e-15);
+/// assert!(Buckling::new(1.0).is_none() && Buckling::new(0.59).is_none());
+/// # Ok::<(), tearmesh_cloth::implicit::BendError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Buckling {
+    /// d/L at the change-over.
+    below: f64,
+    /// c L³ / k.
+    number: f64,
+    /// What is added to the energy of the arc, by c L².
+    shift: f64,
+}
+
+impl Buckling {
+    /// The law by which a bend is an arc below this part of its rest length, and above it gives
+    /// way like a spring. The nearer to 1, the stiffer the spring: c L³ / k is
+    /// 4 / (p (1 − d/L)), 247 for 0.95.
+    ///
+    /// `None` unless the part is below 1 and above 0.592, where c L³ / k is 4π²: a spring that is
+    /// softer would act once more where the ends are near each other (see [`Bend::new`]).
+    #[must_use]
+    pub fn new(buckles_below: f64) -> Option<Buckling> {
+        if !(buckles_below > 0.0 && buckles_below < 1.0) {
+            return None;
+        }
+        let u = inverse_sinc_squared(buckles_below);
+        let gap = 1.0 - buckles_below;
+        let number = 4.0 / (series(u).p * gap);
+        let pi = std::f64::consts::PI;
+        let buckles_once = number > 4.0 * (pi * pi) && number.is_finite();
+        buckles_once.then_some(Buckling {
+            below: buckles_below,
+            number,
+            shift: 0.5 * (gap * gap) - 2.0 * u / number,
+        })
+    }
+
+    /// The part of the rest length below which a bend is an arc.
+    #[must_use]
+    pub fn buckles_below(&self) -> f64 {
+        self.below
+    }
+
+    /// The stiffness c against compression, in N/m, of a bend of this flexural stiffness k and this
+    /// rest length L.
+    #[must_use]
+    pub fn compression_n_per_m(&self, flexural_n_m2: f64, rest_length_m: f64) -> f64 {
+        self.number * flexural_n_m2 / (rest_length_m * rest_length_m * rest_length_m)
+    }
+
+    /// The bend of this rest length (m) and this stiffness c against compression (N/m), both
+    /// positive.
+    #[must_use]
+    pub fn bend(&self, ends: [u32; 2], rest_length: f64, compression: f64) -> Bend {
+        let l = rest_length;
+        Bend {
+            ends,
+            rest_length,
+            stiffness: compression * (l * l * l) / self.number,
+            compression,
+            buckles_below: self.below * l,
+            energy_shift: self.shift * (compression * (l * l)),
+        }
+    }
+
+    /// The largest stiffness that a bend has at any length, by c: that of the spring, or that of the
+    /// arc where both ends meet, 12π² k / L³. The arc's force is concave in d, so it is nowhere
+    /// stiffer.
+    pub(crate) fn stiffest(&self) -> f64 {
+        let pi = std::f64::consts::PI;
+        (12.0 * (pi * pi) / self.number).max(1.0)
+    }
+}
+
+/// The energy, in J, with the ends at `p` and `q`.
+#[must_use]
+pub fn energy(bend: &Bend, p: Point, q: Point) -> f64 {
+    bend.axial(Line::between(p, q).length).energy
+}
+
+/// The force on the end at `p`, in N; the other end has its negative. Zero where both ends are
+/// one point, which has no direction.
+#[must_use]
+pub fn force(bend: &Bend, p: Point, q: Point) -> Vector {
+    let line = Line::between(p, q);
+    line.direction * bend.axial(line.length).force
+}
+
+/// The second derivative of the energy by the position of either end (by both it is the
+/// negative), in N/m, and whether something was dropped.
+///
+/// All force here is compression, so the term across the line is always negative; Choi and Ko
+/// drop it and keep the slope along the line, which is positive.
+#[must_use]
+pub fn hessian(bend: &Bend, p: Point, q: Point, clamp: bool) -> (Block, bool) {
+    let line = Line::between(p, q);
+    let axial = bend.axial(line.length);
+    if line.length == 0.0 {
+        return (Block::identity_times(axial.slope), false);
+    }
+    line.hessian(axial.slope, axial.force / line.length, clamp)
+}
+
+/// An energy that depends on a distance, with its first two derivatives.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Axial {
+    pub(crate) energy: f64,
+    pub(crate) force: f64,
+    pub(crate) slope: f64,
+}
+
+/// Functions of u = t², for t in 0 … π.
+struct Series {
+    /// sin t / t.
+    sinc: f64,
+    /// (sinc t − cos t) / t², which is −2 times the derivative of sinc by u.
+    p: f64,
+    /// (3 p − sinc) / t².
+    r: f64,
+}
+
+/// The terms of the power series; that of u^k has the divisor (2k + 1)! at least, so that the
+/// first one left out is below 1e-17 for u up to π².
+const TERMS: usize = 16;
+
+/// The coefficients of (−u)^k, weight(k) / (2k + first)!: of sinc for `first` = 1, of p for 3,
+/// of r for 5.
+const fn coefficients(first: usize) -> [f64; TERMS] {
+    let mut list = [0.0; TERMS];
+    let mut factorial = 1.0;
+    let mut i = 1;
+    while i < 2 * TERMS + first {
+        factorial *= i as f64;
+        if i >= first && (i - first).is_multiple_of(2) {
+            let k = (i - first) / 2;
+            if k < TERMS {
+                let even = 2.0 * k as f64;
+                let weight = match first {
+                    1 => 1.0,
+                    3 => even + 2.0,
+                    _ => (even + 4.0) * (even + 2.0),
+                };
+                list[k] = weight / factorial;
+            }
+        }
+        i += 1;
+    }
+    list
+}
+
+const SINC: [f64; TERMS] = coefficients(1);
+const P: [f64; TERMS] = coefficients(3);
+const R: [f64; TERMS] = coefficients(5);
+
+/// By Horner's rule.
+fn series(u: f64) -> Series {
+    let (mut sinc, mut p, mut r) = (0.0, 0.0, 0.0);
+    for k in (0..TERMS).rev() {
+        sinc = SINC[k] - u * sinc;
+        p = P[k] - u * p;
+        r = R[k] - u * r;
+    }
+    Series { sinc, p, r }
+}
+
+/// t² for which sin t / t is `x`, x in 0 … 1.
+fn inverse_sinc_squared(x: f64) -> f64 {
+    let y = 1.0 - x;
+    // The inverse series, cut off: its terms are positive, so this lies to the left.
+    let mut u = y * (6.0 + y * (1.8 + y * (144.0 / 175.0)));
+    // From the worst start, x = 0, five steps reach the last bit; rounding ends the climb.
+    for _ in 0..8 {
+        let Series { sinc, p, .. } = series(u);
+        let next = u + 2.0 * (sinc - x) / p;
+        if next <= u {
+            break;
+        }
+        u = next;
+    }
+    u
+}
+
+/// Why a bend was refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BendError {
+    /// Both ends are this particle.
+    Ends {
+        /// The particle.
+        given: u32,
+    },
+    /// A length or stiffness is not positive and finite.
+    Number {
+        /// The number as given.
+        given: f64,
+    },
+    /// The cloth would give way before it buckles: its stiffness against compression is not
+    /// above 4π² k / L³.
+    Compression {
+        /// The stiffness as given, in N/m.
+        given: f64,
+        /// What it has to exceed.
+        limit: f64,
+    },
+}
+
+impl fmt::Display for BendError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            BendError::Ends { given } => write!(f, "a bend has particle {given} at both ends"),
+            BendError::Number { given } => {
+                write!(f, "a bend has the number {given}, which is not positive")
+            }
+            BendError::Compression { given, limit } => write!(
+                f,
+                "a bend has compression stiffness {given} N/m; buckling needs more than {limit}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for BendError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_agree_with_the_system() {
+        for i in 1..=1000 {
+            let t = std::f64::consts::PI * f64::from(i) / 1000.0;
+            let Series { sinc, p, r } = series(t * t);
+            let truth = t.sin() / t;
+            assert!((sinc - truth).abs() < 4e-16, "sinc {t}: {sinc} {truth}");
+            let truth = (truth - t.cos()) / (t * t);
+            // The closed form cancels for small t, and both sides round at last.
+            let rounding = 4e-16 / (t * t) + 1e-16;
+            assert!((p - truth).abs() < rounding, "p {t}: {p} {truth}");
+            let truth = (3.0 * truth - t.sin() / t) / (t * t);
+            assert!((r - truth).abs() < 4.0 * rounding / (t * t), "r {t}: {r}");
+        }
+        let Series { sinc, p, r } = series(0.0);
+        assert_eq!((sinc, p, r), (1.0, 1.0 / 3.0, 1.0 / 15.0));
+    }
+
+    #[test]
+    fn the_inverse_finds_what_sinc_was_given() {
+        for i in 0..=1000 {
+            let t = std::f64::consts::PI * f64::from(i) / 1000.0;
+            let x = if i == 0 { 1.0 } else { t.sin() / t };
+            let u = inverse_sinc_squared(x);
+            assert!((u - t * t).abs() < 2e-14, "{t}: {u}");
+        }
+    }
+}

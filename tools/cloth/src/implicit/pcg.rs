@@ -1,0 +1,235 @@
+//! Conjugate gradients with held directions: Baraff and Witkin 1998 §5.2–5.3, in the corrected
+//! form of Ascher and Boxerman 2003.
+//!
+//! Solves S (s M + H) S δ = S b for δ = S δ, where S takes away from each particle the
+//! directions in which it is held. The preconditioner is the inverse of each block on the
+//! diagonal, within the free directions. Vectors start and stay in the range of S, so what is
+//! held is held exactly.
+//!
+//! The matrix has to be positive definite. Where it shows that it is not – a block on the
+//! diagonal without a Cholesky factor, or a direction p with pᵀAp ≤ 0 – the solve stops and
+//! says so. (A matrix can be indefinite and not show it in the directions visited; then the
+//! answer still solves the equation.)
+//!
+//! The residual r is measured as an acceleration, √(rᵀ M⁻¹ r / Σm). Since A − s M is positive
+//! semidefinite for every A that passes as a stable system, that divided by s bounds the rms
+//! error of δ.
+
+use super::matrix::{Block, Hessian};
+use super::{Model, Work};
+use tearmesh::geometry::{Vector, dot};
+
+/// In which directions a particle is free. What is held keeps the velocity that it was given.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Filter {
+    /// In all.
+    #[default]
+    Free,
+    /// Not along this normal, of length one.
+    Plane(Vector),
+    /// Only along this direction, of length one.
+    Line(Vector),
+    /// In none.
+    Fixed,
+}
+
+impl Filter {
+    /// What of a vector lies in the free directions.
+    #[inline]
+    #[must_use]
+    pub fn apply(&self, v: Vector) -> Vector {
+        match *self {
+            Filter::Free => v,
+            Filter::Plane(n) => v - n * dot(n, v),
+            Filter::Line(d) => d * dot(d, v),
+            Filter::Fixed => Vector::zeros(),
+        }
+    }
+
+    /// Whether the direction, if it has one, is of length one to 1e-9.
+    pub(super) fn is_usable(&self) -> bool {
+        match *self {
+            Filter::Free | Filter::Fixed => true,
+            // Written so that a NaN is refused too.
+            Filter::Plane(n) | Filter::Line(n) => (dot(n, n) - 1.0).abs() < 2e-9,
+        }
+    }
+
+    /// The inverse of a block within the free directions; `None` if it is not definite there.
+    fn inverse(&self, block: &Block) -> Option<Block> {
+        match *self {
+            Filter::Free => block.inverse_if_definite(),
+            Filter::Fixed => Some(Block::ZERO),
+            Filter::Line(d) => {
+                let k = dot(d, block.times(d));
+                (k > 0.0).then(|| Block::ZERO.plus(1.0 / k, &Block::outer(d, d)))
+            }
+            Filter::Plane(n) => {
+                let nn = Block::outer(n, n);
+                let s = Block::identity_times(1.0).plus(-1.0, &nn);
+                let scale = (block.0[0][0].abs()).max(block.0[1][1].abs().max(block.0[2][2].abs()));
+                let within = s.times_block(block).times_block(&s).plus(scale, &nn);
+                let inverse = within.inverse_if_definite()?;
+                Some(s.times_block(&inverse).times_block(&s))
+            }
+        }
+    }
+}
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum End {
+    /// The residual is small enough.
+    Converged,
+    /// The matrix is not positive definite.
+    Indefinite,
+    /// It took as many iterations as it may.
+    Stopped,
+}
+
+/// What a solve did.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Solved {
+    pub(super) end: End,
+    /// The rms acceleration that is left, in m/s².
+    pub(super) residual: f64,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// The rms acceleration that may be left, in m/s².
+    pub(super) residual: f64,
+    /// The part of the residual at the start that may be left, if that is more.
+    pub(super) relative: f64,
+    pub(super) iterations: u32,
+}
+
+/// The vectors of a solve, kept between solves.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pcg {
+    /// The right-hand side; on return the residual.
+    pub(super) b: Vec<Vector>,
+    /// The solution.
+    pub(super) delta: Vec<Vector>,
+    preconditioned: Vec<Vector>,
+    direction: Vec<Vector>,
+    product: Vec<Vector>,
+    inverses: Vec<Block>,
+}
+
+impl Pcg {
+    /// Solves from the right-hand side in `b`, from δ = 0.
+    pub(super) fn solve(
+        &mut self,
+        model: &Model<'_>,
+        hessian: &Hessian,
+        pairs: &[[u32; 2]],
+        inertia: f64,
+        stop: Stop,
+        work: &mut Work,
+    ) -> Solved {
+        let n = model.masses.len();
+        self.delta.clear();
+        self.delta.resize(n, Vector::zeros());
+        for (i, b) in self.b.iter_mut().enumerate() {
+            *b = model.filter(i).apply(*b);
+        }
+        let start = residual(model, &self.b);
+        let limit = stop.residual.max(stop.relative * start);
+        let ended = |end, residual| Solved { end, residual };
+        if !self.precondition_by(model, hessian, inertia) {
+            return ended(End::Indefinite, start);
+        }
+        if start <= limit {
+            return ended(End::Converged, start);
+        }
+        for vectors in [
+            &mut self.direction,
+            &mut self.product,
+            &mut self.preconditioned,
+        ] {
+            vectors.clear();
+            vectors.resize(n, Vector::zeros());
+        }
+        let (mut left, mut rz) = self.advance(model, 0.0);
+        self.direction.clone_from(&self.preconditioned);
+        for _ in 0..stop.iterations {
+            hessian.product(pairs, &self.direction, &mut self.product);
+            work.matrix_products += 1;
+            work.solver_iterations += 1;
+            let mut curvature = 0.0;
+            for i in 0..n {
+                let p = self.direction[i];
+                let q = self.product[i] + p * (inertia * model.masses[i]);
+                let q = model.filter(i).apply(q);
+                self.product[i] = q;
+                curvature += dot(p, q);
+            }
+            if curvature.is_nan() || curvature <= 0.0 {
+                return ended(End::Indefinite, left);
+            }
+            let before = rz;
+            (left, rz) = self.advance(model, rz / curvature);
+            if left <= limit {
+                return ended(End::Converged, left);
+            }
+            let turn = rz / before;
+            for (p, z) in self.direction.iter_mut().zip(&self.preconditioned) {
+                *p = z + *p * turn;
+            }
+        }
+        ended(End::Stopped, left)
+    }
+
+    /// Goes `step` along the direction: new δ and r, and z = P⁻¹ r. Returns the residual as an
+    /// acceleration, and r · z.
+    fn advance(&mut self, model: &Model<'_>, step: f64) -> (f64, f64) {
+        let (mut size, mut total, mut rz) = (0.0, 0.0, 0.0);
+        for (i, &m) in model.masses.iter().enumerate() {
+            self.delta[i] += self.direction[i] * step;
+            let r = self.b[i] - self.product[i] * step;
+            self.b[i] = r;
+            size += square_per_mass(r, m);
+            total += m;
+            let z = self.inverses[i].times(r);
+            rz += dot(r, z);
+            self.preconditioned[i] = z;
+        }
+        ((size / total).sqrt(), rz)
+    }
+
+    /// Inverts the blocks on the diagonal; false if one is not definite.
+    fn precondition_by(&mut self, model: &Model<'_>, hessian: &Hessian, inertia: f64) -> bool {
+        self.inverses.clear();
+        for (i, block) in hessian.diagonal.iter().enumerate() {
+            let mass = Block::identity_times(inertia * model.masses[i]);
+            let Some(inverse) = model.filter(i).inverse(&block.plus(1.0, &mass)) else {
+                return false;
+            };
+            self.inverses.push(inverse);
+        }
+        true
+    }
+}
+
+/// A force on each particle as an rms acceleration, √(rᵀ M⁻¹ r / Σm); zero where nothing has a
+/// mass.
+pub(super) fn residual(model: &Model<'_>, r: &[Vector]) -> f64 {
+    let (mut sum, mut total) = (0.0, 0.0);
+    for (&r, &m) in r.iter().zip(model.masses) {
+        sum += square_per_mass(r, m);
+        total += m;
+    }
+    if total > 0.0 {
+        (sum / total).sqrt()
+    } else {
+        0.0
+    }
+}
+
+/// r · r / m. What has no mass is fixed, and leaves no residual.
+#[inline]
+fn square_per_mass(r: Vector, m: f64) -> f64 {
+    if m > 0.0 { dot(r, r) / m } else { 0.0 }
+}

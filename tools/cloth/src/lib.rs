@@ -1,0 +1,88 @@
+//! Cloth, as thin as can be: particles, constraints, solvers, and a follower of the log.
+//!
+//! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A
+//! [`Solver`] advances it; [`System::step`] watches over stability, notices blow-up and steps that
+//! miss their tolerance, and keeps the last good state. A [`Cloth`] is a system made of a mesh, and
+//! a follower of its log. [`Tear`] is what tears it where it is overstretched, by a [`Tearing`]
+//! with a [`Threshold`].
+//!
+//! | method | what it is for | a step costs |
+//! |---|---|---|
+//! | [`Provot`] | the mass-spring model of the paper: a baseline | one force evaluation, and passes of the limiter |
+//! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
+//! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
+//! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
+//! | [`ImplicitCloth`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
+//! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
+//!
+//! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
+//!
+//! What resists stretch is springs along edges, or triangles with a modulus for warp, weft and shear
+//! ([`Weave`]), or both. What resists bending is springs across edges, or arcs that buckle
+//! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused where there are
+//! triangles or arcs.
+//!
+//! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
+//! fixed order; no step allocates once its solver has seen a system of that size.
+
+#![cfg_attr(
+    test,
+    allow(
+        clippy::unwrap_used,
+        reason = "a test that unwraps an error has failed"
+    )
+)]
+
+pub use tearmesh;
+
+mod air;
+mod balance;
+mod buckle;
+mod constraint;
+mod culprit;
+mod digits;
+mod fabric;
+mod follow;
+pub mod implicit;
+mod kernel;
+mod load;
+mod particle;
+mod pbd;
+mod provot;
+mod rk4;
+pub mod scene;
+mod sheet;
+mod solver;
+mod stability;
+mod stiff;
+mod strain;
+mod system;
+mod tearing;
+mod triangles;
+mod verlet;
+mod weave;
+mod xpbd;
+
+pub use air::AirRate;
+pub use balance::EnergyBalance;
+pub use constraint::{Constraint, ConstraintId, Constraints};
+pub use culprit::Culprit;
+pub use fabric::{Bending, Copies, Fabric, Unbend};
+pub use load::{Collider, Loads, Path, Wind};
+pub use pbd::Pbd;
+pub use provot::{Limiter, LimiterReport, Provot};
+pub use rk4::Rk4;
+pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
+pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
+pub use stability::Frequency;
+pub use stiff::ImplicitCloth;
+pub use system::{Counters, System, SystemError, Unstable};
+pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
+pub use verlet::Verlet;
+pub use weave::{Weave, warp_of_texture};
+pub use xpbd::Xpbd;
+
+/// The library's example in the README is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

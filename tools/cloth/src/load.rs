@@ -1,0 +1,153 @@
+//! What acts on the particles from outside: gravity, drag, wind and colliders.
+//!
+//! Each exists only where it is named, and costs nothing otherwise; [`Counters`](super::Counters)
+//! prove it.
+
+use tearmesh::geometry::{Plane, Point, Vector, check_point, dot, length};
+
+/// What acts on the particles. The default is nothing.
+///
+/// ```
+/// use tearmesh::{cloth::Loads, Vector};
+///
+/// let loads = Loads { gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)), ..Loads::default() };
+/// assert!(loads.wind.is_none() && loads.colliders.is_empty());
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Loads {
+    /// An acceleration of every particle, in m/s².
+    pub gravity_m_per_s2: Option<Vector>,
+    /// The rate c at which velocities fade, in 1/s: the force is −c m v.
+    pub drag_per_s: Option<f64>,
+    /// Wind on the faces. A system without faces feels none.
+    pub wind: Option<Wind>,
+    /// What particles cannot enter, in this order.
+    pub colliders: Vec<Collider>,
+}
+
+/// Wind: on a face of area A and normal n that moves at v acts the force
+/// c A (n · (u − v)) n (Provot 1995, §3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wind {
+    /// The velocity u of the air, in m/s.
+    pub velocity_m_per_s: Vector,
+    /// The coefficient c, in kg/(m² s).
+    pub coefficient: f64,
+}
+
+/// What particles cannot enter. Contact takes the velocity into it, and has no friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Collider {
+    /// The half space behind a plane.
+    Plane(Plane),
+    /// A ball.
+    Sphere {
+        /// The centre.
+        centre: Point,
+        /// The radius, in metres.
+        radius_m: f64,
+    },
+}
+
+impl Loads {
+    /// The first number that cannot be used: its field, and the number as given.
+    pub(crate) fn fault(&self) -> Option<(&'static str, f64)> {
+        let finite = |v: Vector| v.iter().copied().find(|x| !x.is_finite());
+        let positive = |x: f64| Some(x).filter(|x| !(*x >= 0.0 && x.is_finite()));
+        let collider = |collider: &Collider| match *collider {
+            Collider::Plane(_) => None,
+            Collider::Sphere { centre, radius_m } => {
+                let centre = finite(centre.coords).map(|x| ("colliders.centre", x));
+                centre.or_else(|| Some(("colliders.radius_m", positive(radius_m)?)))
+            }
+        };
+        let wind = |wind: Wind| {
+            let velocity = finite(wind.velocity_m_per_s).map(|x| ("wind.velocity_m_per_s", x));
+            velocity.or_else(|| Some(("wind.coefficient", positive(wind.coefficient)?)))
+        };
+        let gravity = self.gravity_m_per_s2.and_then(finite);
+        let gravity = gravity.map(|x| ("gravity_m_per_s2", x));
+        let drag = || Some(("drag_per_s", self.drag_per_s.and_then(positive)?));
+        gravity
+            .or_else(drag)
+            .or_else(|| self.wind.and_then(wind))
+            .or_else(|| self.colliders.iter().find_map(collider))
+    }
+}
+
+impl Collider {
+    /// Moves the free particles inside to the surface, and takes their velocity inward.
+    pub(crate) fn push_out(
+        &self,
+        inverse_masses: &[f64],
+        positions: &mut [Point],
+        velocities: &mut [Vector],
+    ) {
+        let particles = positions.iter_mut().zip(velocities).zip(inverse_masses);
+        for ((position, velocity), _) in particles.filter(|(_, w)| **w > 0.0) {
+            if let Some((x, v)) = self.pushed(*position, *velocity) {
+                (*position, *velocity) = (x, v);
+            }
+        }
+    }
+
+    /// Where a particle inside comes out, and its velocity then; `None` for one outside.
+    pub(crate) fn pushed(&self, x: Point, v: Vector) -> Option<(Point, Vector)> {
+        let (normal, depth) = self.depth(x)?;
+        let into = dot(normal, v).min(0.0);
+        Some((x + normal * depth, v - normal * into))
+    }
+
+    /// The way out of a point inside: a unit vector, and how far.
+    fn depth(&self, p: Point) -> Option<(Vector, f64)> {
+        match *self {
+            Collider::Plane(plane) => {
+                let distance = plane.distance(p);
+                (distance < 0.0).then(|| (plane.normal(), -distance))
+            }
+            Collider::Sphere { centre, radius_m } => {
+                let d = p - centre;
+                let distance = length(d);
+                let normal = if distance > 0.0 {
+                    d / distance
+                } else {
+                    Vector::z()
+                };
+                (distance < radius_m).then_some((normal, radius_m - distance))
+            }
+        }
+    }
+}
+
+/// The way of a grabbed particle: straight from point to point, at rest before and after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// When to be where; at least one, ascending.
+    pub(crate) points: Vec<(f64, Point)>,
+}
+
+impl Path {
+    /// The path through these points at these seconds; `None` unless there is one, seconds
+    /// ascend strictly and are finite as is the time between two, and no coordinate is beyond
+    /// [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX). So all that [`Path::at`] says is finite.
+    #[must_use]
+    pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
+        let points: Vec<_> = points.into_iter().collect();
+        let usable = |&(s, p): &(f64, Point)| s.is_finite() && check_point(p).is_ok();
+        let between = |pair: &[(f64, Point)]| pair[1].0 - pair[0].0;
+        let mut between = points.windows(2).map(between);
+        let ascending = between.all(|took_s| took_s > 0.0 && took_s.is_finite());
+        (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
+    }
+
+    /// Where it is after so many seconds.
+    #[must_use]
+    pub fn at(&self, elapsed_s: f64) -> Point {
+        let after = self.points.partition_point(|&(s, _)| s <= elapsed_s);
+        if after == 0 || after == self.points.len() {
+            return self.points[after.saturating_sub(1)].1;
+        }
+        let ((s, p), (t, q)) = (self.points[after - 1], self.points[after]);
+        p + (q - p) * ((elapsed_s - s) / (t - s))
+    }
+}

@@ -1,0 +1,183 @@
+//! A mesh as one looks at it: what is up, what is across, and where in between something lies.
+
+use tearmesh::Mesh;
+use tearmesh::geometry::{Point, Vector, dot};
+
+/// A direction along an axis of coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Axis {
+    /// 0, 1 or 2: x, y or z.
+    number: u8,
+    /// Whether it points to smaller coordinates.
+    is_negative: bool,
+}
+
+impl Axis {
+    /// x to the right, where nothing else is said.
+    pub const X: Axis = Axis::new(0);
+    /// Up, unless a scene says otherwise.
+    pub const Y: Axis = Axis::new(1);
+    /// Up, in many programs.
+    pub const Z: Axis = Axis::new(2);
+
+    const fn new(number: u8) -> Axis {
+        Axis {
+            number,
+            is_negative: false,
+        }
+    }
+
+    /// The opposite direction.
+    #[must_use]
+    pub const fn opposite(self) -> Axis {
+        Axis {
+            is_negative: !self.is_negative,
+            ..self
+        }
+    }
+
+    /// The unit vector.
+    #[must_use]
+    pub fn vector(self) -> Vector {
+        let mut vector = Vector::zeros();
+        vector[usize::from(self.number)] = if self.is_negative { -1.0 } else { 1.0 };
+        vector
+    }
+}
+
+/// The bounding box of the faces of a mesh, as one looks at it.
+///
+/// *Across* is the longer of the two axes that are level, x or y where both are as long. *Height*
+/// runs up; but a mesh that lies flat (less than a hundredth as high as it is wide) is seen from
+/// above, and its height runs along the third axis. A place is named by its parts of
+/// width and height: (0, 0) is bottom left, (1, 1) is top right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The direction against gravity.
+    pub up: Axis,
+    /// From left to right.
+    pub across: Axis,
+    /// From bottom to top.
+    pub along: Axis,
+    /// Toward the viewer, or away: the axis that is left.
+    pub depth: Axis,
+    /// The corner of the bounding box from which across, along and depth are counted.
+    pub corner: Point,
+    /// The extents of the box in metres: across, along and in depth.
+    pub extents_m: [f64; 3],
+}
+
+impl Frame {
+    /// The frame of the faces of a mesh with its vertices at these points. Linear.
+    #[must_use]
+    pub fn new(mesh: &Mesh, points: &[Point], up: Axis) -> Frame {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for v in mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some()) {
+            let point = points[v.index()];
+            for i in 0..3 {
+                low[i] = low[i].min(point[i]);
+                high[i] = high[i].max(point[i]);
+            }
+        }
+        let extent = |axis: Axis| {
+            let i = usize::from(axis.number);
+            (high[i] - low[i]).max(0.0)
+        };
+        let level: Vec<Axis> = [Axis::X, Axis::Y, Axis::Z]
+            .into_iter()
+            .filter(|axis| axis.number != up.number)
+            .collect();
+        let (across, other) = if extent(level[1]) > extent(level[0]) {
+            (level[1], level[0])
+        } else {
+            (level[0], level[1])
+        };
+        let (along, depth) = if extent(up) < 0.01 * extent(across) {
+            (other, up)
+        } else {
+            (up, other)
+        };
+        let mut corner = Point::origin();
+        for axis in [across, along, depth] {
+            let i = usize::from(axis.number);
+            let ends = if axis.is_negative { high } else { low };
+            corner[i] = if ends[i].is_finite() { ends[i] } else { 0.0 };
+        }
+        Frame {
+            up,
+            across,
+            along,
+            depth,
+            corner,
+            extents_m: [across, along, depth].map(extent),
+        }
+    }
+
+    /// The longer of width and height, in metres.
+    #[must_use]
+    pub fn size_m(&self) -> f64 {
+        self.extents_m[0].max(self.extents_m[1])
+    }
+
+    /// Where a point lies, as parts of width and height.
+    #[must_use]
+    pub fn parts(&self, point: Point) -> [f64; 2] {
+        let d = point - self.corner;
+        let part = |axis: Axis, extent: f64| {
+            let distance = dot(axis.vector(), d);
+            if extent > 0.0 { distance / extent } else { 0.0 }
+        };
+        [
+            part(self.across, self.extents_m[0]),
+            part(self.along, self.extents_m[1]),
+        ]
+    }
+
+    /// The point at these parts of width, height and depth.
+    #[must_use]
+    pub fn point(&self, parts: [f64; 3]) -> Point {
+        let [across, along, depth] = [0, 1, 2].map(|i| parts[i] * self.extents_m[i]);
+        self.corner
+            + self.across.vector() * across
+            + self.along.vector() * along
+            + self.depth.vector() * depth
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tearmesh::shapes;
+
+    fn frame(map: impl Fn(Point) -> [f64; 3], up: Axis) -> Frame {
+        let (mesh, positions) = shapes::grid(4, 2);
+        let points: Vec<Point> = positions
+            .as_slice()
+            .iter()
+            .map(|&p| map(p).into())
+            .collect();
+        Frame::new(&mesh, &points, up)
+    }
+
+    #[test]
+    fn a_sheet_is_seen_upright_however_it_lies() {
+        let (_, positions) = shapes::grid(4, 2);
+        let width = positions.as_slice()[4].x;
+        let height = positions.as_slice()[14].y;
+        for (frame, across, along) in [
+            (frame(|p| [p.x, p.y, 0.0], Axis::Y), Axis::X, Axis::Y),
+            (frame(|p| [p.x, 0.0, p.y], Axis::Z), Axis::X, Axis::Z),
+            (frame(|p| [0.0, p.x, p.y], Axis::Z), Axis::Y, Axis::Z),
+            // Lying flat: seen from above.
+            (frame(|p| [p.x, 0.0, p.y], Axis::Y), Axis::X, Axis::Z),
+            (frame(|p| [p.x, p.y, 0.0], Axis::Z), Axis::X, Axis::Y),
+        ] {
+            assert_eq!((frame.across, frame.along), (across, along));
+            assert_eq!(frame.extents_m, [width, height, 0.0]);
+            assert_eq!(frame.parts(frame.point([0.25, 0.75, 0.0])), [0.25, 0.75]);
+        }
+        let hanging_down = frame(|p| [p.x, p.y, 0.0], Axis::Y.opposite());
+        assert_eq!(hanging_down.parts(Point::new(0.0, height, 0.0)), [0.0, 0.0]);
+    }
+}

@@ -1,0 +1,549 @@
+//! A scene in progress: step by step, with everything that happens in it at its time.
+//!
+//! A [`Run`] owns a mesh and the cloth that follows it. Each [`Run::step`] takes and lets go what is
+//! held, cuts what is to be cut, lets the wind turn, advances the cloth, and tears what is stretched
+//! too far; whoever else follows the mesh replays [`Run::edits`] after it. Times of a scene are
+//! rounded to whole steps. Nothing here reads a clock, so the same scene gives the same bytes.
+
+mod engine;
+mod error;
+mod gain;
+mod held;
+mod quality;
+mod step_size;
+
+pub use self::error::{Names, RunError};
+pub use self::gain::Gain;
+pub use self::quality::{Limited, Quality, Solved};
+
+use self::engine::Engine;
+use self::gain::Watch;
+use self::held::Held;
+use super::{Breeze, Frame, Scene, TimedCut};
+use crate::balance::EnergyBalance;
+use crate::culprit::Culprit;
+use crate::load::Loads;
+use crate::sheet::{Cloth, ClothError};
+use crate::solver::{Solver, StepError};
+use crate::system::Unstable;
+use crate::tearing::{Tear, TearReport, Tearing};
+use tearmesh::Edits;
+use tearmesh::Masses;
+use tearmesh::Mesh;
+use tearmesh::Positions;
+use tearmesh::VertexId;
+use tearmesh::geometry::{Vector, length};
+use tearmesh::{CutReport, Scissor};
+
+/// A scene in progress.
+///
+/// ```
+/// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+/// use tearmesh::shapes;
+///
+/// let (mesh, positions) = shapes::grid(12, 12);
+/// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+/// let mut run = Run::new(mesh, &positions, Scene { duration_s: 0.1, ..Scene::hang(&frame) }, &frame)?;
+/// while !run.is_over() {
+///     run.step()?;
+/// }
+/// assert_eq!(run.tally().splits, 0); // What merely hangs does not tear.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Run {
+    scene: Scene,
+    mesh: Mesh,
+    cloth: Cloth,
+    edits: Edits,
+    engine: Engine,
+    tear: Option<Tear>,
+    held: Vec<Held>,
+    scissors: Vec<Scissor>,
+    next_cut: usize,
+    cuts_made: Vec<CutMade>,
+    step_s: f64,
+    steps_planned: u64,
+    tally: Tally,
+    watch: Watch,
+}
+
+/// What has happened in a run so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// The steps that were taken.
+    pub steps: u64,
+    /// The vertices that tearing has split.
+    pub splits: u64,
+    /// The vertices that cuts have split.
+    pub cut_splits: u64,
+    /// The steps in which more edges were to tear than the cap allows.
+    pub steps_at_cap: u64,
+    /// The elastic energy of the edges that tore, in joules: it became motion.
+    pub edge_energy_j: f64,
+    /// The largest ratio of an edge's length to its rest length after a step, before tearing and
+    /// before Provot's limiter.
+    pub stretch_ratio_max: f64,
+    /// The largest change of momentum by edits, as a part of the sum of |m v| then.
+    pub momentum_drift: f64,
+}
+
+/// What a step did.
+#[derive(Debug)]
+pub struct Step {
+    /// What tore, where the scene tears.
+    pub tear: Option<TearReport>,
+}
+
+/// A cut that was made while the cloth moved.
+#[derive(Debug)]
+pub struct CutMade {
+    /// Its number in the scene.
+    pub number: usize,
+    /// What it did to the mesh.
+    pub report: CutReport,
+    /// What it did to the steps that an explicit method may take: slivers shorten them. `None` for
+    /// the others.
+    pub stability: Option<Shortened>,
+}
+
+/// The longest stable step before a cut and after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shortened {
+    /// Before, in seconds.
+    pub before_s: f64,
+    /// After, in seconds.
+    pub after_s: f64,
+    /// The vertices of the constraint that moves most in the fastest vibration after the cut.
+    pub ends: Option<[usize; 2]>,
+}
+
+impl Run {
+    /// Sets a scene with this mesh at rest. `frame` is the one that the scene was made for.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`]: what is wrong with the scene, or with the mesh for it.
+    pub fn new(
+        mesh: Mesh,
+        positions: &Positions,
+        scene: Scene,
+        frame: &Frame,
+    ) -> Result<Run, RunError> {
+        let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
+            .map_err(ClothError::from)?;
+        let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
+        if let Some((field, given)) = scene.breeze.and_then(|breeze| breeze.fault()) {
+            return Err(RunError::Breeze { field, given });
+        }
+        let loads = Loads {
+            gravity_m_per_s2: Some(scene.gravity_m_per_s2)
+                .filter(|gravity| *gravity != Vector::zeros()),
+            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
+            wind: scene.breeze.map(|breeze| breeze.at(0.0)),
+            colliders: scene.colliders.clone(),
+        };
+        let system = cloth.system_mut();
+        system.set_loads(loads).map_err(RunError::Loads)?;
+        let points = positions.as_slice();
+        let vertices = |(number, hold): (usize, &_)| Held::new(number, hold, &mesh, points, frame);
+        let held: Vec<Held> = scene
+            .holds
+            .iter()
+            .enumerate()
+            .map(vertices)
+            .collect::<Result<_, _>>()?;
+        let scissor = |(number, cut): (usize, &TimedCut)| {
+            Scissor::new(&cut.rays[0], &cut.rays[1])
+                .map(|scissor| scissor.through(cut.through))
+                .map_err(|error| RunError::Cut { number, error })
+        };
+        let timeless = |cut: &TimedCut| !(cut.at_s >= 0.0 && cut.at_s.is_finite());
+        if let Some(number) = scene.cuts.iter().position(timeless) {
+            let given_s = scene.cuts[number].at_s;
+            return Err(RunError::CutTime { number, given_s });
+        }
+        let earlier = |pair: &[TimedCut]| pair[1].at_s < pair[0].at_s;
+        if let Some(before) = scene.cuts.windows(2).position(earlier) {
+            return Err(RunError::CutTimes { number: before + 1 });
+        }
+        let scissors = scene
+            .cuts
+            .iter()
+            .enumerate()
+            .map(scissor)
+            .collect::<Result<_, _>>()?;
+        let tear = match scene.tearing {
+            Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
+            None => None,
+        };
+        let engine = Engine::new(&scene.solver);
+        let step_s = match scene.step_s {
+            Some(step_s) => step_s,
+            None => step_size::suggested_s(&scene, &engine, &mut cloth),
+        };
+        let duration_s = scene.duration_s;
+        let steps_planned = (duration_s / step_s).round();
+        let is_countable = (0.0..=Run::STEPS_MAX as f64).contains(&steps_planned);
+        if !(step_s > 0.0 && step_s.is_finite() && duration_s >= 0.0 && is_countable) {
+            return Err(RunError::Times { step_s, duration_s });
+        }
+        let last_s = Run::STEPS_MAX as f64 * step_s;
+        let uncounted = |breeze: &Breeze| !(last_s / breeze.period_s).is_finite();
+        if let Some(breeze) = scene.breeze.filter(uncounted) {
+            return Err(RunError::Breeze {
+                field: "breeze.period_s",
+                given: breeze.period_s,
+            });
+        }
+        if scene.step_s.is_none() {
+            // A step of our own choice is not refused because of what tore since.
+            cloth.system_mut().when_unstable(Unstable::Substep);
+        }
+        cloth.system_mut().keep_balance();
+        Ok(Run {
+            engine,
+            watch: Watch::new(&scene.solver, cloth.system(), step_s),
+            mesh,
+            cloth,
+            edits: Edits::new(),
+            tear,
+            held,
+            scissors,
+            next_cut: 0,
+            cuts_made: Vec::new(),
+            step_s,
+            steps_planned: steps_planned as u64,
+            tally: Tally {
+                stretch_ratio_max: 1.0,
+                ..Tally::default()
+            },
+            scene,
+        })
+    }
+
+    /// The most steps that a run may take.
+    pub const STEPS_MAX: u64 = 1 << 40;
+
+    /// Gives each vertex a strength, as a multiple of the threshold, in the place of the scene's.
+    /// Where the scene never tears it is of no use, and is dropped.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::Tearing`] where there is not one positive number a vertex.
+    pub fn with_strengths(mut self, strengths: Vec<f64>) -> Result<Run, RunError> {
+        if let Some(tear) = self.tear.take() {
+            let tear = tear.with_strengths(strengths);
+            self.tear = Some(tear.map_err(RunError::Tearing)?);
+        }
+        Ok(self)
+    }
+
+    /// Takes one step.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`]: the cloth is as it was at the end of the last good step, but for what was cut
+    /// at the beginning of this one ([`Run::cuts_made`]).
+    pub fn step(&mut self) -> Result<Step, StepError> {
+        self.edits.clear();
+        self.cuts_made.clear();
+        let done = self.advance(self.tally.steps);
+        // A step that fails has been cut as well.
+        self.held
+            .iter_mut()
+            .for_each(|held| held.follow(&self.edits));
+        done
+    }
+
+    fn advance(&mut self, now: u64) -> Result<Step, StepError> {
+        held::take_and_release(&mut self.held, now, self.step_s, self.cloth.system_mut());
+        self.cut(now)?;
+        self.blow(now);
+        self.cloth.step(&mut self.engine, self.step_s)?;
+        self.tally.steps += 1;
+        self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
+        let tear = self.tear_overstretched();
+        let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
+        self.watch.look(steps, elapsed_s, self.cloth.system());
+        Ok(Step { tear })
+    }
+
+    /// Makes the cuts whose time has come.
+    fn cut(&mut self, now: u64) -> Result<(), StepError> {
+        while let Some(&cut) = self.scene.cuts.get(self.next_cut) {
+            if held::step_at(cut.at_s, self.step_s) > now {
+                break;
+            }
+            let before = momentum(&self.cloth);
+            let step_before_s = self.stable_step_s();
+            let mut positions = self.places()?;
+            let scissor = &self.scissors[self.next_cut];
+            let report = scissor.cut(cut.method, &mut self.mesh, &mut positions, &mut self.edits);
+            let report = report.expect("positions that follow every cut are in step");
+            self.edits.replay(&mut self.cloth);
+            if let Some(tear) = &mut self.tear {
+                self.edits.replay(tear);
+            }
+            self.tally.cut_splits += report.splits as u64;
+            self.compare(before);
+            let stability = step_before_s.map(|before_s| self.shortened(before_s));
+            self.cuts_made.push(CutMade {
+                number: self.next_cut,
+                report,
+                stability,
+            });
+            self.next_cut += 1;
+        }
+        Ok(())
+    }
+
+    /// The longest stable step of an explicit method.
+    fn stable_step_s(&mut self) -> Option<f64> {
+        self.engine.frequency_limit()?;
+        self.cloth.system_mut().whole_step_s(&self.engine)
+    }
+
+    fn shortened(&mut self, before_s: f64) -> Shortened {
+        Shortened {
+            before_s,
+            after_s: self.stable_step_s().unwrap_or(before_s),
+            ends: self.cloth.system_mut().frequency().ends,
+        }
+    }
+
+    /// Where the vertices are, for the scissor.
+    fn places(&self) -> Result<Positions, StepError> {
+        let points = self.cloth.positions().iter().copied();
+        match Positions::new(points) {
+            Ok(positions) => Ok(positions.starting_at(self.edits.next_number())),
+            Err(error) => Err(StepError::BlowUp {
+                elapsed_s: self.elapsed_s(),
+                at: Culprit::Particle(error.unusable()[0].0.index()),
+            }),
+        }
+    }
+
+    fn blow(&mut self, now: u64) {
+        let Some(breeze) = self.scene.breeze.filter(Breeze::sways) else {
+            return;
+        };
+        let system = self.cloth.system_mut();
+        let loads = Loads {
+            wind: Some(breeze.at(now as f64 * self.step_s)),
+            ..system.loads().clone()
+        };
+        let set = system.set_loads(loads);
+        set.expect("wind between two usable winds is usable");
+    }
+
+    fn tear_overstretched(&mut self) -> Option<TearReport> {
+        let tear = self.tear.as_mut()?;
+        let momentum = momentum(&self.cloth);
+        let report = tear.apply(
+            &mut self.mesh,
+            &mut self.cloth,
+            &mut self.edits,
+            self.step_s,
+        );
+        self.tally.splits += report.splits as u64;
+        self.tally.edge_energy_j += report.edge_energy_j;
+        self.tally.steps_at_cap += u64::from(report.cap_hit);
+        if report.splits > 0 {
+            self.compare(momentum);
+        }
+        Some(report)
+    }
+
+    /// Notes how far the momentum is now from what it was.
+    fn compare(&mut self, (before, size): (Vector, f64)) {
+        let (after, _) = momentum(&self.cloth);
+        if size > 0.0 {
+            let drift = length(after - before) / size;
+            self.tally.momentum_drift = self.tally.momentum_drift.max(drift);
+        }
+    }
+
+    fn stretch_ratio_max(&self) -> f64 {
+        let system = self.cloth.system();
+        let ratios = system
+            .stretches()
+            .iter()
+            .map(|id| system.unlimited_ratio(id));
+        ratios.fold(0.0, f64::max)
+    }
+
+    /// Whether the scene's time is over.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        self.tally.steps >= self.steps_planned
+    }
+
+    /// Whether what is to happen at this time happens: times are rounded to steps, and what would
+    /// be due when the last of them is done never is.
+    #[must_use]
+    pub fn reaches(&self, time_s: f64) -> bool {
+        held::step_at(time_s, self.step_s) < self.steps_planned
+    }
+
+    /// The steps that the whole scene takes.
+    #[must_use]
+    pub fn steps_planned(&self) -> u64 {
+        self.steps_planned
+    }
+
+    /// The step in seconds: the scene's, or one that suits it. That is a whole part of 1/60 s.
+    ///
+    /// * Provot, Verlet: at most 0.7 of the stability limit of the cloth at rest. What is torn or
+    ///   cut may ask for shorter ones; then each is divided ([`Unstable::Substep`]).
+    /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
+    ///   that it would have to travel farther; see [`Run::step_wanted_s`].
+    /// * Implicit: 1/240 s.
+    ///
+    /// And at most 0.7 of what wind allows ([`System::wind_rate`](crate::System::wind_rate)).
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// The longest step at which a method that sweeps pulls about as hard as the fabric's
+    /// stiffness says; `None` for the others. With a longer one, what merely hangs is stretched and
+    /// may tear falsely.
+    #[must_use]
+    pub fn step_wanted_s(&self) -> Option<f64> {
+        step_size::wanted_s(&self.scene, &self.cloth)
+    }
+
+    /// The seconds that have been simulated.
+    #[must_use]
+    pub fn elapsed_s(&self) -> f64 {
+        self.tally.steps as f64 * self.step_s
+    }
+
+    /// What has happened so far.
+    #[must_use]
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+
+    /// What the method says of its own steps so far; nothing by velocity Verlet. Costs up to a force
+    /// evaluation.
+    #[must_use]
+    pub fn quality(&self) -> Option<Quality> {
+        self.engine.quality(self.cloth.system())
+    }
+
+    /// Where the energy of the scene came from and where it went. A pass over all constraints.
+    #[must_use]
+    pub fn energy_balance(&self) -> EnergyBalance {
+        let balance = self.cloth.system().energy_balance();
+        balance.unwrap_or_default() // Kept from the first step on.
+    }
+
+    /// Whether the method made energy out of nothing, beyond a quarter of what was put in: then the
+    /// cloth tears more than it should, and its pieces fly about. Looked at every 1/60 s. A shorter
+    /// step helps, or a method that damps, or drag.
+    #[must_use]
+    pub fn gain(&self) -> Option<Gain> {
+        self.watch.gain()
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The mesh, torn as it is now.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The cloth.
+    #[must_use]
+    pub fn cloth(&self) -> &Cloth {
+        &self.cloth
+    }
+
+    /// What the last step changed in the mesh, for those who follow it.
+    #[must_use]
+    pub fn edits(&self) -> &Edits {
+        &self.edits
+    }
+
+    /// The cuts that the last step made, at its beginning: also if it failed after that.
+    #[must_use]
+    pub fn cuts_made(&self) -> &[CutMade] {
+        &self.cuts_made
+    }
+
+    /// The vertices that a hold of the scene leads or holds now, copies included; empty
+    /// before its time and after.
+    ///
+    /// # Panics
+    ///
+    /// If the scene has no hold of this number.
+    #[must_use]
+    pub fn held(&self, hold: usize) -> &[VertexId] {
+        self.held[hold].now()
+    }
+
+    /// How many vertices a hold of the scene takes alone, without another one beside them. The
+    /// strain about such a pin grows as 1/h with the size h of the mesh, about a clamp it does not.
+    /// Linear.
+    ///
+    /// # Panics
+    ///
+    /// If the scene has no hold of this number.
+    #[must_use]
+    pub fn pins(&self, hold: usize) -> usize {
+        self.held[hold].pins(&self.mesh)
+    }
+
+    /// The length at rest of all torn edges, each counted once, in metres.
+    #[must_use]
+    pub fn torn_length_m(&self) -> f64 {
+        let rest = self.cloth.rest_positions().as_slice();
+        let torn = self.mesh.half_edges().filter_map(|h| {
+            self.mesh.ghost_pair(h)?;
+            let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
+            Some(length(rest[b.index()] - rest[a.index()]))
+        });
+        torn.sum::<f64>() / 2.0
+    }
+}
+
+/// A tear with the strengths of its scene.
+fn strong(
+    tearing: Tearing,
+    scene: &Scene,
+    cloth: &Cloth,
+    mesh: &Mesh,
+    frame: &Frame,
+) -> Result<Tear, RunError> {
+    let tear = Tear::new(cloth, tearing).map_err(RunError::Tearing)?;
+    if scene.strengths.is_empty() {
+        return Ok(tear);
+    }
+    let mut strengths = vec![1.0; mesh.vertex_count()];
+    for (number, (region, strength)) in scene.strengths.iter().enumerate() {
+        let name = (Names::Strength, number);
+        for v in held::vertices_in(region, name, mesh, cloth.positions(), frame)? {
+            strengths[v.index()] = *strength;
+        }
+    }
+    tear.with_strengths(strengths).map_err(RunError::Tearing)
+}
+
+/// The momentum, and the sum of its parts' sizes, in kg m/s.
+fn momentum(cloth: &Cloth) -> (Vector, f64) {
+    let system = cloth.system();
+    let parts = system.velocities().iter().zip(system.masses());
+    let mut sum = (Vector::zeros(), 0.0);
+    for (&v, &m) in parts {
+        sum.0 += v * m;
+        sum.1 += length(v) * m;
+    }
+    sum
+}

@@ -1,0 +1,97 @@
+//! The methods of scenes, behind one solver.
+
+use super::quality::{Limited, Quality, Solved};
+use crate::scene::Method;
+use crate::{Failure, ImplicitCloth, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd};
+
+/// A method with its state.
+#[derive(Clone, Debug)]
+pub(super) enum Engine {
+    /// The tearing rule sees lengths as they were before the limiter.
+    Provot(Provot, Limited),
+    Pbd(Pbd),
+    Verlet(Verlet),
+    Xpbd(Xpbd),
+    Implicit(Box<ImplicitCloth>, Solved),
+}
+
+impl Engine {
+    pub(super) fn new(method: &Method) -> Engine {
+        match *method {
+            Method::Provot(limiter) => Engine::Provot(Provot::new(limiter), Limited::default()),
+            Method::Pbd(pbd) => Engine::Pbd(pbd),
+            Method::Verlet => Engine::Verlet(Verlet::new()),
+            Method::Xpbd(xpbd) => Engine::Xpbd(xpbd),
+            Method::Implicit(settings) => {
+                Engine::Implicit(Box::new(ImplicitCloth::new(settings)), Solved::default())
+            }
+        }
+    }
+
+    fn solver(&self) -> &dyn Solver {
+        match self {
+            Engine::Provot(provot, _) => provot,
+            Engine::Pbd(pbd) => pbd,
+            Engine::Verlet(verlet) => verlet,
+            Engine::Xpbd(xpbd) => xpbd,
+            Engine::Implicit(implicit, _) => &**implicit,
+        }
+    }
+
+    pub(super) fn quality(&self, system: &System) -> Option<Quality> {
+        match self {
+            Engine::Provot(_, limited) => Some(Quality::Limited(*limited)),
+            Engine::Pbd(_) => Some(Quality::Strain(system.strain_rms())),
+            Engine::Verlet(_) => None,
+            Engine::Xpbd(xpbd) => Some(Quality::Residual(xpbd.residual_n(system))),
+            Engine::Implicit(_, solved) => Some(Quality::Solved(*solved)),
+        }
+    }
+}
+
+impl Solver for Engine {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        match self {
+            Engine::Provot(provot, limited) => {
+                provot.advance(system, dt_s)?;
+                limited.note(&provot.report());
+                Ok(())
+            }
+            Engine::Pbd(pbd) => pbd.advance(system, dt_s),
+            Engine::Verlet(verlet) => verlet.advance(system, dt_s),
+            Engine::Xpbd(xpbd) => xpbd.advance(system, dt_s),
+            Engine::Implicit(implicit, solved) => {
+                implicit.advance(system, dt_s)?;
+                implicit
+                    .report()
+                    .iter()
+                    .for_each(|report| solved.note(report));
+                Ok(())
+            }
+        }
+    }
+
+    fn air_limit(&self) -> Option<f64> {
+        self.solver().air_limit()
+    }
+
+    fn takes_drag_explicitly(&self) -> bool {
+        self.solver().takes_drag_explicitly()
+    }
+
+    fn check(&self) -> Result<(), SettingError> {
+        self.solver().check()
+    }
+
+    fn takes_triangles(&self) -> bool {
+        self.solver().takes_triangles()
+    }
+
+    fn takes_buckling(&self) -> bool {
+        self.solver().takes_buckling()
+    }
+
+    fn frequency_limit(&self) -> Option<f64> {
+        self.solver().frequency_limit()
+    }
+}

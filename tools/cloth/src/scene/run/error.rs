@@ -1,0 +1,152 @@
+//! Why a scene is refused.
+
+use std::fmt;
+
+use crate::sheet::ClothError;
+use crate::system::SystemError;
+use crate::tearing::TearingError;
+use tearmesh::ScissorError;
+use tearmesh::VertexId;
+
+/// Why a scene was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RunError {
+    /// No cloth can be made of the mesh.
+    Cloth(ClothError),
+    /// The step is not positive, the scene does not last a finite time, or it would take more than
+    /// [`Run::STEPS_MAX`](super::Run::STEPS_MAX) steps.
+    Times {
+        /// The step, in seconds.
+        step_s: f64,
+        /// How long the scene lasts, in seconds.
+        duration_s: f64,
+    },
+    /// A number of a load is not finite, or negative where it must not be.
+    Loads(SystemError),
+    /// The wind would not be usable at all times: its sway added to it is no number, or its period
+    /// is not positive and finite, or too short for a time to be counted in it.
+    Breeze {
+        /// The field.
+        field: &'static str,
+        /// The number as given; of a vector, the component.
+        given: f64,
+    },
+    /// No vertex lies where one is to be held.
+    NothingHeld {
+        /// The number of the hold in the scene.
+        number: usize,
+    },
+    /// No vertex lies where some are to bear more or less.
+    NothingStrong {
+        /// The number of the strength in the scene.
+        number: usize,
+    },
+    /// A hold or a strength names a vertex that the mesh does not have.
+    NoVertex {
+        /// What names it.
+        named_by: Names,
+        /// Its number in the scene.
+        number: usize,
+        /// The first such vertex.
+        vertex: VertexId,
+        /// How many vertices the mesh has.
+        vertices: usize,
+    },
+    /// The times of a hold do not ascend.
+    Moves {
+        /// The number of the hold in the scene.
+        number: usize,
+    },
+    /// The rays of a cut span no plane.
+    Cut {
+        /// The number of the cut in the scene.
+        number: usize,
+        /// Why.
+        error: ScissorError,
+    },
+    /// The time of a cut is not one of the scene: negative, or not finite.
+    CutTime {
+        /// The number of the cut in the scene.
+        number: usize,
+        /// The time as given.
+        given_s: f64,
+    },
+    /// The cuts do not ascend in time.
+    CutTimes {
+        /// The number of the first that is earlier than the one before it.
+        number: usize,
+    },
+    /// The rule for tearing makes no sense.
+    Tearing(TearingError),
+}
+
+/// What can name vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Names {
+    /// A hold of the scene.
+    Hold,
+    /// A strength of the scene.
+    Strength,
+}
+
+impl fmt::Display for Names {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Names::Hold => "hold",
+            Names::Strength => "strength",
+        })
+    }
+}
+
+impl From<ClothError> for RunError {
+    fn from(error: ClothError) -> RunError {
+        RunError::Cloth(error)
+    }
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RunError::Cloth(error) => error.fmt(f),
+            RunError::Times { step_s, duration_s } => {
+                write!(f, "{duration_s} s cannot be taken in steps of {step_s} s")
+            }
+            RunError::Loads(error) => error.fmt(f),
+            RunError::Breeze { field, given } => {
+                write!(f, "{field} is {given}, with which no wind can blow")
+            }
+            RunError::NothingHeld { number } => {
+                write!(f, "hold {} holds no vertex", number + 1)
+            }
+            RunError::NothingStrong { number } => {
+                write!(f, "strength {} holds no vertex", number + 1)
+            }
+            RunError::NoVertex {
+                named_by,
+                number,
+                vertex,
+                vertices,
+            } => write!(
+                f,
+                "{named_by} {} names {vertex}, and the mesh has {vertices} vertices",
+                number + 1
+            ),
+            RunError::Moves { number } => {
+                write!(f, "the times of hold {} do not ascend", number + 1)
+            }
+            RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
+            RunError::CutTime { number, given_s } => write!(
+                f,
+                "cut {} is at {given_s} s, which is not finite, or negative",
+                number + 1
+            ),
+            RunError::CutTimes { number } => {
+                write!(f, "cut {} is earlier than the one before it", number + 1)
+            }
+            RunError::Tearing(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}

@@ -1,0 +1,197 @@
+//! The holds of a scene while it runs: who is held now, and by which step that ends.
+//!
+//! Where several hold one vertex the one that took it last leads it, and the last in the scene of
+//! those that took it at one time. When that ends, the one before it holds on to the vertex.
+
+use std::cmp::Reverse;
+use std::collections::BTreeSet;
+
+use super::{Names, RunError};
+use crate::load::Path;
+use crate::scene::{Frame, Hold, Region};
+use crate::system::System;
+use tearmesh::Mesh;
+use tearmesh::VertexId;
+use tearmesh::geometry::Point;
+use tearmesh::{Edit, Edits};
+
+/// A hold, and its vertices.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    hold: Hold,
+    vertices: Vec<VertexId>,
+    state: State,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Waiting,
+    Holding {
+        /// Since the beginning of this step.
+        since: u64,
+    },
+    Released,
+}
+
+/// The step at whose beginning something is to happen.
+pub(super) fn step_at(time_s: f64, step_s: f64) -> u64 {
+    (time_s / step_s).round() as u64
+}
+
+/// The vertices of a region for a hold or a strength of this number; all that it names have to
+/// be there.
+pub(super) fn vertices_in(
+    region: &Region,
+    (named_by, number): (Names, usize),
+    mesh: &Mesh,
+    points: &[Point],
+    frame: &Frame,
+) -> Result<Vec<VertexId>, RunError> {
+    let vertices = mesh.vertex_count();
+    if let Region::Vertices(named) = region
+        && let Some(&vertex) = named.iter().find(|v| v.index() >= vertices)
+    {
+        return Err(RunError::NoVertex {
+            named_by,
+            number,
+            vertex,
+            vertices,
+        });
+    }
+    let found = region.vertices(mesh, points, frame);
+    match named_by {
+        _ if !found.is_empty() => Ok(found),
+        Names::Hold => Err(RunError::NothingHeld { number }),
+        Names::Strength => Err(RunError::NothingStrong { number }),
+    }
+}
+
+/// Takes vertices, and lets vertices go, where that is to happen at the beginning of this step.
+pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, system: &mut System) {
+    for held in all.iter_mut() {
+        if held.state == State::Waiting && step_at(held.hold.from_s, step_s) <= now {
+            held.state = State::Holding { since: now };
+            for &v in &held.vertices {
+                held.take(v, system.positions()[v.index()], system);
+            }
+        }
+    }
+    let ends = |until_s: f64| step_at(until_s, step_s) <= now;
+    for number in 0..all.len() {
+        if let State::Holding { since } = all[number].state
+            && all[number].hold.until_s.is_some_and(ends)
+        {
+            all[number].state = State::Released;
+            release(all, number, since, system);
+        }
+    }
+}
+
+/// Lets the vertices of a hold go, or gives them to those that hold them as well. Linear in the
+/// vertices of all, times the logarithm.
+fn release(all: &[Held], number: usize, since: u64, system: &mut System) {
+    let mut others = Vec::new();
+    for (other, held) in all.iter().enumerate() {
+        if let State::Holding { since } = held.state {
+            let vertices: BTreeSet<VertexId> = held.vertices.iter().copied().collect();
+            others.push(((since, other), held, vertices));
+        }
+    }
+    others.sort_by_key(|&(taken, ..)| Reverse(taken));
+    for &v in &all[number].vertices {
+        let last = others.iter().find(|(_, _, vertices)| vertices.contains(&v));
+        match last {
+            Some(&(taken, ..)) if taken > (since, number) => {} // It leads it already.
+            Some((_, held, _)) => held.take_back(v, system),
+            None => system.release(v.index()),
+        }
+    }
+}
+
+impl Held {
+    pub(super) fn new(
+        number: usize,
+        hold: &Hold,
+        mesh: &Mesh,
+        points: &[Point],
+        frame: &Frame,
+    ) -> Result<Held, RunError> {
+        let name = (Names::Hold, number);
+        let vertices = vertices_in(&hold.region, name, mesh, points, frame)?;
+        let later = |until_s: f64| until_s > hold.from_s;
+        let finite = hold.from_s >= 0.0 && hold.from_s.is_finite();
+        let way = hold.moves.iter().map(|&(s, d)| (s, Point::from(d)));
+        let leads = hold.moves.is_empty() || Path::new(way).is_some();
+        if !finite || !hold.until_s.is_none_or(later) || !leads {
+            return Err(RunError::Moves { number });
+        }
+        Ok(Held {
+            hold: hold.clone(),
+            vertices,
+            state: State::Waiting,
+        })
+    }
+
+    /// Takes a vertex that was at this place when its way began.
+    fn take(&self, v: VertexId, from: Point, system: &mut System) {
+        match self.path(from) {
+            Some(path) => system.grab(v.index(), path),
+            None => {
+                system.release(v.index()); // Of a path of another hold.
+                system.hold(v.index());
+            }
+        }
+    }
+
+    /// Takes a vertex back that another hold has led: it goes on from where it is.
+    fn take_back(&self, v: VertexId, system: &mut System) {
+        let at = system.positions()[v.index()];
+        let gone = self.path(at).map(|path| path.at(system.elapsed_s()) - at);
+        self.take(v, gone.map_or(at, |gone| at - gone), system);
+    }
+
+    /// The way of a vertex that is taken at a place; `None` of one that stays there.
+    fn path(&self, from: Point) -> Option<Path> {
+        // The way itself was looked at when the scene was set; from the edge of what is usable it
+        // leads a little beyond, and not to nowhere.
+        let points: Vec<_> = self
+            .hold
+            .moves
+            .iter()
+            .map(|&(s, d)| (s, from + d))
+            .collect();
+        (!points.is_empty()).then_some(Path { points })
+    }
+
+    /// The copies of held vertices are held as well.
+    pub(super) fn follow(&mut self, edits: &Edits) {
+        for edit in edits.iter() {
+            if let Edit::Split(split) = edit
+                && self.vertices.contains(&split.old)
+            {
+                self.vertices.push(split.new);
+            }
+        }
+    }
+
+    pub(super) fn now(&self) -> &[VertexId] {
+        match self.state {
+            State::Holding { .. } => &self.vertices,
+            State::Waiting | State::Released => &[],
+        }
+    }
+
+    /// How many of its vertices are joined to no other of them.
+    pub(super) fn pins(&self, mesh: &Mesh) -> usize {
+        let mut held = vec![false; mesh.vertex_count()];
+        self.vertices.iter().for_each(|v| held[v.index()] = true);
+        let mut alone = held.clone();
+        for h in mesh.half_edges() {
+            let ends = [mesh.origin(h), mesh.target(h)].map(VertexId::index);
+            if ends.iter().all(|&v| held[v]) {
+                ends.iter().for_each(|&v| alone[v] = false);
+            }
+        }
+        alone.into_iter().filter(|&alone| alone).count()
+    }
+}

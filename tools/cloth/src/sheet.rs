@@ -1,0 +1,527 @@
+//! Cloth: a system made of a mesh, which follows the log while the mesh tears.
+
+use std::fmt;
+
+use super::constraint::{Constraint, ConstraintId};
+use super::fabric::{Copies, Fabric};
+use super::follow::{Room, weight};
+use super::solver::{Solver, StepError, StepReport};
+use super::system::System;
+use tearmesh::Mesh;
+use tearmesh::geometry::{Point, Vector, length};
+use tearmesh::{FaceId, HalfEdgeId, VertexId};
+use tearmesh::{MassError, Masses};
+use tearmesh::{Place, Positions};
+
+/// The energy that edits have made (or, negative, taken), in joules. Gravity is not in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyLedger {
+    /// Elastic energy by splits: copies by the paper's rule, less what bend constraints held.
+    pub split_elastic_j: f64,
+    /// Elastic energy by insertions: new edges inside strained faces. The parts of a divided
+    /// edge hold what it held, as those of a divided triangle do.
+    pub insert_elastic_j: f64,
+    /// Kinetic energy by insertions: velocities are interpolated, so momentum stays and
+    /// differences between corners are partly lost.
+    pub insert_kinetic_j: f64,
+    /// Elastic energy by merges.
+    pub merge_elastic_j: f64,
+    /// Kinetic energy by merges: two particles become one, as in an inelastic impact.
+    pub merge_kinetic_j: f64,
+    /// Elastic energy by slides.
+    pub slide_elastic_j: f64,
+}
+
+impl EnergyLedger {
+    /// All of it.
+    #[must_use]
+    pub fn total_j(&self) -> f64 {
+        self.split_elastic_j
+            + self.insert_elastic_j
+            + self.insert_kinetic_j
+            + self.merge_elastic_j
+            + self.merge_kinetic_j
+            + self.slide_elastic_j
+    }
+}
+
+/// What an edit did to the stability limit. Slivers and repeated splits shorten the stable step:
+/// a hundredth of the mass, 6.2 times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effect {
+    /// The number of the edit.
+    pub number: u64,
+    /// The vertex that was split, inserted first, kept, or slid.
+    pub vertex: VertexId,
+    /// The bound of all frequencies before, in rad/s; see [`System::frequency_bound`].
+    pub bound_before_rad_per_s: f64,
+    /// The same after.
+    pub bound_after_rad_per_s: f64,
+}
+
+/// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
+/// with a [`Weave`](super::Weave) a triangle for each face.
+///
+/// The mesh stays with the caller; this is one more [`Follower`](tearmesh::Follower) of the log. A
+/// split, an insertion or a merge in a running simulation costs what the valence of its vertices
+/// does: no rebuild.
+///
+/// * **Split**: the new particle is where the old one is, as fast, and as heavy as [`Masses`] say,
+///   so mass and momentum are exact. Constraints of moved faces go with them; a torn edge gets a
+///   copy. A pinned particle's copy is pinned.
+/// * **Insertion**: the parts of a divided edge are stiffer by the inverse of their share, so
+///   together they are what it was. A new edge inside a face has, times its length, the mean
+///   of the face's edges.
+/// * **Merge**: the inverse of a split; velocities are joined by mass.
+/// * **Slide**: the particle moves along its edge, at rest as well; it keeps its velocity, so
+///   momentum is exact, and its edges keep stiffness times length.
+///
+/// ```
+/// use tearmesh_cloth::{Cloth, Fabric, Loads, Xpbd};
+/// use tearmesh::{shapes, split, Edits, Masses, Plane, Vector, VertexId};
+///
+/// let (mut mesh, positions) = shapes::grid(8, 8);
+/// let masses = Masses::area(&mesh, &positions, 0.15)?;
+/// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(200.0))?;
+/// let system = cloth.system_mut();
+/// system.set_loads(Loads {
+///     gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+///     ..Loads::default()
+/// })?;
+/// (72..81).for_each(|top| system.hold(top));
+/// for _ in 0..30 {
+///     cloth.step(&mut Xpbd::default(), 1.0 / 60.0)?;
+/// }
+///
+/// // Split a vertex while it hangs, and upload what changed.
+/// let mut edits = Edits::new();
+/// let v = VertexId::new(40).unwrap();
+/// let plane = Plane::new(cloth.positions()[40], Vector::y())?;
+/// let old = cloth.positions().len();
+/// split::by_plane(&mut mesh, v, &plane, cloth.positions(), &mut edits);
+/// edits.replay(&mut cloth);
+/// let mut tail = Vec::new();
+/// cloth.write_f32(old, &mut tail);
+/// assert_eq!((tail.len(), cloth.indices()), (1, mesh.indices()));
+/// assert!(cloth.masses().ledger().is_balanced());
+/// assert_eq!(cloth.ledger().total_j(), 0.0);
+/// cloth.step(&mut Xpbd::default(), 1.0 / 60.0)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Cloth {
+    pub(super) system: System,
+    pub(super) masses: Masses,
+    /// Where the vertices are at rest.
+    pub(super) rest: Positions,
+    pub(super) fabric: Fabric,
+    /// By face: the direction of warp at rest. Empty where the fabric has one for all.
+    pub(super) warps: Vec<Vector>,
+    /// By half-edge: the constraint of its edge.
+    pub(super) stretch_of: Vec<ConstraintId>,
+    /// By constraint: a half-edge of its edge.
+    pub(super) edge_of: Vec<HalfEdgeId>,
+    /// By half-edge: the constraint across its edge, or [`NO_BEND`]. Empty without bending.
+    pub(super) bend_of: Vec<ConstraintId>,
+    /// By bend constraint: the two half-edges that it is across.
+    pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
+    pub(super) ledger: EnergyLedger,
+    pub(super) effects: Vec<Effect>,
+    pub(super) room: Room,
+    pub(super) next_edit: u64,
+}
+
+/// Across a boundary or a tear.
+pub(super) const NO_BEND: ConstraintId = ConstraintId(u32::MAX);
+
+impl Cloth {
+    /// A cloth at rest where the mesh is now. Linear.
+    ///
+    /// A vertex without a face stays where it is. Where the faces of a vertex have no mass, which
+    /// happens to pieces of a face without area, its particle weighs a unit ([`Masses::unit`]).
+    ///
+    /// Both halves of a held vertex are held, and a held vertex stays where it is when a free one is
+    /// sewn to it. An inserted vertex is free, between held ones too: an edge between two pins may
+    /// be that of a clamp or one that hangs.
+    ///
+    /// # Errors
+    ///
+    /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the
+    /// distance across one) has no length, a face of triangles has no area or no warp, or there are
+    /// not as many masses and positions as vertices.
+    pub fn new(
+        mesh: &Mesh,
+        positions: &Positions,
+        masses: Masses,
+        fabric: Fabric,
+    ) -> Result<Cloth, ClothError> {
+        Cloth::with_warps(mesh, positions, masses, fabric, Vec::new())
+    }
+
+    /// The same with the direction of warp for each face, in space where the cloth is at rest: for
+    /// garments, whose texture coordinates have it ([`warp_of_texture`](super::warp_of_texture)).
+    /// It takes the place of [`Weave::warp`](super::Weave::warp); children of a face inherit it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Cloth::new`]; and where there is not one direction a face, or one has no
+    /// projection onto its face.
+    pub fn with_warps(
+        mesh: &Mesh,
+        positions: &Positions,
+        masses: Masses,
+        fabric: Fabric,
+        warps: Vec<Vector>,
+    ) -> Result<Cloth, ClothError> {
+        fabric.check()?;
+        let count = mesh.vertex_count();
+        if masses.len() != count || positions.len() != count {
+            return Err(ClothError::Counts {
+                vertices: count,
+                positions: positions.len(),
+                masses: masses.len(),
+            });
+        }
+        let of_vertex = |v| mesh.half_edge_of(v).map_or(0.0, |_| weight(&masses, v));
+        let weights = mesh.vertices().map(of_vertex).collect();
+        let points = positions.as_slice().iter().copied();
+        let mut system = System::with_massless(points, weights);
+        system.model.faces = mesh.indices().to_vec();
+        let next_edit = tearmesh::Follower::next_edit(positions);
+        let half_edges = mesh.half_edge_count();
+        let mut cloth = Cloth {
+            system,
+            masses: masses.starting_at(next_edit),
+            rest: positions.clone(),
+            fabric,
+            warps,
+            stretch_of: vec![NO_BEND; half_edges],
+            edge_of: Vec::new(),
+            bend_of: Vec::new(),
+            bent_edge: Vec::new(),
+            ledger: EnergyLedger::default(),
+            effects: Vec::new(),
+            room: Room::default(),
+            next_edit,
+        };
+        for h in mesh.edges() {
+            let halved = fabric.copies == Copies::Halved && mesh.ghost_pair(h).is_some();
+            let share = if halved { 0.5 } else { 1.0 };
+            let ends = [mesh.origin(h), mesh.target(h)];
+            let stiffness = fabric.stretch_n_per_m * share;
+            let constraint = cloth.constraint(ends, stiffness)?;
+            let id = cloth.system.model.stretch.add(constraint);
+            cloth.join(h, id);
+            if let Some(pair) = mesh.pair(h) {
+                cloth.stretch_of[pair.index()] = id;
+            }
+        }
+        if let Some(bend) = fabric.bend {
+            cloth.system.model.buckling = bend.law();
+            cloth.bend_of = vec![NO_BEND; half_edges];
+            for h in mesh.edges() {
+                if let Some(pair) = mesh.pair(h) {
+                    let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
+                    let length_m = cloth.rest_length(apexes.map(VertexId::index));
+                    let stiffness = bend.stiffness_n_per_m(length_m);
+                    cloth.constraint(apexes, stiffness.unwrap_or(0.0))?;
+                    let id = cloth.bend_across([h, pair]);
+                    let (field, given) = bend.number();
+                    id.ok_or(ClothError::Stiffness { field, given })?;
+                }
+            }
+        }
+        cloth.weave()?;
+        cloth.system.frequency_bound();
+        Ok(cloth)
+    }
+
+    fn constraint(
+        &self,
+        ends: [VertexId; 2],
+        stiffness_n_per_m: f64,
+    ) -> Result<Constraint, ClothError> {
+        let rest_length_m = self.rest_length(ends.map(VertexId::index));
+        if rest_length_m > 0.0 && rest_length_m.is_finite() {
+            Ok(Constraint {
+                ends: ends.map(VertexId::index),
+                rest_length_m,
+                stiffness_n_per_m,
+            })
+        } else {
+            Err(ClothError::Length {
+                ends,
+                given: rest_length_m,
+            })
+        }
+    }
+
+    /// The same cloth, for a log whose next record has this number.
+    #[must_use]
+    pub fn starting_at(mut self, next_edit: u64) -> Cloth {
+        self.masses = self.masses.starting_at(next_edit);
+        self.rest = self.rest.starting_at(next_edit);
+        self.next_edit = next_edit;
+        self
+    }
+
+    /// Advances by `dt_s` seconds, and forgets the [`Cloth::effects`] so far.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`], and the cloth is as it was before.
+    pub fn step(
+        &mut self,
+        solver: &mut (impl Solver + ?Sized),
+        dt_s: f64,
+    ) -> Result<StepReport, StepError> {
+        let report = self.system.step(solver, dt_s)?;
+        self.effects.clear();
+        Ok(report)
+    }
+
+    /// The particles and constraints; vertex v is particle `v.index()`.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The same, to be changed: loads, pins, velocities.
+    #[must_use]
+    pub fn system_mut(&mut self) -> &mut System {
+        &mut self.system
+    }
+
+    /// Where the vertices are, in metres: a [`Place`].
+    #[must_use]
+    pub fn positions(&self) -> &[Point] {
+        self.system.positions()
+    }
+
+    /// Where the vertices are at rest, which says how long constraints are.
+    #[must_use]
+    pub fn rest_positions(&self) -> &Positions {
+        &self.rest
+    }
+
+    /// The exact masses.
+    #[must_use]
+    pub fn masses(&self) -> &Masses {
+        &self.masses
+    }
+
+    /// The mass of a vertex in kilograms, or `None` for one that is held: what the choice of
+    /// the vertex to split needs (Souza et al. 2014 §III-A).
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn free_mass(&self, v: VertexId) -> Option<f64> {
+        (!self.system.is_held(v.index())).then(|| self.masses.at(v))
+    }
+
+    /// The vertices of all faces, three a face: an index buffer, equal to that of the mesh.
+    #[must_use]
+    pub fn indices(&self) -> &[u32] {
+        &self.system.model.faces
+    }
+
+    /// Writes the positions from vertex number `start` on, rounded to `f32`: a vertex buffer, or
+    /// with `start` above 0 the tail that splits added. Clears what the buffer held.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer than `start` vertices.
+    pub fn write_f32(&self, start: usize, buffer: &mut Vec<[f32; 3]>) {
+        buffer.clear();
+        let tail = &self.positions()[start..];
+        buffer.extend(tail.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]));
+    }
+
+    /// The stretch constraint of an edge, by either of its half-edges. Its ratio, tension and
+    /// multiplier are those of [`System::stretch_ratio`] and so on.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such half-edge.
+    #[must_use]
+    pub fn stretch(&self, h: HalfEdgeId) -> ConstraintId {
+        self.stretch_of[h.index()]
+    }
+
+    /// A half-edge of the edge of a stretch constraint.
+    ///
+    /// # Panics
+    ///
+    /// If the constraint is none of an edge.
+    #[must_use]
+    pub fn edge(&self, id: ConstraintId) -> HalfEdgeId {
+        self.edge_of[id.index()]
+    }
+
+    /// The edges that are longer than `ratio` times their rest length, each by one half-edge,
+    /// ascending. Linear, and allocates nothing.
+    pub fn overstretched(&self, ratio: f64) -> impl Iterator<Item = HalfEdgeId> + '_ {
+        let edges = (0..self.stretch_of.len()).filter_map(HalfEdgeId::new);
+        edges.filter(move |&h| {
+            let id = self.stretch(h);
+            self.edge(id) == h && self.system.stretch_ratio(id) > ratio
+        })
+    }
+
+    /// The energy that edits have made.
+    #[must_use]
+    pub fn ledger(&self) -> EnergyLedger {
+        self.ledger
+    }
+
+    /// What the edits since the last [`Cloth::step`] that was taken did to the stability limit.
+    #[must_use]
+    pub fn effects(&self) -> &[Effect] {
+        &self.effects
+    }
+
+    pub(super) fn rest_length(&self, [a, b]: [usize; 2]) -> f64 {
+        let rest = self.rest.as_slice();
+        length(rest[b] - rest[a])
+    }
+
+    /// Notes whose edge a stretch constraint is.
+    pub(super) fn join(&mut self, h: HalfEdgeId, id: ConstraintId) {
+        self.stretch_of[h.index()] = id;
+        if self.edge_of.len() <= id.index() {
+            self.edge_of.resize(id.index() + 1, h);
+        }
+        self.edge_of[id.index()] = h;
+    }
+
+    /// Gives a bend constraint the length that the rest positions of its ends have now, and the
+    /// stiffness that goes with it: none where rounding left no length for one.
+    pub(super) fn measure_bend(&mut self, id: ConstraintId) {
+        let ends = self.system.model.bend.get(id).ends;
+        let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
+        let stiffness = self
+            .fabric
+            .bend
+            .and_then(|bend| bend.stiffness_n_per_m(rest_length_m));
+        let bend = &mut self.system.model.bend;
+        bend.set_rest_length(id, rest_length_m);
+        bend.set_stiffness(id, stiffness.unwrap_or(0.0));
+        self.system.touched(&ends);
+    }
+
+    /// Adds the bend constraint across an edge, unless there is no distance across it.
+    pub(super) fn bend_across(&mut self, edge: [HalfEdgeId; 2]) -> Option<ConstraintId> {
+        let apexes = edge.map(|h| self.system.model.faces[h.prev().index()] as usize);
+        let rest_length_m = self.rest_length(apexes);
+        if rest_length_m <= 0.0 {
+            return None;
+        }
+        let stiffness_n_per_m = self.fabric.bend?.stiffness_n_per_m(rest_length_m)?;
+        let id = self.system.model.bend.add(Constraint {
+            ends: apexes,
+            rest_length_m,
+            stiffness_n_per_m,
+        });
+        self.bend_of[edge[0].index()] = id;
+        self.bend_of[edge[1].index()] = id;
+        if self.bent_edge.len() <= id.index() {
+            self.bent_edge.resize(id.index() + 1, edge);
+        }
+        self.bent_edge[id.index()] = edge;
+        self.system.touched(&apexes);
+        Some(id)
+    }
+}
+
+impl Place for Cloth {
+    fn at(&self, v: VertexId) -> Point {
+        self.positions()[v.index()]
+    }
+}
+
+/// Why a cloth was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ClothError {
+    /// The masses cannot be.
+    Mass(MassError),
+    /// A stiffness is not a positive finite number, or that of some bend would not be.
+    Stiffness {
+        /// The field of [`Fabric`].
+        field: &'static str,
+        /// The number as given.
+        given: f64,
+    },
+    /// Two vertices that a constraint is to join are at one place, or not at any.
+    Length {
+        /// The vertices.
+        ends: [VertexId; 2],
+        /// The rest length, in metres.
+        given: f64,
+    },
+    /// A face that is to be a triangle has no area at rest, or its warp no direction in it.
+    Face {
+        /// The face.
+        face: FaceId,
+        /// The direction of warp.
+        warp: Vector,
+    },
+    /// There is not one direction of warp for each face.
+    Warps {
+        /// The number of faces.
+        faces: usize,
+        /// The number of directions.
+        warps: usize,
+    },
+    /// There are not as many positions and masses as vertices.
+    Counts {
+        /// The number of vertices.
+        vertices: usize,
+        /// The number of positions.
+        positions: usize,
+        /// The number of masses.
+        masses: usize,
+    },
+}
+
+impl From<MassError> for ClothError {
+    fn from(error: MassError) -> ClothError {
+        ClothError::Mass(error)
+    }
+}
+
+impl fmt::Display for ClothError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ClothError::Mass(error) => error.fmt(f),
+            ClothError::Stiffness { field, given } => write!(
+                f,
+                "{field} is {given}, which makes no positive finite stiffness"
+            ),
+            ClothError::Length {
+                ends: [a, b],
+                given,
+            } => write!(f, "the edge {a}-{b} has the rest length {given} m"),
+            ClothError::Face { face, warp } => write!(
+                f,
+                "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
+                warp.x, warp.y, warp.z
+            ),
+            ClothError::Warps { faces, warps } => {
+                write!(f, "{faces} faces have {warps} directions of warp")
+            }
+            ClothError::Counts {
+                vertices,
+                positions,
+                masses,
+            } => write!(
+                f,
+                "{vertices} vertices have {positions} positions and {masses} masses"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ClothError {}

@@ -1,0 +1,126 @@
+//! How far a face is stretched: the singular values of its deformation.
+//!
+//! A face maps its piece of the material, a triangle in the plane with warp along u and weft along
+//! v, into space. The map is affine with the constant derivatives `w_u` and `w_v`; their lengths
+//! are the stretch of warp and weft, and the singular values of (`w_u` `w_v`) are the largest and
+//! smallest stretch of any direction. They need the rest positions alone, so they are known
+//! of every cloth, whatever resists the stretch. Closed forms of `+ − × ÷ √`.
+
+use super::sheet::Cloth;
+use tearmesh::geometry::{Point, Vector, cross, dot, length};
+use tearmesh::{FaceId, VertexId};
+
+impl Cloth {
+    /// The largest stretch of a face in any direction, as a multiple of the length at rest: the
+    /// larger singular value of its deformation. 1 at rest, to rounding. What a threshold of
+    /// tearing by strain is held against where there are triangles and no springs.
+    ///
+    /// A face without area at rest is a thread, and has the largest ratio of its edges.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such face.
+    #[must_use]
+    pub fn principal_stretch(&self, f: FaceId) -> f64 {
+        let (rest, now) = (self.rest_corners(f), self.corners(f));
+        let Some(derivatives) = self.derivatives(f) else {
+            return thread_stretch(rest, now);
+        };
+        larger_singular_value(derivatives)
+    }
+
+    /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
+    /// lengths at rest: for thresholds apart from each other. Shear does not enter.
+    ///
+    /// Warp runs where [`Weave::warp`](super::Weave::warp) or [`Cloth::with_warps`] says, projected
+    /// onto the face at rest, and weft across it. Where nothing says, warp runs along the x-axis;
+    /// along the y-axis in faces whose normal lies nearer to the x-axis than to the others.
+    ///
+    /// A face without area at rest has the largest ratio of its edges, twice.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such face.
+    #[must_use]
+    pub fn warp_weft_stretch(&self, f: FaceId) -> [f64; 2] {
+        match self.derivatives(f) {
+            Some(derivatives) => derivatives.map(length),
+            None => [thread_stretch(self.rest_corners(f), self.corners(f)); 2],
+        }
+    }
+
+    /// `w_u` and `w_v` of a face; `None` where it has no area at rest.
+    fn derivatives(&self, f: FaceId) -> Option<[Vector; 2]> {
+        derivatives(self.material(f)?, self.corners(f))
+    }
+
+    fn corners(&self, f: FaceId) -> [Point; 3] {
+        self.vertices_of(f).map(|v| self.positions()[v.index()])
+    }
+
+    pub(super) fn rest_corners(&self, f: FaceId) -> [Point; 3] {
+        self.vertices_of(f).map(|v| self.rest.at(v))
+    }
+
+    fn vertices_of(&self, f: FaceId) -> [VertexId; 3] {
+        let corners = f.half_edges();
+        corners.map(|h| VertexId::new(self.indices()[h.index()] as usize).expect("I1: ids fit"))
+    }
+}
+
+/// The places (u, v) of a triangle's corners in its own plane, in metres: the first at the origin,
+/// u along the projection of `warp`, v across it. `None` where the triangle has no area or
+/// `warp` no projection.
+pub(super) fn material(rest: [Point; 3], warp: Vector) -> Option<[[f64; 2]; 3]> {
+    let (a, b) = (rest[1] - rest[0], rest[2] - rest[0]);
+    let normal = unit(cross(a, b))?;
+    let u = unit(warp - normal * dot(normal, warp))?;
+    let v = cross(normal, u);
+    Some([[0.0, 0.0], [dot(a, u), dot(a, v)], [dot(b, u), dot(b, v)]])
+}
+
+/// The axis that is warp where nobody says: x, or y where the normal lies nearest to x. So the
+/// projection is never short.
+pub(super) fn default_warp(rest: [Point; 3]) -> Vector {
+    let normal = cross(rest[1] - rest[0], rest[2] - rest[0]);
+    let x = normal.x.abs();
+    if x > normal.y.abs() && x > normal.z.abs() {
+        Vector::y()
+    } else {
+        Vector::x()
+    }
+}
+
+fn unit(v: Vector) -> Option<Vector> {
+    let l = length(v);
+    (l > 0.0).then(|| v / l)
+}
+
+/// `w_u` and `w_v` of the map that takes these places to these points.
+fn derivatives(material: [[f64; 2]; 3], now: [Point; 3]) -> Option<[Vector; 2]> {
+    let [_, [u1, v1], [u2, v2]] = material;
+    let twice = u1 * v2 - u2 * v1;
+    let (a, b) = (now[1] - now[0], now[2] - now[0]);
+    (twice > 0.0).then(|| [(a * v2 - b * v1) / twice, (b * u1 - a * u2) / twice])
+}
+
+/// The larger singular value of a matrix of two columns.
+fn larger_singular_value([w_u, w_v]: [Vector; 2]) -> f64 {
+    let (uu, vv, uv) = (dot(w_u, w_u), dot(w_v, w_v), dot(w_u, w_v));
+    let apart = 0.5 * (uu - vv);
+    (0.5 * (uu + vv) + (apart * apart + uv * uv).sqrt()).sqrt()
+}
+
+/// The largest ratio of the edges that have a length at rest; 1 where none has.
+fn thread_stretch(rest: [Point; 3], now: [Point; 3]) -> f64 {
+    let mut largest = None;
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        let at_rest = length(rest[j] - rest[i]);
+        if at_rest > 0.0 {
+            let ratio = length(now[j] - now[i]) / at_rest;
+            largest = Some(largest.map_or(ratio, |largest: f64| largest.max(ratio)));
+        }
+    }
+    largest.unwrap_or(1.0)
+}

@@ -1,0 +1,584 @@
+//! Particles and constraints, with no mesh in sight.
+//!
+//! A [`System`] is a list of particles and two families of springs between them: *stretch*
+//! constraints, and *bend* constraints that reach across something, which may buckle instead; and
+//! triangles of particles that resist stretch and shear. A chain, a net or a cloth is one. Units
+//! are SI throughout: metres, kilograms, seconds, newtons.
+
+mod error;
+mod force;
+mod measure;
+mod model;
+
+pub use error::SystemError;
+pub(crate) use force::{Forces, Left};
+pub(crate) use model::{Family, Model};
+
+use super::balance::Meter;
+use super::constraint::{Constraint, ConstraintId, Constraints};
+use super::implicit::{Buckling, Triangle};
+use super::load::{Loads, Path};
+use super::stability::Spectrum;
+use super::triangles::Triangles;
+use tearmesh::geometry::{Point, Vector, check_point};
+
+/// Particles, constraints and loads.
+///
+/// ```
+/// use tearmesh_cloth::{Loads, System, Verlet};
+/// use tearmesh::{Point, Vector};
+///
+/// // A chain of ten springs, without any mesh.
+/// let points = (0..11).map(|i| Point::new(0.0, 0.0, -0.1 * f64::from(i)));
+/// let mut chain = System::new(points, vec![0.01; 11])?;
+/// for i in 0..10 {
+///     chain.stretch([i, i + 1], 0.1, 50.0)?;
+/// }
+/// chain.hold(0);
+/// chain.set_loads(Loads {
+///     gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+///     drag_per_s: Some(5.0),
+///     ..Loads::default()
+/// })?;
+/// for _ in 0..5000 {
+///     chain.step(&mut Verlet::new(), 0.005)?;
+/// }
+/// // N L + m g N (N + 1) / (2 k)
+/// assert!((chain.positions()[10].z + 1.10791).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct System {
+    pub(crate) positions: Vec<Point>,
+    pub(crate) velocities: Vec<Vector>,
+    pub(crate) model: Model,
+    pub(crate) counters: Counters,
+    pub(crate) spectrum: Spectrum,
+    pub(crate) scratch: Scratch,
+    pub(crate) elapsed_s: f64,
+    pub(crate) unstable: Unstable,
+    pub(crate) margin: f64,
+    /// The balance of energy, where one is kept.
+    pub(crate) meter: Option<Box<Meter>>,
+}
+
+/// Room for a step, so that none allocates.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    pub(crate) accelerations: Vec<Vector>,
+    /// Whether these are the accelerations now.
+    pub(crate) is_fresh: bool,
+    /// Where the step began: the last good state.
+    pub(crate) positions: Vec<Point>,
+    pub(crate) velocities: Vec<Vector>,
+    /// Where the substep began.
+    pub(crate) before: Vec<Point>,
+    /// The velocities that wind blows at, where they are predicted.
+    pub(crate) predicted: Vec<Vector>,
+    /// The area of the faces of each particle, where there is wind.
+    pub(crate) areas: Vec<f64>,
+}
+
+/// What was computed since the system was made: the cost of a simulation, without a clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Evaluations of all forces.
+    pub force_evaluations: u64,
+    /// Projections of single constraints.
+    pub projections: u64,
+    /// Products of the stiffness matrix with a vector.
+    pub matrix_products: u64,
+    /// Sums over all triangles: of forces, of products with the stiffness matrix, of energy for
+    /// line searches, and of stretch for the bound of frequencies.
+    pub triangle_evaluations: u64,
+    /// Sums of wind over all faces.
+    pub wind_evaluations: u64,
+    /// Sums of areas over all faces, for the rate at which wind slows the system.
+    pub area_evaluations: u64,
+    /// Tests of all particles against one collider.
+    pub collider_passes: u64,
+    /// Substeps.
+    pub substeps: u64,
+    /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
+    pub overshoots: u64,
+}
+
+/// What to do with a step beyond the stability limit of an explicit method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unstable {
+    /// Refuse it, with the limit: nothing changes. The limit is that of the present configuration,
+    /// with a margin.
+    #[default]
+    Refuse,
+    /// Divide it into as many substeps as are stable in every configuration, and say how many.
+    Substep,
+    /// Take it. No frequency is computed; blow-up is still noticed.
+    Allow,
+}
+
+impl System {
+    /// Particles at rest at these points, with these masses in kilograms.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`]: where a coordinate is not usable, a mass is not positive, or the numbers
+    /// of points and masses differ.
+    pub fn new(
+        points: impl IntoIterator<Item = Point>,
+        masses_kg: Vec<f64>,
+    ) -> Result<System, SystemError> {
+        let system = System::with_massless(points, masses_kg);
+        let usable = |&mass: &f64| mass > 0.0 && mass.is_finite() && (1.0 / mass).is_finite();
+        let model = &system.model;
+        if model.masses.len() != system.positions.len() {
+            return Err(SystemError::Counts {
+                points: system.positions.len(),
+                masses: model.masses.len(),
+            });
+        }
+        if let Some(particle) = model.masses.iter().position(|mass| !usable(mass)) {
+            let given = model.masses[particle];
+            return Err(SystemError::Mass { particle, given });
+        }
+        let bad = |&point: &Point| check_point(point).is_err();
+        if let Some(particle) = system.positions.iter().position(bad) {
+            let given = system.positions[particle];
+            return Err(SystemError::Position { particle, given });
+        }
+        Ok(system)
+    }
+
+    /// The same without any check; particles without mass are held.
+    pub(crate) fn with_massless(
+        points: impl IntoIterator<Item = Point>,
+        masses: Vec<f64>,
+    ) -> System {
+        let positions: Vec<Point> = points.into_iter().collect();
+        let count = positions.len();
+        System {
+            velocities: vec![Vector::zeros(); count],
+            positions,
+            model: Model {
+                inverse_masses: masses.iter().map(|&mass| inverse(mass, false)).collect(),
+                masses,
+                held: vec![false; count],
+                stretch: Constraints::new(count),
+                bend: Constraints::new(count),
+                buckling: None,
+                triangles: Triangles::default(),
+                faces: Vec::new(),
+                loads: Loads::default(),
+                paths: Vec::new(),
+                grabbed: Vec::new(),
+                stretch_ratio_max: 100.0,
+                forces: Forces::default(),
+                is_limited: false,
+                is_aside: false,
+            },
+            counters: Counters::default(),
+            spectrum: Spectrum::default(),
+            scratch: Scratch::default(),
+            elapsed_s: 0.0,
+            unstable: Unstable::default(),
+            margin: 0.95,
+            meter: None,
+        }
+    }
+
+    /// Adds a stretch constraint between two particles: rest length in metres, stiffness in N/m.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError`]: a number is not positive and finite, or the ends are one particle or
+    /// none.
+    ///
+    /// # Panics
+    ///
+    /// If the system is that of a cloth, whose constraints follow its mesh.
+    pub fn stretch(
+        &mut self,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
+    ) -> Result<ConstraintId, SystemError> {
+        self.connect(Family::Stretch, ends, rest_length_m, stiffness_n_per_m)
+    }
+
+    /// Adds a bend constraint: a spring between two particles that something else joins, so that
+    /// it resists folding (the flexion springs of Provot 1995, §2).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`System::stretch`].
+    ///
+    /// # Panics
+    ///
+    /// As [`System::stretch`].
+    pub fn bend(
+        &mut self,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
+    ) -> Result<ConstraintId, SystemError> {
+        self.connect(Family::Bend, ends, rest_length_m, stiffness_n_per_m)
+    }
+
+    /// Makes all bend constraints buckle by this law, those that are there and those to come, or
+    /// makes them springs again. Below its rest length a bend then has, in the place of a spring's
+    /// force, that of an arc ([`Bend`](super::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
+    /// it none; its stiffness is the one against compression before it buckles.
+    /// [`Pbd`](super::Pbd) and [`Xpbd`](super::Xpbd), which project springs, are refused then.
+    ///
+    /// ```
+    /// use tearmesh_cloth::implicit::Buckling;
+    /// use tearmesh_cloth::System;
+    /// use tearmesh::Point;
+    ///
+    /// let points = [Point::origin(), Point::new(0.06, 0.0, 0.0)];
+    /// let mut system = System::new(points, vec![1.0; 2])?;
+    /// system.bend([0, 1], 0.1, 2.0)?;
+    /// assert_eq!(system.elastic_energy_j(), 0.5 * 2.0 * (0.1_f64 - 0.06).powi(2));
+    /// let spring = system.reaction_n(0).x;
+    /// system.set_buckling(Buckling::new(0.95));
+    /// // Once it has buckled it pushes less than the spring, and than the load that buckled it.
+    /// assert!(system.reaction_n(0).x > 0.0);
+    /// assert!(system.reaction_n(0).x < 0.3 * spring);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If the system is that of a cloth, whose bends follow its fabric.
+    pub fn set_buckling(&mut self, buckling: Option<Buckling>) {
+        assert!(
+            self.model.faces.is_empty(),
+            "the bends of a cloth follow its fabric"
+        );
+        self.model.buckling = buckling;
+        self.scratch.is_fresh = false;
+        self.spectrum.forget();
+    }
+
+    /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4): its particles,
+    /// their places (u, v) in the material in metres, and the stiffness along u, along v and in
+    /// shear in N/m. Returns its index.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Triangle`]: a stiffness is negative, a number is not finite, the places
+    /// span no area, or the corners are not three particles.
+    ///
+    /// # Panics
+    ///
+    /// As [`System::stretch`].
+    pub fn triangle(
+        &mut self,
+        corners: [usize; 3],
+        material_m: [[f64; 2]; 3],
+        stiffness_n_per_m: [f64; 3],
+    ) -> Result<usize, SystemError> {
+        self.is_no_cloth();
+        let [a, b, c] = corners;
+        let distinct = a != b && b != c && c != a && a.max(b).max(c) < self.positions.len();
+        let triangle = Triangle::new(
+            corners.map(|corner| corner as u32),
+            material_m,
+            stiffness_n_per_m,
+        );
+        match triangle.filter(|_| distinct) {
+            Some(triangle) => Ok(self.push_triangle(triangle)),
+            None => Err(SystemError::Triangle {
+                corners,
+                material_m,
+                stiffness_n_per_m,
+            }),
+        }
+    }
+
+    pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
+        let index = self.model.triangles.as_slice().len();
+        self.model.triangles.push(self.positions.len(), triangle);
+        self.touched(&triangle.vertices.map(|corner| corner as usize));
+        index
+    }
+
+    fn connect(
+        &mut self,
+        family: Family,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
+    ) -> Result<ConstraintId, SystemError> {
+        self.is_no_cloth();
+        let constraint = Constraint {
+            ends,
+            rest_length_m,
+            stiffness_n_per_m,
+        };
+        check_constraint(&constraint, self.positions.len())?;
+        let id = self.model.family_mut(family).add(constraint);
+        self.touched(&ends);
+        Ok(id)
+    }
+
+    fn is_no_cloth(&self) {
+        assert!(
+            self.model.faces.is_empty(),
+            "the constraints of a cloth follow its mesh"
+        );
+    }
+
+    /// Notes that masses or constraints at these particles have changed. Costs their valence.
+    pub(crate) fn touched(&mut self, particles: &[usize]) {
+        self.scratch.is_fresh = false;
+        self.spectrum.touched(&self.model, particles);
+        self.note_change();
+    }
+
+    /// Changes the stiffness of a stretch constraint, in N/m.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Constraint`] where it is not positive and finite.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    pub fn set_stiffness(
+        &mut self,
+        id: ConstraintId,
+        stiffness_n_per_m: f64,
+    ) -> Result<(), SystemError> {
+        let constraint = Constraint {
+            stiffness_n_per_m,
+            ..self.model.stretch.get(id)
+        };
+        check_constraint(&constraint, self.positions.len())?;
+        self.model.stretch.set_stiffness(id, stiffness_n_per_m);
+        self.touched(&constraint.ends);
+        Ok(())
+    }
+
+    /// Takes away a stretch constraint, as where a link of a chain tears. Later constraints may get
+    /// its id.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint, or the system is that of a cloth, whose constraints follow
+    /// the mesh.
+    pub fn cut(&mut self, id: ConstraintId) -> Constraint {
+        self.is_no_cloth();
+        let constraint = self.model.stretch.remove(id);
+        self.touched(&constraint.ends);
+        constraint
+    }
+
+    /// Pins a particle where it is.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    pub fn hold(&mut self, particle: usize) {
+        self.handle(particle, |system| {
+            system.model.held[particle] = true;
+            system.velocities[particle] = Vector::zeros();
+            system.weigh(particle);
+        });
+    }
+
+    /// Lets a pinned or grabbed particle go.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    pub fn release(&mut self, particle: usize) {
+        self.model.unlead(particle);
+        self.handle(particle, |system| {
+            system.model.held[particle] = false;
+            system.weigh(particle);
+        });
+    }
+
+    /// Leads a particle along a path, from where the path is now.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    pub fn grab(&mut self, particle: usize, path: Path) {
+        self.release(particle);
+        self.hold(particle);
+        let from = path.at(self.elapsed_s);
+        self.handle(particle, |system| system.positions[particle] = from);
+        let number = self.model.paths.len() as u32;
+        self.model.paths.push(path);
+        self.model.grabbed.push((particle as u32, number));
+    }
+
+    /// Brings the inverse mass up to date with the mass and with who is held.
+    pub(crate) fn weigh(&mut self, particle: usize) {
+        let model = &mut self.model;
+        model.inverse_masses[particle] = inverse(model.masses[particle], model.held[particle]);
+        self.touched(&[particle]);
+    }
+
+    /// Sets what acts from outside.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Loads`] where a number is not finite, or negative where it must not be.
+    pub fn set_loads(&mut self, loads: Loads) -> Result<(), SystemError> {
+        if let Some((field, given)) = loads.fault() {
+            return Err(SystemError::Loads { field, given });
+        }
+        self.scratch.is_fresh = false;
+        let is_same = loads.gravity_m_per_s2 == self.model.loads.gravity_m_per_s2;
+        if is_same {
+            self.model.loads = loads;
+        } else {
+            self.settle_gravity();
+            self.model.loads = loads;
+            self.count_potential();
+        }
+        Ok(())
+    }
+
+    /// Says what to do with a step beyond the stability limit. Refusing it is the default.
+    pub fn when_unstable(&mut self, unstable: Unstable) {
+        self.unstable = unstable;
+    }
+
+    /// Sets how many times its rest length a constraint may have before the system counts as
+    /// blown up: 100 unless set. PBD stretches a hanging sheet of 64 × 64 cells twelvefold. A step
+    /// refuses one that is not above 0.
+    pub fn set_stretch_ratio_max(&mut self, ratio: f64) {
+        self.model.stretch_ratio_max = ratio;
+    }
+
+    /// Where the particles are, in metres.
+    #[must_use]
+    pub fn positions(&self) -> &[Point] {
+        &self.positions
+    }
+
+    /// Their velocities, in m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[Vector] {
+        &self.velocities
+    }
+
+    /// Positions and velocities, to be set. Those that are not finite are noticed by the next
+    /// step. What the last step left behind in constraints ([`System::force_n`],
+    /// [`System::unlimited_ratio`]) no longer counts.
+    #[must_use]
+    pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
+        self.scratch.is_fresh = false;
+        self.spectrum.jumped(true);
+        self.model.forget();
+        self.note_change();
+        (&mut self.positions, &mut self.velocities)
+    }
+
+    /// The masses, in kilograms.
+    #[must_use]
+    pub fn masses(&self) -> &[f64] {
+        &self.model.masses
+    }
+
+    /// Their inverses, in 1/kg: zero where a particle is held.
+    #[must_use]
+    pub fn inverse_masses(&self) -> &[f64] {
+        &self.model.inverse_masses
+    }
+
+    /// Whether a particle is pinned or grabbed.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    #[must_use]
+    pub fn is_held(&self, particle: usize) -> bool {
+        self.model.held[particle]
+    }
+
+    /// The stretch constraints.
+    #[must_use]
+    pub fn stretches(&self) -> &Constraints {
+        &self.model.stretch
+    }
+
+    /// The bend constraints.
+    #[must_use]
+    pub fn bends(&self) -> &Constraints {
+        &self.model.bend
+    }
+
+    /// The law by which bend constraints buckle; `None` where they are springs.
+    #[must_use]
+    pub fn buckling(&self) -> Option<Buckling> {
+        self.model.buckling
+    }
+
+    /// The triangles that resist stretch and shear, by index.
+    #[must_use]
+    pub fn triangles(&self) -> &[Triangle] {
+        self.model.triangles.as_slice()
+    }
+
+    /// What acts from outside.
+    #[must_use]
+    pub fn loads(&self) -> &Loads {
+        &self.model.loads
+    }
+
+    /// What has been computed so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// The seconds that have been simulated.
+    #[must_use]
+    pub fn elapsed_s(&self) -> f64 {
+        self.elapsed_s
+    }
+
+    /// Gives the grabbed particles the velocity that leads them along their paths.
+    pub(crate) fn drive(&mut self, dt_s: f64) {
+        for &(particle, path) in &self.model.grabbed {
+            let to = self.model.paths[path as usize].at(self.elapsed_s + dt_s);
+            let particle = particle as usize;
+            self.velocities[particle] = (to - self.positions[particle]) / dt_s;
+        }
+    }
+
+    /// Pushes the particles out of the colliders.
+    pub(crate) fn collide(&mut self) {
+        if self.meter.is_some() {
+            return self.collide_and_note();
+        }
+        for collider in &self.model.loads.colliders {
+            self.counters.collider_passes += 1;
+            collider.push_out(
+                &self.model.inverse_masses,
+                &mut self.positions,
+                &mut self.velocities,
+            );
+        }
+    }
+}
+
+fn inverse(mass: f64, held: bool) -> f64 {
+    if held || mass == 0.0 { 0.0 } else { 1.0 / mass }
+}
+
+fn check_constraint(constraint: &Constraint, particles: usize) -> Result<(), SystemError> {
+    let [a, b] = constraint.ends;
+    let positive = |x: f64| x > 0.0 && x.is_finite();
+    let numbers = positive(constraint.rest_length_m) && positive(constraint.stiffness_n_per_m);
+    if numbers && a != b && a.max(b) < particles {
+        Ok(())
+    } else {
+        Err(SystemError::Constraint { given: *constraint })
+    }
+}

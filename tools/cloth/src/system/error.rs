@@ -1,0 +1,98 @@
+//! Why particles, constraints or loads were refused.
+
+use std::fmt;
+
+use crate::Constraint;
+use tearmesh::geometry::Point;
+
+/// Why particles, constraints or loads were refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SystemError {
+    /// There is not one mass for each point.
+    Counts {
+        /// The number of points.
+        points: usize,
+        /// The number of masses.
+        masses: usize,
+    },
+    /// A mass is not positive and finite; the first such particle.
+    Mass {
+        /// The particle.
+        particle: usize,
+        /// The mass as given, in kilograms.
+        given: f64,
+    },
+    /// A coordinate is not finite or too large; the first such particle.
+    Position {
+        /// The particle.
+        particle: usize,
+        /// The point as given.
+        given: Point,
+    },
+    /// The rest length or the stiffness is not positive and finite, or the ends are not two
+    /// particles.
+    Constraint {
+        /// The constraint as given.
+        given: Constraint,
+    },
+    /// A stiffness of a triangle is negative, a number is not finite, its places in the material
+    /// span no area, or its corners are not three particles.
+    Triangle {
+        /// The corners as given.
+        corners: [usize; 3],
+        /// The places as given, in metres.
+        material_m: [[f64; 2]; 3],
+        /// The stiffness as given, in N/m.
+        stiffness_n_per_m: [f64; 3],
+    },
+    /// A number of a load is not finite, or negative where it must not be.
+    Loads {
+        /// The field of [`Loads`](crate::Loads).
+        field: &'static str,
+        /// The number as given; of a vector, the component.
+        given: f64,
+    },
+}
+
+impl fmt::Display for SystemError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SystemError::Counts { points, masses } => {
+                write!(f, "{points} points have {masses} masses")
+            }
+            SystemError::Mass { particle, given } => write!(
+                f,
+                "particle {particle} has the mass {given} kg, which is not positive and finite"
+            ),
+            SystemError::Position { particle, given } => write!(
+                f,
+                "particle {particle} is at ({}, {}, {}), which is not usable",
+                given.x, given.y, given.z
+            ),
+            SystemError::Constraint { given } => {
+                let [a, b] = given.ends;
+                write!(
+                    f,
+                    "a constraint between the particles {a} and {b} cannot have the rest length \
+                     {} m and the stiffness {} N/m",
+                    given.rest_length_m, given.stiffness_n_per_m
+                )
+            }
+            SystemError::Triangle {
+                corners: [a, b, c],
+                material_m,
+                stiffness_n_per_m,
+            } => write!(
+                f,
+                "a triangle of the particles {a}, {b} and {c} cannot have the places {material_m:?} \
+                 m in the material and the stiffness {stiffness_n_per_m:?} N/m"
+            ),
+            SystemError::Loads { field, given } => {
+                write!(f, "{field} is {given}, which is not finite, or negative")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SystemError {}

@@ -1,0 +1,249 @@
+//! The forces in constraints, and what it takes to hold a particle.
+//!
+//! A method with physical stiffness has the force of a spring in its length. [`Pbd`] and
+//! [`Xpbd`] move particles instead, and their force is what they accumulated as multipliers;
+//! [`Provot`] has both, the spring's and the limiter's. A step leaves behind which it was, so that
+//! tear thresholds in newtons and force probes need not know the method.
+//!
+//! [`Pbd`]: crate::Pbd
+//! [`Xpbd`]: crate::Xpbd
+//! [`Provot`]: crate::Provot
+
+use super::{Family, Model, System};
+use crate::constraint::{Constraint, ConstraintId};
+use crate::implicit::triangle;
+use crate::kernel;
+use tearmesh::geometry::{Vector, dot};
+
+/// Where the forces of the last step are to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Forces {
+    /// In the lengths.
+    #[default]
+    Lengths,
+    /// In the multipliers.
+    Multipliers,
+    /// The sum of both.
+    Both,
+}
+
+/// What says how that is to be read which a step left behind in constraints.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Left {
+    forces: Forces,
+    is_limited: bool,
+}
+
+impl System {
+    /// The force in a stretch constraint by its length, k (l − L), in newtons; tension is
+    /// positive.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn tension_n(&self, id: ConstraintId) -> f64 {
+        self.spring_n(&self.model.stretch.get(id))
+    }
+
+    /// The force in a stretch constraint by the multiplier of the last step of
+    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is
+    /// positive. Of [`Provot`](crate::Provot), the share of the limiter. Zero before one.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn multiplier_n(&self, id: ConstraintId) -> f64 {
+        -self.model.stretch.memory(id).multiplier
+    }
+
+    /// The force in a stretch constraint by the method of the last step, in newtons; tension is
+    /// positive. By the length for methods with physical stiffness and before any step
+    /// ([`System::tension_n`]), by the multiplier for those that project
+    /// ([`System::multiplier_n`]), and the sum of both where a limiter helped the springs.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn force_n(&self, id: ConstraintId) -> f64 {
+        self.force_of(Family::Stretch, id)
+    }
+
+    /// The length of a stretch constraint as a multiple of its rest length, as it was in the last
+    /// step before a limiter shortened it; [`System::stretch_ratio`] where there was none.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn unlimited_ratio(&self, id: ConstraintId) -> f64 {
+        if self.model.is_limited {
+            self.model.stretch.memory(id).ratio
+        } else {
+            self.stretch_ratio(id)
+        }
+    }
+
+    /// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum of
+    /// the constraints' forces ([`System::force_n`]), those of triangles, gravity, wind and drag.
+    /// Of a grabbed particle that is a force probe; for a free one it is minus the force that
+    /// accelerates it, which vanishes at rest. Inertia of a path's corners is not in it, nor are
+    /// colliders. Costs the valence; linear with wind.
+    ///
+    /// After a step of a projecting method forces are means over the last substep, which is the
+    /// more exact the more sweeps there were.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such particle.
+    ///
+    /// ```
+    /// use tearmesh_cloth::{Loads, System};
+    /// use tearmesh::{Point, Vector};
+    ///
+    /// let points = [Point::origin(), Point::new(0.0, 0.0, -1.1)];
+    /// let mut spring = System::new(points, vec![0.5; 2])?;
+    /// spring.stretch([0, 1], 1.0, 50.0)?;
+    /// spring.hold(0);
+    /// let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -10.0));
+    /// spring.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
+    /// let hand = spring.reaction_n(0);
+    /// assert!((hand.z - (50.0 * 0.1 + 0.5 * 10.0)).abs() < 1e-12); // The spring, and its own weight.
+    /// assert!(spring.reaction_n(1).norm() < 1e-12); // At rest.
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn reaction_n(&self, particle: usize) -> Vector {
+        let drag = self.velocities[particle] * self.model.drag_per_s();
+        -(self.inner_n(particle) + self.wind_n(particle) - drag * self.model.masses[particle])
+    }
+
+    /// The force of constraints, triangles and gravity on a particle, in newtons.
+    pub(crate) fn inner_n(&self, particle: usize) -> Vector {
+        let model = &self.model;
+        let mut sum = model.gravity() * model.masses[particle];
+        for family in [Family::Stretch, Family::Bend] {
+            let constraints = model.family(family);
+            for id in constraints.of(particle) {
+                let [a, b] = constraints.get(id).ends;
+                let d = self.positions[a + b - particle] - self.positions[particle];
+                let length = dot(d, d).sqrt();
+                if length > 0.0 {
+                    sum += d * (self.force_of(family, id) / length);
+                }
+            }
+        }
+        for (t, corner) in model.triangles.of(particle) {
+            let woven = &model.triangles.as_slice()[t];
+            sum += triangle::forces(woven, triangle::corners(woven, &self.positions))[corner];
+        }
+        sum
+    }
+
+    fn wind_n(&self, particle: usize) -> Vector {
+        let mut sum = Vector::zeros();
+        let Some(wind) = self.model.loads.wind else {
+            return sum;
+        };
+        for face in self.model.faces.chunks_exact(3) {
+            let Some(corner) = face.iter().position(|&v| v as usize == particle) else {
+                continue;
+            };
+            let corners = [0, 1, 2].map(|i| face[i] as usize);
+            let mut sums = [Vector::zeros(); 3];
+            kernel::wind(
+                &[0, 1, 2],
+                wind.coefficient,
+                wind.velocity_m_per_s,
+                &corners.map(|v| self.positions[v]),
+                &corners.map(|v| self.velocities[v]),
+                &mut sums,
+            );
+            sum += sums[corner];
+        }
+        sum
+    }
+
+    fn spring_n(&self, constraint: &Constraint) -> f64 {
+        constraint.stiffness_n_per_m * (self.length_m(constraint) - constraint.rest_length_m)
+    }
+
+    fn force_of(&self, family: Family, id: ConstraintId) -> f64 {
+        let constraints = self.model.family(family);
+        let constraint = constraints.get(id);
+        let length = || match family {
+            Family::Stretch => self.spring_n(&constraint),
+            Family::Bend => self
+                .model
+                .bend_axial(&constraint, self.length_m(&constraint))[1],
+        };
+        let multiplier = || -constraints.memory(id).multiplier;
+        match self.model.forces {
+            Forces::Lengths => length(),
+            Forces::Multipliers => multiplier(),
+            Forces::Both => length() + multiplier(),
+        }
+    }
+}
+
+impl Model {
+    /// Forgets what the last step left behind in constraints.
+    pub(crate) fn forget(&mut self) {
+        self.forces = Forces::Lengths;
+        self.is_limited = false;
+    }
+
+    /// Begins a step: forgets what the last one left behind, and returns what it takes to
+    /// [`go back`](Model::back_to).
+    pub(crate) fn begin(&mut self) -> Left {
+        let left = Left {
+            forces: self.forces,
+            is_limited: self.is_limited,
+        };
+        self.forget();
+        self.is_aside = false;
+        left
+    }
+
+    /// For a method that is about to write all multipliers, and maybe all ratios: puts those of the
+    /// last step aside.
+    pub(crate) fn set_aside(&mut self) {
+        if !self.is_aside {
+            self.stretch.set_aside();
+            self.bend.set_aside();
+            self.is_aside = true;
+        }
+    }
+
+    /// Remembers what the step before the one that failed left behind.
+    pub(crate) fn back_to(&mut self, left: Left) {
+        if self.is_aside {
+            self.stretch.take_back();
+            self.bend.take_back();
+            self.is_aside = false;
+        }
+        self.forces = left.forces;
+        self.is_limited = left.is_limited;
+    }
+
+    /// Sets all multipliers to zero.
+    pub(crate) fn clear_multipliers(&mut self) {
+        self.set_aside();
+        for family in [&mut self.stretch, &mut self.bend] {
+            for (_, multipliers) in family.batches_mut() {
+                multipliers.fill(0.0);
+            }
+        }
+    }
+
+    /// Makes forces of multipliers.
+    pub(crate) fn scale_multipliers(&mut self, scale: f64) {
+        for family in [&mut self.stretch, &mut self.bend] {
+            for (_, multipliers) in family.batches_mut() {
+                multipliers.iter_mut().for_each(|lambda| *lambda *= scale);
+            }
+        }
+    }
+}

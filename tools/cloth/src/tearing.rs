@@ -1,0 +1,261 @@
+//! When a cloth tears, and how far: the loop above the paper's rule for one edge.
+//!
+//! [`tear::edge`](tearmesh::tear::edge) says what becomes of an edge that is stretched too far (Souza
+//! et al. 2014 §III-A). Here stands what "too far" is ([`Threshold`]), which edges go first, how
+//! many at once, and what a tear does to its surroundings ([`Tearing`]); [`Tear`] is the state of
+//! a cloth that tears while it runs.
+//!
+//! Thresholds are held against a *load*: the strain or force that an edge has, as a multiple of
+//! what it bears, so that 1 is where it tears. By the paper's rule, a threshold of strain, the
+//! force that it takes to tear is proportional to the length of edges: a finer mesh is a weaker
+//! cloth. [`Threshold::Toughness`] is an energy per length of tear, G, and does not have that
+//! fault: an edge of length h bears the strain √(2 G / (E h)).
+//!
+//! # What decides, and in which order
+//!
+//! 1. The edges at or above their threshold are found once, before anything tears: a
+//!    split alone moves nothing, so what it relieves shows in the next step, not before.
+//! 2. An end can be split where its strength does not bear the load; of two, the rule of the paper
+//!    takes the heavier. A vertex that is held cannot be, unless [`Tearing::tears_held`].
+//! 3. The worst goes first, by load over the smaller strength of its ends; ids break exact
+//!    ties, and nothing else depends on the order of storage.
+//! 4. A vertex is split at most once a step, and an edge of a vertex that was split waits for the
+//!    next: its length is what it was before the tear only because nothing has moved yet.
+//!
+//! Every loop is bounded: a split adds a vertex with a face, and there are at most three vertices
+//! a face. Cost a step: linear in edges, without allocation once there was room.
+//!
+//! How many pieces a cloth tears into depends on the time step, as it does on the mesh: a cascade
+//! is the answer of a method to forces that change faster than it steps. The cap bounds what one
+//! step can do; [`TearReport::cap_hit`] says that it did.
+//!
+//! ```
+//! use tearmesh_cloth::{Cloth, Fabric, Path, Tear, Tearing, Threshold, Unstable, Verlet};
+//! use tearmesh::{shapes, Edits, Masses, Point};
+//!
+//! let (mut mesh, positions) = shapes::grid(8, 8);
+//! let masses = Masses::area(&mesh, &positions, 0.2)?;
+//! let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(100.0))?;
+//! let system = cloth.system_mut();
+//! system.when_unstable(Unstable::Substep);
+//! (0..9).for_each(|bottom| system.hold(bottom));
+//! for top in 72..81 {
+//!     let x = system.positions()[top];
+//!     let up = [(0.0, x), (1.0, Point::new(x.x, x.y + 1.0, x.z))];
+//!     system.grab(top, Path::new(up).ok_or("a path")?);
+//! }
+//!
+//! let mut tear = Tear::new(&cloth, Tearing::new(Threshold::Stretch(1.5)))?;
+//! let mut edits = Edits::new();
+//! for _ in 0..60 {
+//!     cloth.step(&mut Verlet::new(), 1.0 / 60.0)?;
+//!     let report = tear.apply(&mut mesh, &mut cloth, &mut edits, 1.0 / 60.0);
+//!     if report.splits > 0 {
+//!         println!("{:.3} m torn", report.tear_length_m);
+//!     }
+//! }
+//! assert!(mesh.components().count() > 1);
+//! assert!(cloth.masses().ledger().is_balanced());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod apply;
+mod follow;
+mod link;
+mod load;
+
+use std::fmt;
+
+pub use apply::{Tear, TearReport};
+pub use link::CutLink;
+
+use tearmesh::geometry::{Vector, check_point};
+
+/// When an edge tears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Threshold {
+    /// When it is this many times as long as at rest, above 1: the rule of the paper (Souza et
+    /// al. 2014 §III-A). Before Provot's limiter shortens it.
+    Stretch(f64),
+    /// The same, with one ratio for edges that run mostly along the warp, which is the direction
+    /// of `axis` at rest, and one for those along the weft. An edge that runs along neither,
+    /// a diagonal (22.5° and more from both), never tears by itself: it stands for
+    /// shear, and shear stiffness tears falsely.
+    WarpWeft {
+        /// The ratio along the axis.
+        warp: f64,
+        /// The ratio across it.
+        weft: f64,
+        /// The direction of the warp at rest; any length.
+        axis: Vector,
+    },
+    /// At the strain √(2 G / (E h)) for an energy G per length of tear, in J/m: h is the
+    /// rest length of the edge, and E the modulus of the fabric: its
+    /// [`stretch_n_per_m`](super::Fabric), the mean of warp and weft of its
+    /// [`Weave`](super::Weave), or their sum; of a link without a mesh, its own stiffness.
+    /// Then ½ E (l − L)² is G h.
+    Toughness(f64),
+    /// When its force reaches this, in newtons, by the method of the last step
+    /// ([`System::force_n`](super::System::force_n)). A torn edge's copy of half the
+    /// stiffness bears half of it. For springs: the edges of a [`Weave`](super::Weave) have no force
+    /// but under a method that projects.
+    Force(f64),
+    /// When the largest stretch of a face in any direction is this many times that at rest
+    /// ([`Cloth::principal_stretch`](super::Cloth::principal_stretch)), above 1: for triangles
+    /// rather than springs. The face's most stretched edge is the one that tears.
+    PrincipalStretch(f64),
+}
+
+/// How a cloth tears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tearing {
+    /// When an edge does.
+    pub threshold: Threshold,
+    /// At most this many splits a step, the worst first. `None`: no cap.
+    pub splits_per_step_max: Option<usize>,
+    /// The factor on the strength of the tips of a tear, above 0 and at most 1. Tips are the
+    /// vertices to which a split tore links; of those, the one that lies best along the splitting
+    /// plane, and the best on the other side where the vertex was whole before. A tip is weak
+    /// against edges that pull across the tear (within 45° at rest), until it is split
+    /// itself. A tear then runs on where it is instead of starting anew elsewhere. `None`:
+    /// tips are as strong as before.
+    pub weakening: Option<f64>,
+    /// The seconds that an edge has to stay at or above its threshold. 0: it tears at once.
+    pub delay_s: f64,
+    /// Whether vertices that are held may be split; their copies are held too.
+    pub tears_held: bool,
+}
+
+impl Tearing {
+    /// Tearing at this threshold as in the paper: at once, without a cap, all tips as strong as
+    /// before, and held vertices holding.
+    #[must_use]
+    pub fn new(threshold: Threshold) -> Tearing {
+        Tearing {
+            threshold,
+            splits_per_step_max: None,
+            weakening: None,
+            delay_s: 0.0,
+            tears_held: false,
+        }
+    }
+
+    /// Whether all numbers can be used.
+    ///
+    /// # Errors
+    ///
+    /// [`TearingError`] names the first that cannot.
+    pub fn check(&self) -> Result<(), TearingError> {
+        let above = |given: f64, limit: f64| {
+            if given > limit && given.is_finite() {
+                Ok(())
+            } else {
+                Err(TearingError::Threshold { given, limit })
+            }
+        };
+        match self.threshold {
+            Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above(ratio, 1.0)?,
+            Threshold::WarpWeft { warp, weft, axis } => {
+                above(warp, 1.0)?;
+                above(weft, 1.0)?;
+                if axis == Vector::zeros() || check_point(axis.into()).is_err() {
+                    return Err(TearingError::Axis { given: axis });
+                }
+            }
+            Threshold::Toughness(given) | Threshold::Force(given) => above(given, 0.0)?,
+        }
+        if let Some(given) = self.weakening
+            && !(given > 0.0 && given <= 1.0)
+        {
+            return Err(TearingError::Weakening { given });
+        }
+        if !(self.delay_s >= 0.0 && self.delay_s.is_finite()) {
+            return Err(TearingError::Delay {
+                given: self.delay_s,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Default for Tearing {
+    /// At one and a half times the length at rest.
+    fn default() -> Tearing {
+        Tearing::new(Threshold::Stretch(1.5))
+    }
+}
+
+/// Why a cloth cannot tear this way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TearingError {
+    /// A threshold is not finite or not above its limit: 1 for ratios, otherwise 0.
+    Threshold {
+        /// As given.
+        given: f64,
+        /// What it has to be above.
+        limit: f64,
+    },
+    /// The axis of the warp has no direction.
+    Axis {
+        /// As given.
+        given: Vector,
+    },
+    /// The factor of weakening is not above 0 and at most 1.
+    Weakening {
+        /// As given.
+        given: f64,
+    },
+    /// The delay is negative or not finite.
+    Delay {
+        /// As given, in seconds.
+        given: f64,
+    },
+    /// There is not one strength for each vertex.
+    Strengths {
+        /// The number of strengths.
+        given: usize,
+        /// The number of vertices.
+        vertices: usize,
+    },
+    /// A strength is not positive and finite; the first such vertex.
+    Strength {
+        /// The index of the vertex.
+        vertex: usize,
+        /// As given.
+        given: f64,
+    },
+}
+
+impl fmt::Display for TearingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TearingError::Threshold { given, limit } => {
+                write!(f, "a tear threshold of {given} is not above {limit}")
+            }
+            TearingError::Axis { given: a } => {
+                write!(
+                    f,
+                    "the axis ({}, {}, {}) of the warp has no direction",
+                    a.x, a.y, a.z
+                )
+            }
+            TearingError::Weakening { given } => {
+                write!(f, "a weakening by {given} is not above 0 and at most 1")
+            }
+            TearingError::Delay { given } => write!(f, "a delay of {given} s cannot be waited"),
+            TearingError::Strengths { given, vertices } => {
+                write!(f, "{vertices} vertices have {given} strengths")
+            }
+            TearingError::Strength { vertex, given } => {
+                write!(
+                    f,
+                    "the strength {given} of v{vertex} is not positive and finite"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for TearingError {}

@@ -1,0 +1,348 @@
+//! The state of a cloth that tears, and one step of it.
+
+use super::follow::BELOW;
+use super::{Tearing, TearingError};
+use crate::sheet::Cloth;
+use tearmesh::Mesh;
+use tearmesh::PerVertex;
+use tearmesh::geometry::{Plane, Vector, dot, length};
+use tearmesh::split;
+use tearmesh::tear;
+use tearmesh::{Edits, Follower};
+use tearmesh::{HalfEdgeId, VertexId};
+
+/// A cloth that tears: strengths of vertices, clocks of edges.
+///
+/// One more follower of the log: what is cut, mended or subdivided between two steps is replayed
+/// by `edits.replay(&mut (&mut cloth, &mut tear))`, or by the next [`Tear::apply`].
+#[derive(Clone, Debug)]
+pub struct Tear {
+    tearing: Tearing,
+    pub(super) strengths: PerVertex<f64>,
+    /// Where a tear may run on, and the direction across it at rest: zero for vertices that are no
+    /// tips.
+    pub(super) tips: PerVertex<Vector>,
+    /// By half-edge: the seconds since its edge was first found above its threshold, or
+    /// [`BELOW`].
+    pub(super) clocks: Vec<f64>,
+    due: Vec<Due>,
+    /// The far ends of the links that a split tore.
+    ahead: Vec<VertexId>,
+    /// By vertex: whether it was split in this step.
+    is_fresh: Vec<bool>,
+}
+
+/// An edge that may tear in this step.
+#[derive(Clone, Copy, Debug)]
+struct Due {
+    edge: HalfEdgeId,
+    load: f64,
+    /// The load over the smaller strength.
+    severity: f64,
+}
+
+/// What one step of tearing did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TearReport {
+    /// Vertices that were split.
+    pub splits: usize,
+    /// Edges that were at or above their threshold before.
+    pub overstretched: usize,
+    /// Of these, the edges whose delay is not over yet.
+    pub waiting: usize,
+    /// Of these, the edges that were relieved by a split at one of their ends.
+    pub relieved: usize,
+    /// Of these, the edges with no end that can be split: held, or with all faces on one side.
+    pub refused: usize,
+    /// Whether the cap left an edge that would have torn.
+    pub cap_hit: bool,
+    /// The edge with the largest load over strength, and that: above 1 it tears. `None` for a cloth
+    /// without a stretched edge.
+    pub worst: Option<(HalfEdgeId, f64)>,
+    /// What the splits took from the elastic energy, in joules, by the cloth's ledger: that of
+    /// bend constraints across the tear. Negative where copies by the paper's rule made
+    /// energy, and 0 with halved ones and no bending.
+    pub energy_released_j: f64,
+    /// The elastic energy of the edges that tore, in joules: what becomes motion.
+    pub edge_energy_j: f64,
+    /// The rest length of the edges that came apart, in metres.
+    pub tear_length_m: f64,
+}
+
+impl Tear {
+    /// A cloth that is about to tear, with the strength 1 everywhere.
+    ///
+    /// # Errors
+    ///
+    /// [`TearingError`]: a number cannot be used.
+    pub fn new(cloth: &Cloth, tearing: Tearing) -> Result<Tear, TearingError> {
+        tearing.check()?;
+        let (count, next) = (cloth.positions().len(), cloth.next_edit());
+        Ok(Tear {
+            tearing,
+            strengths: PerVertex::new(vec![1.0; count]).starting_at(next),
+            tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(next),
+            clocks: vec![BELOW; cloth.indices().len()],
+            due: Vec::new(),
+            ahead: Vec::new(),
+            is_fresh: Vec::new(),
+        })
+    }
+
+    /// The same with a strength for each vertex, as a multiple of the threshold.
+    ///
+    /// # Errors
+    ///
+    /// [`TearingError`]: there is not one for each vertex, or one is not positive.
+    pub fn with_strengths(self, strengths: Vec<f64>) -> Result<Tear, TearingError> {
+        let vertices = self.strengths.as_slice().len();
+        if strengths.len() != vertices {
+            return Err(TearingError::Strengths {
+                given: strengths.len(),
+                vertices,
+            });
+        }
+        let unusable = |&strength: &f64| !(strength > 0.0 && strength.is_finite());
+        if let Some(vertex) = strengths.iter().position(unusable) {
+            let given = strengths[vertex];
+            return Err(TearingError::Strength { vertex, given });
+        }
+        let next_edit = self.next_edit();
+        Ok(Tear {
+            strengths: PerVertex::new(strengths).starting_at(next_edit),
+            ..self
+        })
+    }
+
+    /// How it tears.
+    #[must_use]
+    pub fn tearing(&self) -> &Tearing {
+        &self.tearing
+    }
+
+    /// The strength of a vertex, as given; not weakened.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn strength(&self, v: VertexId) -> f64 {
+        self.strengths[v]
+    }
+
+    /// Whether a vertex is the tip of a tear, which [`Tearing::weakening`] is for.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn is_tip(&self, v: VertexId) -> bool {
+        self.tips[v] != Vector::zeros()
+    }
+
+    /// The strength of a vertex against a pull along `edge` at rest: weakened at a tip, if that is
+    /// within 45° of the direction across its tear.
+    fn strength_along(&self, v: VertexId, edge: Vector) -> f64 {
+        let tip = self.tips[v];
+        let cosine = dot(tip, edge);
+        let across = self.is_tip(v) && 2.0 * cosine * cosine >= dot(tip, tip) * dot(edge, edge);
+        match self.tearing.weakening {
+            Some(factor) if across => self.strengths[v] * factor,
+            _ => self.strengths[v],
+        }
+    }
+
+    /// Tears what is overstretched now, after a step of `dt_s` seconds. Mesh and log advance, and
+    /// the cloth and this follow them; other followers replay the log when it suits them.
+    ///
+    /// Edits by others that are in the log are followed first. Cost: linear in edges, and a walk
+    /// round the ends of each overstretched edge.
+    ///
+    /// # Panics
+    ///
+    /// If cloth or tear are not in step with the mesh, or records that they have not seen were
+    /// cleared.
+    pub fn apply(
+        &mut self,
+        mesh: &mut Mesh,
+        cloth: &mut Cloth,
+        edits: &mut Edits,
+        dt_s: f64,
+    ) -> TearReport {
+        edits.replay(&mut (&mut *cloth, &mut *self));
+        let mut report = self.find(mesh, cloth, dt_s);
+        self.is_fresh.clear();
+        self.is_fresh.resize(mesh.vertex_count(), false);
+        let energy = cloth.ledger().split_elastic_j;
+        let cap = self.tearing.splits_per_step_max.unwrap_or(usize::MAX);
+        let due = std::mem::take(&mut self.due);
+        for due in &due {
+            let ends = [mesh.origin(due.edge), mesh.target(due.edge)];
+            // Among them are the edges that came apart: two lips now, for the next step to judge.
+            if ends.iter().any(|v| self.is_fresh[v.index()]) {
+                report.relieved += 1;
+                continue;
+            }
+            let Some(candidate) = self.candidate(mesh, cloth, due) else {
+                report.refused += 1;
+                continue;
+            };
+            if report.splits >= cap {
+                report.cap_hit = true;
+                break;
+            }
+            let id = cloth.stretch(due.edge);
+            report.edge_energy_j += cloth.system().elastic_of(id);
+            report.tear_length_m += self.split(mesh, cloth, edits, due.edge, candidate);
+            report.splits += 1;
+        }
+        self.due = due;
+        report.energy_released_j = energy - cloth.ledger().split_elastic_j;
+        report
+    }
+
+    /// Finds the edges that may tear, the worst first, and advances clocks.
+    fn find(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
+        let mut report = TearReport::default();
+        self.due.clear();
+        let mut worst = 0.0;
+        let least = self.least_strength();
+        let watches_clocks = self.tearing.delay_s > 0.0;
+        for edge in mesh.edges() {
+            let load = self.tearing.threshold.edge_load(mesh, cloth, edge);
+            let load = load.unwrap_or(f64::NEG_INFINITY);
+            // Most edges bear their load wherever they are.
+            let mut severity = load / least;
+            if severity >= 1.0 || severity > worst {
+                severity = self.severity(mesh, cloth, edge, load);
+            }
+            if severity > worst {
+                worst = severity;
+                report.worst = Some((edge, severity));
+            }
+            let is_over = severity >= 1.0;
+            report.overstretched += usize::from(is_over);
+            if watches_clocks && self.waits(mesh, edge, is_over, dt_s) {
+                report.waiting += 1;
+            } else if is_over {
+                self.due.push(Due {
+                    edge,
+                    load,
+                    severity,
+                });
+            }
+        }
+        let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
+        self.due
+            .sort_unstable_by(|one, other| worse(one, other).then(one.edge.cmp(&other.edge)));
+        report
+    }
+
+    /// A load over the smaller strength of an edge's ends.
+    fn severity(&self, mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId, load: f64) -> f64 {
+        let along = at_rest(mesh, cloth, edge);
+        let ends = [mesh.origin(edge), mesh.target(edge)];
+        let [a, b] = ends.map(|v| self.strength_along(v, along));
+        load / a.min(b)
+    }
+
+    /// What every vertex bears.
+    fn least_strength(&self) -> f64 {
+        let strengths = self.strengths.as_slice().iter();
+        let least = strengths.fold(f64::INFINITY, |least, &strength| least.min(strength));
+        least * self.tearing.weakening.unwrap_or(1.0)
+    }
+
+    /// Advances the clock of an edge; whether it is over its threshold and has to wait.
+    fn waits(&mut self, mesh: &Mesh, edge: HalfEdgeId, is_over: bool, dt_s: f64) -> bool {
+        let clock = if is_over {
+            (self.clocks[edge.index()] + dt_s).max(0.0)
+        } else {
+            BELOW
+        };
+        for h in [Some(edge), mesh.pair(edge)].into_iter().flatten() {
+            self.clocks[h.index()] = clock;
+        }
+        is_over && clock < self.tearing.delay_s
+    }
+
+    /// The vertex that the rule splits, of those that do not bear the load.
+    fn candidate(&self, mesh: &Mesh, cloth: &Cloth, due: &Due) -> Option<(VertexId, Plane)> {
+        let along = at_rest(mesh, cloth, due.edge);
+        let mass = |v: VertexId| {
+            let free = self.tearing.tears_held || !cloth.system().is_held(v.index());
+            let bears = due.load < self.strength_along(v, along);
+            (free && !bears).then(|| cloth.masses().at(v))
+        };
+        tear::candidate(mesh, due.edge, cloth, mass)
+    }
+
+    /// Splits a vertex because of an edge; the length that came apart.
+    fn split(
+        &mut self,
+        mesh: &mut Mesh,
+        cloth: &mut Cloth,
+        edits: &mut Edits,
+        edge: HalfEdgeId,
+        (vertex, plane): (VertexId, Plane),
+    ) -> f64 {
+        let across = at_rest(mesh, cloth, edge);
+        let mut edges = mesh.corners_of(vertex).flat_map(|h| [h, h.prev()]);
+        let is_whole = edges.all(|h| mesh.pair(h).is_some());
+        let Some(split) = split::by_plane(mesh, vertex, &plane, &*cloth, edits) else {
+            return 0.0;
+        };
+        let mut length_m = 0.0;
+        self.ahead.clear();
+        for link in split.torn {
+            let ends = [mesh.origin(link.stayed), mesh.target(link.stayed)];
+            length_m += cloth.rest_length(ends.map(VertexId::index));
+            self.ahead.push(ends[usize::from(ends[0] == vertex)]);
+        }
+        edits.replay(&mut (&mut *cloth, &mut *self));
+        self.is_fresh[vertex.index()] = true;
+        self.is_fresh.resize(mesh.vertex_count(), true);
+        let tips = along_plane(cloth, vertex, &plane, &self.ahead);
+        for tip in tips.take(if is_whole { 2 } else { 1 }) {
+            self.tips[tip] = across;
+        }
+        length_m
+    }
+}
+
+/// The way from one end of an edge to the other, at rest.
+fn at_rest(mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId) -> Vector {
+    let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| cloth.rest_positions().at(v));
+    b - a
+}
+
+/// The neighbours of a vertex that lie best along a plane through it: one, and another one on the
+/// other side of the vertex. Lower ids break ties.
+fn along_plane(
+    cloth: &Cloth,
+    v: VertexId,
+    plane: &Plane,
+    neighbours: &[VertexId],
+) -> impl Iterator<Item = VertexId> + use<> {
+    let x = cloth.positions();
+    let to = |other: VertexId| x[other.index()] - x[v.index()];
+    let best = |opposite: Option<VertexId>| {
+        let mut best: Option<(f64, VertexId)> = None;
+        for &neighbour in neighbours {
+            let d = to(neighbour);
+            if opposite.is_some_and(|first| dot(d, to(first)) >= 0.0) {
+                continue;
+            }
+            let slope = (dot(plane.normal(), d) / length(d)).abs();
+            let better =
+                |(least, id): (f64, VertexId)| slope < least || (slope == least && neighbour < id);
+            if slope.is_finite() && best.is_none_or(better) {
+                best = Some((slope, neighbour));
+            }
+        }
+        best.map(|(_, neighbour)| neighbour)
+    };
+    let first = best(None);
+    let second = first.and_then(|first| best(Some(first)));
+    first.into_iter().chain(second)
+}

@@ -1,0 +1,63 @@
+//! A running tear follows the log: strengths and clocks stay with the cloth through cuts, mends
+//! and its own splits.
+
+use super::apply::Tear;
+use crate::follow::lies_on;
+use tearmesh::geometry::Vector;
+use tearmesh::{Edit, Follower, Insert, Merge};
+
+/// The clock of an edge below its threshold.
+pub(super) const BELOW: f64 = f64::NEG_INFINITY;
+
+impl Follower for Tear {
+    fn next_edit(&self) -> u64 {
+        self.strengths.next_edit()
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        self.strengths.follow(edit);
+        self.tips.follow(edit);
+        match edit {
+            // Both halves of a torn link go on with the clock of its edge. The tear has gone
+            // through the vertex, which is a tip no more.
+            Edit::Split(split) => {
+                self.tips[split.old] = Vector::zeros();
+                self.tips[split.new] = Vector::zeros();
+            }
+            Edit::Slide(_) => {}
+            Edit::Insert(insert) => self.insert(insert),
+            Edit::Merge(merge) => self.merge(merge),
+        }
+    }
+}
+
+impl Tear {
+    /// The parts of a divided edge go on with its clock; new edges in a face begin.
+    fn insert(&mut self, insert: &Insert<'_>) {
+        for family in insert.families() {
+            let parent = family[0].parent.half_edges();
+            let before = parent.map(|h| self.clocks[h.index()]);
+            for child in family {
+                let start = 3 * child.face.index();
+                let end = self.clocks.len().max(start + 3);
+                self.clocks.resize(end, BELOW);
+                for corner in 0..3 {
+                    let ends = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
+                    let on = |&h: &usize| ends.into_iter().all(|end| lies_on(end, parent[h]));
+                    let clock = (0..3).find(on).map_or(BELOW, |h| before[h]);
+                    self.clocks[start + corner] = clock;
+                }
+            }
+        }
+    }
+
+    /// What is sewn together waits no longer than either did.
+    fn merge(&mut self, merge: &Merge<'_>) {
+        for link in merge.sewn {
+            let [one, other] = [link.stayed, link.moved].map(|h| self.clocks[h.index()]);
+            let longer = one.max(other);
+            self.clocks[link.stayed.index()] = longer;
+            self.clocks[link.moved.index()] = longer;
+        }
+    }
+}

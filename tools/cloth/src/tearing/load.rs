@@ -1,0 +1,132 @@
+//! Loads: what an edge or a link has, as a multiple of what it bears.
+
+use super::Threshold;
+use crate::constraint::ConstraintId;
+use crate::fabric::Copies;
+use crate::sheet::Cloth;
+use crate::system::System;
+use tearmesh::HalfEdgeId;
+use tearmesh::Mesh;
+use tearmesh::geometry::{Vector, cross, dot};
+
+impl Threshold {
+    /// The load of a link of a system without a mesh: from 1 on it tears. Negative under
+    /// compression; `None` for thresholds that only a mesh has.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn load(&self, system: &System, id: ConstraintId) -> Option<f64> {
+        let link = system.stretches().get(id);
+        match *self {
+            Threshold::Stretch(ratio) => Some(strain(system, id) / (ratio - 1.0)),
+            Threshold::Toughness(g) => {
+                let bears = strain_borne(g, link.stiffness_n_per_m, link.rest_length_m);
+                Some(strain(system, id) / bears)
+            }
+            Threshold::Force(newtons) => Some(system.force_n(id) / newtons),
+            Threshold::WarpWeft { .. } | Threshold::PrincipalStretch(_) => None,
+        }
+    }
+
+    /// The load of an edge of a cloth: from 1 on it tears, where both its ends have the
+    /// strength 1. Negative under compression; `None` for an edge that never tears by itself.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such half-edge, or the cloth is not in step with the mesh.
+    #[must_use]
+    pub fn edge_load(&self, mesh: &Mesh, cloth: &Cloth, h: HalfEdgeId) -> Option<f64> {
+        let (system, id) = (cloth.system(), cloth.stretch(h));
+        match *self {
+            Threshold::Stretch(_) => self.load(system, id),
+            Threshold::Toughness(g) => {
+                let length = system.stretches().get(id).rest_length_m;
+                let bears = strain_borne(g, modulus(cloth), length);
+                Some(strain(system, id) / bears)
+            }
+            Threshold::Force(newtons) => {
+                let halved = cloth.fabric.copies == Copies::Halved && mesh.ghost_pair(h).is_some();
+                let share = if halved { 0.5 } else { 1.0 };
+                Some(system.force_n(id) / (newtons * share))
+            }
+            Threshold::WarpWeft { warp, weft, axis } => {
+                let ratio = match run(cloth, h, axis)? {
+                    Run::Warp => warp,
+                    Run::Weft => weft,
+                };
+                Some(strain(system, id) / (ratio - 1.0))
+            }
+            Threshold::PrincipalStretch(ratio) => {
+                let sides = [Some(h), mesh.pair(h)].into_iter().flatten();
+                let torn_first = sides.filter(|&side| is_most_stretched(cloth, side));
+                let stretch = torn_first.map(|side| cloth.principal_stretch(side.face()));
+                let most = stretch.max_by(f64::total_cmp)?;
+                Some((most - 1.0) / (ratio - 1.0))
+            }
+        }
+    }
+}
+
+/// Whether no other edge of a face is stretched more; the one with the lowest id, of equals.
+fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
+    let ratio = |h: HalfEdgeId| cloth.system().stretch_ratio(cloth.stretch(h));
+    [h.next(), h.prev()].into_iter().all(|other| {
+        let (own, others) = (ratio(h), ratio(other));
+        own > others || (own == others && h < other)
+    })
+}
+
+/// l / L − 1, before a limiter.
+fn strain(system: &System, id: ConstraintId) -> f64 {
+    system.unlimited_ratio(id) - 1.0
+}
+
+/// What a cloth's strain is multiplied by for its tension, in N/m: of springs and, the mean of
+/// warp and weft, of triangles.
+fn modulus(cloth: &Cloth) -> f64 {
+    let woven = cloth
+        .fabric
+        .weave
+        .map_or(0.0, |weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0);
+    cloth.fabric.stretch_n_per_m + woven
+}
+
+/// √(2 G / (E h)).
+fn strain_borne(toughness: f64, modulus: f64, length: f64) -> f64 {
+    (2.0 * toughness / (modulus * length)).sqrt()
+}
+
+/// Along which threads an edge runs.
+enum Run {
+    Warp,
+    Weft,
+}
+
+/// The threads that an edge runs along at rest, within 22.5°; `None` for a diagonal.
+///
+/// The warp is the axis as seen in the plane of the edge's face: on a curved cloth it
+/// follows the surface.
+fn run(cloth: &Cloth, h: HalfEdgeId, axis: Vector) -> Option<Run> {
+    let corners = [h, h.next(), h.prev()].map(|h| {
+        let v = cloth.indices()[h.index()] as usize;
+        cloth.rest_positions().as_slice()[v]
+    });
+    let edge = corners[1] - corners[0];
+    let normal = cross(edge, corners[2] - corners[0]);
+    let weft = cross(normal, axis);
+    let warp = cross(weft, normal);
+    // The squares of the edge's parts along both, times the same number.
+    let along = dot(edge, warp) * dot(edge, warp) * dot(weft, weft);
+    let across = dot(edge, weft) * dot(edge, weft) * dot(warp, warp);
+    let bound = (along + across) / std::f64::consts::SQRT_2;
+    // cos 2θ ≥ cos 45°
+    if along - across >= bound && along > 0.0 {
+        Some(Run::Warp)
+    } else if across - along >= bound && across > 0.0 {
+        Some(Run::Weft)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,141 @@
+//! Extended position based dynamics with small steps.
+//!
+//! Constraints with a compliance α = 1/k (Macklin, Müller and Chentanez 2016), and many substeps of
+//! one sweep rather than one step of many (Macklin et al. 2019, "Small Steps"): 6.5–11 times
+//! less strain for about the same cost. The force in each constraint is known as its
+//! multiplier, so a tear threshold can be in newtons.
+//!
+//! With enough sweeps this is backward Euler, and damps like it. With few it is wrong under
+//! pretension: look at [`Xpbd::residual_n`].
+//!
+//! Sweeps always run in the same direction; alternating stretches 33 times more. Drag enters the
+//! prediction *and* the compliance (a factor 1 + c Δt), otherwise the static stretch would be
+//! wrong by just that factor.
+
+use super::kernel;
+use super::pbd::{finish, finish_and_predict, predict};
+use super::solver::{Failure, Solver};
+use super::system::{Forces, Model, System};
+use tearmesh::geometry::{Vector, dot};
+
+/// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
+/// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep
+/// ([`System::wind_rate`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Xpbd {
+    /// Substeps a step; at least one.
+    pub substeps: u32,
+    /// Sweeps over all constraints a substep; at least one, and one is best.
+    pub sweeps: u32,
+}
+
+impl Default for Xpbd {
+    /// Ten substeps of one sweep.
+    fn default() -> Xpbd {
+        Xpbd {
+            substeps: 10,
+            sweeps: 1,
+        }
+    }
+}
+
+impl Xpbd {
+    /// The method with so many substeps a step, and sweeps a substep.
+    #[must_use]
+    pub fn new(substeps: u32, sweeps: u32) -> Xpbd {
+        Xpbd { substeps, sweeps }
+    }
+
+    /// The sweeps of a substep, after the particles have flown. False where something blew up, which
+    /// is left as it is then.
+    fn sweep(&self, system: &mut System, dt_s: f64) -> bool {
+        let System {
+            positions,
+            model,
+            counters,
+            ..
+        } = system;
+        let scale = scale(model, dt_s);
+        for sweep in 0..self.sweeps.max(1) {
+            let project = match sweep {
+                0 => kernel::project_compliant::<true>,
+                _ => kernel::project_compliant::<false>,
+            };
+            for family in [&mut model.stretch, &mut model.bend] {
+                for (batch, multipliers) in family.batches_mut() {
+                    counters.projections += batch.ends.len() as u64;
+                    let sane = project(
+                        batch,
+                        multipliers,
+                        &model.inverse_masses,
+                        scale,
+                        model.stretch_ratio_max,
+                        positions,
+                    );
+                    if !sane {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// The largest difference, over all free particles, between the sum of the forces that the
+    /// last substep used and the sum of those that the springs have now, in newtons. Zero
+    /// where the sweeps have converged; costs one force evaluation.
+    #[must_use]
+    pub fn residual_n(&self, system: &System) -> f64 {
+        let mut residual = vec![Vector::zeros(); system.positions.len()];
+        for family in [&system.model.stretch, &system.model.bend] {
+            for id in family.iter() {
+                let constraint = family.get(id);
+                let [a, b] = constraint.ends;
+                let d: Vector = system.positions[b] - system.positions[a];
+                let length = dot(d, d).sqrt();
+                if length > 0.0 {
+                    let force = constraint.stiffness_n_per_m * (length - constraint.rest_length_m);
+                    let miss = d * ((force + family.memory(id).multiplier) / length);
+                    residual[a] += miss;
+                    residual[b] -= miss;
+                }
+            }
+        }
+        let free = residual.iter().zip(&system.model.inverse_masses);
+        free.filter(|(_, w)| **w > 0.0)
+            .map(|(r, _)| dot(*r, *r).sqrt())
+            .fold(0.0, f64::max)
+    }
+}
+
+impl Solver for Xpbd {
+    /// Each substep has wind of its own.
+    fn air_limit(&self) -> Option<f64> {
+        Some(2.0 * f64::from(self.substeps.max(1)))
+    }
+
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let substeps = self.substeps.max(1);
+        let substep_s = dt_s / f64::from(substeps);
+        system.model.set_aside();
+        predict(system, substep_s);
+        let sane = (0..substeps).all(|substep| {
+            if substep > 0 {
+                finish_and_predict(system, substep_s);
+            }
+            self.sweep(system, substep_s)
+        });
+        Failure::unless(sane)?;
+        finish(system, substep_s);
+        // Who asks for forces asks for those of the last substep.
+        let model = &mut system.model;
+        model.scale_multipliers(scale(model, substep_s));
+        model.forces = Forces::Multipliers;
+        Ok(())
+    }
+}
+
+/// What makes a compliance one of a step, and a multiplier a force.
+fn scale(model: &Model, dt_s: f64) -> f64 {
+    (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s)
+}
