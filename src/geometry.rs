@@ -1,8 +1,21 @@
-//! Points, planes and rays, and the rule for what lies on a plane.
+//! Points, planes and rays, the rule for what lies on a plane, and arithmetic with the same bits
+//! on every machine.
 //!
-//! This is the one file that names nalgebra's types. Nothing here has a hidden
-//! epsilon. Every result depends on `+ − × ÷ √` in a fixed order and on nothing
-//! else, so the same input gives the same bits on every machine.
+//! The types stand at the root of the crate too. The functions are for whoever follows a mesh with
+//! numbers of their own and wants the same promise: each depends on `+ − × ÷ √` in the order that is
+//! written here, where a linear algebra library may sum in any order. Nothing here has a hidden
+//! epsilon.
+//!
+//! ```
+//! use tearmesh::geometry::{Point, Vector, between, cross, dot, length};
+//!
+//! let (p, q) = (Point::new(1.0, 0.0, 0.0), Point::new(1.0, 4.0, 3.0));
+//! assert_eq!(length(q - p), 5.0);
+//! assert_eq!(between(p, q, 0.5), Point::new(1.0, 2.0, 1.5));
+//! assert_eq!(dot(cross(Vector::x(), q - p), q - p), 0.0);
+//! ```
+
+// The one file that names nalgebra's types.
 
 use std::fmt;
 
@@ -238,7 +251,12 @@ fn list(v: Vector) -> String {
     format!("{}, {}, {}", v.x, v.y, v.z)
 }
 
-/// Whether every coordinate is finite and small enough; the first that is not.
+/// Whether a point can be used: every coordinate is finite, and none is larger than
+/// [`COORDINATE_MAX`] in size.
+///
+/// # Errors
+///
+/// The first coordinate for which that does not hold.
 pub fn check_point(p: Point) -> Result<(), f64> {
     match p
         .coords
@@ -263,18 +281,23 @@ pub(crate) fn scaled(v: Vector) -> Option<Vector> {
     Some(v * power_of_two(exponent / 2) * power_of_two(exponent - exponent / 2))
 }
 
-/// The largest absolute component.
+/// The largest component of a vector, by absolute value. NaN counts as nothing.
+#[inline]
+#[must_use]
 pub fn max_abs(v: Vector) -> f64 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
-/// The dot product, summed x, y, z.
+/// The dot product, summed in the order x, y, z.
 #[inline]
+#[must_use]
 pub fn dot(a: Vector, b: Vector) -> f64 {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 /// The cross product.
+#[inline]
+#[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     Vector::new(
         a.y * b.z - a.z * b.y,
@@ -283,13 +306,18 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
     )
 }
 
-/// The point at the part `t` of the way from `p` to `q`: `p` itself where both are one point.
+/// The point at the part `t` of the way from `p` to `q`: p − (p − q) t, which is `p` to the bit
+/// where both are one point.
+#[inline]
+#[must_use]
 pub fn between(p: Point, q: Point, t: f64) -> Point {
     // Not p + (q − p) t, which is the same but of −0 and −0 makes 0.
     p - (p - q) * t
 }
 
-/// The length.
+/// The length of a vector: √(x² + y² + z²), summed in that order.
+#[inline]
+#[must_use]
 pub fn length(v: Vector) -> f64 {
     dot(v, v).sqrt()
 }

@@ -1,18 +1,7 @@
 //! The scissor: two rays, a plane between them, and a cut along it.
 //!
-//! A user picks two points on the screen; each gives a ray. The cutting plane holds the origins
-//! of both rays and the direction of the first, and two side planes bound the cut
-//! (Souza et al. 2014 §V). Two errata of the paper are handled here:
-//!
-//! 1. **The side planes point outward as printed** (`N_A = V_A × N`, `N_B = N × V_B`): a point
-//!    half way between two parallel rays is on the negative side of both, so no vertex would be
-//!    split. The normals here are `N × V_A` and `V_B × N`, each turned round where the other
-//!    ray would be on its negative side (anti-parallel rays).
-//! 2. **Two rays from one eye give N = 0**, and that is what a perspective camera produces. The
-//!    plane is then `V_A × V_B`. Only rays on one line span no plane and are refused.
-//!
-//! Between parallel rays the strip extends behind the origins too; between rays from one eye
-//! it is the wedge before the eye.
+//! A user picks two points on the screen; each gives a ray. The rays span a plane and a strip of it
+//! (Souza et al. 2014 §V, with two errata of the paper mended: see `scissor/strip.rs`).
 //!
 //! Methods differ in what they split: see [`Method`]. Each returns a [`CutReport`] that says
 //! what was done and what was not.
@@ -20,26 +9,27 @@
 mod exact;
 mod measure;
 mod offsets;
+mod outcome;
 mod paper;
 mod partition;
+mod strip;
 mod unshare;
 
 use std::fmt;
 
 pub use measure::CutReport;
+pub use partition::Tips;
 
 use crate::edit::{Edits, Follower};
-use crate::geometry::{Plane, Point, Ray, Side, Vector, cross, dot, max_abs, scaled};
+use crate::geometry::{Plane, Ray, max_abs};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use measure::Survey;
 use offsets::Offsets;
+use outcome::Outcome;
 use paper::Form;
-
-/// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
-/// from. An error bound, not a tolerance.
-const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
+use strip::Strip;
 
 /// A cut to be made: a plane, and two planes that bound it at the sides.
 ///
@@ -57,16 +47,10 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scissor {
-    plane: Plane,
-    sides: [Plane; 2],
+    strip: Strip,
     rays: [Ray; 2],
-    skew: f64,
-    through: bool,
     tips: Tips,
-    snap: f64,
-    snap_move: bool,
-    /// Where this cut goes on from another: vertices on the plane and on the first side plane.
-    joints: Vec<VertexId>,
+    exact: exact::Settings,
 }
 
 /// How a cut is made. All methods share the rays, the report and the log.
@@ -92,32 +76,6 @@ pub enum Method {
     Alternating,
 }
 
-/// What a method has to tell for the report.
-struct Outcome {
-    /// The side on which the method meant each face to be; `None` for one that may lie on both,
-    /// beyond a tip.
-    labels: Vec<Option<Side>>,
-    /// The splits that were tried in vain.
-    refused: usize,
-    ends: Ends,
-}
-
-/// The vertices at which each side plane ended a cut of the method `exact`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-struct Ends([Vec<VertexId>; 2]);
-
-/// Where a finite cut ends.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Tips {
-    /// The paper's rule: a vertex is split if it lies between the side planes. Separates
-    /// everything strictly between them; overshoots each tip by half an edge on average.
-    #[default]
-    Vertex,
-    /// An edge is cut if its midpoint lies between the side planes: unbiased in
-    /// length, but about one vertex inside may stay shared.
-    Midpoint,
-}
-
 impl Scissor {
     /// The scissor that two rays span.
     ///
@@ -128,45 +86,16 @@ impl Scissor {
     ///
     /// [`ScissorError::OneLine`] if both rays lie on one line, up to rounding.
     pub fn new(a: &Ray, b: &Ray) -> Result<Scissor, ScissorError> {
-        let (along_a, along_b) = (unit_scale(a), unit_scale(b));
-        let apart = a.origin() - b.origin();
-        let reach = max_abs(a.origin().coords).max(max_abs(b.origin().coords));
-        let spanned = cross(apart, along_a);
-        let normal = if max_abs(spanned) > ROUNDING * reach {
-            spanned
-        } else {
-            // The origin of B lies on the line of A, or is that of A: one eye.
-            let from_eye = cross(along_a, along_b);
-            if max_abs(from_eye) <= ROUNDING {
-                return Err(ScissorError::OneLine);
-            }
-            from_eye
-        };
-        let normal = scaled(normal).ok_or(ScissorError::OneLine)?;
-        let plane = plane(a.origin(), normal);
-        let side_a = cross(normal, along_a);
-        let side_b = match cross(along_b, normal) {
-            // Ray B stands upright on the plane: its side plane runs along ray A.
-            upright if max_abs(upright) <= ROUNDING => -side_a,
-            side => side,
-        };
-        let sides = [
-            plane_towards(a.origin(), side_a, -apart, along_b, reach),
-            plane_towards(b.origin(), side_b, apart, along_a, reach),
-        ];
-        let unit_b = along_b / crate::geometry::length(along_b);
-        let skew = dot(plane.normal(), unit_b).abs();
-        let skew = if skew <= ROUNDING { 0.0 } else { skew };
+        let strip = Strip::between(a, b).ok_or(ScissorError::OneLine)?;
         Ok(Scissor {
-            plane,
-            sides,
+            strip,
             rays: [*a, *b],
-            skew,
-            through: false,
             tips: Tips::default(),
-            snap: Scissor::SNAP,
-            snap_move: false,
-            joints: Vec::new(),
+            exact: exact::Settings {
+                snap: Scissor::SNAP,
+                snap_move: false,
+                joints: Vec::new(),
+            },
         })
     }
 
@@ -179,13 +108,13 @@ impl Scissor {
     /// With 0 the seam is straight to the last digits, and thin faces are what they are. With
     /// r, no new face has an altitude below r (1 − r) of that of the face it was part of.
     #[must_use]
-    pub fn snap(self, snap: f64) -> Scissor {
-        let snap = if snap.is_nan() {
+    pub fn snap(mut self, snap: f64) -> Scissor {
+        self.exact.snap = if snap.is_nan() {
             0.0
         } else {
             snap.clamp(0.0, 0.49)
         };
-        Scissor { snap, ..self }
+        self
     }
 
     /// Whether the method `exact` moves a vertex that was taken for a crossing onto the plane,
@@ -195,8 +124,9 @@ impl Scissor {
     /// A vertex stays where it is if a face would turn over or lose 70 % of its altitude, if it
     /// is torn already, or if it is on the boundary and the edge is not.
     #[must_use]
-    pub fn snap_move(self, snap_move: bool) -> Scissor {
-        Scissor { snap_move, ..self }
+    pub fn snap_move(mut self, snap_move: bool) -> Scissor {
+        self.exact.snap_move = snap_move;
+        self
     }
 
     /// The scissor that goes on from where a cut by this one ended, at its second ray, to
@@ -227,35 +157,31 @@ impl Scissor {
         let nearest = joints
             .iter()
             .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let scissor = match nearest {
+        let mut scissor = match nearest {
             None => Scissor::new(from, to)?,
             Some(&v) => {
                 let at_joint = Ray::new(positions.at(v), from.direction());
                 let at_joint = at_joint.expect("a position and a direction that were accepted");
                 // The plane holds all of the first ray given, and the origin of the second.
-                let joined = Scissor::new(to, &at_joint)?;
-                let [at_end, at_joint] = joined.sides;
-                Scissor {
-                    sides: [at_joint, at_end],
-                    joints: joints.to_vec(),
-                    ..joined
-                }
+                let mut joined = Scissor::new(to, &at_joint)?;
+                joined.strip.sides.reverse();
+                joined.exact.joints = joints.to_vec();
+                joined
             }
         };
-        Ok(Scissor {
-            rays: [*from, *to],
-            through: self.through,
-            tips: self.tips,
-            snap: self.snap,
-            snap_move: self.snap_move,
-            ..scissor
-        })
+        scissor.rays = [*from, *to];
+        scissor.strip.through = self.strip.through;
+        scissor.tips = self.tips;
+        scissor.exact.snap = self.exact.snap;
+        scissor.exact.snap_move = self.exact.snap_move;
+        Ok(scissor)
     }
 
     /// Whether to ignore the side planes, and cut wherever the plane goes.
     #[must_use]
-    pub fn through(self, through: bool) -> Scissor {
-        Scissor { through, ..self }
+    pub fn through(mut self, through: bool) -> Scissor {
+        self.strip.through = through;
+        self
     }
 
     /// Where a finite cut of the method `partition` ends; the paper's methods know one rule.
@@ -267,21 +193,21 @@ impl Scissor {
     /// The cutting plane.
     #[must_use]
     pub fn plane(&self) -> Plane {
-        self.plane
+        self.strip.plane
     }
 
     /// The side planes, through the origins of the first and second ray. What lies
     /// in front of both is between the rays.
     #[must_use]
     pub fn sides(&self) -> [Plane; 2] {
-        self.sides
+        self.strip.sides
     }
 
     /// How far the second ray leaves the cutting plane for each unit of its length: the
     /// sine of the angle between them, 0 unless the rays are skew.
     #[must_use]
     pub fn skew(&self) -> f64 {
-        self.skew
+        self.strip.skew
     }
 
     /// Cuts a mesh.
@@ -306,10 +232,10 @@ impl Scissor {
     ) -> Result<CutReport, CutError> {
         in_step(mesh, positions, edits)?;
         let offsets = self.offsets(method, positions);
-        let survey = Survey::new(self, mesh, positions, &offsets);
+        let survey = Survey::new(&self.strip, mesh, positions, &offsets);
         let first_edit = edits.next_number();
         let outcome = self.make(method, mesh, positions, &offsets, true, edits);
-        Ok(survey.report(self, mesh, positions, outcome, edits, first_edit))
+        Ok(survey.report(&self.strip, mesh, positions, outcome, edits, first_edit))
     }
 
     /// Cuts a mesh like [`Scissor::cut`], and measures nothing: what takes most of the time there
@@ -336,7 +262,7 @@ impl Scissor {
     }
 
     fn offsets(&self, method: Method, positions: &Positions) -> Offsets {
-        let offsets = Offsets::new(&self.plane, positions);
+        let offsets = Offsets::new(&self.strip.plane, positions);
         match method {
             Method::Exact => offsets.rounded(),
             _ => offsets,
@@ -354,43 +280,25 @@ impl Scissor {
         edits: &mut Edits,
     ) -> Outcome {
         let outcome = match method {
-            Method::Exact => exact::cut(self, mesh, positions, offsets, label, edits),
-            Method::Partition => partition::cut(self, mesh, positions, offsets, edits),
-            Method::Uniform => paper::cut(self, Form::Uniform, mesh, positions, edits),
-            Method::Alternating => paper::cut(self, Form::Alternating, mesh, positions, edits),
+            Method::Exact => exact::cut(
+                &self.strip,
+                &self.exact,
+                mesh,
+                positions,
+                offsets,
+                label,
+                edits,
+            ),
+            Method::Partition => {
+                partition::cut(&self.strip, self.tips, mesh, positions, offsets, edits)
+            }
+            Method::Uniform => paper::cut(&self.strip, Form::Uniform, mesh, positions, edits),
+            Method::Alternating => {
+                paper::cut(&self.strip, Form::Alternating, mesh, positions, edits)
+            }
         };
         edits.replay(positions);
         outcome
-    }
-
-    /// How far inside the nearer side plane a point lies; negative outside, and
-    /// infinite for a cut through everything.
-    fn depth(&self, p: Point) -> f64 {
-        if self.through {
-            f64::INFINITY
-        } else {
-            self.sides[0].offset(p).min(self.sides[1].offset(p))
-        }
-    }
-
-    /// The part of the segment from `p` to `q` that lies between the side planes, as two
-    /// parameters from 0 to 1; `None` if there is no such part.
-    fn clip(&self, p: Point, q: Point) -> Option<(f64, f64)> {
-        let (mut from, mut to) = (0.0f64, 1.0f64);
-        if !self.through {
-            for side in self.sides {
-                let (start, end) = (side.offset(p), side.offset(q));
-                if start < 0.0 && end < 0.0 {
-                    return None;
-                }
-                if start < 0.0 {
-                    from = from.max(start / (start - end));
-                } else if end < 0.0 {
-                    to = to.min(start / (start - end));
-                }
-            }
-        }
-        (from <= to).then_some((from, to))
     }
 }
 
@@ -408,32 +316,6 @@ fn in_step(mesh: &Mesh, positions: &Positions, edits: &Edits) -> Result<(), CutE
         });
     }
     Ok(())
-}
-
-/// The direction of a ray, scaled to about length one.
-fn unit_scale(ray: &Ray) -> Vector {
-    scaled(ray.direction()).expect("a ray has a direction")
-}
-
-fn plane(point: Point, normal: Vector) -> Plane {
-    Plane::new(point, normal).expect("a normal beyond rounding is not zero")
-}
-
-/// A side plane, turned so that the other ray is on its positive side: its origin,
-/// `towards` away, or if that lies on the plane, its direction.
-fn plane_towards(
-    point: Point,
-    normal: Vector,
-    towards: Vector,
-    along: Vector,
-    reach: f64,
-) -> Plane {
-    let normal = scaled(normal).expect("a normal beyond rounding is not zero");
-    let mut inward = dot(normal, towards);
-    if inward.abs() <= ROUNDING * reach {
-        inward = dot(normal, along);
-    }
-    plane(point, if inward < 0.0 { -normal } else { normal })
 }
 
 /// Why two rays make no scissor.

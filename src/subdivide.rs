@@ -17,145 +17,19 @@
 //! inserted and in the faces round the corners of divided faces, besides sorting the plan.
 
 mod face;
+mod plan;
 
 use std::fmt;
+
+pub use plan::{ChordEnd, Plan, PointId};
 
 use crate::edit::{Child, Edits, Insert, InsertedPoint, Location};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use face::{Fault, Retriangulation};
-
-/// What to insert, all at once.
-///
-/// ```
-/// use tearmesh::{shapes, subdivide::Plan, Edits, FaceId, HalfEdgeId};
-///
-/// let (mut mesh, mut positions) = shapes::grid(1, 1);
-/// let diagonal = mesh.half_edges().find(|&h| mesh.pair(h).is_some()).unwrap();
-/// let mut plan = Plan::new();
-/// plan.on_edge(diagonal, 0.5);
-/// let mut edits = Edits::new();
-/// let insert = plan.apply(&mut mesh, &mut edits)?;
-/// assert_eq!((insert.points.len(), insert.children.len()), (1, 4));
-/// edits.replay(&mut positions);
-/// assert_eq!((mesh.vertex_count(), mesh.face_count()), (5, 4));
-/// assert_eq!(positions.as_slice()[4], [0.5, 0.5, 0.0].into());
-/// assert!(mesh.check().is_empty());
-/// # Ok::<(), tearmesh::subdivide::Refusal>(())
-/// ```
-#[derive(Clone, Debug, Default)]
-pub struct Plan {
-    points: Vec<Point>,
-    chords: Vec<Chord>,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Point {
-    /// At `t` from the origin of the half-edge, or if not `forward`, from its target.
-    Edge {
-        h: HalfEdgeId,
-        t: f64,
-        forward: bool,
-    },
-    Face {
-        f: FaceId,
-        weights: [f64; 3],
-    },
-}
-
-/// The number of a point in its plan, from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct PointId(u32);
-
-impl PointId {
-    /// The index, for use with slices.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// An end of a chord: a corner of the face, or a point on one of its edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChordEnd {
-    /// A corner of the face.
-    Corner(HalfEdgeId),
-    /// A point of the plan.
-    Point(PointId),
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Chord {
-    f: FaceId,
-    ends: [ChordEnd; 2],
-}
+use plan::{Chord, Point};
 
 impl Plan {
-    /// An empty plan.
-    #[must_use]
-    pub fn new() -> Plan {
-        Plan::default()
-    }
-
-    /// Forgets all points and keeps the memory.
-    pub fn clear(&mut self) {
-        self.points.clear();
-        self.chords.clear();
-    }
-
-    /// The number of points.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.points.len()
-    }
-
-    /// Whether nothing is to be inserted.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
-    }
-
-    /// Adds a point on an edge, at the part `t` of the way from the origin of `h` to its target;
-    /// on a torn edge also on the other side, at the same `t`.
-    pub fn on_edge(&mut self, h: HalfEdgeId, t: f64) -> PointId {
-        self.push(Point::Edge {
-            h,
-            t,
-            forward: true,
-        })
-    }
-
-    /// The same, at the part `t` of the way from the target of `h` to its origin. That is not
-    /// the same bits as `1 − t` the other way.
-    pub fn on_edge_backward(&mut self, h: HalfEdgeId, t: f64) -> PointId {
-        self.push(Point::Edge {
-            h,
-            t,
-            forward: false,
-        })
-    }
-
-    /// Adds a point in a face, at the weighted mean of its corners in their order. The
-    /// weights are divided by their sum.
-    ///
-    /// The first point of a face is joined to all its corners and all points on its edges;
-    /// any other to the corners of the triangle in which it then lies.
-    pub fn in_face(&mut self, f: FaceId, weights: [f64; 3]) -> PointId {
-        self.push(Point::Face { f, weights })
-    }
-
-    fn push(&mut self, point: Point) -> PointId {
-        self.points.push(point);
-        PointId(self.points.len() as u32 - 1)
-    }
-
-    /// Demands that an edge of the result run straight across a face, which must not
-    /// have points inside. Needed only where a face has more than two points on its edges: two
-    /// on different edges are joined anyway, and so is a single one to the corner opposite.
-    pub fn chord(&mut self, f: FaceId, ends: [ChordEnd; 2]) {
-        self.chords.push(Chord { f, ends });
-    }
-
     /// Inserts the points.
     ///
     /// The new vertices are in the order of the plan. A point on a torn edge has two: first that

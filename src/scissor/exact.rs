@@ -29,7 +29,9 @@ mod trace;
 mod tracer;
 
 use super::offsets::Offsets;
-use super::{Ends, Outcome, Scissor, unshare};
+use super::outcome::{Ends, Outcome};
+use super::strip::Strip;
+use super::unshare;
 use crate::edit::{Edit, Edits};
 use crate::geometry::{Point, Side, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -38,17 +40,30 @@ use crate::place::Positions;
 use crate::subdivide::{ChordEnd, Plan, PointId, Refusal};
 use trace::{Crossing, Piece, Place, Site, Trace};
 
+/// What the method is told beyond the strip.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Settings {
+    /// How near an end of its edge a crossing is taken for that end: 0 … 0.49 of the edge.
+    pub(super) snap: f64,
+    /// Whether what was taken for a crossing slides onto the plane.
+    pub(super) snap_move: bool,
+    /// Where this cut goes on from another: vertices on the plane and on the first side plane.
+    pub(super) joints: Vec<VertexId>,
+}
+
 /// Cuts. `label` asks for the side of every face, for the report.
 pub(super) fn cut(
-    scissor: &Scissor,
+    strip: &Strip,
+    settings: &Settings,
     mesh: &mut Mesh,
     positions: &mut Positions,
     offsets: &Offsets,
     label: bool,
     edits: &mut Edits,
 ) -> Outcome {
-    let mut trace = tracer::trace(scissor, mesh, positions, offsets);
-    if scissor.snap_move {
+    let Settings { snap, joints, .. } = settings;
+    let mut trace = tracer::trace(strip, *snap, joints, mesh, positions, offsets);
+    if settings.snap_move {
         slip::onto_plane(&trace.snapped, mesh, positions, edits);
     }
     let slit = loop {
@@ -60,7 +75,7 @@ pub(super) fn cut(
     };
     edits.replay(positions);
     let labels = if label {
-        labels(scissor, mesh, positions, offsets, &trace, &slit)
+        labels(strip, mesh, positions, offsets, &trace, &slit)
     } else {
         Vec::new()
     };
@@ -80,7 +95,7 @@ pub(super) fn cut(
 /// The side of every face, once all vertices are inserted. A face that still lies on both sides
 /// has none: it is round a tip, or outside the strip.
 fn labels(
-    scissor: &Scissor,
+    strip: &Strip,
     mesh: &Mesh,
     positions: &Positions,
     offsets: &Offsets,
@@ -90,7 +105,7 @@ fn labels(
     // Only the passive twin of a crossing is new and not on the plane.
     let offset = |v: VertexId| match v.index() < offsets.len() {
         true => offsets.of(v),
-        false => scissor.plane.offset(positions.at(v)),
+        false => strip.plane.offset(positions.at(v)),
     };
     // Asked for at every corner, so looked up and not searched for.
     let mut signs: Vec<f64> = mesh.vertices().map(offset).collect();
@@ -105,8 +120,7 @@ fn labels(
             corners.iter().any(|&v| sign(v) < 0.0) && corners.iter().any(|&v| sign(v) > 0.0);
         let is_tip = |v: &VertexId| slit.tips.iter().any(|of_side| of_side.contains(v));
         on_both
-            && (corners.iter().any(is_tip)
-                || !meets_strip(scissor, corners.map(|v| positions.at(v))))
+            && (corners.iter().any(is_tip) || !meets_strip(strip, corners.map(|v| positions.at(v))))
     };
     let sides = label::all(mesh, sign, offset);
     let sides = mesh.faces().zip(sides);
@@ -116,15 +130,15 @@ fn labels(
 }
 
 /// Whether the plane crosses a triangle between the side planes.
-fn meets_strip(scissor: &Scissor, corners: [Point; 3]) -> bool {
+fn meets_strip(strip: &Strip, corners: [Point; 3]) -> bool {
     let crossing = |i: usize| {
         let (p, q) = (corners[i], corners[(i + 1) % 3]);
-        let (from, to) = (scissor.plane.offset(p), scissor.plane.offset(q));
+        let (from, to) = (strip.plane.offset(p), strip.plane.offset(q));
         ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
     };
     let mut ends = (0..3).filter_map(crossing);
     match (ends.next(), ends.next()) {
-        (Some(p), Some(q)) => scissor.clip(p, q).is_some(),
+        (Some(p), Some(q)) => strip.clip(p, q).is_some(),
         _ => false,
     }
 }

@@ -7,7 +7,8 @@
 //! still share are counted.
 
 use super::offsets::Offsets;
-use super::{Ends, Outcome, Scissor};
+use super::outcome::{Ends, Outcome};
+use super::strip::Strip;
 use crate::edit::{Edit, Edits};
 use crate::geometry::{Point, Side, angle, area, cross, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -92,7 +93,7 @@ pub(super) struct Survey<'o> {
 
 impl<'o> Survey<'o> {
     pub(super) fn new(
-        scissor: &Scissor,
+        strip: &Strip,
         mesh: &Mesh,
         positions: &Positions,
         offsets: &'o Offsets,
@@ -105,9 +106,9 @@ impl<'o> Survey<'o> {
             pieces_before: mesh.components().count(),
             pieces_expected: 0,
             mean_edge: mean_edge(mesh, positions),
-            nearest_vertex: nearest_vertex(scissor, mesh, positions),
+            nearest_vertex: nearest_vertex(strip, mesh, positions),
         };
-        survey.follow_slit(scissor, mesh, positions);
+        survey.follow_slit(strip, mesh, positions);
         survey
     }
 
@@ -116,13 +117,13 @@ impl<'o> Survey<'o> {
     /// Each face has a part in front and a part behind, as far as it has either. The parts
     /// of a face are one unless the slit crosses the face fully; parts of neighbours are one
     /// where they meet along an edge. What remains apart is a piece.
-    fn follow_slit(&mut self, scissor: &Scissor, mesh: &Mesh, positions: &Positions) {
+    fn follow_slit(&mut self, strip: &Strip, mesh: &Mesh, positions: &Positions) {
         let mut parts = Parts::new(mesh.face_count());
         for f in mesh.faces() {
             let Some([p, q]) = self.crossing(mesh, positions, f) else {
                 continue;
             };
-            let clipped = scissor.clip(p, q);
+            let clipped = strip.clip(p, q);
             if let Some((from, to)) = clipped {
                 self.faces_crossed += 1;
                 self.in_slit[f.index()] = true;
@@ -141,7 +142,7 @@ impl<'o> Survey<'o> {
                 // The edge lies on the plane, so it is slit itself if the faces differ.
                 let sides = [(f, self.lone_side(mesh, f)), (g, self.lone_side(mesh, g))];
                 let [p, q] = ends.map(|v| positions.at(v));
-                let clipped = scissor.clip(p, q).filter(|_| sides[0].1 != sides[1].1);
+                let clipped = strip.clip(p, q).filter(|_| sides[0].1 != sides[1].1);
                 if let Some((from, to)) = clipped {
                     self.in_slit[f.index()] = true;
                     self.in_slit[g.index()] = true;
@@ -207,7 +208,7 @@ impl<'o> Survey<'o> {
     /// records from `first_edit` on are those of the cut.
     pub(super) fn report(
         &self,
-        scissor: &Scissor,
+        strip: &Strip,
         mesh: &Mesh,
         positions: &Positions,
         outcome: Outcome,
@@ -233,7 +234,7 @@ impl<'o> Survey<'o> {
                         ghost_pairs += 2;
                         seam_length += length(q - p);
                         for end in [p, q] {
-                            let deviation = scissor.plane.distance(end).abs();
+                            let deviation = strip.plane.distance(end).abs();
                             seam_deviation_max = seam_deviation_max.max(deviation);
                         }
                         tips.add([mesh.origin(h), mesh.target(h)].map(|v| mesh.root(v)));
@@ -265,7 +266,7 @@ impl<'o> Survey<'o> {
             pieces_expected: self.pieces_expected,
             crumbs: pieces.saturating_sub(self.pieces_expected),
             lost: self.pieces_expected.saturating_sub(pieces),
-            separated: separated(scissor, mesh, positions, &in_slit, &outcome),
+            separated: separated(strip, mesh, positions, &in_slit, &outcome),
             seam_length,
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,
@@ -275,7 +276,7 @@ impl<'o> Survey<'o> {
             altitude_min,
             missed: !self.in_slit.contains(&true),
             nearest_vertex: self.nearest_vertex,
-            tip_overshoots: tips.overshoots(scissor, mesh, positions),
+            tip_overshoots: tips.overshoots(strip, mesh, positions),
             ends: outcome.ends,
         }
     }
@@ -295,8 +296,8 @@ impl Tips {
 
     /// Of each vertex with one edge of the seam that has not been split: how far beyond the
     /// nearer side plane it is.
-    fn overshoots(mut self, scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> Vec<f64> {
-        if scissor.through {
+    fn overshoots(mut self, strip: &Strip, mesh: &Mesh, positions: &Positions) -> Vec<f64> {
+        if strip.through {
             return Vec::new();
         }
         self.ends.sort_unstable();
@@ -306,7 +307,7 @@ impl Tips {
             .map(|of_root| of_root[0]);
         let joined = |&root: &VertexId| mesh.copies(root).all(|v| v == root);
         let depth = |root: VertexId| {
-            let depths = scissor.sides.map(|side| side.distance(positions.at(root)));
+            let depths = strip.sides.map(|side| side.distance(positions.at(root)));
             depths[0].min(depths[1])
         };
         tips.filter(joined).map(|root| -depth(root)).collect()
@@ -314,7 +315,7 @@ impl Tips {
 }
 
 fn separated(
-    scissor: &Scissor,
+    strip: &Strip,
     mesh: &Mesh,
     positions: &Positions,
     in_slit: &[bool],
@@ -326,7 +327,7 @@ fn separated(
     let label = |h: HalfEdgeId| labels[h.face().index()];
     let shared_vertex = |v: VertexId| {
         let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == Some(side));
-        !is_tip(v) && scissor.depth(positions.at(v)) > 0.0 && has(Side::Front) && has(Side::Back)
+        !is_tip(v) && strip.depth(positions.at(v)) > 0.0 && has(Side::Front) && has(Side::Back)
     };
     let shared_edge = |h: HalfEdgeId| {
         let Some(pair) = mesh.pair(h) else {
@@ -337,7 +338,7 @@ fn separated(
         let [p, q] = [mesh.origin(h_min), mesh.target(h_min)].map(|v| positions.at(v));
         let inside = |(from, to): (f64, f64)| {
             let middle = (from + to) / 2.0;
-            from < to && scissor.depth(p + (q - p) * middle) > 0.0
+            from < to && strip.depth(p + (q - p) * middle) > 0.0
         };
         let differ = label(h)
             .zip(label(pair))
@@ -345,7 +346,7 @@ fn separated(
         differ
             && !is_tip(mesh.origin(h))
             && !is_tip(mesh.target(h))
-            && scissor.clip(p, q).is_some_and(inside)
+            && strip.clip(p, q).is_some_and(inside)
     };
     let faces = mesh.faces().filter(|f| in_slit[f.index()]);
     let mut corners = faces.flat_map(FaceId::half_edges);
@@ -405,12 +406,12 @@ fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-fn nearest_vertex(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> f64 {
-    let [a, b] = scissor.sides;
+fn nearest_vertex(strip: &Strip, mesh: &Mesh, positions: &Positions) -> f64 {
+    let [a, b] = strip.sides;
     let distance = |v: VertexId| {
         let p = positions.at(v);
-        let off = scissor.plane.distance(p);
-        let outside = if scissor.through {
+        let off = strip.plane.distance(p);
+        let outside = if strip.through {
             0.0
         } else {
             (-a.distance(p)).max(-b.distance(p)).max(0.0)

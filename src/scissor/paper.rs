@@ -16,7 +16,8 @@
 //! longer seam, because it may split the same vertex several times. They are here to be
 //! compared with: [`Method::Partition`](super::Method::Partition) is the one to use.
 
-use super::{Ends, Outcome, Scissor};
+use super::outcome::{Ends, Outcome};
+use super::strip::Strip;
 use crate::edit::Edits;
 use crate::geometry::{Plane, Side, Vector, cross};
 use crate::id::{FaceId, HalfEdgeId};
@@ -32,14 +33,14 @@ pub(super) enum Form {
 }
 
 pub(super) fn cut(
-    scissor: &Scissor,
+    strip: &Strip,
     form: Form,
     mesh: &mut Mesh,
     positions: &mut Positions,
     edits: &mut Edits,
 ) -> Outcome {
     let is_positive = |mesh: &Mesh, positions: &Positions, h: HalfEdgeId| {
-        Side::of(scissor.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
+        Side::of(strip.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
     };
     let positive = |mesh: &Mesh, positions: &Positions, f: FaceId| {
         f.half_edges()
@@ -77,12 +78,12 @@ pub(super) fn cut(
         for h in corners {
             let v = mesh.origin(h);
             let at = positions.at(v);
-            if !is_positive(mesh, positions, h) || scissor.depth(at) < 0.0 {
+            if !is_positive(mesh, positions, h) || strip.depth(at) < 0.0 {
                 continue;
             }
             let plane = match along_edge {
                 Some(normal) => Plane::new(at, normal).ok(),
-                None => Some(scissor.plane.through(at)),
+                None => Some(strip.plane.through(at)),
             };
             match plane.and_then(|plane| split::by_plane(mesh, v, &plane, &*positions, edits)) {
                 Some(_) => edits.replay(positions),

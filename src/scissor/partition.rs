@@ -14,7 +14,9 @@
 use std::collections::VecDeque;
 
 use super::offsets::Offsets;
-use super::{Ends, Outcome, Scissor, Tips, unshare};
+use super::outcome::{Ends, Outcome};
+use super::strip::Strip;
+use super::unshare;
 use crate::classify;
 use crate::edit::Edits;
 use crate::geometry::{Point, Side};
@@ -22,8 +24,21 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
+/// Where a finite cut ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Tips {
+    /// The paper's rule: a vertex is split if it lies between the side planes. Separates
+    /// everything strictly between them; overshoots each tip by half an edge on average.
+    #[default]
+    Vertex,
+    /// An edge is cut if its midpoint lies between the side planes: unbiased in
+    /// length, but about one vertex inside may stay shared.
+    Midpoint,
+}
+
 pub(super) fn cut(
-    scissor: &Scissor,
+    strip: &Strip,
+    tips: Tips,
     mesh: &mut Mesh,
     positions: &Positions,
     offsets: &Offsets,
@@ -35,8 +50,8 @@ pub(super) fn cut(
         .collect();
     smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
-    let seam = Seam::new(scissor, mesh, positions, &labels);
-    let vertices = seam.vertices(scissor, mesh, positions);
+    let seam = Seam::new(strip, tips, mesh, positions, &labels);
+    let vertices = seam.vertices(strip, tips, mesh, positions);
     unshare::by_fan(mesh, &vertices, |h| seam.cuts(h), edits);
     Outcome {
         labels: labels.into_iter().map(Some).collect(),
@@ -114,7 +129,7 @@ struct Seam {
 }
 
 impl Seam {
-    fn new(scissor: &Scissor, mesh: &Mesh, positions: &Positions, labels: &[Side]) -> Seam {
+    fn new(strip: &Strip, tips: Tips, mesh: &Mesh, positions: &Positions, labels: &[Side]) -> Seam {
         let is_cut = |h: HalfEdgeId| {
             let Some(pair) = mesh.pair(h) else {
                 return false;
@@ -122,12 +137,12 @@ impl Seam {
             if labels[h.face().index()] == labels[pair.face().index()] {
                 return false;
             }
-            match scissor.tips {
+            match tips {
                 Tips::Vertex => true,
                 Tips::Midpoint => {
                     let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
                     // A sum does not depend on the order of two, so both half-edges agree.
-                    scissor.depth(Point::from((a + b) / 2.0)) >= 0.0
+                    strip.depth(Point::from((a + b) / 2.0)) >= 0.0
                 }
             }
         };
@@ -141,14 +156,19 @@ impl Seam {
     }
 
     /// The vertices to unshare, ascending.
-    fn vertices(&self, scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> Vec<VertexId> {
+    fn vertices(
+        &self,
+        strip: &Strip,
+        tips: Tips,
+        mesh: &Mesh,
+        positions: &Positions,
+    ) -> Vec<VertexId> {
         let mut on_seam = vec![false; mesh.vertex_count()];
         for h in mesh.half_edges().filter(|&h| self.cuts(h)) {
             on_seam[mesh.origin(h).index()] = true;
         }
         let unshared = |&v: &VertexId| {
-            on_seam[v.index()]
-                && (scissor.tips == Tips::Midpoint || scissor.depth(positions.at(v)) >= 0.0)
+            on_seam[v.index()] && (tips == Tips::Midpoint || strip.depth(positions.at(v)) >= 0.0)
         };
         mesh.vertices().filter(unshared).collect()
     }

@@ -13,10 +13,9 @@
 //!   at t leaves, that is the diagonal p–c where s >= t, and else q–b: the rule under
 //!   which no altitude is smaller than r (1 − r) of the parent's where r <= s, t <= 1 − r.
 
+use super::plan::PointId;
 use crate::edit::Source;
 use crate::id::{HalfEdgeId, VertexId};
-
-use super::PointId;
 
 /// A corner or a new point of a face.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +28,7 @@ pub(super) struct Node {
     at: [f64; 3],
 }
 
-/// The part of a face that rounding alone explains: see `ROUNDING` in `scissor.rs`.
+/// The part of a face that rounding alone explains: see `ROUNDING` in `scissor/strip.rs`.
 const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
 
 /// A face that is being divided. Reused from face to face.

@@ -208,8 +208,14 @@ impl Tree {
             let mut reader = Reader {
                 module: &mut self.modules[this],
                 of_type: None,
+                uses: Vec::new(),
             };
             reader.visit_item(item);
+            // What a function brings in is taken for what its module does.
+            let inside = reader.uses;
+            for item in inside {
+                self.add_use(this, &item.tree, &mut Vec::new(), false);
+            }
         }
         this
     }
@@ -384,12 +390,14 @@ struct Meanings {
 }
 
 /// Collects the paths of an item.
-struct Reader<'m> {
+struct Reader<'m, 'ast> {
     module: &'m mut Module,
     of_type: Option<Vec<String>>,
+    /// Those inside functions.
+    uses: Vec<&'ast syn::ItemUse>,
 }
 
-impl Reader<'_> {
+impl Reader<'_, '_> {
     fn note(&mut self, segments: Vec<String>) {
         let of_type = self.of_type.clone();
         self.module.paths.push(Written { segments, of_type });
@@ -421,7 +429,11 @@ impl Reader<'_> {
     }
 }
 
-impl<'ast> Visit<'ast> for Reader<'_> {
+impl<'ast> Visit<'ast> for Reader<'_, 'ast> {
+    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
+        self.uses.push(item);
+    }
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         self.note(path.segments.iter().map(|s| s.ident.to_string()).collect());
         visit::visit_path(self, path);

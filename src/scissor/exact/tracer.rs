@@ -1,7 +1,7 @@
 //! Finding where the slit runs: signs, snapping, and the pieces between nodes.
 
-use super::super::Scissor;
 use super::super::offsets::Offsets;
+use super::super::strip::Strip;
 use super::label::Patches;
 use super::trace::{Crossing, Piece, Place, Site, Snapped, Trace};
 use crate::geometry::{Point, between};
@@ -13,25 +13,28 @@ use crate::place::Positions;
 /// snapping is off: the faces round them could not be told from nothing.
 const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// Traces the slit.
+/// Traces the slit. `snap` and `joints` are those of the method's settings.
 pub(super) fn trace(
-    scissor: &Scissor,
+    strip: &Strip,
+    snap: f64,
+    joints: &[VertexId],
     mesh: &Mesh,
     positions: &Positions,
     offsets: &Offsets,
 ) -> Trace {
     let mut tracer = Tracer {
-        scissor,
+        strip,
+        snap,
+        joints,
         mesh,
         positions,
         offsets,
-        near: scissor.snap.max(TIP_MIN),
+        near: snap.max(TIP_MIN),
         round_joints: Vec::new(),
         snapped: Vec::new(),
     };
     let mut touched = offsets.touched(mesh);
-    let joints = scissor.joints.iter();
-    touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
+    touched.extend(joints.iter().flat_map(|&v| mesh.faces_of(v)));
     touched.sort_unstable();
     touched.dedup();
     tracer.look_round_joints();
@@ -56,7 +59,9 @@ struct Span {
 
 /// A trace in the making.
 struct Tracer<'t> {
-    scissor: &'t Scissor,
+    strip: &'t Strip,
+    snap: f64,
+    joints: &'t [VertexId],
     mesh: &'t Mesh,
     positions: &'t Positions,
     offsets: &'t Offsets,
@@ -71,7 +76,7 @@ struct Tracer<'t> {
 impl Tracer<'_> {
     /// Zero on the plane, else the sign of the side.
     fn sign(&self, v: VertexId) -> f64 {
-        let is_on = self.snap_of(v).is_some() || self.scissor.joints.contains(&v);
+        let is_on = self.snap_of(v).is_some() || self.joints.contains(&v);
         if is_on { 0.0 } else { self.offsets.of(v) }
     }
 
@@ -82,10 +87,10 @@ impl Tracer<'_> {
 
     /// How far a point is inside each side plane.
     fn depths(&self, p: Point) -> [f64; 2] {
-        if self.scissor.through {
+        if self.strip.through {
             return [f64::INFINITY; 2];
         }
-        self.scissor.sides.map(|side| {
+        self.strip.sides.map(|side| {
             let depth = side.offset(p);
             if depth.abs() <= self.offsets.bound() {
                 0.0
@@ -101,8 +106,8 @@ impl Tracer<'_> {
     fn look_round_joints(&mut self) {
         self.round_joints.clear();
         let mut round = Vec::new();
-        for &v in &self.scissor.joints {
-            let depth = self.scissor.sides[0].offset(self.positions.at(v));
+        for &v in self.joints {
+            let depth = self.strip.sides[0].offset(self.positions.at(v));
             let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
             round.extend(faces.flatten().map(|node| (node.site, depth)));
         }
@@ -220,7 +225,7 @@ impl Tracer<'_> {
     /// Puts vertices on the plane that are near a crossing that the slit meets: nearer than
     /// the snap, as a part of the edge.
     fn snap(&mut self, touched: &[FaceId]) {
-        if self.scissor.snap == 0.0 {
+        if self.snap == 0.0 {
             return;
         }
         let mut snapped = Vec::new();
@@ -240,7 +245,7 @@ impl Tracer<'_> {
                 let near = [crossing.t, 1.0 - crossing.t];
                 let [a, b] = self.ends(&crossing);
                 for ([vertex, toward], t) in [[a, b], [b, a]].into_iter().zip(near) {
-                    if met && t < self.scissor.snap {
+                    if met && t < self.snap {
                         snapped.push(Snapped {
                             vertex,
                             t,

@@ -1,0 +1,129 @@
+//! The strip that two rays span: the cutting plane, and the two planes that bound it at the sides.
+//!
+//! The plane holds the origins of both rays and the direction of the first, and two side planes bound
+//! the cut (Souza et al. 2014 §V). Two errata of the paper are handled here:
+//!
+//! 1. **The side planes point outward as printed** (`N_A = V_A × N`, `N_B = N × V_B`): a point
+//!    half way between two parallel rays is on the negative side of both, so no vertex would be
+//!    split. The normals here are `N × V_A` and `V_B × N`, each turned round where the other
+//!    ray would be on its negative side (anti-parallel rays).
+//! 2. **Two rays from one eye give N = 0**, and that is what a perspective camera produces. The
+//!    plane is then `V_A × V_B`. Only rays on one line span no plane and are refused.
+//!
+//! Between parallel rays the strip extends behind the origins too; between rays from one eye
+//! it is the wedge before the eye.
+
+use crate::geometry::{Plane, Point, Ray, Vector, cross, dot, length, max_abs, scaled};
+
+/// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
+/// from. An error bound, not a tolerance.
+pub(super) const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
+
+/// Where a cut may go.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Strip {
+    pub(super) plane: Plane,
+    /// What lies in front of both is between the rays.
+    pub(super) sides: [Plane; 2],
+    /// How far the second ray leaves the plane for each unit of its length.
+    pub(super) skew: f64,
+    /// Whether the side planes bound nothing.
+    pub(super) through: bool,
+}
+
+impl Strip {
+    /// The strip between two rays; `None` if both lie on one line, up to rounding.
+    pub(super) fn between(a: &Ray, b: &Ray) -> Option<Strip> {
+        let (along_a, along_b) = (unit_scale(a), unit_scale(b));
+        let apart = a.origin() - b.origin();
+        let reach = max_abs(a.origin().coords).max(max_abs(b.origin().coords));
+        let spanned = cross(apart, along_a);
+        let normal = if max_abs(spanned) > ROUNDING * reach {
+            spanned
+        } else {
+            // The origin of B lies on the line of A, or is that of A: one eye.
+            let from_eye = cross(along_a, along_b);
+            if max_abs(from_eye) <= ROUNDING {
+                return None;
+            }
+            from_eye
+        };
+        let normal = scaled(normal)?;
+        let plane = plane(a.origin(), normal);
+        let side_a = cross(normal, along_a);
+        let side_b = match cross(along_b, normal) {
+            // Ray B stands upright on the plane: its side plane runs along ray A.
+            upright if max_abs(upright) <= ROUNDING => -side_a,
+            side => side,
+        };
+        let sides = [
+            plane_towards(a.origin(), side_a, -apart, along_b, reach),
+            plane_towards(b.origin(), side_b, apart, along_a, reach),
+        ];
+        let unit_b = along_b / length(along_b);
+        let skew = dot(plane.normal(), unit_b).abs();
+        let skew = if skew <= ROUNDING { 0.0 } else { skew };
+        Some(Strip {
+            plane,
+            sides,
+            skew,
+            through: false,
+        })
+    }
+
+    /// How far inside the nearer side plane a point lies; negative outside, and
+    /// infinite for a cut through everything.
+    pub(super) fn depth(&self, p: Point) -> f64 {
+        if self.through {
+            f64::INFINITY
+        } else {
+            self.sides[0].offset(p).min(self.sides[1].offset(p))
+        }
+    }
+
+    /// The part of the segment from `p` to `q` that lies between the side planes, as two
+    /// parameters from 0 to 1; `None` if there is no such part.
+    pub(super) fn clip(&self, p: Point, q: Point) -> Option<(f64, f64)> {
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        if !self.through {
+            for side in self.sides {
+                let (start, end) = (side.offset(p), side.offset(q));
+                if start < 0.0 && end < 0.0 {
+                    return None;
+                }
+                if start < 0.0 {
+                    from = from.max(start / (start - end));
+                } else if end < 0.0 {
+                    to = to.min(start / (start - end));
+                }
+            }
+        }
+        (from <= to).then_some((from, to))
+    }
+}
+
+/// The direction of a ray, scaled to about length one.
+fn unit_scale(ray: &Ray) -> Vector {
+    scaled(ray.direction()).expect("a ray has a direction")
+}
+
+fn plane(point: Point, normal: Vector) -> Plane {
+    Plane::new(point, normal).expect("a normal beyond rounding is not zero")
+}
+
+/// A side plane, turned so that the other ray is on its positive side: its origin,
+/// `towards` away, or if that lies on the plane, its direction.
+fn plane_towards(
+    point: Point,
+    normal: Vector,
+    towards: Vector,
+    along: Vector,
+    reach: f64,
+) -> Plane {
+    let normal = scaled(normal).expect("a normal beyond rounding is not zero");
+    let mut inward = dot(normal, towards);
+    if inward.abs() <= ROUNDING * reach {
+        inward = dot(normal, along);
+    }
+    plane(point, if inward < 0.0 { -normal } else { normal })
+}
