@@ -26,7 +26,7 @@ impl Files {
         let mut tree = Tree::default();
         let text = read(root).unwrap_or_else(|| panic!("no file {root}"));
         let folder = Path::new(root).parent().map_or(String::new(), folder_name);
-        tree.add_file(root, &folder, &text, Vec::new(), None, read);
+        tree.add_file(root, &folder, &text, None, read);
         tree.collect_functions();
         let mut files = Files {
             names: tree.names.clone(),
@@ -149,14 +149,13 @@ impl Tree {
         name: &str,
         folder: &str,
         text: &str,
-        path: Vec<String>,
         parent: Option<usize>,
         read: &dyn Fn(&str) -> Option<String>,
     ) -> usize {
         let file = self.names.len();
         self.names.push(name.to_owned());
         let parsed = syn::parse_file(text).unwrap_or_else(|error| panic!("{name}: {error}"));
-        self.add_module(file, folder, &parsed.items, &path, parent, read)
+        self.add_module(file, folder, &parsed.items, parent, read)
     }
 
     fn add_module(
@@ -164,7 +163,6 @@ impl Tree {
         file: usize,
         folder: &str,
         items: &[syn::Item],
-        path: &[String],
         parent: Option<usize>,
         read: &dyn Fn(&str) -> Option<String>,
     ) -> usize {
@@ -180,10 +178,9 @@ impl Tree {
         for item in items.iter().filter(|item| !is_for_tests(attributes(item))) {
             if let syn::Item::Mod(child) = item {
                 let name = child.ident.to_string();
-                let path = [path, std::slice::from_ref(&name)].concat();
                 let inside = join(folder, &name);
                 let child = if let Some((_, items)) = &child.content {
-                    self.add_module(file, &inside, items, &path, Some(this), read)
+                    self.add_module(file, &inside, items, Some(this), read)
                 } else {
                     let named = named_path(&child.attrs).map(|name| join(folder, &name));
                     let usual = [format!("{inside}.rs"), format!("{inside}/mod.rs")];
@@ -192,7 +189,7 @@ impl Tree {
                         .chain(usual)
                         .find_map(|name| Some((read(&name)?, name)));
                     let (text, name) = found.unwrap_or_else(|| panic!("no file for {inside}"));
-                    self.add_file(&name, &inside, &text, path, Some(this), read)
+                    self.add_file(&name, &inside, &text, Some(this), read)
                 };
                 self.name(this, &name, Meaning::Module(child));
                 continue;
