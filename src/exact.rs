@@ -7,6 +7,10 @@
 //! into digits of 32 bits with room for carries. Adding costs two multiplications
 //! of a digit; 2^30 additions fit between two normalisations.
 
+/// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
+/// from. An error bound, not a tolerance.
+pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
+
 /// Two to the power `exponent`.
 ///
 /// # Panics

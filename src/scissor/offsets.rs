@@ -1,6 +1,6 @@
 //! How far each vertex is from the cutting plane, once for all.
 
-use super::strip::ROUNDING;
+use crate::exact::ROUNDING;
 use crate::geometry::{Plane, Point, max_abs};
 use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;

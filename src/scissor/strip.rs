@@ -13,11 +13,8 @@
 //! Between parallel rays the strip extends behind the origins too; between rays from one eye
 //! it is the wedge before the eye.
 
+use crate::exact::ROUNDING;
 use crate::geometry::{Plane, Point, Ray, Vector, cross, dot, length, max_abs, scaled};
-
-/// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
-/// from. An error bound, not a tolerance.
-pub(super) const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
 
 /// Where a cut may go.
 #[derive(Clone, Debug, PartialEq)]

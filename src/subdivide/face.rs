@@ -15,6 +15,7 @@
 
 use super::plan::PointId;
 use crate::edit::Source;
+use crate::exact::ROUNDING;
 use crate::id::{HalfEdgeId, VertexId};
 
 /// A corner or a new point of a face.
@@ -27,9 +28,6 @@ pub(super) struct Node {
     /// The weights of the corners.
     at: [f64; 3],
 }
-
-/// The part of a face that rounding alone explains: see `ROUNDING` in `scissor/strip.rs`.
-const ROUNDING: f64 = 32.0 * f64::EPSILON / 2.0;
 
 /// A face that is being divided. Reused from face to face.
 #[derive(Debug, Default)]
