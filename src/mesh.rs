@@ -182,27 +182,6 @@ impl Mesh {
         self.link[h.index()].opposite()
     }
 
-    /// The next half-edge of the same face.
-    #[inline]
-    #[must_use]
-    pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
-        h.next()
-    }
-
-    /// The previous half-edge of the same face.
-    #[inline]
-    #[must_use]
-    pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
-        h.prev()
-    }
-
-    /// The face of a half-edge.
-    #[inline]
-    #[must_use]
-    pub fn face(&self, h: HalfEdgeId) -> FaceId {
-        h.face()
-    }
-
     /// The vertex at which a half-edge starts.
     #[inline]
     #[must_use]

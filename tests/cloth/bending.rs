@@ -312,7 +312,7 @@ fn a_folded_strip_rests_where_the_implicit_solver_by_itself_says() {
                 tension_only: false,
             });
             if let Some(pair) = mesh.pair(h) {
-                let ends = [h, pair].map(|h| mesh.origin(mesh.prev(h)).index());
+                let ends = [h, pair].map(|h| mesh.origin(h.prev()).index());
                 let l = rest(ends);
                 // c at which the spring has the arc's force at the change-over.
                 let c = arc_force(flexural, l, below * l) / (below * l - l);

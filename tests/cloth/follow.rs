@@ -29,7 +29,7 @@ fn expected(mesh: &Mesh, cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
     for h in mesh.edges() {
         add(0, [mesh.origin(h), mesh.target(h)]);
         if let Some(pair) = mesh.pair(h) {
-            add(1, [h, pair].map(|h| mesh.origin(mesh.prev(h))));
+            add(1, [h, pair].map(|h| mesh.origin(h.prev())));
         }
     }
     sets
