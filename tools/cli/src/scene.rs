@@ -18,10 +18,10 @@ pub(crate) use self::method::method_name;
 pub(crate) use self::schema::schema;
 use self::schema::{AXES, NAMES};
 use crate::args::SolverName;
+use crate::exit::{Exit, Stop};
 use crate::input::{Input, cannot_read};
 use crate::say::Fault;
-use crate::session::Stop;
-use crate::{Exit, Streams};
+use crate::streams::Streams;
 
 /// What `--scene` names.
 #[derive(Clone, Debug)]

@@ -18,11 +18,13 @@ use tearmesh_obj::TornDocument;
 
 use self::frames::Frames;
 use crate::args::{TearArgs, cut_name};
+use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::scene::{Source, method_name, threshold};
-use crate::session::{Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, files, report};
+use crate::session::{Clock, Opened, Session};
+use crate::streams::Streams;
+use crate::{files, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {

@@ -15,9 +15,10 @@ use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 
 use crate::args::{TearArgs, Topology};
+use crate::exit::{Exit, Stop};
 use crate::say::Fault;
-use crate::session::{Stop, cannot_write};
-use crate::{Exit, output, report};
+use crate::session::cannot_write;
+use crate::{output, report};
 
 /// How many frames a second.
 pub(super) const RATE_PER_S: f64 = 30.0;
