@@ -14,7 +14,6 @@ use std::path::Path;
 
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
-pub(crate) use self::apply::threshold;
 pub(crate) use self::axes::axis;
 pub(crate) use self::file::SceneFile;
 pub(crate) use self::method::{SolverName, method_name};

@@ -322,15 +322,3 @@ fn other_half(table: &Table) -> &'static str {
     }
     "centre"
 }
-
-/// The threshold that was typed, if any.
-pub(crate) fn threshold(
-    ratio: Option<f64>,
-    toughness_j_per_m: Option<f64>,
-    newtons: Option<f64>,
-) -> Option<Threshold> {
-    ratio
-        .map(Threshold::Stretch)
-        .or(toughness_j_per_m.map(Threshold::Toughness))
-        .or(newtons.map(Threshold::Force))
-}

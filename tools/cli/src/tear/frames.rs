@@ -14,6 +14,7 @@ use tearmesh::{Edit, Edits, Location, Mesh, Point, Positions, VertexId};
 use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 
+use super::points::places;
 use crate::args::{TearArgs, Topology};
 use crate::exit::{Exit, Stop};
 use crate::say::Fault;
@@ -119,7 +120,7 @@ impl Frames {
             return Ok(());
         }
         if self.topology == Topology::Own {
-            let positions = super::places(run)?;
+            let positions = places(run)?;
             // Fans stay together: the number of a copy is that of the vertex born next.
             self.write(self.count, |mut out| {
                 torn.write_unseparated(run.mesh(), &positions, &mut out)
