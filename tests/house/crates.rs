@@ -342,12 +342,16 @@ impl Tree {
             match meaning {
                 Meaning::Item => all.items.push((module, name.to_owned())),
                 Meaning::Module(child) => all.module = Some(*child),
-                Meaning::Import(path) => {
-                    if path.segments[0] == name && path.segments.len() == 1 {
-                        continue; // `use serde;` names a crate.
+                // `use serde;` names a crate, and `use a::a;` an item of the module `a`.
+                Meaning::Import(path) if path.segments[0] == name => {
+                    if let Some(child) = self.child(module, name) {
+                        let rest = &path.segments[1..];
+                        all.items.extend(self.resolve(child, rest, depth + 1).0);
                     }
-                    all.items
-                        .extend(self.resolve(module, &path.segments, depth + 1).0);
+                }
+                Meaning::Import(path) => {
+                    let found = self.resolve(module, &path.segments, depth + 1).0;
+                    all.items.extend(found);
                     let imported = self.module_at(module, &path.segments, depth + 1);
                     all.module = all.module.or(imported);
                 }
@@ -363,6 +367,15 @@ impl Tree {
             }
         }
         all
+    }
+
+    /// The module inside a module.
+    fn child(&self, module: usize, name: &str) -> Option<usize> {
+        let meanings = self.modules[module].names.get(name)?;
+        meanings.iter().find_map(|meaning| match meaning {
+            Meaning::Module(child) => Some(*child),
+            _ => None,
+        })
     }
 
     /// The module that a path names.

@@ -10,14 +10,13 @@ mod growth;
 mod sheet;
 mod splits;
 
-use tearmesh::Point;
 use tearmesh_cloth::{Cloth, Pbd, Solver, Xpbd};
 
-use crate::measure::timed_on_cpu;
+use crate::measure::{median, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 use bullet::{Bullet, Order, Program};
-use sheet::{Net, STEP_S, hanging};
+use sheet::{Net, Run, STEP_S, hanging};
 
 /// The contest on sheets of three sizes, and the tables of ours alone.
 pub(crate) fn run(options: &Options) -> String {
@@ -36,16 +35,6 @@ const STEPS: u32 = 120;
 /// How many times the iterations a long run has, in fewer steps; from the difference comes the time
 /// of a projection alone.
 const LONGER: u32 = 11;
-
-/// Steps of a sheet from rest.
-struct Run {
-    /// CPU time of all steps.
-    seconds: f64,
-    /// Projections of single constraints, in all steps.
-    projections: u64,
-    /// Where the particles are in the end.
-    positions: Vec<Point>,
-}
 
 /// Who steps the sheet.
 struct Contestant<'c> {
@@ -223,10 +212,4 @@ fn tabulated(contestants: &[Contestant<'_>], all: &[Times]) -> String {
         ]));
     }
     table(&lines)
-}
-
-fn median(numbers: &[f64]) -> Option<f64> {
-    let mut sorted = numbers.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied()
 }

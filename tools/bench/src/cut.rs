@@ -5,17 +5,15 @@
 mod facts;
 mod rival;
 mod tables;
+mod ways;
 
-use std::time::Duration;
-
-use tearmesh::{Edits, Mesh, Method, Positions, Scissor};
-
-use crate::irregular;
-use crate::measure::{Contestant, median_seconds, rounds, timed_on_cpu};
+use crate::irregular::{self, Sheet};
+use crate::measure::{Contestant, median_seconds, rounds};
 use crate::options::Options;
 use crate::table::{line, table};
-use facts::Facts;
+use facts::{Facts, mean_edge};
 use rival::{Handover, Rival};
+use ways::{Form, WAYS, time};
 
 /// The contest on a tenth of the faces and on all, and the tables.
 pub(crate) fn run(options: &Options) -> String {
@@ -25,61 +23,6 @@ pub(crate) fn run(options: &Options) -> String {
     });
     format!("{}\n{}", sheets.join("\n"), tables::run(options))
 }
-
-/// A way in which we cut.
-struct Way {
-    name: &'static str,
-    method: Method,
-    snap: f64,
-    form: Form,
-}
-
-/// What is done beside the cut, in or out of the time.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Form {
-    /// Nothing: the mesh is as it was built, so the cut has to move arrays that grow.
-    First,
-    /// There is room in the arrays, as after a cut before, or by `reserve`.
-    Room,
-    /// As built, and a report is made.
-    Report,
-}
-
-impl Form {
-    const fn note(self) -> &'static str {
-        match self {
-            Form::First => "in place; a first cut, so arrays move to grow",
-            Form::Room => "in place; room made before",
-            Form::Report => "as the first, and a report of the whole mesh",
-        }
-    }
-}
-
-const fn way(name: &'static str, method: Method, snap: f64, form: Form) -> Way {
-    Way {
-        name,
-        method,
-        snap,
-        form,
-    }
-}
-
-const WAYS: [Way; 9] = [
-    way("exact, snap 0", Method::Exact, 0.0, Form::First),
-    way("exact, snap 0.05", Method::Exact, 0.05, Form::First),
-    way("partition", Method::Partition, 0.0, Form::First),
-    way("exact, snap 0, room", Method::Exact, 0.0, Form::Room),
-    way("exact, snap 0.05, room", Method::Exact, 0.05, Form::Room),
-    way("partition, room", Method::Partition, 0.0, Form::Room),
-    way("exact, snap 0, report", Method::Exact, 0.0, Form::Report),
-    way(
-        "exact, snap 0.05, report",
-        Method::Exact,
-        0.05,
-        Form::Report,
-    ),
-    way("partition, report", Method::Partition, 0.0, Form::Report),
-];
 
 /// A rival, what it does, and what it took elsewhere for 100,352 and for 1,002,528 faces, in ms.
 struct Elsewhere {
@@ -124,8 +67,6 @@ impl Elsewhere {
         format!("not installed; {ms} ms for {faces} faces on another machine")
     }
 }
-
-type Sheet = (Mesh, Positions);
 
 fn contest(sheet: &Sheet, options: &Options) -> String {
     let (mesh, positions) = sheet;
@@ -219,34 +160,6 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
         table(&speeds),
         table(&looks)
     )
-}
-
-/// How long a cut takes on a copy. The copy, and what becomes of it, are not part of it.
-fn time(scissor: &Scissor, method: Method, form: Form, (mesh, positions): &Sheet) -> Duration {
-    let (mut mesh, mut positions, mut edits) = (mesh.clone(), positions.clone(), Edits::new());
-    if form == Form::Room {
-        let room = mesh.face_count() / 8;
-        mesh.reserve(room);
-        mesh.reserve_faces(room);
-        positions.reserve(room);
-    }
-    let (result, time) = timed_on_cpu(|| match form {
-        Form::First | Form::Room => scissor.cut_only(method, &mut mesh, &mut positions, &mut edits),
-        Form::Report => {
-            let report = scissor.cut(method, &mut mesh, &mut positions, &mut edits);
-            report.map(|report| assert_eq!(report.pieces, 2, "the sheet is in two"))
-        }
-    });
-    result.expect("positions are in step");
-    time
-}
-
-fn mean_edge((mesh, positions): (&Mesh, &Positions)) -> f64 {
-    let ends = mesh
-        .edges()
-        .map(|h| [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v)));
-    let lengths = ends.map(|[p, q]| (q - p).norm());
-    lengths.sum::<f64>() / mesh.edges().count() as f64
 }
 
 fn look_of_ours(name: &str, facts: &Facts, mean_edge: f64) -> Vec<String> {

@@ -2,9 +2,12 @@
 
 use tearmesh::{Mesh, Point, Positions, Ray, Scissor, Vector};
 
+/// A mesh, and where its vertices are.
+pub(crate) type Sheet = (Mesh, Positions);
+
 /// A square sheet over the unit square, of about so many faces, in the order of its rows. On
 /// the border points are even; inside each is off its place by up to 0.4 cells.
-pub(crate) fn sheet(faces: usize) -> (Mesh, Positions) {
+pub(crate) fn sheet(faces: usize) -> Sheet {
     let cells = ((faces as f64 / 2.0).sqrt().round() as usize).max(1);
     let mut random = Random(1);
     let mut flat = Vec::new();

@@ -94,3 +94,10 @@ pub(crate) fn rounds<'c, 'j, J>(
 pub(crate) fn median_seconds(times: &[Duration]) -> Option<f64> {
     Some(times.get(times.len() / 2)?.as_secs_f64())
 }
+
+/// The median of numbers in any order.
+pub(crate) fn median(numbers: &[f64]) -> Option<f64> {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied()
+}

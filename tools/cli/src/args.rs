@@ -7,6 +7,9 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use tearmesh::Point;
 
+use crate::say::Color;
+use crate::scene::SolverName;
+
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
 #[command(name = "tearmesh", version, disable_help_subcommand = true)]
@@ -444,16 +447,6 @@ impl Tips {
     }
 }
 
-/// A method of simulation, as it is typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SolverName {
-    Provot,
-    Pbd,
-    Verlet,
-    Xpbd,
-    Implicit,
-}
-
 /// Whose faces a frame has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Topology {
@@ -474,14 +467,6 @@ pub(crate) enum Format {
     #[default]
     Text,
     Json,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Color {
-    #[default]
-    Auto,
-    Always,
-    Never,
 }
 
 /// Makes one argument of `--rays A B`, so that a negative number is no option, and an option is

@@ -6,10 +6,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget};
 use tearmesh_lab::tear;
 
 use crate::args::{ChartArgs, What};
+use crate::exit::Exit;
 use crate::interrupt::Guard;
+use crate::output;
 use crate::say::{Fault, Screen, is_colored};
 use crate::session::cannot_write;
-use crate::{Exit, Streams, output};
+use crate::streams::Streams;
 
 /// Makes the experiment, draws it, and gives the exit status.
 pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {

@@ -6,10 +6,12 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::args::{CheckArgs, Format};
+use crate::defects;
+use crate::exit::Exit;
 use crate::input::Input;
 use crate::report::{Entry, File};
 use crate::say::{Fault, Screen, Severity, count, is_colored};
-use crate::{Exit, Streams, defects};
+use crate::streams::Streams;
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {

@@ -11,10 +11,12 @@ use tearmesh_obj::{Repair, TornDocument};
 
 use self::scissors::{no_plane, warn_of_skew};
 use crate::args::{CutArgs, Mass, Method, Tips};
+use crate::exit::{Exit, Stop};
 use crate::rays::Pair;
 use crate::say::Fault;
-use crate::session::{self, Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, files, report};
+use crate::session::{self, Clock, Opened, Session};
+use crate::streams::Streams;
+use crate::{files, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use tearmesh::{Ledger, Mesh};
 
 use crate::args::{FileArgs, Format};
+use crate::exit::{Exit, Stop};
+use crate::output;
 use crate::say::{Fault, short};
-use crate::session::Stop;
-use crate::{Exit, output};
 
 /// Where the mesh goes.
 pub(crate) enum Destination {

@@ -6,7 +6,8 @@
 //! `mend`, `check` and `chart` carry out the verbs, `session` is what the first three have in
 //! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `say` puts
 //! diagnostics on a screen, `output` writes files whole or not at all, `files` says where, `bug`
-//! writes a reproducer when an invariant broke.
+//! writes a reproducer when an invariant broke, `streams` is what a run reads and writes, and `exit`
+//! how it ends.
 
 mod args;
 mod bug;
@@ -14,6 +15,7 @@ mod chart;
 mod check;
 mod cut;
 mod defects;
+mod exit;
 mod files;
 mod input;
 mod interrupt;
@@ -24,67 +26,19 @@ mod report;
 mod say;
 mod scene;
 mod session;
+mod streams;
 mod tear;
 
 use std::ffi::OsString;
-use std::io::{Read, Write};
-use std::process::ExitCode;
 
 use clap::Parser as _;
 
+pub use exit::Exit;
 pub use interrupt::interrupt;
 pub use output::abandon as abandon_output;
+pub use streams::Streams;
 
 use args::{Args, Verb};
-
-/// Where the command reads and writes.
-pub struct Streams<'a> {
-    /// Standard input, read where the input is named `-`.
-    pub input: &'a mut dyn Read,
-    /// Standard output: the summary, the JSON report, or the mesh.
-    pub output: &'a mut dyn Write,
-    /// Standard error: warnings and errors, and words when the mesh is on standard output.
-    pub error: &'a mut dyn Write,
-    /// Whether standard output is a terminal, which is no place for a mesh.
-    pub output_is_terminal: bool,
-    /// Whether standard error is a terminal, which shows colours.
-    pub error_is_terminal: bool,
-}
-
-impl std::fmt::Debug for Streams<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Streams").finish_non_exhaustive()
-    }
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exit {
-    /// Done.
-    Done = 0,
-    /// Nothing was cut or mended; for `check`, some file failed.
-    NothingCut = 1,
-    /// The arguments make no sense.
-    Usage = 2,
-    /// The input cannot be read, or is no valid mesh.
-    Input = 3,
-    /// The rays span no plane.
-    NoPlane = 4,
-    /// The simulation failed; its state up to there was kept.
-    Simulation = 5,
-    /// An invariant broke inside tearmesh: our bug.
-    Bug = 6,
-    /// The output cannot be written.
-    Output = 7,
-    /// Interrupted, after saving what was done.
-    Interrupted = 130,
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> ExitCode {
-        ExitCode::from(exit as u8)
-    }
-}
 
 /// Runs the command with these arguments, the first of which is the program's name.
 pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -> Exit {

@@ -8,9 +8,11 @@ use tearmesh::{Edits, Masses, Mesh, Positions};
 use tearmesh_obj::{Document, TornDocument};
 
 use crate::args::MendArgs;
+use crate::exit::{Exit, Stop};
 use crate::say::{Fault, count};
-use crate::session::{self, Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, files, report};
+use crate::session::{self, Clock, Opened, Session};
+use crate::streams::Streams;
+use crate::{files, report};
 
 /// Mends, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {

@@ -4,9 +4,8 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use clap::ValueEnum;
 use tearmesh_obj::{Diagnostic, Level as ObjLevel};
-
-use crate::args::Color;
 
 /// Something that has to be said: an error, a warning or a note.
 #[derive(Clone, Debug, Default)]
@@ -190,6 +189,15 @@ impl Screen<'_> {
     pub(crate) fn show(&mut self, fault: &Fault) -> io::Result<()> {
         writeln!(self.error, "{}", fault.render(self.colored))
     }
+}
+
+/// When to use colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Color {
+    #[default]
+    Auto,
+    Always,
+    Never,
 }
 
 /// Whether to use colours, by the option, the environment, and the kind of stream.

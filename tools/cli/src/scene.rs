@@ -1,10 +1,12 @@
 //! Scenes: those that stand ready, and scene files.
 
 mod apply;
+mod axes;
 mod fabric;
 mod file;
 mod method;
 mod read;
+mod ready;
 mod schema;
 
 use std::io::Read as _;
@@ -12,16 +14,15 @@ use std::path::Path;
 
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
-pub(crate) use self::apply::threshold;
+pub(crate) use self::axes::axis;
 pub(crate) use self::file::SceneFile;
-pub(crate) use self::method::method_name;
+pub(crate) use self::method::{SolverName, method_name};
+use self::ready::{NAMES, base};
 pub(crate) use self::schema::schema;
-use self::schema::{AXES, NAMES};
-use crate::args::SolverName;
+use crate::exit::{Exit, Stop};
 use crate::input::{Input, cannot_read};
 use crate::say::Fault;
-use crate::session::Stop;
-use crate::{Exit, Streams};
+use crate::streams::Streams;
 
 /// What `--scene` names.
 #[derive(Clone, Debug)]
@@ -118,31 +119,6 @@ impl Source {
         }
         Ok(scene)
     }
-}
-
-fn base(name: &str, frame: &Frame) -> Scene {
-    match name {
-        "hang" => Scene::hang(frame),
-        "flag" => Scene::flag(frame),
-        "rip" => Scene::rip(frame),
-        "trouser" => Scene::trouser(frame),
-        _ => Scene::fall(frame.up),
-    }
-}
-
-/// Reads an axis.
-pub(crate) fn axis(text: &str) -> Result<Axis, String> {
-    let axis = match text.trim_start_matches('-') {
-        "x" => Axis::X,
-        "y" => Axis::Y,
-        "z" => Axis::Z,
-        _ => return Err(format!("expected one of {}", AXES.join(", "))),
-    };
-    Ok(match text.len() {
-        1 => axis,
-        2 => axis.opposite(),
-        _ => return Err(format!("expected one of {}", AXES.join(", "))),
-    })
 }
 
 #[cfg(test)]

@@ -10,26 +10,13 @@ use tearmesh::{Ledger, MassError, Masses, Mesh, Point, Positions};
 use tearmesh_obj::{Document, Repair, WriteSummary};
 
 use crate::args::{FileArgs, Format};
+use crate::exit::{Exit, Stop};
 use crate::files::Destination;
 use crate::input::Input;
 use crate::report::{self, Entry, Report};
 use crate::say::{Fault, Screen, Severity, count, is_colored};
-use crate::{Exit, Streams, bug, defects, files, output};
-
-/// A run that ended early, and what has to be said about it.
-pub(crate) struct Stop {
-    pub(crate) exit: Exit,
-    pub(crate) faults: Vec<Fault>,
-}
-
-impl Stop {
-    pub(crate) fn new(exit: Exit, fault: Fault) -> Stop {
-        Stop {
-            exit,
-            faults: vec![fault],
-        }
-    }
-}
+use crate::streams::Streams;
+use crate::{bug, defects, files, output};
 
 /// A run in progress, and all that will be said about it.
 pub(crate) struct Session<'a> {

@@ -2,6 +2,7 @@
 
 mod check;
 mod frames;
+mod points;
 mod strength;
 mod times;
 mod words;
@@ -11,18 +12,20 @@ use std::io::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tearmesh::{Positions, Scissor};
+use tearmesh::Scissor;
 use tearmesh_cloth::scene::{CutMade, Frame, Run, Scene, TimedCut};
-use tearmesh_cloth::{StepError, Tearing};
+use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::TornDocument;
 
 use self::frames::Frames;
+use self::points::places;
 use crate::args::{TearArgs, cut_name};
+use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
-use crate::say::Fault;
-use crate::scene::{Source, method_name, threshold};
-use crate::session::{Clock, Opened, Session, Stop};
-use crate::{Exit, Streams, files, report};
+use crate::scene::{Source, method_name};
+use crate::session::{Clock, Opened, Session};
+use crate::streams::Streams;
+use crate::{files, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -79,6 +82,18 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
     if !cuts.is_empty() {
         scene.cuts = cuts;
     }
+}
+
+/// The threshold that was typed, if any.
+fn threshold(
+    ratio: Option<f64>,
+    toughness_j_per_m: Option<f64>,
+    newtons: Option<f64>,
+) -> Option<Threshold> {
+    ratio
+        .map(Threshold::Stretch)
+        .or(toughness_j_per_m.map(Threshold::Toughness))
+        .or(newtons.map(Threshold::Force))
 }
 
 /// A scene that is about to be played.
@@ -280,13 +295,4 @@ impl Play<'_> {
             Err(_) => bar, // Its own style does as well.
         }
     }
-}
-
-/// Where the vertices are.
-fn places(run: &Run) -> Result<Positions, Stop> {
-    let points = run.cloth().positions().iter().copied();
-    Positions::new(points).map_err(|error| {
-        let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
-        Stop::new(Exit::Simulation, fault)
-    })
 }

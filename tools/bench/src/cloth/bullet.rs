@@ -9,8 +9,7 @@ use std::process::{Command, Output, Stdio};
 use tearmesh::Point;
 use tearmesh_cloth::System;
 
-use super::Run;
-use super::sheet::{GRAVITY_M_PER_S2, STEP_S};
+use super::sheet::{GRAVITY_M_PER_S2, Run, STEP_S};
 use crate::process::Process;
 
 /// The program, compiled against the library that is installed. Removed in the end.

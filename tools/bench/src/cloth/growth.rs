@@ -4,9 +4,8 @@ use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::{Cloth, ImplicitCloth, Pbd, Solver, Verlet, Xpbd};
 
 use super::bullet::{Bullet, Order, Program};
-use super::median;
 use super::sheet::{STEP_S, hanging};
-use crate::measure::timed_on_cpu;
+use crate::measure::{median, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 

@@ -30,6 +30,16 @@ pub(super) fn hanging(n: u32) -> (Mesh, Cloth) {
     (mesh, cloth)
 }
 
+/// Steps of a sheet from rest.
+pub(super) struct Run {
+    /// CPU time of all steps.
+    pub(super) seconds: f64,
+    /// Projections of single constraints, in all steps.
+    pub(super) projections: u64,
+    /// Where the particles are in the end.
+    pub(super) positions: Vec<Point>,
+}
+
 /// The constraints: ends and rest lengths.
 pub(super) struct Net(Vec<([usize; 2], f64)>);
 

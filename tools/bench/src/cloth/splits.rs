@@ -3,9 +3,8 @@
 use tearmesh::{Edits, Mesh, VertexId, split};
 use tearmesh_cloth::{Cloth, Pbd, Solver, Verlet, Xpbd};
 
-use super::median;
 use super::sheet::{STEP_S, hanging};
-use crate::measure::timed_on_cpu;
+use crate::measure::{median, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 

@@ -47,7 +47,7 @@ impl Facts {
         let mut growth: ExactSum = areas(&mesh, &positions).collect();
         growth.extend(areas(before.0, before.1).map(|area| -area));
         let off = |h| (texture[h] - corner(&mesh, &positions, h)).norm();
-        let mean_edge = super::mean_edge(before);
+        let mean_edge = mean_edge(before);
         let children = altitudes(before, &positions, &edits);
         let divided = report.pieces == report.pieces_expected
             && !is_a_piece_on_both_sides(scissor, &mesh, &positions, 5.0 * mean_edge);
@@ -94,6 +94,15 @@ fn areas(mesh: &Mesh, positions: &Positions) -> impl Iterator<Item = f64> {
         let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
         (b - a).cross(&(c - a)).norm() / 2.0
     })
+}
+
+/// The mean length of an edge.
+pub(super) fn mean_edge((mesh, positions): (&Mesh, &Positions)) -> f64 {
+    let ends = mesh
+        .edges()
+        .map(|h| [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v)));
+    let lengths = ends.map(|[p, q]| (q - p).norm());
+    lengths.sum::<f64>() / mesh.edges().count() as f64
 }
 
 /// Counts half-edges of the seam, by their ends alone.

@@ -5,8 +5,8 @@
 use tearmesh::Method;
 
 use super::facts::Facts;
-use super::{Form, Sheet, time};
-use crate::irregular::{self, Random};
+use super::ways::{Form, time};
+use crate::irregular::{self, Random, Sheet};
 use crate::options::Options;
 use crate::table::{line, table};
 

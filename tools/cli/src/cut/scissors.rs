@@ -5,11 +5,11 @@ use std::io::Read as _;
 use tearmesh::{Scissor, ScissorError};
 
 use crate::args::CutArgs;
+use crate::exit::{Exit, Stop};
 use crate::input::{Input, cannot_read};
 use crate::rays::{self, Pair};
 use crate::say::{Fault, short};
-use crate::session::Stop;
-use crate::{Exit, Streams};
+use crate::streams::Streams;
 
 /// The rays that were given, two for each cut.
 pub(super) fn pairs(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Pair>, Stop> {

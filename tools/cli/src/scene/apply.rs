@@ -7,14 +7,17 @@ use tearmesh::{Plane, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Breeze, Frame, Hold, Region, Scene, TimedCut};
 use tearmesh_cloth::{Collider, Tearing, Threshold, Wind};
 
+use super::axes::axis;
 use super::file::{Content, SceneFile, Table};
-use crate::args::{Method as CutMethod, SolverName};
+use super::method::SolverName;
+use super::ready::base;
+use crate::args::Method as CutMethod;
 use crate::say::Fault;
 
 impl SceneFile {
     pub(super) fn up(&self) -> Axis {
         let up = self.first("").and_then(|top| top.word("up"));
-        up.and_then(|up| super::axis(up).ok()).unwrap_or(Axis::Y)
+        up.and_then(|up| axis(up).ok()).unwrap_or(Axis::Y)
     }
 
     /// The scene for a mesh with this frame, or all that is wrong.
@@ -24,7 +27,7 @@ impl SceneFile {
         solver: Option<SolverName>,
     ) -> Result<Scene, Vec<Fault>> {
         let top = self.first("").and_then(|top| top.word("base"));
-        let mut scene = super::base(top.unwrap_or("fall"), frame);
+        let mut scene = base(top.unwrap_or("fall"), frame);
         let mut faults = Vec::new();
         self.world(&mut scene, frame);
         self.solver(&mut scene, solver, &mut faults);
@@ -318,16 +321,4 @@ fn other_half(table: &Table) -> &'static str {
         }
     }
     "centre"
-}
-
-/// The threshold that was typed, if any.
-pub(crate) fn threshold(
-    ratio: Option<f64>,
-    toughness_j_per_m: Option<f64>,
-    newtons: Option<f64>,
-) -> Option<Threshold> {
-    ratio
-        .map(Threshold::Stretch)
-        .or(toughness_j_per_m.map(Threshold::Toughness))
-        .or(newtons.map(Threshold::Force))
 }

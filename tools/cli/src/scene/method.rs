@@ -1,12 +1,11 @@
 //! What `[solver]` says, and the methods with their defaults.
 
-use clap::ValueEnum as _;
+use clap::ValueEnum;
 use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::scene::{Method, Scene};
 use tearmesh_cloth::{Limiter, Pbd, Xpbd};
 
 use super::file::{SceneFile, Table};
-use crate::args::SolverName;
 use crate::say::Fault;
 
 impl SceneFile {
@@ -91,10 +90,20 @@ fn set_implicit(table: &Table, settings: &mut Settings) {
     }
 }
 
+/// A method of simulation, as it is typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SolverName {
+    Provot,
+    Pbd,
+    Verlet,
+    Xpbd,
+    Implicit,
+}
+
 impl SolverName {
     /// The method with its default settings. Of XPBD a step is one sweep, so that tears are looked
     /// for after each; the implicit method may err by 0.2 mm/s in a step of 1/240 s.
-    pub(crate) fn method(self) -> Method {
+    pub(super) fn method(self) -> Method {
         match self {
             SolverName::Provot => Method::Provot(Limiter::default()),
             SolverName::Pbd => Method::Pbd(Pbd::default()),

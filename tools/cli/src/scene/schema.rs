@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::axes::AXES;
+use super::ready::NAMES;
+
 /// A key of a scene file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Key {
@@ -77,12 +80,6 @@ const fn key(table: &'static str, name: &'static str, kind: Kind, about: &'stati
         about,
     }
 }
-
-/// The scenes that stand ready; a scene file can start from each.
-pub(crate) const NAMES: [&str; 5] = ["hang", "flag", "rip", "trouser", "fall"];
-
-/// The axes, as they are typed.
-pub(crate) const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
 /// The tables that may stand more than once, as in `[[hold]]`.
 pub(crate) const LISTS: [&str; 4] = ["collider", "hold", "cut", "strength"];

@@ -7,13 +7,13 @@ use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{ClothError, TearingError, Threshold};
 
 use super::words::two_digits;
-use crate::Exit;
 use crate::args::TearArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
+use crate::exit::{Exit, Stop};
 use crate::rays;
 use crate::say::{Fault, count, short};
 use crate::scene::Source;
-use crate::session::{Opened, Stop};
+use crate::session::Opened;
 
 /// Refuses numbers out of range, and streams that are wanted twice.
 pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {

@@ -14,10 +14,12 @@ use tearmesh::{Edit, Edits, Location, Mesh, Point, Positions, VertexId};
 use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 
+use super::points::places;
 use crate::args::{TearArgs, Topology};
+use crate::exit::{Exit, Stop};
 use crate::say::Fault;
-use crate::session::{Stop, cannot_write};
-use crate::{Exit, output, report};
+use crate::session::cannot_write;
+use crate::{output, report};
 
 /// How many frames a second.
 pub(super) const RATE_PER_S: f64 = 30.0;
@@ -118,7 +120,7 @@ impl Frames {
             return Ok(());
         }
         if self.topology == Topology::Own {
-            let positions = super::places(run)?;
+            let positions = places(run)?;
             // Fans stay together: the number of a copy is that of the vertex born next.
             self.write(self.count, |mut out| {
                 torn.write_unseparated(run.mesh(), &positions, &mut out)

@@ -3,10 +3,10 @@
 use std::io::Read as _;
 use std::path::Path;
 
+use crate::exit::{Exit, Stop};
 use crate::input::{Input, cannot_read};
 use crate::say::{Excerpt, Fault};
-use crate::session::Stop;
-use crate::{Exit, Streams};
+use crate::streams::Streams;
 
 /// Reads the strengths of so many vertices; those that are not named have 1.
 pub(super) fn read(

@@ -1,0 +1,88 @@
+//! The ways in which we cut, and how long one takes.
+
+use std::time::Duration;
+
+use tearmesh::{Edits, Method, Scissor};
+
+use crate::irregular::Sheet;
+use crate::measure::timed_on_cpu;
+
+/// A way in which we cut.
+pub(super) struct Way {
+    pub(super) name: &'static str,
+    pub(super) method: Method,
+    pub(super) snap: f64,
+    pub(super) form: Form,
+}
+
+/// What is done beside the cut, in or out of the time.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Nothing: the mesh is as it was built, so the cut has to move arrays that grow.
+    First,
+    /// There is room in the arrays, as after a cut before, or by `reserve`.
+    Room,
+    /// As built, and a report is made.
+    Report,
+}
+
+impl Form {
+    pub(super) const fn note(self) -> &'static str {
+        match self {
+            Form::First => "in place; a first cut, so arrays move to grow",
+            Form::Room => "in place; room made before",
+            Form::Report => "as the first, and a report of the whole mesh",
+        }
+    }
+}
+
+const fn way(name: &'static str, method: Method, snap: f64, form: Form) -> Way {
+    Way {
+        name,
+        method,
+        snap,
+        form,
+    }
+}
+
+pub(super) const WAYS: [Way; 9] = [
+    way("exact, snap 0", Method::Exact, 0.0, Form::First),
+    way("exact, snap 0.05", Method::Exact, 0.05, Form::First),
+    way("partition", Method::Partition, 0.0, Form::First),
+    way("exact, snap 0, room", Method::Exact, 0.0, Form::Room),
+    way("exact, snap 0.05, room", Method::Exact, 0.05, Form::Room),
+    way("partition, room", Method::Partition, 0.0, Form::Room),
+    way("exact, snap 0, report", Method::Exact, 0.0, Form::Report),
+    way(
+        "exact, snap 0.05, report",
+        Method::Exact,
+        0.05,
+        Form::Report,
+    ),
+    way("partition, report", Method::Partition, 0.0, Form::Report),
+];
+
+/// How long a cut takes on a copy. The copy, and what becomes of it, are not part of it.
+pub(super) fn time(
+    scissor: &Scissor,
+    method: Method,
+    form: Form,
+    (mesh, positions): &Sheet,
+) -> Duration {
+    let (mut mesh, mut positions, mut edits) = (mesh.clone(), positions.clone(), Edits::new());
+    if form == Form::Room {
+        let room = mesh.face_count() / 8;
+        mesh.reserve(room);
+        mesh.reserve_faces(room);
+        positions.reserve(room);
+    }
+    let (result, time) = timed_on_cpu(|| match form {
+        Form::First | Form::Room => scissor.cut_only(method, &mut mesh, &mut positions, &mut edits),
+        Form::Report => {
+            let report = scissor.cut(method, &mut mesh, &mut positions, &mut edits);
+            report.map(|report| assert_eq!(report.pieces, 2, "the sheet is in two"))
+        }
+    });
+    result.expect("positions are in step");
+    time
+}
