@@ -34,8 +34,9 @@ use self::record::RecordReader;
 use self::scan::Scan;
 use self::usual::Widths;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
-use crate::document::{Document, Polygons};
+use crate::document::Document;
 use crate::opening::{MARK, Opening};
+use crate::polygons::Polygons;
 use crate::store::{Column, Kind, Rows, push};
 use crate::triangulate::Triangulation;
 
