@@ -12,6 +12,7 @@ mod face;
 mod fault;
 mod foreign;
 mod forward;
+mod line;
 mod lines;
 mod record;
 mod scan;
@@ -26,10 +27,11 @@ use std::io::Read;
 use tearmesh::{COORDINATE_MAX, Mesh, Point};
 
 use self::face::Element;
-use self::fault::{Fault, Parsed, quoted, refuse};
+use self::fault::{Fault, Parsed, refuse};
 use self::foreign::{Tally, binary};
 use self::forward::{Forward, beyond};
-use self::lines::{Line, Lines};
+use self::line::{Line, quoted};
+use self::lines::Lines;
 use self::record::RecordReader;
 use self::scan::Scan;
 use self::usual::Widths;
@@ -397,7 +399,6 @@ fn textual(fault: Box<Fault>, line: &Line<'_>) -> Box<Fault> {
 
 #[cfg(test)]
 mod tests {
-    use super::fault::locate;
     use super::*;
 
     #[test]
@@ -413,16 +414,5 @@ mod tests {
             "line 4, column 1: the file has more than 3 vertices"
         );
         assert_eq!(error.diagnostic().map(|d| d.code), Some("E-OBJ-LIMIT"));
-    }
-
-    #[test]
-    fn the_place_of_a_fault_is_that_in_its_physical_line() {
-        let line = Line {
-            bytes: b"f 1 \\\n  \xc3\xa9\xff 2",
-            number: 7,
-        };
-        let (location, excerpt) = locate(&line, &(11..12));
-        assert_eq!(location, Location { line: 8, column: 5 });
-        assert_eq!((&excerpt.text[..], excerpt.length), ("  é\u{fffd} 2", 1));
     }
 }

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use tearmesh::Mesh;
 
-use super::fault::{Fault, Parsed, quoted};
-use super::lines::Line;
+use super::fault::{Fault, Parsed};
+use super::line::{Line, quoted};
 use super::scan::Scan;
 use super::{Reader, limit};
 use crate::store::{Kind, push};

@@ -3,8 +3,9 @@
 use super::Reader;
 use super::face::Element;
 use super::face::absolute;
-use super::fault::{Fault, Parsed, locate, quoted};
-use super::lines::{Line, logical_line_length};
+use super::fault::{Fault, Parsed};
+use super::line::{Line, locate, quoted};
+use super::lines::logical_line_length;
 use super::scan::Scan;
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location};
 use crate::keyword::{Class, is_said_of_vertex, tokens_before_indices};
