@@ -145,6 +145,7 @@
 //! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again |
 //! | `record.rs` | what is on record, and the checksum |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
+//! | `simplify.rs` | a document without what can be taken out again |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
 //! Bytes come in and go out: opening files, replacing them as a whole, and rendering diagnostics
@@ -162,6 +163,7 @@ mod read;
 mod record;
 mod repair;
 mod said;
+mod simplify;
 mod store;
 mod torn;
 mod triangulate;

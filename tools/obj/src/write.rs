@@ -90,6 +90,53 @@ impl Document {
     }
 }
 
+impl TornDocument<'_> {
+    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it
+    /// is torn or was divided, with a record of that at the end.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
+    /// position for each vertex.
+    pub fn write(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        write(self, &Prepared::new(self, mesh, None), positions, out)
+    }
+
+    /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh.
+    ///
+    /// A vertex keeps its number in whatever is written later, and new ones get numbers that no
+    /// file had before: for pictures of a mesh as it tears. A vertex with several fans is one here,
+    /// which other programs may take for a defect; [`Document::mesh`] knows from the record that it
+    /// was torn.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// As [`TornDocument::write`].
+    pub fn write_unseparated(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        write(self, &Prepared::unseparated(self, mesh), positions, out)
+    }
+}
+
 /// Writes what was prepared.
 pub(crate) fn write(
     torn: &TornDocument<'_>,
