@@ -3,8 +3,9 @@
 use tearmesh::Point;
 
 use crate::diagnostic::Diagnostic;
+use crate::polygons::{Corner, Polygons};
 use crate::record::Record;
-use crate::store::{Column, Layout, Rows, push};
+use crate::store::{Layout, Rows};
 use crate::triangulate::Triangulation;
 
 /// An OBJ file in memory: its numbers bit for bit, its faces as they were and as triangles, and
@@ -29,28 +30,6 @@ pub struct Document {
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// What makes the mesh a torn one; all polygons are triangles then.
     pub(crate) record: Option<Box<Record>>,
-}
-
-/// The faces as the file has them, corner by corner.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Polygons {
-    /// The vertex of each corner.
-    pub(crate) vertices: Vec<u32>,
-    pub(crate) texture: Column,
-    pub(crate) normals: Column,
-    /// The first corner of each polygon.
-    pub(crate) starts: Vec<u32>,
-}
-
-/// What a corner of a face refers to, counted from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Corner {
-    /// The vertex, a `v`.
-    pub vertex: u32,
-    /// The texture coordinate, a `vt`.
-    pub texture: Option<u32>,
-    /// The normal, a `vn`.
-    pub normal: Option<u32>,
 }
 
 impl Document {
@@ -207,72 +186,5 @@ impl Document {
             }
             None => 3 * triangle + corner,
         }
-    }
-}
-
-impl Polygons {
-    #[inline]
-    pub(crate) fn len(&self) -> usize {
-        self.starts.len()
-    }
-
-    /// The corners of a polygon.
-    #[inline]
-    pub(crate) fn corners(&self, polygon: usize) -> std::ops::Range<usize> {
-        let end = self
-            .starts
-            .get(polygon + 1)
-            .map_or(self.vertices.len(), |&end| end as usize);
-        self.starts[polygon] as usize..end
-    }
-
-    #[inline]
-    pub(crate) fn corner(&self, corner: usize) -> Corner {
-        Corner {
-            vertex: self.vertices[corner],
-            texture: self.texture.get(corner),
-            normal: self.normals.get(corner),
-        }
-    }
-
-    /// The triangles of a polygon: a polygon of n corners has n − 2, so the corners before
-    /// it say how many come before.
-    #[inline]
-    pub(crate) fn triangles(&self, polygon: usize) -> std::ops::Range<usize> {
-        let corners = self.corners(polygon);
-        corners.start - 2 * polygon..corners.end - 2 * (polygon + 1)
-    }
-
-    /// Appends a polygon with these corners.
-    pub(crate) fn add(&mut self, corners: impl Iterator<Item = Corner>) {
-        push(&mut self.starts, self.vertices.len() as u32);
-        for corner in corners {
-            let index = self.vertices.len();
-            push(&mut self.vertices, corner.vertex);
-            if let Some(texture) = corner.texture {
-                self.texture.set(index, texture);
-            }
-            if let Some(normal) = corner.normal {
-                self.normals.set(index, normal);
-            }
-        }
-    }
-
-    fn of_triangle(&self, triangle: usize) -> usize {
-        let (mut low, mut high) = (0, self.len());
-        while high - low > 1 {
-            let middle = low.midpoint(high);
-            if self.triangles(middle).start <= triangle {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        low
-    }
-
-    /// Whether every polygon is a triangle.
-    pub(crate) fn all_triangles(&self) -> bool {
-        self.vertices.len() == 3 * self.len()
     }
 }

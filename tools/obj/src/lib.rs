@@ -135,9 +135,9 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `document.rs`, `store.rs` | the document, and the compact lists it is made of |
-//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, references ahead, what is carried through, faults |
-//! | `triangulate.rs`, `triangulate/flip.rs` | polygons to triangles; diagonals that collide |
+//! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and the compact lists it is made of |
+//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, indices, references ahead, what is carried through, faults |
+//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
@@ -145,6 +145,7 @@
 //! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again |
 //! | `record.rs` | what is on record, and the checksum |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
+//! | `simplify.rs` | a document without what can be taken out again |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
 //! Bytes come in and go out: opening files, replacing them as a whole, and rendering diagnostics
@@ -155,20 +156,23 @@ mod document;
 mod keyword;
 mod mesh;
 mod opening;
+mod polygons;
 #[cfg(feature = "obj-rs")]
 mod raw;
 mod read;
 mod record;
 mod repair;
 mod said;
+mod simplify;
 mod store;
 mod torn;
 mod triangulate;
 mod write;
 
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
-pub use document::{Corner, Document};
+pub use document::Document;
 pub use mesh::MeshError;
+pub use polygons::Corner;
 #[cfg(feature = "obj-rs")]
 pub use raw::{Item, RawObjError};
 pub use repair::Repair;

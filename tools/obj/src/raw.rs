@@ -33,7 +33,8 @@ use obj::raw::object::{Group, Line, Polygon, Range};
 use tearmesh::{Mesh, Point};
 
 use crate::diagnostic::{Diagnostic, Level};
-use crate::document::{Corner, Document};
+use crate::document::Document;
+use crate::polygons::Corner;
 use crate::read::ARITY_MAX;
 use crate::store::{Column, Kind, extend, push};
 

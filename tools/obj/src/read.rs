@@ -12,35 +12,36 @@ mod face;
 mod fault;
 mod foreign;
 mod forward;
+mod index;
+mod line;
 mod lines;
+mod numbers;
+mod reader;
 mod record;
 mod scan;
+mod tally;
+mod text;
 mod usual;
 
 #[cfg(feature = "obj-rs")]
 pub(crate) use self::face::ARITY_MAX;
-pub(crate) use self::foreign::{attached_length, statements};
+pub(crate) use self::text::{attached_length, statements};
 
 use std::io::Read;
 
-use tearmesh::{COORDINATE_MAX, Mesh, Point};
-
-use self::face::Element;
-use self::fault::{Fault, Parsed, quoted, refuse};
-use self::foreign::{Tally, binary};
-use self::forward::{Forward, beyond};
-use self::lines::{Line, Lines};
-use self::record::RecordReader;
+use self::fault::{Fault, Parsed, refuse};
+use self::foreign::binary;
+use self::forward::beyond;
+use self::index::Element;
+use self::line::Line;
+use self::lines::Lines;
+use self::reader::Reader;
 use self::scan::Scan;
-use self::usual::Widths;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
-use crate::document::{Document, Polygons};
+use crate::document::Document;
 use crate::opening::{MARK, Opening};
-use crate::store::{Column, Kind, Rows, push};
+use crate::polygons::Polygons;
 use crate::triangulate::Triangulation;
-
-/// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
-const NUMBERS_MAX: usize = 16;
 
 impl Document {
     /// Reads a file. The input needs no buffer of its own.
@@ -71,16 +72,6 @@ impl Document {
         let last_line = lines.number().saturating_sub(1).max(1);
         reader.finish(last_line as usize)
     }
-}
-
-/// What has been read so far.
-#[derive(Debug, Default)]
-struct Reader {
-    document: Document,
-    forward: [Forward; 3],
-    tally: Tally,
-    record: RecordReader,
-    widths: Widths,
 }
 
 impl Reader {
@@ -130,59 +121,6 @@ impl Reader {
             _ => return self.carry(line, &mut Scan { at: start, ..scan }),
         }
         self.carry_comment(line, &scan)
-    }
-
-    fn vertex(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
-        let start = *scan;
-        let mut numbers = [0.0; NUMBERS_MAX];
-        let count = read_numbers(scan, &mut numbers, 3, "a vertex")?;
-        let [x, y, z, ..] = numbers;
-        let largest = x.abs().max(y.abs()).max(z.abs());
-        if largest > COORDINATE_MAX {
-            return Err(too_large(start, &numbers));
-        }
-        let index = self.document.positions.len();
-        limit(index, Mesh::MAX_VERTICES, "vertices")?;
-        push(&mut self.document.positions, Point::new(x, y, z));
-        if count > 3 {
-            limit(
-                self.document.extras.value_count(),
-                Rows::LIMIT - NUMBERS_MAX,
-                "numbers",
-            )?;
-            self.document.extras.set(index, &numbers[3..count]);
-        }
-        self.document.layout.push(Kind::Vertex, line.number);
-        Ok(())
-    }
-
-    fn texture(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
-        let mut numbers = [0.0; 3];
-        let count = read_numbers(scan, &mut numbers, 1, "a texture coordinate")?;
-        let texture = &mut self.document.texture;
-        limit(texture.value_count(), Rows::LIMIT - NUMBERS_MAX, "numbers")?;
-        texture.set(texture.len(), &numbers[..count]);
-        self.document.layout.push(Kind::Texture, line.number);
-        Ok(())
-    }
-
-    fn normal(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
-        let mut numbers = [0.0; 3];
-        read_numbers(scan, &mut numbers, 3, "a normal")?;
-        limit(self.document.normals.len(), Column::LIMIT, "normals")?;
-        push(&mut self.document.normals, numbers);
-        self.document.layout.push(Kind::Normal, line.number);
-        Ok(())
-    }
-
-    /// How many elements of a kind there are so far.
-    #[inline]
-    fn count(&self, element: Element) -> usize {
-        match element {
-            Element::Vertex => self.document.positions.len(),
-            Element::Texture => self.document.texture.len(),
-            Element::Normal => self.document.normals.len(),
-        }
     }
 
     /// Judges what can be judged only when the whole file is known.
@@ -290,90 +228,6 @@ impl Document {
     }
 }
 
-/// Reads the numbers of a statement, of which there must be `least` and may be as many as there
-/// is room for; how many there are.
-#[inline]
-fn read_numbers<const MOST: usize>(
-    scan: &mut Scan<'_>,
-    numbers: &mut [f64; MOST],
-    least: usize,
-    what: &'static str,
-) -> Parsed<usize> {
-    let start = *scan;
-    let mut count = 0;
-    while scan.find_token() {
-        let Some(slot) = numbers.get_mut(count) else {
-            return Err(too_many_numbers(start, what, MOST));
-        };
-        *slot = scan.number()?;
-        count += 1;
-    }
-    if count < least {
-        Err(too_few_numbers(start, what, count, least))
-    } else {
-        Ok(count)
-    }
-}
-
-#[cold]
-fn too_few_numbers(scan: Scan<'_>, what: &str, count: usize, least: usize) -> Box<Fault> {
-    let end = scan.end_of_tokens();
-    let plural = if least == 1 { "" } else { "s" };
-    let message = format!("{what} needs {least} number{plural}, this one has {count}");
-    Fault::new("E-OBJ-COUNT", end..end, message, "expected another number")
-}
-
-#[cold]
-fn too_many_numbers(scan: Scan<'_>, what: &str, most: usize) -> Box<Fault> {
-    let span = nth_token(scan, most);
-    let message = format!("{what} has at most {most} numbers");
-    Fault::new("E-OBJ-COUNT", span, message, "one too many")
-}
-
-#[cold]
-fn too_large(scan: Scan<'_>, numbers: &[f64; NUMBERS_MAX]) -> Box<Fault> {
-    let at = numbers.iter().position(|x| x.abs() > COORDINATE_MAX);
-    let span = nth_token(scan, at.unwrap_or(0));
-    let text = quoted(&scan.bytes[span.clone()]);
-    let message = format!("the coordinate {text} is too large");
-    Fault::new(
-        "E-OBJ-COORDINATE",
-        span,
-        message,
-        format!("expected at most {COORDINATE_MAX:e}"),
-    )
-    .help("scale the model: computations with larger numbers would overflow")
-}
-
-fn nth_token(mut scan: Scan<'_>, n: usize) -> std::ops::Range<usize> {
-    scan.find_token();
-    for _ in 0..n {
-        scan.at += scan.token().len();
-        scan.find_token();
-    }
-    scan.at..scan.at + scan.token().len()
-}
-
-#[inline]
-fn limit(count: usize, most: usize, what: &str) -> Parsed<()> {
-    if count < most {
-        Ok(())
-    } else {
-        Err(over_limit(most, what))
-    }
-}
-
-#[cold]
-fn over_limit(most: usize, what: &str) -> Box<Fault> {
-    Fault::new(
-        "E-OBJ-LIMIT",
-        0..1,
-        format!("the file has more than {most} {what}"),
-        "one too many",
-    )
-    .help("split the model into several files")
-}
-
 #[cold]
 fn utf16() -> Box<Fault> {
     Fault::new(
@@ -391,37 +245,5 @@ fn textual(fault: Box<Fault>, line: &Line<'_>) -> Box<Fault> {
     match line.bytes.iter().position(|&byte| byte == 0) {
         Some(at) => binary(at, 0),
         None => fault,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::fault::locate;
-    use super::*;
-
-    #[test]
-    fn a_limit_is_the_most_that_is_accepted() {
-        assert!(limit(2, 3, "vertices").is_ok());
-        let fault = limit(3, 3, "vertices").expect_err("over the limit");
-        let error = fault.at(&Line {
-            bytes: b"v 0 0 0",
-            number: 4,
-        });
-        assert_eq!(
-            error.to_string(),
-            "line 4, column 1: the file has more than 3 vertices"
-        );
-        assert_eq!(error.diagnostic().map(|d| d.code), Some("E-OBJ-LIMIT"));
-    }
-
-    #[test]
-    fn the_place_of_a_fault_is_that_in_its_physical_line() {
-        let line = Line {
-            bytes: b"f 1 \\\n  \xc3\xa9\xff 2",
-            number: 7,
-        };
-        let (location, excerpt) = locate(&line, &(11..12));
-        assert_eq!(location, Location { line: 8, column: 5 });
-        assert_eq!((&excerpt.text[..], excerpt.length), ("  é\u{fffd} 2", 1));
     }
 }

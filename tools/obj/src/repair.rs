@@ -24,7 +24,8 @@ use std::collections::BTreeMap;
 use tearmesh::{BuildError, Defect, FaceId, Fans, Mesh, VertexId};
 
 use crate::diagnostic::{Diagnostic, Level, Location};
-use crate::document::{Document, Polygons};
+use crate::document::Document;
+use crate::polygons::Polygons;
 use crate::read::attached_length;
 use crate::said::Said;
 use crate::store::{Kind, Layout, Run, extend, push};

@@ -7,12 +7,12 @@
 
 mod ancestry;
 mod corners;
-mod simplify;
+mod removal;
+mod slots;
 
 pub(crate) use self::ancestry::SplitOff;
-pub(crate) use self::simplify::Removal;
-
-use std::io::{self, Write};
+pub(crate) use self::removal::Removal;
+pub(crate) use self::slots::Slots;
 
 use tearmesh::{
     Blend, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
@@ -24,7 +24,6 @@ use self::corners::Corners;
 use crate::document::Document;
 use crate::record::{At, Inserted, Parent, Record};
 use crate::store::Rows;
-use crate::write::{Prepared, WriteSummary, write};
 
 /// A document and what became of it: a [`Follower`] of the log of its mesh, that writes it.
 ///
@@ -225,52 +224,8 @@ impl<'d> TornDocument<'d> {
         faces.filter_map(|&f| FaceId::new(f as usize)).collect()
     }
 
-    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it
-    /// is torn or was divided, with a record of that at the end.
-    ///
-    /// # Errors
-    ///
-    /// Those of the output.
-    ///
-    /// # Panics
-    ///
-    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
-    /// position for each vertex.
-    pub fn write(
-        &self,
-        mesh: &Mesh,
-        positions: &Positions,
-        out: &mut impl Write,
-    ) -> io::Result<WriteSummary> {
-        self.assert_in_step(mesh, positions);
-        write(self, &Prepared::new(self, mesh, None), positions, out)
-    }
-
-    /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh.
-    ///
-    /// A vertex keeps its number in whatever is written later, and new ones get numbers that no
-    /// file had before: for pictures of a mesh as it tears. A vertex with several fans is one here,
-    /// which other programs may take for a defect; [`Document::mesh`] knows from the record that it
-    /// was torn.
-    ///
-    /// # Errors
-    ///
-    /// Those of the output.
-    ///
-    /// # Panics
-    ///
-    /// As [`TornDocument::write`].
-    pub fn write_unseparated(
-        &self,
-        mesh: &Mesh,
-        positions: &Positions,
-        out: &mut impl Write,
-    ) -> io::Result<WriteSummary> {
-        self.assert_in_step(mesh, positions);
-        write(self, &Prepared::unseparated(self, mesh), positions, out)
-    }
-
-    fn assert_in_step(&self, mesh: &Mesh, positions: &Positions) {
+    /// Panics unless all edits of this mesh were followed, and its vertices have positions.
+    pub(crate) fn assert_in_step(&self, mesh: &Mesh, positions: &Positions) {
         assert_eq!(
             (mesh.vertex_count(), mesh.face_count()),
             (self.vertex_count(), self.face_count()),
@@ -441,30 +396,13 @@ impl Follower for TornDocument<'_> {
     }
 }
 
-/// The faces of a mesh by the triangle of the document where they stand.
-#[derive(Debug)]
-pub(crate) struct Slots {
-    pub(crate) faces: Vec<u32>,
-    starts: Vec<u32>,
-}
-
-impl Slots {
-    /// Where the faces of triangles are in `faces`.
-    pub(crate) fn of(&self, triangles: std::ops::Range<usize>) -> std::ops::Range<usize> {
-        self.starts[triangles.start] as usize..self.starts[triangles.end] as usize
-    }
-}
-
 /// What is known of the faces and vertices, in terms of the mesh.
 impl TornDocument<'_> {
     pub(crate) fn slots(&self) -> Slots {
         let triangles = self.document.triangles().len() as u32;
         match &self.corners {
             Some(corners) => corners.slots(triangles as usize),
-            None => Slots {
-                faces: (0..triangles).collect(),
-                starts: (0..=triangles).collect(),
-            },
+            None => Slots::undivided(triangles),
         }
     }
 

@@ -22,6 +22,7 @@
 //! was written, and writing it again, gives the same bytes.
 
 mod number;
+mod output;
 mod prepare;
 mod record;
 mod separate;
@@ -30,18 +31,16 @@ use std::io::{self, Write};
 
 use tearmesh::{Mesh, Positions};
 
-use self::number::{write_integer, write_number};
+use self::number::write_integer;
+use self::output::Output;
 pub(crate) use self::prepare::Prepared;
+use self::record::write_record;
 use crate::document::Document;
-use crate::opening::Opening;
 use crate::read::attached_length;
 use crate::record::Hash;
 use crate::said;
 use crate::store::{Kind, Run};
 use crate::torn::TornDocument;
-
-/// How many bytes are handed to the output at once.
-const CHUNK: usize = 64 << 10;
 
 /// What was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,6 +89,53 @@ impl Document {
     }
 }
 
+impl TornDocument<'_> {
+    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it
+    /// is torn or was divided, with a record of that at the end.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
+    /// position for each vertex.
+    pub fn write(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        write(self, &Prepared::new(self, mesh, None), positions, out)
+    }
+
+    /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh.
+    ///
+    /// A vertex keeps its number in whatever is written later, and new ones get numbers that no
+    /// file had before: for pictures of a mesh as it tears. A vertex with several fans is one here,
+    /// which other programs may take for a defect; [`Document::mesh`] knows from the record that it
+    /// was torn.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// As [`TornDocument::write`].
+    pub fn write_unseparated(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        write(self, &Prepared::unseparated(self, mesh), positions, out)
+    }
+}
+
 /// Writes what was prepared.
 pub(crate) fn write(
     torn: &TornDocument<'_>,
@@ -108,11 +154,7 @@ pub(crate) fn write(
         normals: Stream::new(Kind::Normal),
         added: [false; 3],
         hash: Hash::of_faces(vertices),
-        out: Output {
-            sink: out,
-            pending: Vec::with_capacity(CHUNK + 4096),
-            has_begun: false,
-        },
+        out: Output::new(out),
     };
     writer.write()?;
     Ok(WriteSummary {
@@ -230,7 +272,7 @@ impl<W: Write> Writer<'_, W> {
                 }
             }
         }
-        self.write_record()?;
+        write_record(self.prepared, self.hash, &mut self.out)?;
         self.out.flush()
     }
 
@@ -434,61 +476,5 @@ fn attached_to(run: Run, lines: &[u8]) -> usize {
     match run.kind {
         Kind::Vertex | Kind::Texture | Kind::Normal => attached_length(lines),
         Kind::Polygon | Kind::Text => 0,
-    }
-}
-
-/// Bytes on their way to the output.
-struct Output<'o, W> {
-    sink: &'o mut W,
-    pending: Vec<u8>,
-    /// Whether the sink has anything.
-    has_begun: bool,
-}
-
-impl<W: Write> Output<'_, W> {
-    fn statement(&mut self, keyword: &[u8], numbers: &[f64], more: &[f64]) -> io::Result<()> {
-        self.pending.extend_from_slice(keyword);
-        for &number in numbers.iter().chain(more) {
-            self.pending.push(b' ');
-            write_number(&mut self.pending, number);
-        }
-        self.pending.push(b'\n');
-        self.flush_if_full()
-    }
-
-    fn text(&mut self, bytes: &[u8]) -> io::Result<()> {
-        if bytes.len() > CHUNK {
-            self.flush()?;
-            return self.send(bytes);
-        }
-        self.pending.extend_from_slice(bytes);
-        self.flush_if_full()
-    }
-
-    #[inline]
-    fn flush_if_full(&mut self) -> io::Result<()> {
-        if self.pending.len() < CHUNK {
-            Ok(())
-        } else {
-            self.flush()
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        let mut pending = std::mem::take(&mut self.pending);
-        self.send(&pending)?;
-        pending.clear();
-        self.pending = pending;
-        Ok(())
-    }
-
-    /// What comes first is kept from being taken for more than text: where it stood, behind what is
-    /// dropped or was moved, it was no more.
-    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        if !self.has_begun && Opening::of(bytes) != Opening::Text {
-            self.sink.write_all(b"\n")?;
-        }
-        self.has_begun |= !bytes.is_empty();
-        self.sink.write_all(bytes)
     }
 }

@@ -53,6 +53,16 @@ impl Expected {
     }
 }
 
+/// How many digits the last words had, which those of the next words are likely to have.
+#[derive(Debug, Default)]
+pub(super) struct Widths {
+    /// Behind the decimal point.
+    pub(super) places: Expected,
+    pub(super) vertex: Expected,
+    pub(super) texture: Expected,
+    pub(super) normal: Expected,
+}
+
 /// Eight bytes of a text, the first one lowest, each without the bits of the digit 0.
 #[derive(Clone, Copy)]
 pub(super) struct Word(u64);

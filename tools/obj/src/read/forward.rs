@@ -11,8 +11,8 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use super::fault::{locate, refuse};
-use super::lines::Line;
+use super::fault::refuse;
+use super::line::{Line, locate};
 use crate::diagnostic::{Excerpt, Location, ReadError};
 
 /// The most bytes of text that are kept.

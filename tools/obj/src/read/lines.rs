@@ -8,6 +8,7 @@
 use std::io::{ErrorKind, Read};
 
 use super::fault::Fault;
+use super::line::Line;
 use crate::diagnostic::ReadError;
 
 /// How much is asked of the input at once.
@@ -16,14 +17,6 @@ const CHUNK: usize = 64 << 10;
 /// The most bytes of a logical line. Real lines of some megabytes exist (a whole curve
 /// in one statement); 64 MiB is the memory that even the smallest file may use.
 pub(super) const LINE_MAX: usize = 64 << 20;
-
-/// A logical line without its end; it holds the line ends of continued lines.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Line<'b> {
-    pub(super) bytes: &'b [u8],
-    /// The number of its first physical line, from 1.
-    pub(super) number: u32,
-}
 
 /// The source of logical lines.
 #[derive(Debug)]

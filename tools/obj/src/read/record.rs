@@ -3,8 +3,8 @@
 //! A record that is damaged, of a later version, or of other faces than the file has is left
 //! out with a warning, and the file read as one without.
 
-use super::fault::{Fault, Parsed, locate, quoted};
-use super::lines::Line;
+use super::fault::{Fault, Parsed};
+use super::line::{Line, locate, quoted};
 use super::scan::Scan;
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 use crate::document::Document;

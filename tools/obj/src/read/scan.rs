@@ -1,7 +1,8 @@
 //! A cursor over a logical line: blanks, tokens, numbers, indices.
 
 use super::decimal::{digits, nearest};
-use super::fault::{Fault, Parsed, quoted};
+use super::fault::{Fault, Parsed};
+use super::line::quoted;
 
 /// A cursor over a logical line.
 #[derive(Clone, Copy, Debug)]

@@ -11,9 +11,10 @@
 
 use tearmesh::{COORDINATE_MAX, Mesh, Point};
 
-use super::decimal::{Expected, Word, digits, many_digits, nearest};
+use super::decimal::{Expected, Widths, Word, digits, many_digits, nearest};
 use super::face::repeated;
-use super::{NUMBERS_MAX, Reader};
+use super::numbers::NUMBERS_MAX;
+use super::reader::Reader;
 use crate::store::{Column, Kind, Rows, extend, push};
 
 /// The most corners of a usual face.
@@ -168,16 +169,6 @@ impl Reader {
         push(&mut polygons.starts, first as u32);
         Some(())
     }
-}
-
-/// How many digits the last words had, which those of the next words are likely to have.
-#[derive(Debug, Default)]
-pub(super) struct Widths {
-    /// Behind the decimal point.
-    places: Expected,
-    vertex: Expected,
-    texture: Expected,
-    normal: Expected,
 }
 
 /// The corners of a usual face, counted from 0.

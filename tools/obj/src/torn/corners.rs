@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use tearmesh::{Blend, Child, HalfEdgeId, Insert, Slide, Source, VertexId};
 
-use super::Slots;
+use super::slots::Slots;
 use crate::document::Document;
 use crate::record::Parent;
 use crate::store::Rows;
@@ -72,20 +72,7 @@ impl<'d> Corners<'d> {
     }
 
     pub(super) fn slots(&self, triangles: usize) -> Slots {
-        let mut starts = vec![0_u32; triangles + 1];
-        for &slot in &self.slots {
-            starts[slot as usize + 1] += 1;
-        }
-        for i in 0..triangles {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut faces = vec![0; self.slots.len()];
-        for (face, &slot) in self.slots.iter().enumerate() {
-            faces[next[slot as usize] as usize] = face as u32;
-            next[slot as usize] += 1;
-        }
-        Slots { faces, starts }
+        Slots::sorted(&self.slots, triangles)
     }
 
     /// Follows an insertion; `class` is that of each vertex, the inserted ones included.

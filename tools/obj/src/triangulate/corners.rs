@@ -1,6 +1,8 @@
 //! Which corners of its polygon each triangle has.
 
-use crate::document::Polygons;
+use std::ops::Range;
+
+use crate::polygons::Polygons;
 
 /// For each corner of a triangle, which corner of its polygon it is: in a byte where no polygon
 /// has more than 256, as is nearly always so.
@@ -58,6 +60,13 @@ impl Corners {
             Corners::Narrow(all) => all[triangle].map(u16::from),
             Corners::Wide(all) => all[triangle],
         }
+    }
+
+    /// The corners of a polygon that its triangles have.
+    #[inline]
+    pub(super) fn of_polygon(&self, triangles: Range<usize>) -> impl Iterator<Item = [u16; 3]> {
+        let nth_triangles = triangles.enumerate();
+        nth_triangles.map(|(nth, triangle)| self.get(triangle, nth))
     }
 
     /// Gives a triangle other corners; where all are fans, it stays one of a fan.

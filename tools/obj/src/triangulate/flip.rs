@@ -13,34 +13,36 @@ use std::collections::BTreeMap;
 
 use tearmesh::Point;
 
-use super::{Triangulation, doubled_area, flatten};
-use crate::document::Polygons;
+use super::corners::Corners;
+use super::ears::{doubled_area, flatten};
+use crate::polygons::Polygons;
 
 /// Flips diagonals that collide.
 pub(super) fn flip_colliding(
-    triangulation: &mut Triangulation,
+    triangles: &mut [[u32; 3]],
+    corners: &mut Corners,
     polygons: &Polygons,
     positions: &[Point],
 ) {
-    let colliding = colliding_polygons(triangulation, polygons, positions.len());
+    let colliding = colliding_polygons(corners, polygons, positions.len());
     if colliding.is_empty() {
         return;
     }
-    triangulation.keep_corners(polygons);
-    let mut edges = edges_among(&colliding, triangulation, polygons, positions.len());
+    corners.keep_each(triangles.len(), polygons, polygons.len());
+    let mut edges = edges_among(&colliding, corners, polygons, positions.len());
     let mut flat = Vec::new();
     for polygon in colliding.into_iter().map(|polygon| polygon as usize) {
         let vertices = &polygons.vertices[polygons.corners(polygon)];
         flatten(vertices, positions, &mut flat);
         let vertex = |corner: u16| vertices[usize::from(corner)];
         let key = |[a, b]: [u16; 2]| ends(vertex(a), vertex(b));
-        let triangles = polygons.triangles(polygon);
-        let mut corners: Vec<[u16; 3]> = triangulation.of_polygon(triangles.clone()).collect();
-        for diagonal in diagonals(&corners, vertices.len()).collect::<Vec<_>>() {
+        let of_polygon = polygons.triangles(polygon);
+        let mut cut: Vec<[u16; 3]> = corners.of_polygon(of_polygon.clone()).collect();
+        for diagonal in diagonals(&cut, vertices.len()).collect::<Vec<_>>() {
             if edges[&key(diagonal)] < 2 {
                 continue;
             }
-            let Some(([first, second], [k, l])) = quadrilateral(&corners, diagonal) else {
+            let Some(([first, second], [k, l])) = quadrilateral(&cut, diagonal) else {
                 continue;
             };
             let [i, j] = diagonal;
@@ -49,30 +51,26 @@ pub(super) fn flip_colliding(
                 .iter()
                 .all(|&[a, b, c]| doubled_area(&flat, a, b, c) > 0.0);
             if inside && !edges.contains_key(&key([k, l])) {
-                corners[first] = flipped[0];
-                corners[second] = flipped[1];
+                cut[first] = flipped[0];
+                cut[second] = flipped[1];
                 edges.entry(key(diagonal)).and_modify(|count| *count -= 1);
                 edges.insert(key([k, l]), 1);
             }
         }
-        for (triangle, corners) in triangles.zip(corners) {
-            triangulation.corners.set(triangle, corners);
-            triangulation.triangles[triangle] = corners.map(vertex);
+        for (triangle, cut) in of_polygon.zip(cut) {
+            corners.set(triangle, cut);
+            triangles[triangle] = cut.map(vertex);
         }
     }
 }
 
 /// The polygons with a diagonal that is also an edge or a diagonal elsewhere, ascending.
-fn colliding_polygons(
-    triangulation: &Triangulation,
-    polygons: &Polygons,
-    vertex_count: usize,
-) -> Vec<u32> {
+fn colliding_polygons(corners: &Corners, polygons: &Polygons, vertex_count: usize) -> Vec<u32> {
     // Nearly always there are none, and marks at the smaller ends, which lie in memory as the
     // polygons do, show it for all but a few. Those are sorted.
     let mut seen = vec![0; vertex_count];
     let mut suspected = Suspected::default();
-    for_each_diagonal(triangulation, polygons, |[a, b], _| {
+    for_each_diagonal(corners, polygons, |[a, b], _| {
         let seen = &mut seen[a as usize];
         if *seen & mark(b) != 0 {
             suspected.insert([a, b], vertex_count);
@@ -98,7 +96,7 @@ fn colliding_polygons(
         return Vec::new();
     }
     drop(seen);
-    let suspects = Suspects::among(triangulation, polygons, &suspected);
+    let suspects = Suspects::among(corners, polygons, &suspected);
     // A mark for each: a polygon may collide in many places.
     let mut colliding = vec![false; polygons.len()];
     for pair in (0..vertex_count as u32).flat_map(|a| suspects.at(a).windows(2)) {
@@ -136,14 +134,10 @@ struct Suspects {
 
 impl Suspects {
     /// A counting sort by the smaller end.
-    fn among(
-        triangulation: &Triangulation,
-        polygons: &Polygons,
-        suspected: &Suspected,
-    ) -> Suspects {
+    fn among(corners: &Corners, polygons: &Polygons, suspected: &Suspected) -> Suspects {
         let vertex_count = suspected.marks.len();
         let mut ends = vec![0_u32; vertex_count + 1];
-        for_each_diagonal(triangulation, polygons, |[a, b], _| {
+        for_each_diagonal(corners, polygons, |[a, b], _| {
             ends[a as usize + 1] += u32::from(suspected.may_hold([a, b]));
         });
         let mut before = 0;
@@ -152,7 +146,7 @@ impl Suspects {
             *end = before;
         }
         let mut entries = vec![(0, 0); before as usize];
-        for_each_diagonal(triangulation, polygons, |[a, b], polygon| {
+        for_each_diagonal(corners, polygons, |[a, b], polygon| {
             if suspected.may_hold([a, b]) {
                 // Filling moves each start on to the end of its entries.
                 let slot = &mut ends[a as usize];
@@ -217,7 +211,7 @@ impl Suspected {
 /// polygon, and as a diagonal.
 fn edges_among(
     colliding: &[u32],
-    triangulation: &Triangulation,
+    corners: &Corners,
     polygons: &Polygons,
     vertex_count: usize,
 ) -> BTreeMap<[u32; 2], u32> {
@@ -233,7 +227,7 @@ fn edges_among(
             *edges.entry(edge).or_insert(0) += 1;
         }
     };
-    for_each_diagonal(triangulation, polygons, |edge, _| count(edge));
+    for_each_diagonal(corners, polygons, |edge, _| count(edge));
     for polygon in 0..polygons.len() {
         for_each_side(polygons, polygon, &mut count);
     }
@@ -256,7 +250,7 @@ fn for_each_side(polygons: &Polygons, polygon: usize, mut visit: impl FnMut([u32
 }
 
 fn for_each_diagonal(
-    triangulation: &Triangulation,
+    corners: &Corners,
     polygons: &Polygons,
     mut visit: impl FnMut([u32; 2], usize),
 ) {
@@ -269,13 +263,13 @@ fn for_each_diagonal(
         let triangles = polygons.triangles(polygon);
         // Nearly all polygons are convex quads.
         if let [a, _, c, _] = *vertices
-            && triangulation.corners(triangles.start, 0) == [0, 1, 2]
+            && corners.get(triangles.start, 0) == [0, 1, 2]
         {
             visit(ends(a, c), polygon);
             continue;
         }
         several.clear();
-        several.extend(triangulation.of_polygon(triangles));
+        several.extend(corners.of_polygon(triangles));
         for [i, j] in diagonals(&several, vertices.len()) {
             let [a, b] = [i, j].map(|corner| vertices[usize::from(corner)]);
             visit(ends(a, b), polygon);

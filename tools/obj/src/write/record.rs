@@ -3,56 +3,59 @@
 use std::io::{self, Write};
 
 use super::number::{write_integer, write_number};
-use super::{Output, Writer};
+use super::output::Output;
+use super::prepare::Prepared;
 use crate::record::{At, END, HEADER, Hash, ITEM, Record, VERSION};
 
-impl<W: Write> Writer<'_, W> {
-    /// Writes the record, if there is one: everything before it is written.
-    pub(super) fn write_record(&mut self) -> io::Result<()> {
-        let prepared = self.prepared;
-        let Some(record) = &prepared.record else {
-            return Ok(());
-        };
-        let counts = [
-            prepared.vertices.count(),
-            prepared.face_count(),
-            record.texture_before,
-            prepared.texture.count(),
-            record.normals_before,
-            prepared.normals.count(),
-        ];
-        let out = &mut self.out.pending;
-        out.extend_from_slice(HEADER);
-        integer(out, VERSION as usize);
-        for (word, counts) in [
-            ("v", &counts[..1]),
-            ("f", &counts[1..2]),
-            ("vt", &counts[2..4]),
-            ("vn", &counts[4..]),
-        ] {
-            out.push(b' ');
-            out.extend_from_slice(word.as_bytes());
-            for &count in counts {
-                integer(out, count);
-            }
+/// Writes the record, if there is one: everything before it is written, and its faces have this
+/// hash.
+pub(super) fn write_record<W: Write>(
+    prepared: &Prepared<'_>,
+    faces: Hash,
+    out: &mut Output<'_, W>,
+) -> io::Result<()> {
+    let Some(record) = &prepared.record else {
+        return Ok(());
+    };
+    let counts = [
+        prepared.vertices.count(),
+        prepared.face_count(),
+        record.texture_before,
+        prepared.texture.count(),
+        record.normals_before,
+        prepared.normals.count(),
+    ];
+    let bytes = &mut out.pending;
+    bytes.extend_from_slice(HEADER);
+    integer(bytes, VERSION as usize);
+    for (word, counts) in [
+        ("v", &counts[..1]),
+        ("f", &counts[1..2]),
+        ("vt", &counts[2..4]),
+        ("vn", &counts[4..]),
+    ] {
+        bytes.push(b' ');
+        bytes.extend_from_slice(word.as_bytes());
+        for &count in counts {
+            integer(bytes, count);
         }
-        out.extend_from_slice(b" faces");
-        hexadecimal(out, self.hash);
-        out.push(b'\n');
-        let mut items = Items {
-            out: &mut self.out,
-            count: 0,
-            hash: Hash::default(),
-        };
-        items.write(record, prepared.fans())?;
-        let Items { count, hash, .. } = items;
-        let out = &mut self.out.pending;
-        out.extend_from_slice(END);
-        integer(out, count);
-        hexadecimal(out, hash);
-        out.push(b'\n');
-        self.out.flush_if_full()
     }
+    bytes.extend_from_slice(b" faces");
+    hexadecimal(bytes, faces);
+    bytes.push(b'\n');
+    let mut items = Items {
+        out,
+        count: 0,
+        hash: Hash::default(),
+    };
+    items.write(record, prepared.fans())?;
+    let Items { out, count, hash } = items;
+    let bytes = &mut out.pending;
+    bytes.extend_from_slice(END);
+    integer(bytes, count);
+    hexadecimal(bytes, hash);
+    bytes.push(b'\n');
+    out.flush_if_full()
 }
 
 struct Items<'o, 'w, W> {

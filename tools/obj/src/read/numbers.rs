@@ -1,0 +1,123 @@
+//! Statements of numbers: `v`, `vt` and `vn`.
+
+use std::ops::Range;
+
+use tearmesh::{COORDINATE_MAX, Mesh, Point};
+
+use super::fault::{Fault, Parsed};
+use super::line::{Line, quoted};
+use super::reader::{Reader, limit};
+use super::scan::Scan;
+use crate::store::{Column, Kind, Rows, push};
+
+/// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
+pub(super) const NUMBERS_MAX: usize = 16;
+
+impl Reader {
+    pub(super) fn vertex(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
+        let start = *scan;
+        let mut numbers = [0.0; NUMBERS_MAX];
+        let count = read_numbers(scan, &mut numbers, 3, "a vertex")?;
+        let [x, y, z, ..] = numbers;
+        let largest = x.abs().max(y.abs()).max(z.abs());
+        if largest > COORDINATE_MAX {
+            return Err(too_large(start, &numbers));
+        }
+        let index = self.document.positions.len();
+        limit(index, Mesh::MAX_VERTICES, "vertices")?;
+        push(&mut self.document.positions, Point::new(x, y, z));
+        if count > 3 {
+            limit(
+                self.document.extras.value_count(),
+                Rows::LIMIT - NUMBERS_MAX,
+                "numbers",
+            )?;
+            self.document.extras.set(index, &numbers[3..count]);
+        }
+        self.document.layout.push(Kind::Vertex, line.number);
+        Ok(())
+    }
+
+    pub(super) fn texture(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
+        let mut numbers = [0.0; 3];
+        let count = read_numbers(scan, &mut numbers, 1, "a texture coordinate")?;
+        let texture = &mut self.document.texture;
+        limit(texture.value_count(), Rows::LIMIT - NUMBERS_MAX, "numbers")?;
+        texture.set(texture.len(), &numbers[..count]);
+        self.document.layout.push(Kind::Texture, line.number);
+        Ok(())
+    }
+
+    pub(super) fn normal(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
+        let mut numbers = [0.0; 3];
+        read_numbers(scan, &mut numbers, 3, "a normal")?;
+        limit(self.document.normals.len(), Column::LIMIT, "normals")?;
+        push(&mut self.document.normals, numbers);
+        self.document.layout.push(Kind::Normal, line.number);
+        Ok(())
+    }
+}
+
+/// Reads the numbers of a statement, of which there must be `least` and may be as many as there
+/// is room for; how many there are.
+#[inline]
+fn read_numbers<const MOST: usize>(
+    scan: &mut Scan<'_>,
+    numbers: &mut [f64; MOST],
+    least: usize,
+    what: &'static str,
+) -> Parsed<usize> {
+    let start = *scan;
+    let mut count = 0;
+    while scan.find_token() {
+        let Some(slot) = numbers.get_mut(count) else {
+            return Err(too_many_numbers(start, what, MOST));
+        };
+        *slot = scan.number()?;
+        count += 1;
+    }
+    if count < least {
+        Err(too_few_numbers(start, what, count, least))
+    } else {
+        Ok(count)
+    }
+}
+
+#[cold]
+fn too_few_numbers(scan: Scan<'_>, what: &str, count: usize, least: usize) -> Box<Fault> {
+    let end = scan.end_of_tokens();
+    let plural = if least == 1 { "" } else { "s" };
+    let message = format!("{what} needs {least} number{plural}, this one has {count}");
+    Fault::new("E-OBJ-COUNT", end..end, message, "expected another number")
+}
+
+#[cold]
+fn too_many_numbers(scan: Scan<'_>, what: &str, most: usize) -> Box<Fault> {
+    let span = nth_token(scan, most);
+    let message = format!("{what} has at most {most} numbers");
+    Fault::new("E-OBJ-COUNT", span, message, "one too many")
+}
+
+#[cold]
+fn too_large(scan: Scan<'_>, numbers: &[f64; NUMBERS_MAX]) -> Box<Fault> {
+    let at = numbers.iter().position(|x| x.abs() > COORDINATE_MAX);
+    let span = nth_token(scan, at.unwrap_or(0));
+    let text = quoted(&scan.bytes[span.clone()]);
+    let message = format!("the coordinate {text} is too large");
+    Fault::new(
+        "E-OBJ-COORDINATE",
+        span,
+        message,
+        format!("expected at most {COORDINATE_MAX:e}"),
+    )
+    .help("scale the model: computations with larger numbers would overflow")
+}
+
+fn nth_token(mut scan: Scan<'_>, n: usize) -> Range<usize> {
+    scan.find_token();
+    for _ in 0..n {
+        scan.at += scan.token().len();
+        scan.find_token();
+    }
+    scan.at..scan.at + scan.token().len()
+}

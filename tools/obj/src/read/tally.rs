@@ -1,0 +1,137 @@
+//! What is said about statements that are carried through as bytes.
+
+use super::line::{Line, locate, quoted};
+use crate::diagnostic::{Diagnostic, Excerpt, Level, Location};
+use crate::keyword::{Class, is_said_of_vertex};
+
+/// The most keywords that are reported by name.
+const KEYWORDS_MAX: usize = 32;
+
+/// Which uninterpreted statements there are.
+#[derive(Debug, Default)]
+pub(super) struct Tally {
+    keywords: Vec<Counted>,
+    /// Statements with keywords beyond [`KEYWORDS_MAX`].
+    others: usize,
+    /// Statements whose relative indices were made absolute.
+    relative: Option<Counted>,
+    /// The first keyword of the file that was not known.
+    pub(super) first: Option<Vec<u8>>,
+}
+
+#[derive(Debug)]
+struct Counted {
+    keyword: Vec<u8>,
+    count: usize,
+    location: Location,
+    excerpt: Excerpt,
+}
+
+impl Tally {
+    /// Notes a keyword that is not known; the first one is kept.
+    pub(super) fn note_unknown(&mut self, keyword: &[u8]) {
+        if self.first.is_none() {
+            self.first = Some(keyword.to_vec());
+        }
+    }
+
+    /// Counts a statement, whose keyword starts there.
+    pub(super) fn count(&mut self, keyword: &[u8], line: &Line<'_>, start: usize) {
+        if let Some(known) = self
+            .keywords
+            .iter_mut()
+            .find(|known| known.keyword == keyword)
+        {
+            known.count += 1;
+        } else if self.keywords.len() < KEYWORDS_MAX {
+            self.keywords.push(Counted::new(keyword, line, start));
+        } else {
+            self.others += 1;
+        }
+    }
+
+    /// Counts a statement whose relative indices were made absolute.
+    pub(super) fn count_relative(&mut self, keyword: &[u8], line: &Line<'_>, start: usize) {
+        match &mut self.relative {
+            Some(counted) => counted.count += 1,
+            none => *none = Some(Counted::new(keyword, line, start)),
+        }
+    }
+
+    /// A warning for each keyword, in the order in which they were met.
+    pub(super) fn report(self, diagnostics: &mut Vec<Diagnostic>) {
+        for counted in self.keywords {
+            let (keyword, statements) = (quoted(&counted.keyword), counted.statements());
+            let (code, message) = match Class::of(&counted.keyword) {
+                Class::Element => (
+                    "W-OBJ-ELEMENT",
+                    format!("{keyword} elements are kept, but never cut ({statements})"),
+                ),
+                _ if is_said_of_vertex(&counted.keyword) => (
+                    "W-OBJ-FOREIGN",
+                    format!(
+                        "{keyword} is not interpreted, and kept with its vertex and the \
+                         copies of that ({statements})"
+                    ),
+                ),
+                _ => (
+                    "W-OBJ-FOREIGN",
+                    format!("{keyword} is not interpreted, and kept as it is ({statements})"),
+                ),
+            };
+            diagnostics.push(counted.warn(Level::Warning, code, message));
+        }
+        if self.others > 0 {
+            diagnostics.push(Diagnostic {
+                level: Level::Warning,
+                code: "W-OBJ-FOREIGN",
+                location: None,
+                message: format!(
+                    "and {} more statements that are not interpreted",
+                    self.others
+                ),
+                excerpt: None,
+                help: None,
+            });
+        }
+        if let Some(counted) = self.relative {
+            let message = format!(
+                "negative indices of {} were made absolute ({})",
+                quoted(&counted.keyword),
+                counted.statements()
+            );
+            diagnostics.push(counted.warn(Level::Note, "W-OBJ-RELATIVE", message));
+        }
+    }
+}
+
+impl Counted {
+    fn new(keyword: &[u8], line: &Line<'_>, start: usize) -> Counted {
+        let (location, excerpt) = locate(line, &(start..start + keyword.len()));
+        Counted {
+            keyword: keyword.to_vec(),
+            count: 1,
+            location,
+            excerpt,
+        }
+    }
+
+    fn statements(&self) -> String {
+        match self.count {
+            1 => "1 statement".to_owned(),
+            count => format!("{count} statements, the first here"),
+        }
+    }
+
+    fn warn(self, level: Level, code: &'static str, message: String) -> Diagnostic {
+        let (location, excerpt) = (Some(self.location), Some(self.excerpt));
+        Diagnostic {
+            level,
+            code,
+            location,
+            message,
+            excerpt,
+            help: None,
+        }
+    }
+}

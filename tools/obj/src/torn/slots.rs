@@ -1,0 +1,62 @@
+//! Where the faces of a mesh stand in its document.
+
+use std::ops::Range;
+
+/// The faces of a mesh by the triangle of the document where they stand.
+#[derive(Debug)]
+pub(crate) struct Slots {
+    pub(crate) faces: Vec<u32>,
+    starts: Vec<u32>,
+}
+
+impl Slots {
+    /// A face for each triangle, in its place.
+    pub(super) fn undivided(triangles: u32) -> Slots {
+        Slots {
+            faces: (0..triangles).collect(),
+            starts: (0..=triangles).collect(),
+        }
+    }
+
+    /// Faces of which each stands at one of so many triangles, sorted by these.
+    pub(super) fn sorted(places: &[u32], triangles: usize) -> Slots {
+        let mut starts = vec![0_u32; triangles + 1];
+        for &place in places {
+            starts[place as usize + 1] += 1;
+        }
+        for i in 0..triangles {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut faces = vec![0; places.len()];
+        for (face, &place) in places.iter().enumerate() {
+            faces[next[place as usize] as usize] = face as u32;
+            next[place as usize] += 1;
+        }
+        Slots { faces, starts }
+    }
+
+    /// Those of no triangle yet, with room for so many faces.
+    pub(super) fn with_capacity(faces: usize) -> Slots {
+        Slots {
+            faces: Vec::with_capacity(faces),
+            starts: vec![0],
+        }
+    }
+
+    /// Appends a triangle, at which these faces stand.
+    pub(super) fn push(&mut self, faces: &[u32]) {
+        self.faces.extend_from_slice(faces);
+        self.starts.push(self.faces.len() as u32);
+    }
+
+    /// The number of triangles.
+    pub(super) fn triangles(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Where the faces of triangles are in `faces`.
+    pub(crate) fn of(&self, triangles: Range<usize>) -> Range<usize> {
+        self.starts[triangles.start] as usize..self.starts[triangles.end] as usize
+    }
+}
