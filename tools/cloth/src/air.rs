@@ -2,7 +2,7 @@
 //! before.
 //!
 //! Wind presses on a face by the mean velocity of its corners, and a third of that acts at each
-//! ([`Wind`](super::Wind)). So between any two corners of a face of area A and normal n there is
+//! ([`Wind`](crate::Wind)). So between any two corners of a face of area A and normal n there is
 //! the damping c A n nᵀ/9, and the rates at which wind slows a system are the eigenvalues of M⁻¹ D
 //! with D the sum of these. By Gershgorin's rows, three blocks a face, none is beyond
 //!
@@ -25,9 +25,10 @@
 //!
 //! Areas grow with the cloth, so they are looked at once a step, where there is wind.
 
-use super::solver::Solver;
-use super::system::System;
 use tearmesh::geometry::{cross, dot};
+
+use crate::solver::Solver;
+use crate::system::System;
 
 /// The largest rate at which air slows a system: a bound, and the particle that sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]

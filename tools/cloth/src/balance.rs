@@ -16,7 +16,7 @@
 //! | holding, letting go | the change of the particle's own energy | its valence |
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
-//! | edits | [`EnergyLedger`](super::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
+//! | edits | [`EnergyLedger`](crate::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
@@ -27,9 +27,10 @@
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
 //! are added, cut or made stiffer, count as the method's.
 
-use super::kernel;
-use super::system::System;
 use tearmesh::geometry::{Vector, dot};
+
+use crate::kernel;
+use crate::system::System;
 
 /// How far apart the work of wind is sampled, in seconds of the simulation; a longer substep is one
 /// sample.

@@ -1,16 +1,16 @@
 //! What a cloth is made of: springs along edges, triangles, springs or arcs across edges; and what
 //! becomes of them where it tears.
 
-use super::implicit::Buckling;
-use super::sheet::ClothError;
-use super::weave::Weave;
+use crate::implicit::Buckling;
+use crate::sheet::ClothError;
+use crate::weave::Weave;
 
 /// What a cloth is made of, and what becomes of constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
     /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
     /// 2/√3 of it. Zero with a [`Weave`]: edges are measured, for
-    /// [`Cloth::overstretched`](super::Cloth::overstretched), and pull at nothing.
+    /// [`Cloth::overstretched`](crate::Cloth::overstretched), and pull at nothing.
     pub stretch_n_per_m: f64,
     /// Triangles that resist stretch and shear; `None` for none.
     pub weave: Option<Weave>,
@@ -160,7 +160,7 @@ pub enum Copies {
     #[default]
     Halved,
     /// All of it each, as in the paper (Souza et al. 2014 §IV-A): a split makes ½ k (l − L)² an
-    /// edge, which the [`EnergyLedger`](super::EnergyLedger) says.
+    /// edge, which the [`EnergyLedger`](crate::EnergyLedger) says.
     Whole,
 }
 

@@ -1,13 +1,14 @@
 //! A cloth follows the log: splits, insertions and merges change particles, constraints, triangles
 //! and the bound of frequencies where they are, and nowhere else.
 
-use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::fabric::{Copies, Unbend};
-use super::sheet::{Cloth, Effect, NO_BEND};
-use tearmesh::Masses;
 use tearmesh::geometry::{Point, between, length};
-use tearmesh::{Child, Edit, Follower, Insert, Merge, Slide, Source, Split};
-use tearmesh::{HalfEdgeId, VertexId};
+use tearmesh::{
+    Child, Edit, Follower, HalfEdgeId, Insert, Masses, Merge, Slide, Source, Split, VertexId,
+};
+
+use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::fabric::{Copies, Unbend};
+use crate::sheet::{Cloth, Effect, NO_BEND};
 
 /// Room that edits reuse.
 #[derive(Clone, Debug, Default)]

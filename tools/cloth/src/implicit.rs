@@ -53,9 +53,6 @@ pub mod spring;
 mod step;
 pub mod triangle;
 
-use std::fmt;
-use tearmesh::geometry::{Point, Vector, check_point, dot};
-
 pub use bend::{Bend, BendError, Buckling};
 pub use layout::Layout;
 pub use matrix::{Block, Hessian};
@@ -65,6 +62,10 @@ pub use settings::{Jacobian, Method, Settings, StepError, StepReport, Tolerance}
 pub use spring::Spring;
 pub use step::Implicit;
 pub use triangle::Triangle;
+
+use std::fmt;
+
+use tearmesh::geometry::{Point, Vector, check_point, dot};
 
 /// What a solver has to know of a piece of cloth: slices of whoever owns it.
 ///

@@ -1,6 +1,6 @@
 //! What acts on the particles from outside: gravity, drag, wind and colliders.
 //!
-//! Each exists only where it is named, and costs nothing otherwise; [`Counters`](super::Counters)
+//! Each exists only where it is named, and costs nothing otherwise; [`Counters`](crate::Counters)
 //! prove it.
 
 use tearmesh::geometry::{Plane, Point, Vector, check_point, dot, length};

@@ -2,16 +2,14 @@
 
 use std::fmt;
 
-use super::constraint::{Constraint, ConstraintId};
-use super::fabric::{Copies, Fabric};
-use super::follow::{Room, weight};
-use super::solver::{Solver, StepError, StepReport};
-use super::system::System;
-use tearmesh::Mesh;
 use tearmesh::geometry::{Point, Vector, length};
-use tearmesh::{FaceId, HalfEdgeId, VertexId};
-use tearmesh::{MassError, Masses};
-use tearmesh::{Place, Positions};
+use tearmesh::{FaceId, HalfEdgeId, MassError, Masses, Mesh, Place, Positions, VertexId};
+
+use crate::constraint::{Constraint, ConstraintId};
+use crate::fabric::{Copies, Fabric};
+use crate::follow::{Room, weight};
+use crate::solver::{Solver, StepError, StepReport};
+use crate::system::System;
 
 /// The energy that edits have made (or, negative, taken), in joules. Gravity is not in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,7 +58,7 @@ pub struct Effect {
 }
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
-/// with a [`Weave`](super::Weave) a triangle for each face.
+/// with a [`Weave`](crate::Weave) a triangle for each face.
 ///
 /// The mesh stays with the caller; this is one more [`Follower`](tearmesh::Follower) of the log. A
 /// split, an insertion or a merge in a running simulation costs what the valence of its vertices
@@ -159,8 +157,8 @@ impl Cloth {
     }
 
     /// The same with the direction of warp for each face, in space where the cloth is at rest: for
-    /// garments, whose texture coordinates have it ([`warp_of_texture`](super::warp_of_texture)).
-    /// It takes the place of [`Weave::warp`](super::Weave::warp); children of a face inherit it.
+    /// garments, whose texture coordinates have it ([`warp_of_texture`](crate::warp_of_texture)).
+    /// It takes the place of [`Weave::warp`](crate::Weave::warp); children of a face inherit it.
     ///
     /// # Errors
     ///

@@ -5,13 +5,13 @@
 
 use std::fmt;
 
-use super::air::{AirRate, AirShare};
-use super::balance::Noted;
-use super::culprit::Culprit;
-use super::digits::Digits;
-use super::implicit;
-use super::stability::Frequency;
-use super::system::{Left, System, Unstable};
+use crate::air::{AirRate, AirShare};
+use crate::balance::Noted;
+use crate::culprit::Culprit;
+use crate::digits::Digits;
+use crate::implicit;
+use crate::stability::Frequency;
+use crate::system::{Left, System, Unstable};
 
 /// A method that advances a system.
 ///
@@ -186,7 +186,7 @@ struct Began {
 }
 
 /// Why a step was not taken. The system is as it was before, and so is what the last step left
-/// behind in constraints and in the balance of energy; [`Counters`](super::Counters) count what was
+/// behind in constraints and in the balance of energy; [`Counters`](crate::Counters) count what was
 /// tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -417,7 +417,7 @@ impl System {
     }
 
     /// The largest step in seconds that the watch admits whole in the present configuration, for
-    /// a method with this limit of ω Δt: 2 for [`Verlet`](super::Verlet). Measures the frequency.
+    /// a method with this limit of ω Δt: 2 for [`Verlet`](crate::Verlet). Measures the frequency.
     /// Springs alone: what wind takes of it is [`Solver::air_limit`] by [`System::wind_rate`].
     pub fn stable_step_s(&mut self, frequency_limit: f64) -> f64 {
         let bound_s = frequency_limit / self.frequency_bound();

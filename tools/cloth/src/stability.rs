@@ -29,12 +29,13 @@
 //!
 //! The rows of K itself, which are cheaper, give 0.657 of the true limit or less.
 
-use super::buckle::Slope;
-use super::constraint::ConstraintId;
-use super::implicit::{Triangle, triangle};
-use super::kernel;
-use super::system::{Counters, Family, Model, System};
 use tearmesh::geometry::{Point, Vector, dot};
+
+use crate::buckle::Slope;
+use crate::constraint::ConstraintId;
+use crate::implicit::{Triangle, triangle};
+use crate::kernel;
+use crate::system::{Counters, Family, Model, System};
 
 /// The largest frequency of a system.
 #[derive(Clone, Copy, Debug, PartialEq)]

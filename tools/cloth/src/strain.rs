@@ -6,9 +6,10 @@
 //! smallest stretch of any direction. They need the rest positions alone, so they are known
 //! of every cloth, whatever resists the stretch. Closed forms of `+ − × ÷ √`.
 
-use super::sheet::Cloth;
 use tearmesh::geometry::{Point, Vector, cross, dot, length};
 use tearmesh::{FaceId, VertexId};
+
+use crate::sheet::Cloth;
 
 impl Cloth {
     /// The largest stretch of a face in any direction, as a multiple of the length at rest: the
@@ -32,7 +33,7 @@ impl Cloth {
     /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
     /// lengths at rest: for thresholds apart from each other. Shear does not enter.
     ///
-    /// Warp runs where [`Weave::warp`](super::Weave::warp) or [`Cloth::with_warps`] says, projected
+    /// Warp runs where [`Weave::warp`](crate::Weave::warp) or [`Cloth::with_warps`] says, projected
     /// onto the face at rest, and weft across it. Where nothing says, warp runs along the x-axis;
     /// along the y-axis in faces whose normal lies nearer to the x-axis than to the others.
     ///

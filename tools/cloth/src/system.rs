@@ -14,13 +14,14 @@ pub use error::SystemError;
 pub(crate) use force::{Forces, Left};
 pub(crate) use model::{Family, Model};
 
-use super::balance::Meter;
-use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::implicit::{Buckling, Triangle};
-use super::load::{Loads, Path};
-use super::stability::Spectrum;
-use super::triangles::Triangles;
 use tearmesh::geometry::{Point, Vector, check_point};
+
+use crate::balance::Meter;
+use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::implicit::{Buckling, Triangle};
+use crate::load::{Loads, Path};
+use crate::stability::Spectrum;
+use crate::triangles::Triangles;
 
 /// Particles, constraints and loads.
 ///
@@ -226,9 +227,9 @@ impl System {
 
     /// Makes all bend constraints buckle by this law, those that are there and those to come, or
     /// makes them springs again. Below its rest length a bend then has, in the place of a spring's
-    /// force, that of an arc ([`Bend`](super::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
+    /// force, that of an arc ([`Bend`](crate::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
     /// it none; its stiffness is the one against compression before it buckles.
-    /// [`Pbd`](super::Pbd) and [`Xpbd`](super::Xpbd), which project springs, are refused then.
+    /// [`Pbd`](crate::Pbd) and [`Xpbd`](crate::Xpbd), which project springs, are refused then.
     ///
     /// ```
     /// use tearmesh_cloth::implicit::Buckling;

@@ -3,7 +3,7 @@
 //! A net of springs has the stiffness of its mesh: one diagonal a cell makes it shear when it is
 //! pulled, and three directions alike give it Poisson's ratio 1/3. Triangles have the moduli that
 //! are asked for, whatever the mesh (Baraff and Witkin 1998 §4; see
-//! [`implicit::triangle`](super::implicit::triangle) for the energy and where it differs).
+//! [`implicit::triangle`](crate::implicit::triangle) for the energy and where it differs).
 //!
 //! The triangle of a face is made from the rest positions of its corners and the direction of warp,
 //! and has the number of the face. Edits follow with the cost of what they touch: a split or a
@@ -11,12 +11,12 @@
 //! deform as it did, so together they hold what it held; where a vertex slides the triangles
 //! around it are made anew.
 
-use super::implicit::{Triangle, triangle};
-use super::sheet::{Cloth, ClothError};
-use super::strain::{default_warp, material};
 use tearmesh::geometry::{Point, Vector};
-use tearmesh::{FaceId, HalfEdgeId};
-use tearmesh::{Insert, Merge, Split};
+use tearmesh::{FaceId, HalfEdgeId, Insert, Merge, Split};
+
+use crate::implicit::{Triangle, triangle};
+use crate::sheet::{Cloth, ClothError};
+use crate::strain::{default_warp, material};
 
 /// How triangles resist: `E_u`, `E_v` and G as moduli of the sheet, Poisson's ratio zero.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,9 +15,10 @@
 //! semidefinite for every A that passes as a stable system, that divided by s bounds the rms
 //! error of δ.
 
+use tearmesh::geometry::{Vector, dot};
+
 use super::matrix::{Block, Hessian};
 use super::{Model, Work};
-use tearmesh::geometry::{Vector, dot};
 
 /// In which directions a particle is free. What is held keeps the velocity that it was given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

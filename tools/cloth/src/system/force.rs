@@ -9,11 +9,12 @@
 //! [`Xpbd`]: crate::Xpbd
 //! [`Provot`]: crate::Provot
 
+use tearmesh::geometry::{Vector, dot};
+
 use super::{Family, Model, System};
 use crate::constraint::{Constraint, ConstraintId};
 use crate::implicit::triangle;
 use crate::kernel;
-use tearmesh::geometry::{Vector, dot};
 
 /// Where the forces of the last step are to be read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! All of a system but its state: what its particles weigh, what joins them, and what acts on them.
 
+use tearmesh::geometry::{Point, Vector};
+
 use super::{Counters, Forces};
 use crate::buckle::{self, Bends, Slope};
 use crate::constraint::{Constraint, Constraints};
@@ -7,7 +9,6 @@ use crate::implicit::Buckling;
 use crate::kernel;
 use crate::load::{Loads, Path};
 use crate::triangles::Triangles;
-use tearmesh::geometry::{Point, Vector};
 
 /// All but positions and velocities.
 #[derive(Clone, Debug)]

@@ -1,15 +1,11 @@
 //! The state of a cloth that tears, and one step of it.
 
+use tearmesh::geometry::{Plane, Vector, dot, length};
+use tearmesh::{Edits, Follower, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
+
 use super::follow::BELOW;
 use super::{Tearing, TearingError};
 use crate::sheet::Cloth;
-use tearmesh::Mesh;
-use tearmesh::PerVertex;
-use tearmesh::geometry::{Plane, Vector, dot, length};
-use tearmesh::split;
-use tearmesh::tear;
-use tearmesh::{Edits, Follower};
-use tearmesh::{HalfEdgeId, VertexId};
 
 /// A cloth that tears: strengths of vertices, clocks of edges.
 ///
