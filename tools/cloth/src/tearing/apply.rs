@@ -3,7 +3,6 @@
 use tearmesh::geometry::{Plane, Vector, dot, length};
 use tearmesh::{Edits, Follower, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
 
-use super::follow::BELOW;
 use super::{Tearing, TearingError};
 use crate::sheet::Cloth;
 
@@ -27,6 +26,9 @@ pub struct Tear {
     /// By vertex: whether it was split in this step.
     is_fresh: Vec<bool>,
 }
+
+/// The clock of an edge below its threshold.
+pub(super) const BELOW: f64 = f64::NEG_INFINITY;
 
 /// An edge that may tear in this step.
 #[derive(Clone, Copy, Debug)]

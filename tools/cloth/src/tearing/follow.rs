@@ -4,11 +4,8 @@
 use tearmesh::geometry::Vector;
 use tearmesh::{Edit, Follower, Insert, Merge};
 
-use super::apply::Tear;
+use super::apply::{BELOW, Tear};
 use crate::follow::lies_on;
-
-/// The clock of an edge below its threshold.
-pub(super) const BELOW: f64 = f64::NEG_INFINITY;
 
 impl Follower for Tear {
     fn next_edit(&self) -> u64 {
