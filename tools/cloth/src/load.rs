@@ -8,7 +8,8 @@ use tearmesh::geometry::{Plane, Point, Vector, check_point, dot, length};
 /// What acts on the particles. The default is nothing.
 ///
 /// ```
-/// use tearmesh::{cloth::Loads, Vector};
+/// use tearmesh::Vector;
+/// use tearmesh_cloth::Loads;
 ///
 /// let loads = Loads { gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)), ..Loads::default() };
 /// assert!(loads.wind.is_none() && loads.colliders.is_empty());

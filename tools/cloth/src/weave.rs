@@ -38,10 +38,11 @@ pub struct Weave {
 /// `None` where the texture coordinates span no area.
 ///
 /// ```
-/// use tearmesh::{cloth, Point, Vector};
+/// use tearmesh::{Point, Vector};
+/// use tearmesh_cloth::warp_of_texture;
 ///
 /// let rest = [Point::origin(), Point::new(0.0, 0.0, 2.0), Point::new(0.0, 2.0, 0.0)];
-/// let warp = cloth::warp_of_texture(rest, [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]]);
+/// let warp = warp_of_texture(rest, [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]]);
 /// assert_eq!(warp, Some(Vector::new(0.0, 0.0, 4.0)));
 /// ```
 #[must_use]
