@@ -11,9 +11,10 @@ use std::fmt;
 
 use tearmesh::geometry::{Point, Vector, dot, max_abs};
 
+use super::model::first_bad;
 use super::pcg::{End, Stop, residual};
 use super::step::Potential;
-use super::{Implicit, Model, ModelError, Work, first_bad};
+use super::{Implicit, Model, ModelError, Work};
 
 /// When a state counts as being at rest, and how far to go for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
