@@ -54,6 +54,7 @@ pub mod scene;
 mod sheet;
 mod solver;
 mod stability;
+mod step;
 mod stiff;
 mod strain;
 mod system;
