@@ -1,9 +1,10 @@
 //! What a cloth is made of: springs along edges, triangles, springs or arcs across edges; and what
 //! becomes of them where it tears.
 
+use tearmesh::geometry::Vector;
+
 use crate::implicit::Buckling;
 use crate::sheet::ClothError;
-use crate::weave::Weave;
 
 /// What a cloth is made of, and what becomes of constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,6 +85,36 @@ impl Fabric {
             Some((field, given)) => Err(ClothError::Stiffness { field, given }),
             None => Ok(()),
         }
+    }
+}
+
+/// How triangles resist: `E_u`, `E_v` and G as moduli of the sheet, Poisson's ratio zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weave {
+    /// The modulus along warp, in N/m; positive.
+    pub warp_n_per_m: f64,
+    /// The modulus along weft, across warp, in N/m; positive.
+    pub weft_n_per_m: f64,
+    /// The shear modulus, in N/m; zero or more.
+    pub shear_n_per_m: f64,
+    /// The direction of warp in space where the cloth is at rest. In each face it is projected
+    /// onto that; weft is across it. [`Cloth::with_warps`](crate::Cloth::with_warps) has one for
+    /// each face instead.
+    pub warp: Vector,
+}
+
+impl Weave {
+    /// The first number that can be no modulus: its field, and the number as given.
+    pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
+        let usable = |x: f64| x >= 0.0 && x.is_finite();
+        [
+            ("weave.warp_n_per_m", self.warp_n_per_m, true),
+            ("weave.weft_n_per_m", self.weft_n_per_m, true),
+            ("weave.shear_n_per_m", self.shear_n_per_m, false),
+        ]
+        .into_iter()
+        .find(|&(_, given, is_needed)| !usable(given) || is_needed && given == 0.0)
+        .map(|(field, given, _)| (field, given))
     }
 }
 

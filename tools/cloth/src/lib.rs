@@ -46,6 +46,7 @@ mod follow;
 pub mod implicit;
 mod kernel;
 mod load;
+mod material;
 mod particle;
 mod pbd;
 mod provot;
@@ -68,8 +69,9 @@ pub use air::AirRate;
 pub use balance::EnergyBalance;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use culprit::Culprit;
-pub use fabric::{Bending, Copies, Fabric, Unbend};
+pub use fabric::{Bending, Copies, Fabric, Unbend, Weave};
 pub use load::{Collider, Loads, Path, Wind};
+pub use material::warp_of_texture;
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use rk4::Rk4;
@@ -80,7 +82,6 @@ pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};
 pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
 pub use verlet::Verlet;
-pub use weave::{Weave, warp_of_texture};
 pub use xpbd::Xpbd;
 
 /// The library's example in the README is a test.
