@@ -6,7 +6,7 @@ use crate::air::AirRate;
 use crate::culprit::Culprit;
 use crate::digits::Digits;
 use crate::implicit;
-use crate::stability::Frequency;
+use crate::spectrum::Frequency;
 use crate::system::System;
 
 /// A method that advances a system.
