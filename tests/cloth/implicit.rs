@@ -1,5 +1,6 @@
 //! The implicit solver against closed forms, finite differences and naive dense code.
 
+mod dense;
 mod kernels;
 mod matrix;
 mod orders;

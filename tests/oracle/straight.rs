@@ -30,6 +30,7 @@ use super::joined_sets;
 use expected::Expected;
 pub(crate) use expected::{is_generic, least_fraction};
 pub(crate) use surface::{Cut, Flat, Surface, cross, dot, length, minus, on_the_way};
+use surface::{bits, place};
 
 /// How far a seam vertex may be off the plane or outside the strip, in edges.
 const OFF_MAX: f64 = 1e-9;
@@ -385,12 +386,4 @@ fn chains(segments: &[[[f64; 3]; 2]], near: f64) -> usize {
     }
     let chain = joined_sets(segments.len(), &joined);
     (0..chain.len()).filter(|&i| chain[i] == i).count()
-}
-
-fn bits(p: &[f64; 3]) -> [u64; 3] {
-    p.map(f64::to_bits)
-}
-
-fn place(bits: [u64; 3]) -> [f64; 3] {
-    bits.map(f64::from_bits)
 }

@@ -1,9 +1,10 @@
 //! Forces are gradients, Jacobians are derivatives, and clamped ones are semidefinite.
 
+use super::dense::{dense, is_definite};
 use super::{Scene, order, spring};
 use crate::random::Random;
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Bend, Hessian, Layout, Model, Triangle, triangle};
+use tearmesh_cloth::implicit::{Bend, Model, Triangle, triangle};
 
 /// Models of one constraint each, in a general position: name and scene.
 fn specimens() -> Vec<(&'static str, Scene)> {
@@ -67,22 +68,6 @@ fn moved(x: &[Point], coordinate: usize, by: f64) -> Vec<Point> {
     x
 }
 
-/// The Hessian as a dense matrix.
-pub(super) fn dense(model: &Model<'_>, x: &[Point], clamp: bool) -> (Vec<Vec<f64>>, u64) {
-    let (mut layout, mut hessian) = (Layout::default(), Hessian::default());
-    layout.follow(model);
-    let clamped = model.hessian(x, &layout, clamp, &mut hessian);
-    let n = 3 * x.len();
-    let columns = (0..n).map(|c| {
-        let mut unit = vec![Vector::zeros(); x.len()];
-        unit[c / 3][c % 3] = 1.0;
-        let mut column = Vec::new();
-        hessian.product(layout.pairs(), &unit, &mut column);
-        column.iter().flat_map(|v| [v.x, v.y, v.z]).collect()
-    });
-    (columns.collect(), clamped)
-}
-
 /// The error of central differences of width h, of the gradient and of its derivative,
 /// relative to the largest force and second derivative.
 fn errors(scene: &Scene, h: f64) -> [f64; 2] {
@@ -143,20 +128,6 @@ fn internal_forces_sum_to_zero() {
             .sum();
         assert!(torque.norm() <= 4e-15 * size, "{name}: torque {torque}");
     }
-}
-
-/// Whether a Cholesky factor exists: dense, naive.
-pub(super) fn is_definite(mut a: Vec<Vec<f64>>) -> bool {
-    for c in 0..a.len() {
-        if a[c][c] <= 0.0 {
-            return false;
-        }
-        for r in c + 1..a.len() {
-            let factor = a[r][c] / a[c][c];
-            super::matrix::subtract(&mut a, r, c, factor);
-        }
-    }
-    true
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The matrix, its layout, held directions, and bytes.
 
-use super::{Scene, kernels::dense, spring};
+use super::dense::{dense, solve};
+use super::{Scene, spring};
 use crate::random::Random;
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{
@@ -110,37 +111,6 @@ fn pieces_are_what_constraints_join() {
     let mut layout = Layout::default();
     layout.follow(&scene.model());
     assert_eq!(layout.pieces(), [0, 1, 2, 2, 4, 1, 1]);
-}
-
-/// Row r of a dense matrix less `factor` times row c.
-pub(super) fn subtract(a: &mut [Vec<f64>], r: usize, c: usize, factor: f64) {
-    let row = a[c].clone();
-    for (x, y) in a[r].iter_mut().zip(row).skip(c) {
-        *x -= factor * y;
-    }
-}
-
-/// Gaussian elimination with pivots: dense, naive.
-pub(super) fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
-    let n = b.len();
-    for c in 0..n {
-        let best = (c..n).max_by(|&i, &j| a[i][c].abs().total_cmp(&a[j][c].abs()));
-        let best = best.expect("a row");
-        a.swap(c, best);
-        b.swap(c, best);
-        for r in c + 1..n {
-            let factor = a[r][c] / a[c][c];
-            subtract(&mut a, r, c, factor);
-            b[r] -= factor * b[c];
-        }
-    }
-    for c in (0..n).rev() {
-        for k in c + 1..n {
-            b[c] -= a[c][k] * b[k];
-        }
-        b[c] /= a[c][c];
-    }
-    b
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Where an answer is known, it is met: R1 to R4, R6c, R8 to R10 of the reference answers.
 
-use super::{G, Scene, kernels::dense, spring};
+use super::dense::{dense, solve};
+use super::{G, Scene, spring};
 use tearmesh::Vector;
 use tearmesh_cloth::implicit::{
     Filter, Implicit, Method, RestSettings, Settings, Tolerance, Triangle, damping,
@@ -243,7 +244,7 @@ fn moduli(scene: &Scene, area: f64) -> [[f64; 3]; 3] {
 
 /// `E_x`, ν and γ / εx under tension along x.
 fn under_tension(c: [[f64; 3]; 3]) -> [f64; 3] {
-    let strain = super::matrix::solve(c.map(Vec::from).to_vec(), vec![1.0, 0.0, 0.0]);
+    let strain = solve(c.map(Vec::from).to_vec(), vec![1.0, 0.0, 0.0]);
     [
         1.0 / strain[0],
         -strain[1] / strain[0],

@@ -1,7 +1,8 @@
 //! R11: a static drape agrees with a method that shares nothing with the solver: an energy
 //! written here, its gradient by differences, a dense Newton iteration.
 
-use super::{G, Scene, matrix::solve, spring};
+use super::dense::solve;
+use super::{G, Scene, spring};
 use tearmesh::Point;
 use tearmesh::Vector;
 use tearmesh_cloth::implicit::{Bend, Filter, Implicit, Method, RestSettings, Settings, Tolerance};

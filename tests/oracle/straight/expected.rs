@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{Cut, Flat, Surface, bits, length, minus, on_the_way};
+use super::surface::bits;
+use super::{Cut, Flat, Surface, length, minus, on_the_way};
 use crate::oracle::joined_sets;
 
 /// How far a generic cut stays away from every special case, in edges.

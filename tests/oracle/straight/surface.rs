@@ -205,3 +205,13 @@ pub(crate) fn on_the_way(p: [f64; 3], q: [f64; 3], t: f64) -> [f64; 3] {
 pub(super) fn twice_area([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     cross(minus(b, a), minus(c, a))
 }
+
+/// A place, bit for bit.
+pub(super) fn bits(p: &[f64; 3]) -> [u64; 3] {
+    p.map(f64::to_bits)
+}
+
+/// The place of these bits.
+pub(super) fn place(bits: [u64; 3]) -> [f64; 3] {
+    bits.map(f64::from_bits)
+}

@@ -2,7 +2,7 @@
 //! before.
 //!
 //! Wind presses on a face by the mean velocity of its corners, and a third of that acts at each
-//! ([`Wind`](super::Wind)). So between any two corners of a face of area A and normal n there is
+//! ([`Wind`](crate::Wind)). So between any two corners of a face of area A and normal n there is
 //! the damping c A n nᵀ/9, and the rates at which wind slows a system are the eigenvalues of M⁻¹ D
 //! with D the sum of these. By Gershgorin's rows, three blocks a face, none is beyond
 //!
@@ -25,9 +25,9 @@
 //!
 //! Areas grow with the cloth, so they are looked at once a step, where there is wind.
 
-use super::solver::Solver;
-use super::system::System;
 use tearmesh::geometry::{cross, dot};
+
+use crate::system::System;
 
 /// The largest rate at which air slows a system: a bound, and the particle that sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,14 +36,6 @@ pub struct AirRate {
     pub rate_per_s: f64,
     /// The particle.
     pub particle: usize,
-}
-
-/// What the air takes of a step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct AirShare {
-    pub(crate) rate: AirRate,
-    /// One over the longest step in seconds that is stable without springs.
-    pub(crate) per_s: f64,
 }
 
 impl System {
@@ -85,30 +77,12 @@ impl System {
     }
 
     /// The rate of drag, and the first particle that feels it.
-    fn drag_rate(&self) -> Option<AirRate> {
+    pub(crate) fn drag_rate(&self) -> Option<AirRate> {
         let rate_per_s = self.model.loads.drag_per_s.filter(|drag| *drag > 0.0)?;
         let particle = self.model.inverse_masses.iter().position(|w| *w > 0.0)?;
         Some(AirRate {
             rate_per_s,
             particle,
         })
-    }
-
-    /// What the air takes of a step by this method.
-    pub(crate) fn air_share(&mut self, solver: &(impl Solver + ?Sized)) -> Option<AirShare> {
-        let limit = solver.air_limit()?;
-        let drag = match solver.takes_drag_explicitly() {
-            true => self.drag_rate(),
-            false => None,
-        };
-        let rate = match (self.wind_rate(), drag) {
-            (Some(wind), Some(drag)) => AirRate {
-                rate_per_s: wind.rate_per_s + drag.rate_per_s,
-                ..wind
-            },
-            (wind, drag) => wind.or(drag)?,
-        };
-        let per_s = rate.rate_per_s / limit;
-        Some(AirShare { rate, per_s })
     }
 }

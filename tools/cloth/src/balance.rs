@@ -16,7 +16,7 @@
 //! | holding, letting go | the change of the particle's own energy | its valence |
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
-//! | edits | [`EnergyLedger`](super::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
+//! | edits | [`EnergyLedger`](crate::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
@@ -27,9 +27,15 @@
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
 //! are added, cut or made stiffer, count as the method's.
 
-use super::kernel;
-use super::system::System;
+mod meter;
+
+pub(crate) use meter::{Meter, Noted};
+
 use tearmesh::geometry::{Vector, dot};
+
+use self::meter::Sampled;
+use crate::kernel;
+use crate::system::System;
 
 /// How far apart the work of wind is sampled, in seconds of the simulation; a longer substep is one
 /// sample.
@@ -97,59 +103,6 @@ impl EnergyBalance {
         let worked = self.gravity_j + self.held_j + self.wind_j + self.drag_j;
         let given = self.began_j + worked + self.colliders_j + self.edits_j;
         self.kinetic_j + self.elastic_j - given
-    }
-}
-
-/// What a system notes for its balance.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Meter {
-    sums: Sums,
-    /// The potential of gravity when the sum of its work was taken last.
-    potential_j: f64,
-    /// Kinetic energy, and the forces on those who are led, after the last substep; `None`
-    /// where something has changed since.
-    kinetic_j: Option<f64>,
-    forces: Option<Vec<Vector>>,
-    /// Room for them.
-    spare: Vec<Vector>,
-    wind: Sampled,
-    gusts: Vec<Vector>,
-}
-
-/// What was summed up so far.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sums {
-    began_j: f64,
-    gravity_j: f64,
-    held_j: f64,
-    wind_j: f64,
-    drag_j: f64,
-    colliders_j: f64,
-    edits_j: f64,
-}
-
-/// What was known of a balance before a step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Noted {
-    sums: Sums,
-    wind: Sampled,
-    has_forces: bool,
-}
-
-/// The power of wind when it was sampled last, and the seconds since.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sampled {
-    watts: Option<f64>,
-    since_s: f64,
-}
-
-impl Meter {
-    /// Forgets what was known of the state.
-    pub(crate) fn changed(&mut self) {
-        self.kinetic_j = None;
-        if let Some(forces) = self.forces.take() {
-            self.spare = forces;
-        }
     }
 }
 

@@ -1,15 +1,16 @@
 //! Bend constraints that buckle (Choi and Ko 2002 §4.2), colour by colour: the counterpart of the
-//! springs in [`kernel`](super::kernel).
+//! springs in [`kernel`](crate::kernel).
 //!
 //! A [`Batch`] has c, the stiffness against compression, in the place of a spring's stiffness;
 //! the law is one for all. A bend is made of these three where it is needed, which costs a few
 //! products, and [`Bend`] says what it does. One without stiffness, which
 //! is what an edit leaves where rounding left no length, does nothing.
 
-use super::implicit::bend::Axial;
-use super::implicit::{Bend, Buckling};
-use super::kernel::Batch;
 use tearmesh::geometry::{Point, Vector, dot};
+
+use crate::implicit::bend::Axial;
+use crate::implicit::{Bend, Buckling};
+use crate::kernel::Batch;
 
 /// Bends of one colour, and their law.
 #[derive(Clone, Copy, Debug)]

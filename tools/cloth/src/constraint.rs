@@ -11,7 +11,7 @@
 
 use std::fmt;
 
-use super::kernel::Batch;
+use crate::kernel::Batch;
 
 /// A constraint of a family. Written `c7`. Stays the same until the constraint is removed;
 /// later constraints may then get it.

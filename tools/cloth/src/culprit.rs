@@ -2,11 +2,12 @@
 
 use std::fmt;
 
-use super::constraint::ConstraintId;
-use super::digits::Digits;
-use super::implicit::triangle;
-use super::system::{Family, Model};
 use tearmesh::geometry::{Point, Vector, check_point, dot, length};
+
+use crate::constraint::ConstraintId;
+use crate::digits::Digits;
+use crate::implicit::triangle;
+use crate::system::{Family, Model};
 
 /// Where a blow-up showed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,16 +1,17 @@
 //! What a cloth is made of: springs along edges, triangles, springs or arcs across edges; and what
 //! becomes of them where it tears.
 
-use super::implicit::Buckling;
-use super::sheet::ClothError;
-use super::weave::Weave;
+use tearmesh::geometry::Vector;
+
+use crate::implicit::Buckling;
+use crate::sheet::ClothError;
 
 /// What a cloth is made of, and what becomes of constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
     /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
     /// 2/√3 of it. Zero with a [`Weave`]: edges are measured, for
-    /// [`Cloth::overstretched`](super::Cloth::overstretched), and pull at nothing.
+    /// [`Cloth::overstretched`](crate::Cloth::overstretched), and pull at nothing.
     pub stretch_n_per_m: f64,
     /// Triangles that resist stretch and shear; `None` for none.
     pub weave: Option<Weave>,
@@ -87,6 +88,36 @@ impl Fabric {
     }
 }
 
+/// How triangles resist: `E_u`, `E_v` and G as moduli of the sheet, Poisson's ratio zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weave {
+    /// The modulus along warp, in N/m; positive.
+    pub warp_n_per_m: f64,
+    /// The modulus along weft, across warp, in N/m; positive.
+    pub weft_n_per_m: f64,
+    /// The shear modulus, in N/m; zero or more.
+    pub shear_n_per_m: f64,
+    /// The direction of warp in space where the cloth is at rest. In each face it is projected
+    /// onto that; weft is across it. [`Cloth::with_warps`](crate::Cloth::with_warps) has one for
+    /// each face instead.
+    pub warp: Vector,
+}
+
+impl Weave {
+    /// The first number that can be no modulus: its field, and the number as given.
+    pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
+        let usable = |x: f64| x >= 0.0 && x.is_finite();
+        [
+            ("weave.warp_n_per_m", self.warp_n_per_m, true),
+            ("weave.weft_n_per_m", self.weft_n_per_m, true),
+            ("weave.shear_n_per_m", self.shear_n_per_m, false),
+        ]
+        .into_iter()
+        .find(|&(_, given, is_needed)| !usable(given) || is_needed && given == 0.0)
+        .map(|(field, given, _)| (field, given))
+    }
+}
+
 /// What resists bending, between the two vertices opposite an interior edge.
 ///
 /// ```
@@ -160,7 +191,7 @@ pub enum Copies {
     #[default]
     Halved,
     /// All of it each, as in the paper (Souza et al. 2014 §IV-A): a split makes ½ k (l − L)² an
-    /// edge, which the [`EnergyLedger`](super::EnergyLedger) says.
+    /// edge, which the [`EnergyLedger`](crate::EnergyLedger) says.
     Whole,
 }
 

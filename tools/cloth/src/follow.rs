@@ -1,21 +1,17 @@
 //! A cloth follows the log: splits, insertions and merges change particles, constraints, triangles
 //! and the bound of frequencies where they are, and nowhere else.
 
-use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::fabric::{Copies, Unbend};
-use super::sheet::{Cloth, Effect, NO_BEND};
-use tearmesh::Masses;
-use tearmesh::geometry::{Point, between, length};
-use tearmesh::{Child, Edit, Follower, Insert, Merge, Slide, Source, Split};
-use tearmesh::{HalfEdgeId, VertexId};
+mod room;
 
-/// Room that edits reuse.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Room {
-    ids: Vec<ConstraintId>,
-    vertices: Vec<usize>,
-    pieces: Vec<Piece>,
-}
+pub(crate) use room::Room;
+
+use tearmesh::geometry::{Point, between, length};
+use tearmesh::{Child, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Source, Split, VertexId};
+
+use self::room::Piece;
+use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::fabric::{Copies, Unbend};
+use crate::sheet::{Cloth, Effect, NO_BEND, weight};
 
 impl Follower for Cloth {
     fn next_edit(&self) -> u64 {
@@ -428,35 +424,6 @@ impl Cloth {
         self.system.model.masses[particle] = mass;
         self.system.weigh(particle);
     }
-}
-
-/// What the particle of a vertex with a face weighs: its exact mass, but a unit at least. What
-/// comes off a face without area may weigh nothing, and a particle without mass would stay
-/// where it is in the air.
-pub(super) fn weight(masses: &Masses, v: VertexId) -> f64 {
-    masses.at(v).max(masses.unit())
-}
-
-/// An edge of a child, from one of its sides.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    /// The lower particle first. They name the edge: no two edges have the same two.
-    ends: [usize; 2],
-    half_edge: HalfEdgeId,
-    /// The half-edge of the parent that it lies on; any for one inside.
-    half_edge_before: HalfEdgeId,
-    apex: usize,
-    apex_before: usize,
-    /// Whether it is a whole edge of the parent.
-    is_kept: bool,
-    /// Whether it is a part of an edge of the parent.
-    divided: bool,
-    /// The constraint of that edge.
-    stretch: ConstraintId,
-    bend: ConstraintId,
-    /// What k L shall be.
-    stiffness_by_length: f64,
-    length: f64,
 }
 
 /// Whether a corner of a child lies on this edge of its parent.

@@ -5,8 +5,9 @@
 //! No two of one colour share a particle, so the loops have no chain of writes that wait for each
 //! other, and the result does not depend on the order within a colour.
 
-use super::implicit::{Triangle, triangle};
 use tearmesh::geometry::{Point, Vector, cross, dot};
+
+use crate::implicit::{Triangle, triangle};
 
 /// The constraints of one colour.
 #[derive(Clone, Copy, Debug)]

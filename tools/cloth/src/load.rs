@@ -1,6 +1,6 @@
 //! What acts on the particles from outside: gravity, drag, wind and colliders.
 //!
-//! Each exists only where it is named, and costs nothing otherwise; [`Counters`](super::Counters)
+//! Each exists only where it is named, and costs nothing otherwise; [`Counters`](crate::Counters)
 //! prove it.
 
 use tearmesh::geometry::{Plane, Point, Vector, check_point, dot, length};
@@ -8,7 +8,8 @@ use tearmesh::geometry::{Plane, Point, Vector, check_point, dot, length};
 /// What acts on the particles. The default is nothing.
 ///
 /// ```
-/// use tearmesh::{cloth::Loads, Vector};
+/// use tearmesh::Vector;
+/// use tearmesh_cloth::Loads;
 ///
 /// let loads = Loads { gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)), ..Loads::default() };
 /// assert!(loads.wind.is_none() && loads.colliders.is_empty());

@@ -1,9 +1,9 @@
 //! Particles of a system that come, go and meet while a cloth follows the log.
 
-use super::system::System;
-use tearmesh::Location;
-use tearmesh::VertexId;
 use tearmesh::geometry::{Point, Vector, between};
+use tearmesh::{Location, VertexId};
+
+use crate::system::System;
 
 impl System {
     /// Appends a particle, held and led like another one.

@@ -7,10 +7,11 @@
 //! is no limit. What it converges to with more sweeps is an inextensible net. Judge it by
 //! [`System::strain_rms`].
 
-use super::kernel;
-use super::solver::{Failure, SettingError, Solver};
-use super::system::{Forces, Model, System};
 use tearmesh::geometry::{Point, Vector};
+
+use crate::kernel;
+use crate::solver::{Failure, SettingError, Solver};
+use crate::system::{Forces, Model, System};
 
 /// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
 /// soft as [`Pbd::stiffness`] says.

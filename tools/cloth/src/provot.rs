@@ -11,10 +11,10 @@
 //! with what it did itself the force that each constraint carried ([`System::force_n`]).
 //! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
-use super::kernel;
-use super::solver::{Failure, SettingError, Solver, StepError};
-use super::system::{Forces, System};
-use super::verlet::accelerate;
+use crate::kernel;
+use crate::solver::{Failure, SettingError, Solver, StepError};
+use crate::system::{Forces, System};
+use crate::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
 /// the springs are stable up to ω Δt = 2, and wind alone up to λ Δt = 2.

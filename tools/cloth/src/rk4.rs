@@ -1,8 +1,9 @@
 //! The classical Runge–Kutta method: the reference solution.
 
-use super::solver::{Failure, Solver};
-use super::system::System;
 use tearmesh::geometry::{Point, Vector};
+
+use crate::solver::{Failure, Solver};
+use crate::system::System;
 
 /// The classical Runge–Kutta method of fourth order; four force evaluations a step.
 ///

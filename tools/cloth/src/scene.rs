@@ -14,15 +14,15 @@ pub use run::{
     CutMade, Gain, Limited, Names, Quality, Run, RunError, Shortened, Solved, Step, Tally,
 };
 
+use tearmesh::geometry::{Point, Ray, Vector, length};
+use tearmesh::{Mesh, VertexId};
+
 use crate::fabric::Fabric;
 use crate::implicit::Settings;
 use crate::load::{Collider, Wind};
 use crate::pbd::Pbd;
 use crate::provot::Limiter;
 use crate::xpbd::Xpbd;
-use tearmesh::Mesh;
-use tearmesh::VertexId;
-use tearmesh::geometry::{Point, Ray, Vector, length};
 
 /// What shall happen to a cloth.
 #[derive(Clone, Debug)]

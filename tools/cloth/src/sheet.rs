@@ -1,17 +1,17 @@
 //! Cloth: a system made of a mesh, which follows the log while the mesh tears.
 
-use std::fmt;
+mod error;
 
-use super::constraint::{Constraint, ConstraintId};
-use super::fabric::{Copies, Fabric};
-use super::follow::{Room, weight};
-use super::solver::{Solver, StepError, StepReport};
-use super::system::System;
-use tearmesh::Mesh;
+pub use error::ClothError;
+
 use tearmesh::geometry::{Point, Vector, length};
-use tearmesh::{FaceId, HalfEdgeId, VertexId};
-use tearmesh::{MassError, Masses};
-use tearmesh::{Place, Positions};
+use tearmesh::{HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
+
+use crate::constraint::{Constraint, ConstraintId};
+use crate::fabric::{Copies, Fabric};
+use crate::follow::Room;
+use crate::solver::{Solver, StepError, StepReport};
+use crate::system::System;
 
 /// The energy that edits have made (or, negative, taken), in joules. Gravity is not in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,7 +60,7 @@ pub struct Effect {
 }
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
-/// with a [`Weave`](super::Weave) a triangle for each face.
+/// with a [`Weave`](crate::Weave) a triangle for each face.
 ///
 /// The mesh stays with the caller; this is one more [`Follower`](tearmesh::Follower) of the log. A
 /// split, an insertion or a merge in a running simulation costs what the valence of its vertices
@@ -159,8 +159,8 @@ impl Cloth {
     }
 
     /// The same with the direction of warp for each face, in space where the cloth is at rest: for
-    /// garments, whose texture coordinates have it ([`warp_of_texture`](super::warp_of_texture)).
-    /// It takes the place of [`Weave::warp`](super::Weave::warp); children of a face inherit it.
+    /// garments, whose texture coordinates have it ([`warp_of_texture`](crate::warp_of_texture)).
+    /// It takes the place of [`Weave::warp`](crate::Weave::warp); children of a face inherit it.
     ///
     /// # Errors
     ///
@@ -441,87 +441,9 @@ impl Place for Cloth {
     }
 }
 
-/// Why a cloth was refused.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ClothError {
-    /// The masses cannot be.
-    Mass(MassError),
-    /// A stiffness is not a positive finite number, or that of some bend would not be.
-    Stiffness {
-        /// The field of [`Fabric`].
-        field: &'static str,
-        /// The number as given.
-        given: f64,
-    },
-    /// Two vertices that a constraint is to join are at one place, or not at any.
-    Length {
-        /// The vertices.
-        ends: [VertexId; 2],
-        /// The rest length, in metres.
-        given: f64,
-    },
-    /// A face that is to be a triangle has no area at rest, or its warp no direction in it.
-    Face {
-        /// The face.
-        face: FaceId,
-        /// The direction of warp.
-        warp: Vector,
-    },
-    /// There is not one direction of warp for each face.
-    Warps {
-        /// The number of faces.
-        faces: usize,
-        /// The number of directions.
-        warps: usize,
-    },
-    /// There are not as many positions and masses as vertices.
-    Counts {
-        /// The number of vertices.
-        vertices: usize,
-        /// The number of positions.
-        positions: usize,
-        /// The number of masses.
-        masses: usize,
-    },
+/// What the particle of a vertex with a face weighs: its exact mass, but a unit at least. What
+/// comes off a face without area may weigh nothing, and a particle without mass would stay
+/// where it is in the air.
+pub(super) fn weight(masses: &Masses, v: VertexId) -> f64 {
+    masses.at(v).max(masses.unit())
 }
-
-impl From<MassError> for ClothError {
-    fn from(error: MassError) -> ClothError {
-        ClothError::Mass(error)
-    }
-}
-
-impl fmt::Display for ClothError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ClothError::Mass(error) => error.fmt(f),
-            ClothError::Stiffness { field, given } => write!(
-                f,
-                "{field} is {given}, which makes no positive finite stiffness"
-            ),
-            ClothError::Length {
-                ends: [a, b],
-                given,
-            } => write!(f, "the edge {a}-{b} has the rest length {given} m"),
-            ClothError::Face { face, warp } => write!(
-                f,
-                "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
-                warp.x, warp.y, warp.z
-            ),
-            ClothError::Warps { faces, warps } => {
-                write!(f, "{faces} faces have {warps} directions of warp")
-            }
-            ClothError::Counts {
-                vertices,
-                positions,
-                masses,
-            } => write!(
-                f,
-                "{vertices} vertices have {positions} positions and {masses} masses"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for ClothError {}

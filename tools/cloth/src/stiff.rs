@@ -4,12 +4,13 @@
 //! families, the bends that buckle, the triangles, gravity, wind and drag over as slices, and takes
 //! back positions and velocities.
 
-use super::implicit::{
+use tearmesh::geometry::Vector;
+
+use crate::implicit::{
     self, Bend, Filter, Implicit, ModelError, Part, Settings, Spring, Tolerance,
 };
-use super::solver::{Failure, SettingError, Solver};
-use super::system::System;
-use tearmesh::geometry::Vector;
+use crate::solver::{Failure, SettingError, Solver};
+use crate::system::System;
 
 /// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
 /// are stable at any step; wind is taken in as it is where a step begins, and is stable up to

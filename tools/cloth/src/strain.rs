@@ -6,9 +6,10 @@
 //! smallest stretch of any direction. They need the rest positions alone, so they are known
 //! of every cloth, whatever resists the stretch. Closed forms of `+ − × ÷ √`.
 
-use super::sheet::Cloth;
-use tearmesh::geometry::{Point, Vector, cross, dot, length};
-use tearmesh::{FaceId, VertexId};
+use tearmesh::FaceId;
+use tearmesh::geometry::{Point, Vector, dot, length};
+
+use crate::sheet::Cloth;
 
 impl Cloth {
     /// The largest stretch of a face in any direction, as a multiple of the length at rest: the
@@ -32,7 +33,7 @@ impl Cloth {
     /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
     /// lengths at rest: for thresholds apart from each other. Shear does not enter.
     ///
-    /// Warp runs where [`Weave::warp`](super::Weave::warp) or [`Cloth::with_warps`] says, projected
+    /// Warp runs where [`Weave::warp`](crate::Weave::warp) or [`Cloth::with_warps`] says, projected
     /// onto the face at rest, and weft across it. Where nothing says, warp runs along the x-axis;
     /// along the y-axis in faces whose normal lies nearer to the x-axis than to the others.
     ///
@@ -57,43 +58,6 @@ impl Cloth {
     fn corners(&self, f: FaceId) -> [Point; 3] {
         self.vertices_of(f).map(|v| self.positions()[v.index()])
     }
-
-    pub(super) fn rest_corners(&self, f: FaceId) -> [Point; 3] {
-        self.vertices_of(f).map(|v| self.rest.at(v))
-    }
-
-    fn vertices_of(&self, f: FaceId) -> [VertexId; 3] {
-        let corners = f.half_edges();
-        corners.map(|h| VertexId::new(self.indices()[h.index()] as usize).expect("I1: ids fit"))
-    }
-}
-
-/// The places (u, v) of a triangle's corners in its own plane, in metres: the first at the origin,
-/// u along the projection of `warp`, v across it. `None` where the triangle has no area or
-/// `warp` no projection.
-pub(super) fn material(rest: [Point; 3], warp: Vector) -> Option<[[f64; 2]; 3]> {
-    let (a, b) = (rest[1] - rest[0], rest[2] - rest[0]);
-    let normal = unit(cross(a, b))?;
-    let u = unit(warp - normal * dot(normal, warp))?;
-    let v = cross(normal, u);
-    Some([[0.0, 0.0], [dot(a, u), dot(a, v)], [dot(b, u), dot(b, v)]])
-}
-
-/// The axis that is warp where nobody says: x, or y where the normal lies nearest to x. So the
-/// projection is never short.
-pub(super) fn default_warp(rest: [Point; 3]) -> Vector {
-    let normal = cross(rest[1] - rest[0], rest[2] - rest[0]);
-    let x = normal.x.abs();
-    if x > normal.y.abs() && x > normal.z.abs() {
-        Vector::y()
-    } else {
-        Vector::x()
-    }
-}
-
-fn unit(v: Vector) -> Option<Vector> {
-    let l = length(v);
-    (l > 0.0).then(|| v / l)
 }
 
 /// `w_u` and `w_v` of the map that takes these places to these points.

@@ -5,22 +5,24 @@
 //! triangles of particles that resist stretch and shear. A chain, a net or a cloth is one. Units
 //! are SI throughout: metres, kilograms, seconds, newtons.
 
+mod counters;
 mod error;
 mod force;
 mod measure;
 mod model;
 
+pub use counters::Counters;
 pub use error::SystemError;
-pub(crate) use force::{Forces, Left};
-pub(crate) use model::{Family, Model};
+pub(crate) use model::{Family, Forces, Left, Model};
 
-use super::balance::Meter;
-use super::constraint::{Constraint, ConstraintId, Constraints};
-use super::implicit::{Buckling, Triangle};
-use super::load::{Loads, Path};
-use super::stability::Spectrum;
-use super::triangles::Triangles;
 use tearmesh::geometry::{Point, Vector, check_point};
+
+use crate::balance::Meter;
+use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::implicit::{Buckling, Triangle};
+use crate::load::{Loads, Path};
+use crate::spectrum::Spectrum;
+use crate::triangles::Triangles;
 
 /// Particles, constraints and loads.
 ///
@@ -77,30 +79,6 @@ pub(crate) struct Scratch {
     pub(crate) predicted: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
-}
-
-/// What was computed since the system was made: the cost of a simulation, without a clock.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Evaluations of all forces.
-    pub force_evaluations: u64,
-    /// Projections of single constraints.
-    pub projections: u64,
-    /// Products of the stiffness matrix with a vector.
-    pub matrix_products: u64,
-    /// Sums over all triangles: of forces, of products with the stiffness matrix, of energy for
-    /// line searches, and of stretch for the bound of frequencies.
-    pub triangle_evaluations: u64,
-    /// Sums of wind over all faces.
-    pub wind_evaluations: u64,
-    /// Sums of areas over all faces, for the rate at which wind slows the system.
-    pub area_evaluations: u64,
-    /// Tests of all particles against one collider.
-    pub collider_passes: u64,
-    /// Substeps.
-    pub substeps: u64,
-    /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
-    pub overshoots: u64,
 }
 
 /// What to do with a step beyond the stability limit of an explicit method.
@@ -226,9 +204,9 @@ impl System {
 
     /// Makes all bend constraints buckle by this law, those that are there and those to come, or
     /// makes them springs again. Below its rest length a bend then has, in the place of a spring's
-    /// force, that of an arc ([`Bend`](super::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
+    /// force, that of an arc ([`Bend`](crate::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
     /// it none; its stiffness is the one against compression before it buckles.
-    /// [`Pbd`](super::Pbd) and [`Xpbd`](super::Xpbd), which project springs, are refused then.
+    /// [`Pbd`](crate::Pbd) and [`Xpbd`](crate::Xpbd), which project springs, are refused then.
     ///
     /// ```
     /// use tearmesh_cloth::implicit::Buckling;

@@ -64,10 +64,10 @@ mod follow;
 mod link;
 mod load;
 
-use std::fmt;
-
 pub use apply::{Tear, TearReport};
 pub use link::CutLink;
+
+use std::fmt;
 
 use tearmesh::geometry::{Vector, check_point};
 
@@ -92,17 +92,17 @@ pub enum Threshold {
     },
     /// At the strain √(2 G / (E h)) for an energy G per length of tear, in J/m: h is the
     /// rest length of the edge, and E the modulus of the fabric: its
-    /// [`stretch_n_per_m`](super::Fabric), the mean of warp and weft of its
-    /// [`Weave`](super::Weave), or their sum; of a link without a mesh, its own stiffness.
+    /// [`stretch_n_per_m`](crate::Fabric), the mean of warp and weft of its
+    /// [`Weave`](crate::Weave), or their sum; of a link without a mesh, its own stiffness.
     /// Then ½ E (l − L)² is G h.
     Toughness(f64),
     /// When its force reaches this, in newtons, by the method of the last step
-    /// ([`System::force_n`](super::System::force_n)). A torn edge's copy of half the
-    /// stiffness bears half of it. For springs: the edges of a [`Weave`](super::Weave) have no force
+    /// ([`System::force_n`](crate::System::force_n)). A torn edge's copy of half the
+    /// stiffness bears half of it. For springs: the edges of a [`Weave`](crate::Weave) have no force
     /// but under a method that projects.
     Force(f64),
     /// When the largest stretch of a face in any direction is this many times that at rest
-    /// ([`Cloth::principal_stretch`](super::Cloth::principal_stretch)), above 1: for triangles
+    /// ([`Cloth::principal_stretch`](crate::Cloth::principal_stretch)), above 1: for triangles
     /// rather than springs. The face's most stretched edge is the one that tears.
     PrincipalStretch(f64),
 }

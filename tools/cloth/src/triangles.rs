@@ -1,10 +1,10 @@
 //! The triangles of a system that resist stretch and shear, and which particle has which.
 //!
-//! A plain list of [`Triangle`], as [`implicit`](super::implicit) takes it. Each particle has a
-//! list of its corners, threaded through them as that of [`Constraints`](super::Constraints) is,
+//! A plain list of [`Triangle`], as [`implicit`](crate::implicit) takes it. Each particle has a
+//! list of its corners, threaded through them as that of [`Constraints`](crate::Constraints) is,
 //! so an edit costs the valence of what it touches. A system without triangles keeps no list.
 
-use super::implicit::Triangle;
+use crate::implicit::Triangle;
 
 /// No corner, in the lists of particles.
 const NONE: u32 = u32::MAX;

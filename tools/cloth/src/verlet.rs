@@ -1,8 +1,9 @@
 //! Velocity Verlet: the accurate explicit method.
 
-use super::solver::{Failure, Solver};
-use super::system::{Scratch, System};
 use tearmesh::geometry::Vector;
+
+use crate::solver::{Failure, Solver};
+use crate::system::{Scratch, System};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///

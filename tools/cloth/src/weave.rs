@@ -3,7 +3,7 @@
 //! A net of springs has the stiffness of its mesh: one diagonal a cell makes it shear when it is
 //! pulled, and three directions alike give it Poisson's ratio 1/3. Triangles have the moduli that
 //! are asked for, whatever the mesh (Baraff and Witkin 1998 §4; see
-//! [`implicit::triangle`](super::implicit::triangle) for the energy and where it differs).
+//! [`implicit::triangle`](crate::implicit::triangle) for the energy and where it differs).
 //!
 //! The triangle of a face is made from the rest positions of its corners and the direction of warp,
 //! and has the number of the face. Edits follow with the cost of what they touch: a split or a
@@ -11,63 +11,11 @@
 //! deform as it did, so together they hold what it held; where a vertex slides the triangles
 //! around it are made anew.
 
-use super::implicit::{Triangle, triangle};
-use super::sheet::{Cloth, ClothError};
-use super::strain::{default_warp, material};
-use tearmesh::geometry::{Point, Vector};
-use tearmesh::{FaceId, HalfEdgeId};
-use tearmesh::{Insert, Merge, Split};
+use tearmesh::{FaceId, HalfEdgeId, Insert, Merge, Split};
 
-/// How triangles resist: `E_u`, `E_v` and G as moduli of the sheet, Poisson's ratio zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weave {
-    /// The modulus along warp, in N/m; positive.
-    pub warp_n_per_m: f64,
-    /// The modulus along weft, across warp, in N/m; positive.
-    pub weft_n_per_m: f64,
-    /// The shear modulus, in N/m; zero or more.
-    pub shear_n_per_m: f64,
-    /// The direction of warp in space where the cloth is at rest. In each face it is projected
-    /// onto that; weft is across it. [`Cloth::with_warps`] has one for each face instead.
-    pub warp: Vector,
-}
-
-/// The direction in which the first coordinate of a texture grows in a triangle: warp, for a
-/// garment that was drawn as flat pieces.
-///
-/// `None` where the texture coordinates span no area.
-///
-/// ```
-/// use tearmesh::{cloth, Point, Vector};
-///
-/// let rest = [Point::origin(), Point::new(0.0, 0.0, 2.0), Point::new(0.0, 2.0, 0.0)];
-/// let warp = cloth::warp_of_texture(rest, [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]]);
-/// assert_eq!(warp, Some(Vector::new(0.0, 0.0, 4.0)));
-/// ```
-#[must_use]
-pub fn warp_of_texture(rest: [Point; 3], texture: [[f64; 2]; 3]) -> Option<Vector> {
-    let [[s0, t0], [s1, t1], [s2, t2]] = texture;
-    let (s1, t1, s2, t2) = (s1 - s0, t1 - t0, s2 - s0, t2 - t0);
-    let twice = s1 * t2 - s2 * t1;
-    let (a, b) = (rest[1] - rest[0], rest[2] - rest[0]);
-    let spans = twice != 0.0 && twice.is_finite();
-    spans.then(|| (a * t2 - b * t1) / twice)
-}
-
-impl Weave {
-    /// The first number that can be no modulus: its field, and the number as given.
-    pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
-        let usable = |x: f64| x >= 0.0 && x.is_finite();
-        [
-            ("weave.warp_n_per_m", self.warp_n_per_m, true),
-            ("weave.weft_n_per_m", self.weft_n_per_m, true),
-            ("weave.shear_n_per_m", self.shear_n_per_m, false),
-        ]
-        .into_iter()
-        .find(|&(_, given, is_needed)| !usable(given) || is_needed && given == 0.0)
-        .map(|(field, given, _)| (field, given))
-    }
-}
+use crate::implicit::{Triangle, triangle};
+use crate::material::material;
+use crate::sheet::{Cloth, ClothError};
 
 impl Cloth {
     /// Makes a triangle for each face, if the fabric asks for them.
@@ -92,21 +40,6 @@ impl Cloth {
             }
         }
         Ok(())
-    }
-
-    /// The direction that warp has at rest, before it is projected onto the face.
-    pub(super) fn warp(&self, f: FaceId) -> Vector {
-        let named = self.warps.get(f.index()).copied();
-        let named = named.or(self.fabric.weave.map(|weave| weave.warp));
-        named.unwrap_or_else(|| default_warp(self.rest_corners(f)))
-    }
-
-    /// The places of a face's corners in the material. Where edits have turned a face until its
-    /// warp has no projection the axis of cloths without names takes its place. `None` where
-    /// there is no area at rest.
-    pub(super) fn material(&self, f: FaceId) -> Option<[[f64; 2]; 3]> {
-        let rest = self.rest_corners(f);
-        material(rest, self.warp(f)).or_else(|| material(rest, default_warp(rest)))
     }
 
     fn triangle_of(&self, f: FaceId, material: [[f64; 2]; 3]) -> Option<Triangle> {

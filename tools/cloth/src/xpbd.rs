@@ -12,11 +12,12 @@
 //! prediction *and* the compliance (a factor 1 + c Δt), otherwise the static stretch would be
 //! wrong by just that factor.
 
-use super::kernel;
-use super::pbd::{finish, finish_and_predict, predict};
-use super::solver::{Failure, Solver};
-use super::system::{Forces, Model, System};
 use tearmesh::geometry::{Vector, dot};
+
+use crate::kernel;
+use crate::pbd::{finish, finish_and_predict, predict};
+use crate::solver::{Failure, Solver};
+use crate::system::{Forces, Model, System};
 
 /// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
 /// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep

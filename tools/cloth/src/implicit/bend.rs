@@ -24,10 +24,12 @@
 //! and the force is −4 k / (L² p(u)) without cancellation at d = L, where the formula above
 //! divides zero by zero. Only + − × ÷ in a fixed order: the same bits on every machine.
 
+use std::fmt;
+
+use tearmesh::geometry::{Point, Vector};
+
 use super::matrix::Block;
 use super::spring::Line;
-use std::fmt;
-use tearmesh::geometry::{Point, Vector};
 
 /// What resists bending between two particles that are two apart.
 #[derive(Clone, Copy, Debug, PartialEq)]

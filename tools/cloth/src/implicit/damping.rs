@@ -57,9 +57,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use tearmesh::geometry::{Point, Vector, dot};
+
 use super::pcg::{End, Stop};
 use super::{Implicit, Method, Model, ModelError, Work};
-use tearmesh::geometry::{Point, Vector, dot};
 
 /// By what the amplitude of an oscillation is multiplied in a step, z = ωΔt in radians. The
 /// [module](self) has an example of how to get that for a scene.

@@ -1,7 +1,8 @@
 //! Which pairs of particles have a block: built once, changed where the constraints changed.
 
-use super::Model;
 use std::collections::BTreeMap;
+
+use super::Model;
 
 /// The slots of a [`Hessian`](super::Hessian), and which slot each constraint adds to.
 ///

@@ -7,11 +7,14 @@
 //! vanishes at rest and Newton's speed comes back. It grows after halvings and shrinks
 //! after full steps. An indefinite matrix is assembled again without the terms that make it so.
 
+use std::fmt;
+
+use tearmesh::geometry::{Point, Vector, dot, max_abs};
+
+use super::model::first_bad;
 use super::pcg::{End, Stop, residual};
 use super::step::Potential;
-use super::{Implicit, Model, ModelError, Work, first_bad};
-use std::fmt;
-use tearmesh::geometry::{Point, Vector, dot, max_abs};
+use super::{Implicit, Model, ModelError, Work};
 
 /// When a state counts as being at rest, and how far to go for it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! How a step is to be taken, what is told about it, and why it is refused.
 
-use super::{ModelError, Work};
 use std::fmt;
+
+use super::{ModelError, Work};
 
 /// How time is made discrete.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -9,8 +9,9 @@
 //! Under compression the second term is negative and H indefinite; Choi and Ko 2002 §4 drop
 //! it there. What is dropped is counted, because the step is then no longer Newton's.
 
-use super::matrix::Block;
 use tearmesh::geometry::{Point, Vector, dot};
+
+use super::matrix::Block;
 
 /// A spring, or a thread that only pulls.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -39,10 +39,12 @@
 
 mod newton;
 
+use tearmesh::geometry::{Point, Vector, dot};
+
+use super::model::first_bad;
 use super::pcg::{End, Pcg, Solved, Stop};
 use super::settings::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
-use super::{Filter, Hessian, Layout, Model, ModelError, Part, Work, first_bad};
-use tearmesh::geometry::{Point, Vector, dot};
+use super::{Filter, Hessian, Layout, Model, ModelError, Part, Work};
 
 /// An implicit solver: the matrix and its layout, the vectors of conjugate gradients, and the
 /// previous step for BDF2. It owns no cloth.

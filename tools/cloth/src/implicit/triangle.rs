@@ -21,8 +21,9 @@
 //! `k_s` s of the shear s = `w_u` · `w_v`, which has the eigenvalues ±`k_s` |s|. Clamped, the first
 //! is dropped (as the paper does) and of the second the negative half.
 
-use super::matrix::Block;
 use tearmesh::geometry::{Point, Vector, dot, length};
+
+use super::matrix::Block;
 
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]

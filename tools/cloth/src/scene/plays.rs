@@ -1,11 +1,12 @@
 //! The scenes that stand ready, sized to the mesh that they are given.
 
+use tearmesh::geometry::{Ray, Vector};
+
 use super::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 use crate::fabric::Fabric;
 use crate::load::Wind;
 use crate::xpbd::Xpbd;
 use crate::{Tearing, Threshold};
-use tearmesh::geometry::{Ray, Vector};
 
 impl Scene {
     /// The mass of a shirt's cotton, in kg/m².

@@ -16,6 +16,9 @@ pub use self::error::{Names, RunError};
 pub use self::gain::Gain;
 pub use self::quality::{Limited, Quality, Solved};
 
+use tearmesh::geometry::{Vector, length};
+use tearmesh::{CutReport, Edits, Masses, Mesh, Positions, Scissor, VertexId};
+
 use self::engine::Engine;
 use self::gain::Watch;
 use self::held::Held;
@@ -27,13 +30,6 @@ use crate::sheet::{Cloth, ClothError};
 use crate::solver::{Solver, StepError};
 use crate::system::Unstable;
 use crate::tearing::{Tear, TearReport, Tearing};
-use tearmesh::Edits;
-use tearmesh::Masses;
-use tearmesh::Mesh;
-use tearmesh::Positions;
-use tearmesh::VertexId;
-use tearmesh::geometry::{Vector, length};
-use tearmesh::{CutReport, Scissor};
 
 /// A scene in progress.
 ///

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use crate::Constraint;
 use tearmesh::geometry::Point;
+
+use crate::Constraint;
 
 /// Why particles, constraints or loads were refused.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,30 +9,12 @@
 //! [`Xpbd`]: crate::Xpbd
 //! [`Provot`]: crate::Provot
 
-use super::{Family, Model, System};
+use tearmesh::geometry::{Vector, dot};
+
+use super::{Family, Forces, System};
 use crate::constraint::{Constraint, ConstraintId};
 use crate::implicit::triangle;
 use crate::kernel;
-use tearmesh::geometry::{Vector, dot};
-
-/// Where the forces of the last step are to be read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Forces {
-    /// In the lengths.
-    #[default]
-    Lengths,
-    /// In the multipliers.
-    Multipliers,
-    /// The sum of both.
-    Both,
-}
-
-/// What says how that is to be read which a step left behind in constraints.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Left {
-    forces: Forces,
-    is_limited: bool,
-}
 
 impl System {
     /// The force in a stretch constraint by its length, k (l − L), in newtons; tension is
@@ -184,66 +166,6 @@ impl System {
             Forces::Lengths => length(),
             Forces::Multipliers => multiplier(),
             Forces::Both => length() + multiplier(),
-        }
-    }
-}
-
-impl Model {
-    /// Forgets what the last step left behind in constraints.
-    pub(crate) fn forget(&mut self) {
-        self.forces = Forces::Lengths;
-        self.is_limited = false;
-    }
-
-    /// Begins a step: forgets what the last one left behind, and returns what it takes to
-    /// [`go back`](Model::back_to).
-    pub(crate) fn begin(&mut self) -> Left {
-        let left = Left {
-            forces: self.forces,
-            is_limited: self.is_limited,
-        };
-        self.forget();
-        self.is_aside = false;
-        left
-    }
-
-    /// For a method that is about to write all multipliers, and maybe all ratios: puts those of the
-    /// last step aside.
-    pub(crate) fn set_aside(&mut self) {
-        if !self.is_aside {
-            self.stretch.set_aside();
-            self.bend.set_aside();
-            self.is_aside = true;
-        }
-    }
-
-    /// Remembers what the step before the one that failed left behind.
-    pub(crate) fn back_to(&mut self, left: Left) {
-        if self.is_aside {
-            self.stretch.take_back();
-            self.bend.take_back();
-            self.is_aside = false;
-        }
-        self.forces = left.forces;
-        self.is_limited = left.is_limited;
-    }
-
-    /// Sets all multipliers to zero.
-    pub(crate) fn clear_multipliers(&mut self) {
-        self.set_aside();
-        for family in [&mut self.stretch, &mut self.bend] {
-            for (_, multipliers) in family.batches_mut() {
-                multipliers.fill(0.0);
-            }
-        }
-    }
-
-    /// Makes forces of multipliers.
-    pub(crate) fn scale_multipliers(&mut self, scale: f64) {
-        for family in [&mut self.stretch, &mut self.bend] {
-            for (_, multipliers) in family.batches_mut() {
-                multipliers.iter_mut().for_each(|lambda| *lambda *= scale);
-            }
         }
     }
 }

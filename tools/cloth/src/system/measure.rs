@@ -1,11 +1,12 @@
 //! What can be measured of a system: lengths, energies, accelerations.
 
+use tearmesh::geometry::{Vector, dot};
+
 use super::System;
 use crate::buckle::Slope;
 use crate::constraint::{Constraint, ConstraintId};
 use crate::implicit::triangle;
 use crate::kernel;
-use tearmesh::geometry::{Vector, dot};
 
 impl System {
     /// The length of a stretch constraint as a multiple of its rest length.

@@ -1,13 +1,14 @@
 //! All of a system but its state: what its particles weigh, what joins them, and what acts on them.
 
-use super::{Counters, Forces};
+use tearmesh::geometry::{Point, Vector};
+
+use super::Counters;
 use crate::buckle::{self, Bends, Slope};
 use crate::constraint::{Constraint, Constraints};
 use crate::implicit::Buckling;
 use crate::kernel;
 use crate::load::{Loads, Path};
 use crate::triangles::Triangles;
-use tearmesh::geometry::{Point, Vector};
 
 /// All but positions and velocities.
 #[derive(Clone, Debug)]
@@ -33,13 +34,32 @@ pub(crate) struct Model {
     /// Whether a limiter left ratios behind.
     pub(crate) is_limited: bool,
     /// Whether what the step before left in constraints is put aside.
-    pub(crate) is_aside: bool,
+    pub(super) is_aside: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
     Stretch,
     Bend,
+}
+
+/// Where the forces of the last step are to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Forces {
+    /// In the lengths.
+    #[default]
+    Lengths,
+    /// In the multipliers.
+    Multipliers,
+    /// The sum of both.
+    Both,
+}
+
+/// What says how that is to be read which a step left behind in constraints.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Left {
+    forces: Forces,
+    is_limited: bool,
 }
 
 impl Model {
@@ -208,6 +228,64 @@ impl Model {
             } else {
                 Vector::zeros()
             };
+        }
+    }
+
+    /// Forgets what the last step left behind in constraints.
+    pub(crate) fn forget(&mut self) {
+        self.forces = Forces::Lengths;
+        self.is_limited = false;
+    }
+
+    /// Begins a step: forgets what the last one left behind, and returns what it takes to
+    /// [`go back`](Model::back_to).
+    pub(crate) fn begin(&mut self) -> Left {
+        let left = Left {
+            forces: self.forces,
+            is_limited: self.is_limited,
+        };
+        self.forget();
+        self.is_aside = false;
+        left
+    }
+
+    /// For a method that is about to write all multipliers, and maybe all ratios: puts those of the
+    /// last step aside.
+    pub(crate) fn set_aside(&mut self) {
+        if !self.is_aside {
+            self.stretch.set_aside();
+            self.bend.set_aside();
+            self.is_aside = true;
+        }
+    }
+
+    /// Remembers what the step before the one that failed left behind.
+    pub(crate) fn back_to(&mut self, left: Left) {
+        if self.is_aside {
+            self.stretch.take_back();
+            self.bend.take_back();
+            self.is_aside = false;
+        }
+        self.forces = left.forces;
+        self.is_limited = left.is_limited;
+    }
+
+    /// Sets all multipliers to zero.
+    pub(crate) fn clear_multipliers(&mut self) {
+        self.set_aside();
+        for family in [&mut self.stretch, &mut self.bend] {
+            for (_, multipliers) in family.batches_mut() {
+                multipliers.fill(0.0);
+            }
+        }
+    }
+
+    /// Makes forces of multipliers.
+    pub(crate) fn scale_multipliers(&mut self, scale: f64) {
+        for family in [&mut self.stretch, &mut self.bend] {
+            for (_, multipliers) in family.batches_mut() {
+                multipliers.iter_mut().for_each(|lambda| *lambda *= scale);
+            }
         }
     }
 }

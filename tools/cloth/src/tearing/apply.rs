@@ -1,15 +1,10 @@
 //! The state of a cloth that tears, and one step of it.
 
-use super::follow::BELOW;
+use tearmesh::geometry::{Plane, Vector, dot, length};
+use tearmesh::{Edits, Follower, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
+
 use super::{Tearing, TearingError};
 use crate::sheet::Cloth;
-use tearmesh::Mesh;
-use tearmesh::PerVertex;
-use tearmesh::geometry::{Plane, Vector, dot, length};
-use tearmesh::split;
-use tearmesh::tear;
-use tearmesh::{Edits, Follower};
-use tearmesh::{HalfEdgeId, VertexId};
 
 /// A cloth that tears: strengths of vertices, clocks of edges.
 ///
@@ -31,6 +26,9 @@ pub struct Tear {
     /// By vertex: whether it was split in this step.
     is_fresh: Vec<bool>,
 }
+
+/// The clock of an edge below its threshold.
+pub(super) const BELOW: f64 = f64::NEG_INFINITY;
 
 /// An edge that may tear in this step.
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,11 @@
 //! A running tear follows the log: strengths and clocks stay with the cloth through cuts, mends
 //! and its own splits.
 
-use super::apply::Tear;
-use crate::follow::lies_on;
 use tearmesh::geometry::Vector;
 use tearmesh::{Edit, Follower, Insert, Merge};
 
-/// The clock of an edge below its threshold.
-pub(super) const BELOW: f64 = f64::NEG_INFINITY;
+use super::apply::{BELOW, Tear};
+use crate::follow::lies_on;
 
 impl Follower for Tear {
     fn next_edit(&self) -> u64 {

@@ -1,13 +1,13 @@
 //! Loads: what an edge or a link has, as a multiple of what it bears.
 
+use tearmesh::geometry::{Vector, cross, dot};
+use tearmesh::{HalfEdgeId, Mesh};
+
 use super::Threshold;
 use crate::constraint::ConstraintId;
 use crate::fabric::Copies;
 use crate::sheet::Cloth;
 use crate::system::System;
-use tearmesh::HalfEdgeId;
-use tearmesh::Mesh;
-use tearmesh::geometry::{Vector, cross, dot};
 
 impl Threshold {
     /// The load of a link of a system without a mesh: from 1 on it tears. Negative under

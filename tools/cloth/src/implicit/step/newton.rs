@@ -10,11 +10,12 @@
 //! does. Such a step is taken back, and Newton's method goes down from there instead
 //! ([`StepReport::overshot`]); so the stretch of what is thrown about is bounded by its energy.
 
-use super::super::Model;
-use super::super::pcg::residual;
-use super::super::settings::{Settings, StepError, StepReport};
-use super::{Implicit, Potential, Solver, Stage};
 use tearmesh::geometry::{Point, Vector, dot};
+
+use super::{Implicit, Potential, Solver, Stage};
+use crate::implicit::Model;
+use crate::implicit::pcg::residual;
+use crate::implicit::settings::{Settings, StepError, StepReport};
 
 /// Newton's iterations for a step whose linearised answer was taken back.
 const RESCUE_ITERATIONS: u32 = 50;

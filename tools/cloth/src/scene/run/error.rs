@@ -2,11 +2,11 @@
 
 use std::fmt;
 
+use tearmesh::{ScissorError, VertexId};
+
 use crate::sheet::ClothError;
 use crate::system::SystemError;
 use crate::tearing::TearingError;
-use tearmesh::ScissorError;
-use tearmesh::VertexId;
 
 /// Why a scene was refused.
 #[derive(Clone, Debug, PartialEq)]

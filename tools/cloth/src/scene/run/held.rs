@@ -6,14 +6,13 @@
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
+use tearmesh::geometry::Point;
+use tearmesh::{Edit, Edits, Mesh, VertexId};
+
 use super::{Names, RunError};
 use crate::load::Path;
 use crate::scene::{Frame, Hold, Region};
 use crate::system::System;
-use tearmesh::Mesh;
-use tearmesh::VertexId;
-use tearmesh::geometry::Point;
-use tearmesh::{Edit, Edits};
 
 /// A hold, and its vertices.
 #[derive(Clone, Debug)]

@@ -29,12 +29,13 @@
 //!
 //! The rows of K itself, which are cheaper, give 0.657 of the true limit or less.
 
-use super::buckle::Slope;
-use super::constraint::ConstraintId;
-use super::implicit::{Triangle, triangle};
-use super::kernel;
-use super::system::{Counters, Family, Model, System};
 use tearmesh::geometry::{Point, Vector, dot};
+
+use crate::buckle::Slope;
+use crate::constraint::ConstraintId;
+use crate::implicit::{Triangle, triangle};
+use crate::kernel;
+use crate::system::{Counters, Family, Model};
 
 /// The largest frequency of a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,6 +124,197 @@ impl Spectrum {
             self.vector.swap_remove(particle);
         }
     }
+
+    /// The bound of ω, in rad/s, with triangles that are stretched as they are now.
+    pub(crate) fn bound(
+        &mut self,
+        model: &Model,
+        positions: &[Point],
+        counters: &mut Counters,
+    ) -> f64 {
+        let growth = shear_growth(model, positions, counters);
+        // A state that is not finite is for the step to find.
+        if growth > self.reach && growth.is_finite() {
+            self.reach = 2.0 * growth;
+            self.bound = None;
+        }
+        self.bound_within_reach(model)
+    }
+
+    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
+    pub(crate) fn bound_within_reach(&mut self, model: &Model) -> f64 {
+        if self.bound.is_none() {
+            let reach = self.reach;
+            let sums: Vec<f64> = (0..model.inverse_masses.len())
+                .map(|particle| model.inverse_masses[particle] * root_sum(model, particle, reach))
+                .collect();
+            let mut bound = 0.0_f64;
+            for family in [Family::Stretch, Family::Bend] {
+                let stiffest = model.stiffest(family);
+                for batch in model.family(family).batches() {
+                    for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
+                        let root = (k * stiffest).sqrt();
+                        bound = bound.max(root * (sums[a as usize] + sums[b as usize]));
+                    }
+                }
+            }
+            for triangle in model.triangles.as_slice() {
+                let sums = triangle.vertices.map(|v| sums[v as usize]);
+                bound = bound.max(triangle_row(triangle, reach, sums));
+            }
+            self.bound = Some(bound);
+        }
+        self.bound.unwrap_or_default().sqrt()
+    }
+
+    /// The bound if it is known: no more than a look.
+    pub(crate) fn known_bound(&self) -> Option<f64> {
+        self.bound.map(f64::sqrt)
+    }
+
+    /// The largest frequency in the present configuration, to 1 % of ω², measured where it is not
+    /// known.
+    pub(crate) fn frequency(
+        &mut self,
+        model: &Model,
+        positions: &[Point],
+        counters: &mut Counters,
+    ) -> Frequency {
+        let growth = shear_growth(model, positions, counters);
+        if let Some(frequency) = self.measured
+            && growth <= self.measured_reach
+            && !self.has_jumped
+        {
+            return frequency;
+        }
+        let Some(frequency) = self.iterate(model, positions, counters, 0.01, 200) else {
+            return self.unmeasured(model, positions, counters);
+        };
+        self.measured = Some(frequency);
+        self.has_jumped = false;
+        // The margin of the watch takes in that much more.
+        self.measured_reach = growth * 1.0625;
+        frequency
+    }
+
+    /// [`Spectrum::frequency`], measured anew every [`RECENT`] calls: once a step, in which the
+    /// configuration changes a little.
+    pub(crate) fn recent_frequency(
+        &mut self,
+        model: &Model,
+        positions: &[Point],
+        counters: &mut Counters,
+    ) -> Frequency {
+        if self.recent_for == 0 {
+            self.measured = None;
+            self.recent_for = RECENT;
+        }
+        self.recent_for -= 1;
+        self.frequency(model, positions, counters)
+    }
+
+    /// The largest frequency in the present configuration, measured until the residual is at most
+    /// `tolerance`, or by so many products.
+    pub(crate) fn measure(
+        &mut self,
+        model: &Model,
+        positions: &[Point],
+        counters: &mut Counters,
+        tolerance: f64,
+        products: u32,
+    ) -> Frequency {
+        let measured = self.iterate(model, positions, counters, tolerance, products);
+        measured.unwrap_or_else(|| self.unmeasured(model, positions, counters))
+    }
+
+    /// What counts where nothing can be measured.
+    fn unmeasured(
+        &mut self,
+        model: &Model,
+        positions: &[Point],
+        counters: &mut Counters,
+    ) -> Frequency {
+        Frequency {
+            omega_rad_per_s: self.bound(model, positions, counters),
+            residual: 1.0,
+            ends: None,
+        }
+    }
+
+    /// Power iteration; `None` where it meets numbers that are not finite, of which it keeps none.
+    fn iterate(
+        &mut self,
+        model: &Model,
+        x: &[Point],
+        counters: &mut Counters,
+        tolerance: f64,
+        products: u32,
+    ) -> Option<Frequency> {
+        self.start_vector(model);
+        let Spectrum {
+            vector: u, product, ..
+        } = self;
+        let mut frequency = Frequency {
+            omega_rad_per_s: 0.0,
+            residual: 0.0,
+            ends: None,
+        };
+        for _ in 0..products.max(1) {
+            let norm = inner(model, u, u).sqrt();
+            if norm == 0.0 {
+                return Some(frequency);
+            }
+            u.iter_mut().for_each(|u| *u /= norm);
+            accelerations_by(model, x, u, product, counters);
+            let square = inner(model, u, product);
+            if !(norm.is_finite() && square.is_finite()) {
+                u.clear();
+                return None;
+            }
+            let misses = product.iter().zip(u.iter()).zip(&model.masses);
+            let miss = misses.map(|((&p, &u), m)| {
+                let rest = p - u * square;
+                m * dot(rest, rest)
+            });
+            frequency.residual = miss.sum::<f64>().sqrt() / square.max(f64::MIN_POSITIVE);
+            frequency.omega_rad_per_s = square.max(0.0).sqrt();
+            if square <= 0.0 || frequency.residual <= tolerance {
+                break;
+            }
+            std::mem::swap(u, product);
+        }
+        frequency.ends = busiest(model, x, u);
+        Some(frequency)
+    }
+
+    /// Begins with the last vector, and some of every direction.
+    fn start_vector(&mut self, model: &Model) {
+        let count = model.masses.len();
+        let vector = &mut self.vector;
+        let known = vector.len() == count;
+        vector.resize(count, Vector::zeros());
+        let share = if known {
+            1e-3 / (count as f64).sqrt()
+        } else {
+            1.0
+        };
+        let mut state = 0u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        for (q, &w) in vector.iter_mut().zip(&model.inverse_masses) {
+            let noise = Vector::new(random(), random(), random());
+            *q = if w > 0.0 {
+                *q + noise * share
+            } else {
+                Vector::zeros()
+            };
+        }
+        self.product.resize(count, Vector::zeros());
+    }
 }
 
 /// How much the extensions along warp and along weft, times √(A k), change with each corner: what
@@ -184,183 +376,16 @@ fn rows_at(model: &Model, particle: usize, reach: f64) -> f64 {
     largest
 }
 
-impl System {
-    /// A bound of ω, in rad/s, that holds in every configuration, or with triangles that shear in the
-    /// present one and all that are stretched no more. Linear the first time, then known; with
-    /// triangles their stretch is looked at each time.
-    pub fn frequency_bound(&mut self) -> f64 {
-        let growth = self.shear_growth();
-        // A state that is not finite is for the step to find.
-        if growth > self.spectrum.reach && growth.is_finite() {
-            self.spectrum.reach = 2.0 * growth;
-            self.spectrum.bound = None;
-        }
-        self.bound_within_reach()
+/// How far the triangles that shear are stretched at most; zero without any.
+fn shear_growth(model: &Model, positions: &[Point], counters: &mut Counters) -> f64 {
+    let triangles = model.triangles.as_slice();
+    if triangles.is_empty() {
+        return 0.0;
     }
-
-    /// How far the triangles that shear are stretched at most; zero without any.
-    fn shear_growth(&mut self) -> f64 {
-        let triangles = self.model.triangles.as_slice();
-        if triangles.is_empty() {
-            return 0.0;
-        }
-        self.counters.triangle_evaluations += 1;
-        let sheared = triangles.iter().filter(|t| t.stiffness[2] > 0.0);
-        let growths =
-            sheared.map(|t| triangle::shear_growth(t, triangle::corners(t, &self.positions)));
-        growths.fold(0.0, f64::max)
-    }
-
-    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
-    pub(crate) fn bound_within_reach(&mut self) -> f64 {
-        if self.spectrum.bound.is_none() {
-            let (model, reach) = (&self.model, self.spectrum.reach);
-            let sums: Vec<f64> = (0..self.positions.len())
-                .map(|particle| model.inverse_masses[particle] * root_sum(model, particle, reach))
-                .collect();
-            let mut bound = 0.0_f64;
-            for family in [Family::Stretch, Family::Bend] {
-                let stiffest = model.stiffest(family);
-                for batch in model.family(family).batches() {
-                    for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
-                        let root = (k * stiffest).sqrt();
-                        bound = bound.max(root * (sums[a as usize] + sums[b as usize]));
-                    }
-                }
-            }
-            for triangle in model.triangles.as_slice() {
-                let sums = triangle.vertices.map(|v| sums[v as usize]);
-                bound = bound.max(triangle_row(triangle, reach, sums));
-            }
-            self.spectrum.bound = Some(bound);
-        }
-        self.spectrum.bound.unwrap_or_default().sqrt()
-    }
-
-    /// The bound if it is known: no more than a look.
-    #[must_use]
-    pub fn known_frequency_bound(&self) -> Option<f64> {
-        self.spectrum.bound.map(f64::sqrt)
-    }
-
-    /// The largest frequency in the present configuration, to 1 % of ω², kept until topology,
-    /// a mass or a stiffness change, the state is set ([`System::state_mut`]), a step is taken back,
-    /// or triangles that shear are stretched by more than then. Steps change the configuration a
-    /// little each: [`System::measure_frequency`] looks anew.
-    pub fn frequency(&mut self) -> Frequency {
-        let growth = self.shear_growth();
-        if let Some(frequency) = self.spectrum.measured
-            && growth <= self.spectrum.measured_reach
-            && !self.spectrum.has_jumped
-        {
-            return frequency;
-        }
-        let Some(frequency) = self.iterate(0.01, 200) else {
-            return self.unmeasured();
-        };
-        self.spectrum.measured = Some(frequency);
-        self.spectrum.has_jumped = false;
-        // The margin of the watch takes in that much more.
-        self.spectrum.measured_reach = growth * 1.0625;
-        frequency
-    }
-
-    /// The same, measured anew every [`RECENT`] calls: once a step, in which the configuration
-    /// changes a little.
-    pub(crate) fn recent_frequency(&mut self) -> Frequency {
-        if self.spectrum.recent_for == 0 {
-            self.spectrum.measured = None;
-            self.spectrum.recent_for = RECENT;
-        }
-        self.spectrum.recent_for -= 1;
-        self.frequency()
-    }
-
-    /// The largest frequency in the present configuration, by power iteration until
-    /// the residual is at most `tolerance`, or so many products. From below: the true one is
-    /// larger by about the residual. In a state that is not finite it is the bound.
-    pub fn measure_frequency(&mut self, tolerance: f64, products: u32) -> Frequency {
-        let measured = self.iterate(tolerance, products);
-        measured.unwrap_or_else(|| self.unmeasured())
-    }
-
-    /// What counts where nothing can be measured.
-    fn unmeasured(&mut self) -> Frequency {
-        Frequency {
-            omega_rad_per_s: self.frequency_bound(),
-            residual: 1.0,
-            ends: None,
-        }
-    }
-
-    /// Power iteration; `None` where it meets numbers that are not finite, of which it keeps none.
-    fn iterate(&mut self, tolerance: f64, products: u32) -> Option<Frequency> {
-        self.start_vector();
-        let (model, x) = (&self.model, &self.positions);
-        let Spectrum {
-            vector: u, product, ..
-        } = &mut self.spectrum;
-        let mut frequency = Frequency {
-            omega_rad_per_s: 0.0,
-            residual: 0.0,
-            ends: None,
-        };
-        for _ in 0..products.max(1) {
-            let norm = inner(model, u, u).sqrt();
-            if norm == 0.0 {
-                return Some(frequency);
-            }
-            u.iter_mut().for_each(|u| *u /= norm);
-            accelerations_by(model, x, u, product, &mut self.counters);
-            let square = inner(model, u, product);
-            if !(norm.is_finite() && square.is_finite()) {
-                u.clear();
-                return None;
-            }
-            let misses = product.iter().zip(u.iter()).zip(&model.masses);
-            let miss = misses.map(|((&p, &u), m)| {
-                let rest = p - u * square;
-                m * dot(rest, rest)
-            });
-            frequency.residual = miss.sum::<f64>().sqrt() / square.max(f64::MIN_POSITIVE);
-            frequency.omega_rad_per_s = square.max(0.0).sqrt();
-            if square <= 0.0 || frequency.residual <= tolerance {
-                break;
-            }
-            std::mem::swap(u, product);
-        }
-        frequency.ends = busiest(model, x, u);
-        Some(frequency)
-    }
-
-    /// Begins with the last vector, and some of every direction.
-    fn start_vector(&mut self) {
-        let count = self.positions.len();
-        let vector = &mut self.spectrum.vector;
-        let known = vector.len() == count;
-        vector.resize(count, Vector::zeros());
-        let share = if known {
-            1e-3 / (count as f64).sqrt()
-        } else {
-            1.0
-        };
-        let mut state = 0u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
-        for (q, &w) in vector.iter_mut().zip(&self.model.inverse_masses) {
-            let noise = Vector::new(random(), random(), random());
-            *q = if w > 0.0 {
-                *q + noise * share
-            } else {
-                Vector::zeros()
-            };
-        }
-        self.spectrum.product.resize(count, Vector::zeros());
-    }
+    counters.triangle_evaluations += 1;
+    let sheared = triangles.iter().filter(|t| t.stiffness[2] > 0.0);
+    let growths = sheared.map(|t| triangle::shear_growth(t, triangle::corners(t, positions)));
+    growths.fold(0.0, f64::max)
 }
 
 /// Σ m u · v.

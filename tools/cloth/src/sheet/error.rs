@@ -1,0 +1,91 @@
+//! Why a cloth was refused.
+
+use std::fmt;
+
+use tearmesh::geometry::Vector;
+use tearmesh::{FaceId, MassError, VertexId};
+
+/// Why a cloth was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ClothError {
+    /// The masses cannot be.
+    Mass(MassError),
+    /// A stiffness is not a positive finite number, or that of some bend would not be.
+    Stiffness {
+        /// The field of [`Fabric`](crate::Fabric).
+        field: &'static str,
+        /// The number as given.
+        given: f64,
+    },
+    /// Two vertices that a constraint is to join are at one place, or not at any.
+    Length {
+        /// The vertices.
+        ends: [VertexId; 2],
+        /// The rest length, in metres.
+        given: f64,
+    },
+    /// A face that is to be a triangle has no area at rest, or its warp no direction in it.
+    Face {
+        /// The face.
+        face: FaceId,
+        /// The direction of warp.
+        warp: Vector,
+    },
+    /// There is not one direction of warp for each face.
+    Warps {
+        /// The number of faces.
+        faces: usize,
+        /// The number of directions.
+        warps: usize,
+    },
+    /// There are not as many positions and masses as vertices.
+    Counts {
+        /// The number of vertices.
+        vertices: usize,
+        /// The number of positions.
+        positions: usize,
+        /// The number of masses.
+        masses: usize,
+    },
+}
+
+impl From<MassError> for ClothError {
+    fn from(error: MassError) -> ClothError {
+        ClothError::Mass(error)
+    }
+}
+
+impl fmt::Display for ClothError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ClothError::Mass(error) => error.fmt(f),
+            ClothError::Stiffness { field, given } => write!(
+                f,
+                "{field} is {given}, which makes no positive finite stiffness"
+            ),
+            ClothError::Length {
+                ends: [a, b],
+                given,
+            } => write!(f, "the edge {a}-{b} has the rest length {given} m"),
+            ClothError::Face { face, warp } => write!(
+                f,
+                "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
+                warp.x, warp.y, warp.z
+            ),
+            ClothError::Warps { faces, warps } => {
+                write!(f, "{faces} faces have {warps} directions of warp")
+            }
+            ClothError::Counts {
+                vertices,
+                positions,
+                masses,
+            } => write!(
+                f,
+                "{vertices} vertices have {positions} positions and {masses} masses"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ClothError {}

@@ -1,0 +1,25 @@
+//! What a simulation costs, without a clock.
+
+/// What was computed since the system was made: the cost of a simulation, without a clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Evaluations of all forces.
+    pub force_evaluations: u64,
+    /// Projections of single constraints.
+    pub projections: u64,
+    /// Products of the stiffness matrix with a vector.
+    pub matrix_products: u64,
+    /// Sums over all triangles: of forces, of products with the stiffness matrix, of energy for
+    /// line searches, and of stretch for the bound of frequencies.
+    pub triangle_evaluations: u64,
+    /// Sums of wind over all faces.
+    pub wind_evaluations: u64,
+    /// Sums of areas over all faces, for the rate at which wind slows the system.
+    pub area_evaluations: u64,
+    /// Tests of all particles against one collider.
+    pub collider_passes: u64,
+    /// Substeps.
+    pub substeps: u64,
+    /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
+    pub overshoots: u64,
+}
