@@ -12,9 +12,13 @@ use crates::Files;
 /// Every crate of the project, by the file that it begins with, and how many files it has at least.
 const CRATES: &[(&str, &str, usize)] = &[
     ("src", "lib.rs", 40),
+    ("tools/cloth/src", "lib.rs", 50),
+    ("tools/obj/src", "lib.rs", 30),
     ("tools/lab/src", "lib.rs", 4),
     ("tools/cli/src", "lib.rs", 25),
     ("tools/bench/src", "main.rs", 20),
+    ("tests", "main.rs", 30),
+    ("tests/cloth", "main.rs", 30),
     ("tests/obj", "main.rs", 12),
     ("tests/cli", "main.rs", 8),
 ];
@@ -365,9 +369,10 @@ fn lines_in(path: &Path) -> usize {
             .sum();
     }
     let is_rust = path.extension().is_some_and(|extension| extension == "rs");
-    is_rust
-        .then(|| fs::read_to_string(path).expect("a file").lines().count())
-        .unwrap_or(0)
+    if !is_rust {
+        return 0;
+    }
+    fs::read_to_string(path).expect("a file").lines().count()
 }
 
 #[test]
@@ -380,11 +385,12 @@ fn the_sizes_that_are_told_are_true() {
     let cloth = lines("tools/cloth/src");
     println!("kernel {kernel}, scissor {scissor}, script {script}, cloth {cloth}");
     let told = |name: &str, text: &str, size: usize| {
-        let rounded = (size + 50) / 100 * 100;
-        let rounded = format!("{},{:03}", rounded / 1000, rounded % 1000);
+        // To a hundred lines, and at most two hundred off.
+        let near = (size - 200..=size + 200).filter(|size| size % 100 == 0);
+        let mut near = near.map(|size| format!("{},{:03}", size / 1000, size % 1000));
         assert!(
-            text.contains(&rounded),
-            "{name} does not say {rounded} lines"
+            near.any(|size| text.contains(&size)),
+            "{name} has no number near {size}"
         );
     };
     for (name, sizes) in [

@@ -1,4 +1,8 @@
-//! Cloth, as thin as can be: particles, constraints, solvers, and a follower of the log.
+//! Cloth on the kernel [`tearmesh`]: particles, constraints, solvers, a follower of the log, what
+//! tears, and whole [`scene`]s.
+//!
+//! The kernel is re-exported, so that a game needs this one dependency: `tearmesh_cloth::tearmesh`.
+//! It knows nothing of this crate, and a simulation of your own can follow its log in the same way.
 //!
 //! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A
 //! [`Solver`] advances it; [`System::step`] watches over stability, notices blow-up and steps that
