@@ -195,7 +195,7 @@ fn cuts_across_cuts_satisfy_the_oracle_and_can_be_mended() {
     assert!(cuts >= 300 && torn_edges_crossed >= 150);
 }
 
-fn scissor([a, b]: Rays) -> Scissor {
+pub(crate) fn scissor([a, b]: Rays) -> Scissor {
     Scissor::new(&ray(a), &ray(b)).expect("a plane")
 }
 
@@ -377,7 +377,7 @@ fn a_snap_that_moves_makes_the_seam_straight() {
 }
 
 /// The smallest altitude of each face.
-fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
+pub(crate) fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
     let of = |f| {
         let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
         let longest = [(a, b), (b, c), (c, a)].map(|(p, q)| (q - p).norm());
@@ -387,7 +387,7 @@ fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
 }
 
 /// The face of the mesh before the edits that each face now is a part of.
-fn parents(edits: &Edits, faces: usize) -> Vec<usize> {
+pub(crate) fn parents(edits: &Edits, faces: usize) -> Vec<usize> {
     let mut parents: Vec<usize> = (0..faces).collect();
     for edit in edits.iter() {
         if let tearmesh::Edit::Insert(insert) = edit {

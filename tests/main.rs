@@ -23,3 +23,4 @@ mod straight;
 mod straight_polylines;
 mod subdivide;
 mod tear;
+mod tips;
