@@ -327,6 +327,17 @@ pub(crate) fn area(a: Point, b: Point, c: Point) -> f64 {
     length(cross(b - a, c - a)) / 2.0
 }
 
+/// The smallest altitude of a triangle: 0 where its corners are one point.
+pub(crate) fn altitude([a, b, c]: [Point; 3]) -> f64 {
+    let sides = [b - a, c - b, a - c].map(length);
+    let longest = sides.into_iter().fold(0.0, f64::max);
+    if longest > 0.0 {
+        length(cross(b - a, c - a)) / longest
+    } else {
+        0.0
+    }
+}
+
 /// The angle of the point (x, y) seen from the x-axis, in radians, for y >= 0.
 ///
 /// Our own, because the last bits of the system's `atan2` differ from machine to

@@ -12,6 +12,7 @@ mod offsets;
 mod outcome;
 mod paper;
 mod partition;
+mod pieces;
 mod strip;
 mod unshare;
 
@@ -25,6 +26,7 @@ use crate::geometry::{Plane, Ray, max_abs};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use exact::Trace;
 use measure::Survey;
 use offsets::Offsets;
 use outcome::Outcome;
@@ -106,7 +108,11 @@ impl Scissor {
     /// takes the end for the crossing. Brought into 0 … 0.49; NaN counts as 0.
     ///
     /// With 0 the seam is straight to the last digits, and thin faces are what they are. With
-    /// r, no new face has an altitude below r (1 − r) of that of the face it was part of.
+    /// r, no new face has an altitude below r (1 − r) of that of the face it was part of. An end of
+    /// the slit that would leave a thinner one moves along the slit, as little as it has to and by
+    /// less than the way through one face: at the default by nothing in the median, by .03 of an edge
+    /// in nine of ten cuts of a few random triangles, and by an edge at most
+    /// ([`CutReport::tip_overshoots`] says how far). It never goes on to a boundary.
     #[must_use]
     pub fn snap(mut self, snap: f64) -> Scissor {
         self.exact.snap = if snap.is_nan() {
@@ -232,9 +238,14 @@ impl Scissor {
     ) -> Result<CutReport, CutError> {
         in_step(mesh, positions, edits)?;
         let offsets = self.offsets(method, positions);
-        let survey = Survey::new(&self.strip, mesh, positions, &offsets);
+        let ready = self.ready(method, mesh, positions, &offsets);
+        let expected = match &ready {
+            Ready::Exact(trace) => Some(exact::pieces_expected(trace, &self.exact, mesh, &offsets)),
+            Ready::Partition | Ready::Paper(_) => None,
+        };
+        let survey = Survey::new(&self.strip, mesh, positions, &offsets, expected);
         let first_edit = edits.next_number();
-        let outcome = self.make(method, mesh, positions, &offsets, true, edits);
+        let outcome = self.make(ready, mesh, positions, &offsets, true, edits);
         Ok(survey.report(&self.strip, mesh, positions, outcome, edits, first_edit))
     }
 
@@ -257,7 +268,8 @@ impl Scissor {
     ) -> Result<(), CutError> {
         in_step(mesh, positions, edits)?;
         let offsets = self.offsets(method, positions);
-        self.make(method, mesh, positions, &offsets, false, edits);
+        let ready = self.ready(method, mesh, positions, &offsets);
+        self.make(ready, mesh, positions, &offsets, false, edits);
         Ok(())
     }
 
@@ -269,37 +281,54 @@ impl Scissor {
         }
     }
 
+    /// Decides what can be decided before anything is changed.
+    fn ready(
+        &self,
+        method: Method,
+        mesh: &Mesh,
+        positions: &Positions,
+        offsets: &Offsets,
+    ) -> Ready {
+        match method {
+            Method::Exact => {
+                let trace = exact::trace(&self.strip, &self.exact, mesh, positions, offsets);
+                Ready::Exact(trace)
+            }
+            Method::Partition => Ready::Partition,
+            Method::Uniform => Ready::Paper(Form::Uniform),
+            Method::Alternating => Ready::Paper(Form::Alternating),
+        }
+    }
+
     /// Cuts. `label` asks for the side of every face.
     fn make(
         &self,
-        method: Method,
+        ready: Ready,
         mesh: &mut Mesh,
         positions: &mut Positions,
         offsets: &Offsets,
         label: bool,
         edits: &mut Edits,
     ) -> Outcome {
-        let outcome = match method {
-            Method::Exact => exact::cut(
-                &self.strip,
-                &self.exact,
-                mesh,
-                positions,
-                offsets,
-                label,
-                edits,
-            ),
-            Method::Partition => {
-                partition::cut(&self.strip, self.tips, mesh, positions, offsets, edits)
+        let strip = &self.strip;
+        let outcome = match ready {
+            Ready::Exact(trace) => {
+                let (snap_move, labels) = (self.exact.snap_move, label.then_some(offsets));
+                exact::cut(strip, trace, snap_move, mesh, positions, labels, edits)
             }
-            Method::Uniform => paper::cut(&self.strip, Form::Uniform, mesh, positions, edits),
-            Method::Alternating => {
-                paper::cut(&self.strip, Form::Alternating, mesh, positions, edits)
-            }
+            Ready::Partition => partition::cut(strip, self.tips, mesh, positions, offsets, edits),
+            Ready::Paper(form) => paper::cut(strip, form, mesh, positions, edits),
         };
         edits.replay(positions);
         outcome
     }
+}
+
+/// A method, with what it has found out before it cuts.
+enum Ready {
+    Exact(Trace),
+    Partition,
+    Paper(Form),
 }
 
 /// Whether positions have seen every edit, and are those of this mesh.

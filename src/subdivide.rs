@@ -43,12 +43,13 @@ impl Plan {
     ///
     /// If an id is none of this mesh or of this plan.
     pub fn apply<'e>(&self, mesh: &mut Mesh, edits: &'e mut Edits) -> Result<Insert<'e>, Refusal> {
-        let work = Work::new(self, mesh)?;
-        work.carry_out(mesh);
-        let Work {
-            placed, children, ..
-        } = work;
-        Ok(edits.finish_insert(placed, children))
+        Ok(self.prepare(mesh)?.carry_out(mesh, edits))
+    }
+
+    /// All that inserting the points takes, which changes nothing yet. Positions may change before
+    /// it is carried out, and the mesh may not.
+    pub(crate) fn prepare(&self, mesh: &Mesh) -> Result<Work, Refusal> {
+        Work::new(self, mesh)
     }
 }
 
@@ -69,7 +70,7 @@ struct OnEdge {
 }
 
 /// All that is to be done, worked out before anything is changed.
-struct Work {
+pub(crate) struct Work {
     placed: Vec<InsertedPoint>,
     children: Vec<Child>,
     touched: Vec<Touched>,
@@ -268,7 +269,18 @@ impl Work {
         });
     }
 
-    fn carry_out(&self, mesh: &mut Mesh) {
+    /// The children of the faces that are to be divided.
+    pub(crate) fn children(&self) -> &[Child] {
+        &self.children
+    }
+
+    /// Inserts the points.
+    pub(crate) fn carry_out<'e>(self, mesh: &mut Mesh, edits: &'e mut Edits) -> Insert<'e> {
+        self.change(mesh);
+        edits.finish_insert(self.placed, self.children)
+    }
+
+    fn change(&self, mesh: &mut Mesh) {
         for child in &self.children {
             if child.face == child.parent {
                 for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {

@@ -425,35 +425,33 @@ fn random_cuts_of_all_methods_can_be_mended() {
 /// snapped vertex stands for the crossing, also where it lies beyond a side plane itself.
 #[test]
 fn snapped_slits_are_whole_and_of_the_right_length() {
-    let mut random = Random(67);
-    let (mut errors, mut slits) = (Vec::new(), 0);
-    for sheet in sheets() {
-        let mut done = 0;
-        while done < 80 {
-            let [x, y] = [0.25 + 0.5 * random.next(), 0.25 + 0.5 * random.next()];
-            let turn = std::f64::consts::TAU * random.next();
-            let half = 0.1 + 0.1 * random.next();
-            let ends = [
-                [x - half * turn.cos(), y - half * turn.sin()],
-                [x + half * turn.cos(), y + half * turn.sin()],
-            ];
-            let mut cutting = Cutting::new(&sheet);
-            let report = cutting.cut(&scissor(ends.map(crate::straight::down)).snap(0.2));
-            assert_eq!(cutting.mesh.boundary_loops().len(), 2, "{ends:?}");
-            assert_eq!(report.tip_overshoots.len(), 2, "{ends:?}");
-            let slit = report.seam_length / report.seam_length_ratio;
-            errors.push((report.seam_length - slit).abs() / sheet.mean_edge());
-            done += 1;
+    for (snap, mean_max, most) in [(Scissor::SNAP, 0.03, 1.2), (0.2, 0.2, 1.3)] {
+        let mut random = Random(67);
+        let mut errors = Vec::new();
+        for sheet in sheets() {
+            for _ in 0..80 {
+                let [x, y] = [0.25 + 0.5 * random.next(), 0.25 + 0.5 * random.next()];
+                let turn = std::f64::consts::TAU * random.next();
+                let half = 0.1 + 0.1 * random.next();
+                let ends = [
+                    [x - half * turn.cos(), y - half * turn.sin()],
+                    [x + half * turn.cos(), y + half * turn.sin()],
+                ];
+                let mut cutting = Cutting::new(&sheet);
+                let report = cutting.cut(&scissor(ends.map(crate::straight::down)).snap(snap));
+                assert_eq!(cutting.mesh.boundary_loops().len(), 2, "{ends:?}");
+                assert_eq!(report.tip_overshoots.len(), 2, "{ends:?}");
+                let slit = report.seam_length / report.seam_length_ratio;
+                errors.push((report.seam_length - slit).abs() / sheet.mean_edge());
+            }
         }
-        slits += done;
+        errors.sort_by(f64::total_cmp);
+        let (count, longest) = (errors.len(), errors[errors.len() - 1]);
+        let mean = errors.iter().sum::<f64>() / count as f64;
+        println!("snap {snap}: {count} slits, length off by {mean:.3} edges, {longest:.3} at most");
+        // Tips move rather than leave a thin face, by less than the way through one face.
+        assert!(mean < mean_max && longest < most);
     }
-    errors.sort_by(f64::total_cmp);
-    let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    println!(
-        "{slits} slits, length off by {mean:.3} edges, {:.3} at most",
-        errors[errors.len() - 1]
-    );
-    assert!(mean < 0.1 && errors[errors.len() - 1] < 0.45);
 }
 
 /// Where rays pass two sheets, a polyline is one slit on each.
@@ -485,12 +483,11 @@ fn a_polyline_is_joined_on_every_sheet_that_it_passes() {
             joined += usize::from(cutting.mesh.boundary_loops().len() == 4);
         }
         println!("snap {snap}: {joined} of {done} polylines joined on both sheets");
-        // The plane passes through the joint on one sheet, and by that on the other: with a snap
-        // of a fifth of an edge it may pass too far away.
-        assert!(
-            joined == done || (snap > Scissor::SNAP && joined >= 57),
-            "snap {snap}: {joined}"
-        );
+        // The plane passes through the joint on one sheet, and by that on the other: where that tip
+        // had to move so that no face got thin, it may pass too far away.
+        let least = [(0.0, 60), (Scissor::SNAP, 59), (0.2, 54)];
+        let (_, least) = least.into_iter().find(|one| one.0 == snap).expect("a snap");
+        assert!(joined >= least, "snap {snap}: {joined}");
     }
 }
 

@@ -145,11 +145,18 @@ fn regression_a_tip_near_an_edge_leaves_no_thin_face() {
 fn tips_keep_faces_from_getting_thin() {
     for snap in [0.02, Scissor::SNAP, 0.2] {
         let bound = snap * (1.0 - snap);
+        let mut overshoots = Vec::new();
         let (mut thin, mut worst, mut slits) = (0, (f64::INFINITY, [[0.0; 2]; 2]), 0);
         for_slits(4451, |sheet, ends| {
             let cut = cut(sheet, &scissor(ends.map(down)).snap(snap));
             let (least, _) = cut.thinnest();
             slits += 1;
+            overshoots.extend(
+                cut.report
+                    .tip_overshoots
+                    .iter()
+                    .map(|over| over.abs() / sheet.mean_edge()),
+            );
             thin += usize::from(least < bound * (1.0 - 1e-9));
             if least < worst.0 {
                 worst = (least, ends);
@@ -159,6 +166,15 @@ fn tips_keep_faces_from_getting_thin() {
             "snap {snap}: {thin} of {slits} slits leave a face below {bound:.4} of its parent's \
              altitude, the worst {:.1e}",
             worst.0
+        );
+        overshoots.sort_by(f64::total_cmp);
+        let at = |part: f64| overshoots[(part * (overshoots.len() - 1) as f64) as usize];
+        println!(
+            "    {} tips, off by {:.1e} of an edge in the median, {:.3} at nine tenths, {:.3} at most",
+            overshoots.len(),
+            at(0.5),
+            at(0.9),
+            at(1.0)
         );
         assert_eq!(thin, 0, "snap {snap}: {worst:?}");
     }
@@ -218,7 +234,12 @@ fn rays_exactly_on_the_boundary_cut_off_a_piece() {
                 report.crumbs,
                 report.lost,
             );
-            if counts != (2, 2, 0, 0) {
+            // The seam of `partition` may end at a vertex beside the strip; then it says so.
+            let is_right = match method {
+                Method::Exact => counts == (2, 2, 0, 0),
+                _ => report.pieces_expected == 2 && report.crumbs == 0,
+            };
+            if !is_right {
                 wrong.push((method, n, ends, counts));
             }
         }

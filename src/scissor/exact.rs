@@ -7,7 +7,8 @@
 //!    well inside their edges, and so no child has an altitude below r (1 − r) of its parent's.
 //! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from
 //!    node to node (a vertex on the plane, or a crossing) as far as the strip between the side
-//!    planes goes. Where that ends inside the face there is a *tip*.
+//!    planes goes. Where that ends inside the face there is a *tip*, which moves along the slit where
+//!    it would leave a thin face (`exact/tips.rs`).
 //! 4. **Insert** all crossings and tips at once, each computed once from the same end, so both sides
 //!    of the seam have the same bits, and a flat sheet stays flat. An opening needs an end
 //!    that differs: a slit of one edge between vertices that both stay joined gets one in the
@@ -24,21 +25,25 @@
 //! both sides, and the passive twin is not on the plane.
 
 mod label;
+mod planner;
 mod slip;
+mod tips;
 mod trace;
 mod tracer;
 
 use super::offsets::Offsets;
 use super::outcome::{Ends, Outcome};
 use super::strip::Strip;
-use super::unshare;
+use super::{pieces, unshare};
 use crate::edit::{Edit, Edits};
 use crate::geometry::{Point, Side, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::subdivide::{ChordEnd, Plan, PointId, Refusal};
-use trace::{Crossing, Piece, Place, Site, Trace};
+use crate::subdivide::{Plan, Refusal};
+use planner::{Chain, Planner};
+use trace::Place;
+pub(super) use trace::Trace;
 
 /// What the method is told beyond the strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,37 +56,86 @@ pub(super) struct Settings {
     pub(super) joints: Vec<VertexId>,
 }
 
-/// Cuts. `label` asks for the side of every face, for the report.
-pub(super) fn cut(
+/// Finds where the slit runs, and where it has to end so that no face gets thin.
+pub(super) fn trace(
     strip: &Strip,
     settings: &Settings,
-    mesh: &mut Mesh,
-    positions: &mut Positions,
+    mesh: &Mesh,
+    positions: &Positions,
     offsets: &Offsets,
-    label: bool,
-    edits: &mut Edits,
-) -> Outcome {
+) -> Trace {
     let Settings { snap, joints, .. } = settings;
     let mut trace = tracer::trace(strip, *snap, joints, mesh, positions, offsets);
-    if settings.snap_move {
-        slip::onto_plane(&trace.snapped, mesh, positions, edits);
+    tips::settle(&mut trace, *snap, mesh, positions);
+    trace
+}
+
+/// The pieces that a cut along a trace should leave.
+pub(super) fn pieces_expected(
+    trace: &Trace,
+    settings: &Settings,
+    mesh: &Mesh,
+    offsets: &Offsets,
+) -> usize {
+    let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
+    on_plane.extend(&settings.joints);
+    on_plane.sort_unstable();
+    let sign = |v: VertexId| match on_plane.binary_search(&v) {
+        Ok(_) => 0.0,
+        Err(_) => offsets.of(v),
+    };
+    let mut faces = vec![false; mesh.face_count()];
+    let mut edges = Vec::new();
+    for piece in trace
+        .pieces
+        .iter()
+        .filter(|piece| piece.ends_at_nodes() == [true; 2])
+    {
+        match piece.place {
+            Place::Face(f) => faces[f.index()] = true,
+            Place::Edge { h, .. } => edges.push(h),
+        }
     }
-    let slit = loop {
-        match Slit::insert(&trace, mesh, edits) {
-            Ok(slit) => break slit,
+    edges.sort_unstable();
+    let is_slit_along = |h: HalfEdgeId| {
+        let pair = mesh.pair(h).unwrap_or(h);
+        edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
+    };
+    pieces::expected(mesh, sign, |f| faces[f.index()], is_slit_along)
+}
+
+/// Cuts along a trace. `label` asks for the side of every face, for the report.
+pub(super) fn cut(
+    strip: &Strip,
+    mut trace: Trace,
+    snap_move: bool,
+    mesh: &mut Mesh,
+    positions: &mut Positions,
+    offsets: Option<&Offsets>,
+    edits: &mut Edits,
+) -> Outcome {
+    let (slit, insertion) = loop {
+        let (plan, slit) = Slit::plan(&trace, mesh);
+        match plan.prepare(mesh) {
+            Ok(insertion) => break (slit, (!plan.is_empty()).then_some(insertion)),
             Err(Refusal::Crowded { face }) => trace.leave_out(mesh, face),
             Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
         }
     };
+    if snap_move {
+        slip::onto_plane(&trace, mesh, positions, edits);
+    }
+    if let Some(insertion) = insertion {
+        insertion.carry_out(mesh, edits);
+    }
     edits.replay(positions);
-    let labels = if label {
-        labels(strip, mesh, positions, offsets, &trace, &slit)
-    } else {
-        Vec::new()
+    let labels = match offsets {
+        Some(offsets) => labels(strip, mesh, positions, offsets, &trace, &slit),
+        None => Vec::new(),
     };
     let before = edits.next_number();
     let mut is_cut = vec![false; mesh.half_edge_count()];
-    for &h in &slit.half_edges {
+    for h in slit.half_edges(mesh) {
         is_cut[h.index()] = true;
     }
     unshare::by_fan(mesh, &slit.nodes, |h| is_cut[h.index()], edits);
@@ -120,7 +174,8 @@ fn labels(
             corners.iter().any(|&v| sign(v) < 0.0) && corners.iter().any(|&v| sign(v) > 0.0);
         let is_tip = |v: &VertexId| slit.tips.iter().any(|of_side| of_side.contains(v));
         on_both
-            && (corners.iter().any(is_tip) || !meets_strip(strip, corners.map(|v| positions.at(v))))
+            && (corners.iter().any(is_tip)
+                || !meets_strip(strip, offsets.bound(), corners.map(|v| positions.at(v))))
     };
     let sides = label::all(mesh, sign, offset);
     let sides = mesh.faces().zip(sides);
@@ -130,7 +185,7 @@ fn labels(
 }
 
 /// Whether the plane crosses a triangle between the side planes.
-fn meets_strip(strip: &Strip, corners: [Point; 3]) -> bool {
+fn meets_strip(strip: &Strip, bound: f64, corners: [Point; 3]) -> bool {
     let crossing = |i: usize| {
         let (p, q) = (corners[i], corners[(i + 1) % 3]);
         let (from, to) = (strip.plane.offset(p), strip.plane.offset(q));
@@ -138,31 +193,23 @@ fn meets_strip(strip: &Strip, corners: [Point; 3]) -> bool {
     };
     let mut ends = (0..3).filter_map(crossing);
     match (ends.next(), ends.next()) {
-        (Some(p), Some(q)) => strip.clip(p, q).is_some(),
+        (Some(p), Some(q)) => strip.clip(p, q, bound).is_some(),
         _ => false,
     }
 }
 
-/// The edges of the mesh that are to be torn, once they are there.
+/// The edges that are to be torn, and that are in the mesh once all points are inserted.
 struct Slit {
-    /// Both half-edges of each.
-    half_edges: Vec<HalfEdgeId>,
+    edges: Vec<[VertexId; 2]>,
     /// The vertices at their ends, ascending.
     nodes: Vec<VertexId>,
     /// The vertices at which each side plane ends the slit.
     tips: [Vec<VertexId>; 2],
 }
 
-/// A crossing that is to be inserted: the point of the plan, and the vertex it will have.
-struct Planned {
-    half_edge: HalfEdgeId,
-    point: PointId,
-    vertex: VertexId,
-}
-
 impl Slit {
-    /// Inserts what the trace needs, and finds the slit in the mesh that results.
-    fn insert(trace: &Trace, mesh: &mut Mesh, edits: &mut Edits) -> Result<Slit, Refusal> {
+    /// What the trace needs inserted, and the slit that there will be then.
+    fn plan(trace: &Trace, mesh: &Mesh) -> (Plan, Slit) {
         let mut planner = Planner::new(mesh);
         planner.crossings(trace, mesh);
         let mut edges: Vec<[VertexId; 2]> = Vec::new();
@@ -182,9 +229,6 @@ impl Slit {
         for &(side, site) in &trace.lone_tips {
             tips[side].extend(planner.vertex(site));
         }
-        if !planner.plan.is_empty() {
-            planner.plan.apply(mesh, edits)?;
-        }
         for of_side in &mut tips {
             of_side.sort_unstable();
             of_side.dedup();
@@ -192,12 +236,14 @@ impl Slit {
         let mut nodes: Vec<VertexId> = edges.as_flattened().to_vec();
         nodes.sort_unstable();
         nodes.dedup();
-        let half_edges = edges.iter().flat_map(|&ends| pair_between(mesh, ends));
-        Ok(Slit {
-            half_edges: half_edges.collect(),
-            nodes,
-            tips,
-        })
+        let slit = Slit { edges, nodes, tips };
+        (planner.plan, slit)
+    }
+
+    /// Both half-edges of each edge.
+    fn half_edges(&self, mesh: &Mesh) -> impl Iterator<Item = HalfEdgeId> {
+        let edges = self.edges.iter();
+        edges.flat_map(|&ends| pair_between(mesh, ends))
     }
 
     /// The tips, those included that a tip on the boundary was split into by the edits from
@@ -224,127 +270,3 @@ fn pair_between(mesh: &Mesh, [from, to]: [VertexId; 2]) -> [HalfEdgeId; 2] {
     });
     found.expect("an edge of the slit has a face on each side")
 }
-
-/// Collects the points to insert, and foresees their vertices.
-struct Planner {
-    plan: Plan,
-    /// By half-edge.
-    crossings: Vec<Planned>,
-    next: usize,
-}
-
-impl Planner {
-    fn new(mesh: &Mesh) -> Planner {
-        Planner {
-            plan: Plan::new(),
-            crossings: Vec::new(),
-            next: mesh.vertex_count(),
-        }
-    }
-
-    fn new_vertices(&mut self, count: usize) -> VertexId {
-        let first = VertexId::new(self.next).expect(COUNTED);
-        self.next += count;
-        first
-    }
-
-    /// Plans the points where the slit crosses edges.
-    fn crossings(&mut self, trace: &Trace, mesh: &Mesh) {
-        for &Crossing {
-            half_edge: h,
-            t,
-            forward,
-            ..
-        } in trace.crossings.iter().filter(|crossing| crossing.used)
-        {
-            let ghost = mesh.ghost_pair(h);
-            let twin = ghost.and_then(|g| self.planned(g).filter(|_| trace.is_one_place(h, g)));
-            let planned = if let Some(twin) = twin {
-                Planned {
-                    half_edge: h,
-                    point: twin.point,
-                    vertex: VertexId::new(twin.vertex.index() + 1).expect(COUNTED),
-                }
-            } else {
-                let point = if forward {
-                    self.plan.on_edge(h, t)
-                } else {
-                    self.plan.on_edge_backward(h, t)
-                };
-                Planned {
-                    half_edge: h,
-                    point,
-                    vertex: self.new_vertices(if ghost.is_some() { 2 } else { 1 }),
-                }
-            };
-            self.crossings.push(planned);
-        }
-    }
-
-    fn planned(&self, h: HalfEdgeId) -> Option<&Planned> {
-        let at = self.crossings.binary_search_by_key(&h, |one| one.half_edge);
-        at.ok().map(|at| &self.crossings[at])
-    }
-
-    /// The vertex that a node has or will have.
-    fn vertex(&self, site: Site) -> Option<VertexId> {
-        match site {
-            Site::Vertex(v) => Some(v),
-            Site::Edge(h) => self.planned(h).map(|planned| planned.vertex),
-        }
-    }
-
-    /// Plans the tips and the middle of a piece, and returns the vertices along it.
-    fn piece(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece) -> Chain {
-        // The middle comes first: the first point in a face is joined to all of its outline.
-        let middle = piece
-            .middle
-            .then(|| self.point(trace, mesh, piece, (piece.from + piece.to) / 2.0));
-        let from = self.end(trace, mesh, piece, 0);
-        let to = self.end(trace, mesh, piece, 1);
-        if let (Place::Face(f), None, [true, true]) = (piece.place, middle, piece.ends_at_nodes()) {
-            let end = |site| match site {
-                Site::Vertex(v) => ChordEnd::Corner(trace::corner_of(mesh, f, v)),
-                Site::Edge(h) => ChordEnd::Point(self.planned(h).expect(PLANNED).point),
-            };
-            let chord = piece.nodes.map(end);
-            self.plan.chord(f, chord);
-        }
-        Chain { from, middle, to }
-    }
-
-    fn end(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, end: usize) -> VertexId {
-        if piece.ends_at_nodes()[end] {
-            self.vertex(piece.nodes[end]).expect(PLANNED)
-        } else {
-            self.point(trace, mesh, piece, [piece.from, piece.to][end])
-        }
-    }
-
-    /// Plans a point at a parameter of a piece, and returns the vertex that it will have.
-    fn point(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, at: f64) -> VertexId {
-        match piece.place {
-            Place::Face(f) => {
-                self.plan
-                    .in_face(f, trace.weights(mesh, f, piece.nodes, at));
-            }
-            Place::Edge { h, forward: true } => {
-                self.plan.on_edge(h, at);
-            }
-            Place::Edge { h, forward: false } => {
-                self.plan.on_edge_backward(h, at);
-            }
-        }
-        self.new_vertices(1)
-    }
-}
-
-/// The vertices along a piece of the slit: two, or three.
-struct Chain {
-    from: VertexId,
-    middle: Option<VertexId>,
-    to: VertexId,
-}
-
-const COUNTED: &str = "I1: there are fewer vertices than half-edges";
-const PLANNED: &str = "every crossing at the end of a piece was planned";

@@ -8,9 +8,10 @@
 
 use super::offsets::Offsets;
 use super::outcome::{Ends, Outcome};
+use super::pieces;
 use super::strip::Strip;
 use crate::edit::{Edit, Edits};
-use crate::geometry::{Point, Side, angle, area, cross, dot, length};
+use crate::geometry::{Point, Side, altitude, angle, cross, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -34,7 +35,8 @@ pub struct CutReport {
     pub pieces_before: usize,
     /// The components after the cut.
     pub pieces: usize,
-    /// The components that a cut exactly along the slit would leave.
+    /// The components that the cut should leave, by where its slit runs: for the method `exact` the
+    /// slit as it is cut, with vertices near it taken for points of it and tips settled.
     pub pieces_expected: usize,
     /// Pieces beyond those expected.
     pub crumbs: usize,
@@ -92,11 +94,13 @@ pub(super) struct Survey<'o> {
 }
 
 impl<'o> Survey<'o> {
+    /// `pieces_expected` is for a cut that has decided where the slit runs.
     pub(super) fn new(
         strip: &Strip,
         mesh: &Mesh,
         positions: &Positions,
         offsets: &'o Offsets,
+        pieces_expected: Option<usize>,
     ) -> Survey<'o> {
         let mut survey = Survey {
             offsets,
@@ -109,59 +113,56 @@ impl<'o> Survey<'o> {
             nearest_vertex: nearest_vertex(strip, mesh, positions),
         };
         survey.follow_slit(strip, mesh, positions);
+        survey.pieces_expected =
+            pieces_expected.unwrap_or_else(|| survey.pieces_expected(strip, mesh, positions));
         survey
     }
 
-    /// Counts the pieces of an ideal cut, and measures the slit on the way.
-    ///
-    /// Each face has a part in front and a part behind, as far as it has either. The parts
-    /// of a face are one unless the slit crosses the face fully; parts of neighbours are one
-    /// where they meet along an edge. What remains apart is a piece.
+    /// Measures the slit: where the plane runs between the side planes.
     fn follow_slit(&mut self, strip: &Strip, mesh: &Mesh, positions: &Positions) {
-        let mut parts = Parts::new(mesh.face_count());
         for f in mesh.faces() {
-            let Some([p, q]) = self.crossing(mesh, positions, f) else {
-                continue;
-            };
-            let clipped = strip.clip(p, q);
-            if let Some((from, to)) = clipped {
+            let crossing = self.crossing(mesh, positions, f);
+            if let Some(length) = crossing.and_then(|ends| self.length_inside(strip, ends)) {
                 self.faces_crossed += 1;
                 self.in_slit[f.index()] = true;
-                self.slit_length += (to - from) * length(q - p);
-            }
-            if clipped != Some((0.0, 1.0)) {
-                parts.join((f, Side::Front), (f, Side::Back));
+                self.slit_length += length;
             }
         }
         for h in mesh.edges() {
-            let Some(pair) = mesh.pair(h) else { continue };
-            let (f, g) = (h.face(), pair.face());
-            let ends = [mesh.origin(h), mesh.target(h)];
-            let offsets = ends.map(|v| self.offsets.of(v));
-            if offsets == [0.0; 2] {
-                // The edge lies on the plane, so it is slit itself if the faces differ.
-                let sides = [(f, self.lone_side(mesh, f)), (g, self.lone_side(mesh, g))];
-                let [p, q] = ends.map(|v| positions.at(v));
-                let clipped = strip.clip(p, q).filter(|_| sides[0].1 != sides[1].1);
-                if let Some((from, to)) = clipped {
-                    self.in_slit[f.index()] = true;
-                    self.in_slit[g.index()] = true;
-                    self.slit_length += (to - from) * length(q - p);
-                }
-                if clipped != Some((0.0, 1.0)) {
-                    parts.join(sides[0], sides[1]);
-                }
-                continue;
-            }
-            if offsets.iter().any(|&d| d > 0.0) {
-                parts.join((f, Side::Front), (g, Side::Front));
-            }
-            if offsets.iter().any(|&d| d < 0.0) {
-                parts.join((f, Side::Back), (g, Side::Back));
+            if let Some([f, g]) = self.faces_apart(mesh, h)
+                && let Some(length) = self.length_inside(strip, ends_of(mesh, positions, h))
+            {
+                self.in_slit[f.index()] = true;
+                self.in_slit[g.index()] = true;
+                self.slit_length += length;
             }
         }
-        self.pieces_expected =
-            parts.count(|f, side| self.offsets.cross(mesh, f) || side == self.lone_side(mesh, f));
+    }
+
+    /// The length of a segment inside the strip; `None` if it lies outside.
+    fn length_inside(&self, strip: &Strip, [p, q]: [Point; 2]) -> Option<f64> {
+        let (from, to) = strip.clip(p, q, self.offsets.bound())?;
+        Some((to - from) * length(q - p))
+    }
+
+    /// The faces of an edge on the plane that lie on different sides, and are slit apart there.
+    fn faces_apart(&self, mesh: &Mesh, h: HalfEdgeId) -> Option<[FaceId; 2]> {
+        let faces = [h, mesh.pair(h)?].map(HalfEdgeId::face);
+        let on_plane = [mesh.origin(h), mesh.target(h)].map(|v| self.offsets.of(v)) == [0.0; 2];
+        let [one, other] = faces.map(|f| self.lone_side(mesh, f));
+        (on_plane && one != other).then_some(faces)
+    }
+
+    /// The pieces that a cut leaves which divides every face that the slit crosses.
+    fn pieces_expected(&self, strip: &Strip, mesh: &Mesh, positions: &Positions) -> usize {
+        let is_whole =
+            |[p, q]: [Point; 2]| strip.clip(p, q, self.offsets.bound()) == Some((0.0, 1.0));
+        pieces::expected(
+            mesh,
+            |v| self.offsets.of(v),
+            |f| self.crossing(mesh, positions, f).is_some_and(is_whole),
+            |h| self.faces_apart(mesh, h).is_some() && is_whole(ends_of(mesh, positions, h)),
+        )
     }
 
     /// The side of a face that is not crossed; one that lies on the plane is in front.
@@ -266,7 +267,14 @@ impl<'o> Survey<'o> {
             pieces_expected: self.pieces_expected,
             crumbs: pieces.saturating_sub(self.pieces_expected),
             lost: self.pieces_expected.saturating_sub(pieces),
-            separated: separated(strip, mesh, positions, &in_slit, &outcome),
+            separated: separated(
+                strip,
+                self.offsets.bound(),
+                mesh,
+                positions,
+                &in_slit,
+                &outcome,
+            ),
             seam_length,
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,
@@ -316,6 +324,7 @@ impl Tips {
 
 fn separated(
     strip: &Strip,
+    bound: f64,
     mesh: &Mesh,
     positions: &Positions,
     in_slit: &[bool],
@@ -327,7 +336,10 @@ fn separated(
     let label = |h: HalfEdgeId| labels[h.face().index()];
     let shared_vertex = |v: VertexId| {
         let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == Some(side));
-        !is_tip(v) && strip.depth(positions.at(v)) > 0.0 && has(Side::Front) && has(Side::Back)
+        !is_tip(v)
+            && strip.depth(positions.at(v), bound) > 0.0
+            && has(Side::Front)
+            && has(Side::Back)
     };
     let shared_edge = |h: HalfEdgeId| {
         let Some(pair) = mesh.pair(h) else {
@@ -338,7 +350,7 @@ fn separated(
         let [p, q] = [mesh.origin(h_min), mesh.target(h_min)].map(|v| positions.at(v));
         let inside = |(from, to): (f64, f64)| {
             let middle = (from + to) / 2.0;
-            from < to && strip.depth(p + (q - p) * middle) > 0.0
+            from < to && strip.depth(p + (q - p) * middle, bound) > 0.0
         };
         let differ = label(h)
             .zip(label(pair))
@@ -346,55 +358,15 @@ fn separated(
         differ
             && !is_tip(mesh.origin(h))
             && !is_tip(mesh.target(h))
-            && strip.clip(p, q).is_some_and(inside)
+            && strip.clip(p, q, bound).is_some_and(inside)
     };
     let faces = mesh.faces().filter(|f| in_slit[f.index()]);
     let mut corners = faces.flat_map(FaceId::half_edges);
     !corners.any(|h| shared_vertex(mesh.origin(h)) || shared_edge(h))
 }
 
-/// A union-find forest over the two parts of each face.
-struct Parts {
-    parent: Vec<u32>,
-}
-
-impl Parts {
-    fn new(faces: usize) -> Parts {
-        Parts {
-            parent: (0..2 * faces as u32).collect(),
-        }
-    }
-
-    fn node((f, side): (FaceId, Side)) -> u32 {
-        2 * f.index() as u32 + u32::from(side == Side::Back)
-    }
-
-    fn leader(&mut self, mut node: u32) -> u32 {
-        while self.parent[node as usize] != node {
-            self.parent[node as usize] = self.parent[self.parent[node as usize] as usize];
-            node = self.parent[node as usize];
-        }
-        node
-    }
-
-    fn join(&mut self, a: (FaceId, Side), b: (FaceId, Side)) {
-        let (a, b) = (self.leader(Self::node(a)), self.leader(Self::node(b)));
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
-
-    /// The number of sets with a part that exists.
-    fn count(&mut self, exists: impl Fn(FaceId, Side) -> bool) -> usize {
-        let mut seen = vec![false; self.parent.len()];
-        for f in (0..self.parent.len() as u32 / 2).map(FaceId::from_u32) {
-            for side in [Side::Front, Side::Back] {
-                if exists(f, side) {
-                    let leader = self.leader(Self::node((f, side)));
-                    seen[leader as usize] = true;
-                }
-            }
-        }
-        seen.into_iter().filter(|&seen| seen).count()
-    }
+fn ends_of(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> [Point; 2] {
+    [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v))
 }
 
 fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
@@ -431,13 +403,7 @@ fn quality(mesh: &Mesh, positions: &Positions) -> (f64, f64) {
     for f in mesh.faces() {
         let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
         let sides = [b - a, c - b, a - c];
-        let longest = sides.map(length).into_iter().fold(0.0, f64::max);
-        let altitude = if longest > 0.0 {
-            2.0 * area(a, b, c) / longest
-        } else {
-            0.0
-        };
-        altitude_min = altitude_min.min(altitude);
+        altitude_min = altitude_min.min(altitude([a, b, c]));
         for (one, other) in [(0, 2), (1, 0), (2, 1)] {
             let along = dot(sides[one], -sides[other]);
             let across = length(cross(sides[one], -sides[other]));

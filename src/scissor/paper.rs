@@ -78,7 +78,7 @@ pub(super) fn cut(
         for h in corners {
             let v = mesh.origin(h);
             let at = positions.at(v);
-            if !is_positive(mesh, positions, h) || strip.depth(at) < 0.0 {
+            if !is_positive(mesh, positions, h) || strip.depth(at, 0.0) < 0.0 {
                 continue;
             }
             let plane = match along_edge {

@@ -50,8 +50,9 @@ pub(super) fn cut(
         .collect();
     smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
-    let seam = Seam::new(strip, tips, mesh, positions, &labels);
-    let vertices = seam.vertices(strip, tips, mesh, positions);
+    let inside = |p: Point| strip.depth(p, offsets.bound()) >= 0.0;
+    let seam = Seam::new(tips, mesh, positions, &labels, inside);
+    let vertices = seam.vertices(tips, mesh, positions, inside);
     unshare::by_fan(mesh, &vertices, |h| seam.cuts(h), edits);
     Outcome {
         labels: labels.into_iter().map(Some).collect(),
@@ -129,7 +130,13 @@ struct Seam {
 }
 
 impl Seam {
-    fn new(strip: &Strip, tips: Tips, mesh: &Mesh, positions: &Positions, labels: &[Side]) -> Seam {
+    fn new(
+        tips: Tips,
+        mesh: &Mesh,
+        positions: &Positions,
+        labels: &[Side],
+        inside: impl Fn(Point) -> bool,
+    ) -> Seam {
         let is_cut = |h: HalfEdgeId| {
             let Some(pair) = mesh.pair(h) else {
                 return false;
@@ -142,7 +149,7 @@ impl Seam {
                 Tips::Midpoint => {
                     let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
                     // A sum does not depend on the order of two, so both half-edges agree.
-                    strip.depth(Point::from((a + b) / 2.0)) >= 0.0
+                    inside(Point::from((a + b) / 2.0))
                 }
             }
         };
@@ -158,17 +165,17 @@ impl Seam {
     /// The vertices to unshare, ascending.
     fn vertices(
         &self,
-        strip: &Strip,
         tips: Tips,
         mesh: &Mesh,
         positions: &Positions,
+        inside: impl Fn(Point) -> bool,
     ) -> Vec<VertexId> {
         let mut on_seam = vec![false; mesh.vertex_count()];
         for h in mesh.half_edges().filter(|&h| self.cuts(h)) {
             on_seam[mesh.origin(h).index()] = true;
         }
         let unshared = |&v: &VertexId| {
-            on_seam[v.index()] && (tips == Tips::Midpoint || strip.depth(positions.at(v)) >= 0.0)
+            on_seam[v.index()] && (tips == Tips::Midpoint || inside(positions.at(v)))
         };
         mesh.vertices().filter(unshared).collect()
     }

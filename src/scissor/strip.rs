@@ -68,31 +68,38 @@ impl Strip {
         })
     }
 
-    /// How far inside the nearer side plane a point lies; negative outside, and
-    /// infinite for a cut through everything.
-    pub(super) fn depth(&self, p: Point) -> f64 {
+    /// How far inside each side plane a point lies; negative outside, infinite for a cut through
+    /// everything, and zero where rounding cannot vouch for the sign: up to `bound`.
+    pub(super) fn depths(&self, p: Point, bound: f64) -> [f64; 2] {
         if self.through {
-            f64::INFINITY
-        } else {
-            self.sides[0].offset(p).min(self.sides[1].offset(p))
+            return [f64::INFINITY; 2];
         }
+        self.sides.map(|side| {
+            let depth = side.offset(p);
+            if depth.abs() <= bound { 0.0 } else { depth }
+        })
+    }
+
+    /// The depth inside the nearer side plane.
+    pub(super) fn depth(&self, p: Point, bound: f64) -> f64 {
+        let [a, b] = self.depths(p, bound);
+        a.min(b)
     }
 
     /// The part of the segment from `p` to `q` that lies between the side planes, as two
     /// parameters from 0 to 1; `None` if there is no such part.
-    pub(super) fn clip(&self, p: Point, q: Point) -> Option<(f64, f64)> {
+    pub(super) fn clip(&self, p: Point, q: Point, bound: f64) -> Option<(f64, f64)> {
         let (mut from, mut to) = (0.0f64, 1.0f64);
-        if !self.through {
-            for side in self.sides {
-                let (start, end) = (side.offset(p), side.offset(q));
-                if start < 0.0 && end < 0.0 {
-                    return None;
-                }
-                if start < 0.0 {
-                    from = from.max(start / (start - end));
-                } else if end < 0.0 {
-                    to = to.min(start / (start - end));
-                }
+        let depths = [self.depths(p, bound), self.depths(q, bound)];
+        for side in 0..2 {
+            let (start, end) = (depths[0][side], depths[1][side]);
+            if start < 0.0 && end < 0.0 {
+                return None;
+            }
+            if start < 0.0 {
+                from = from.max(start / (start - end));
+            } else if end < 0.0 {
+                to = to.min(start / (start - end));
             }
         }
         (from <= to).then_some((from, to))

@@ -1,8 +1,8 @@
 //! Moving vertices onto the plane, along the edges whose crossings they stand for.
 
-use super::trace::Snapped;
+use super::trace::{Site, Snapped, Trace};
 use crate::edit::Edits;
-use crate::geometry::{Point, between, cross, dot, length};
+use crate::geometry::{altitude, between, cross, dot};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -11,19 +11,17 @@ use crate::slide;
 /// A face may keep as little of its smallest altitude as this.
 const ALTITUDE_KEPT: f64 = 0.3;
 
-/// Slides these vertices, as far as that does no harm; see
-/// [`Scissor::snap_move`](super::super::Scissor::snap_move).
-pub(super) fn onto_plane(
-    snapped: &[Snapped],
-    mesh: &Mesh,
-    positions: &mut Positions,
-    edits: &mut Edits,
-) {
+/// Slides the vertices of the slit that stand for crossings, as far as that does no harm; see
+/// [`Scissor::snap_move`](super::super::Scissor::snap_move). A vertex near which the plane merely
+/// passes stays: nothing is cut there.
+pub(super) fn onto_plane(trace: &Trace, mesh: &Mesh, positions: &mut Positions, edits: &mut Edits) {
+    let nodes = trace.nodes();
     for &Snapped {
         vertex, toward, t, ..
-    } in snapped
+    } in &trace.snapped
     {
         if t > 0.0
+            && nodes.binary_search(&Site::Vertex(vertex)).is_ok()
             && may_slide(mesh, vertex, toward)
             && is_harmless(mesh, positions, vertex, toward, t)
         {
@@ -68,15 +66,4 @@ fn is_harmless(
         let [normal, turned] = [before, after].map(|[a, b, c]| cross(b - a, c - a));
         dot(normal, turned) > 0.0 && altitude(after) >= ALTITUDE_KEPT * altitude(before)
     })
-}
-
-/// The smallest altitude of a triangle.
-fn altitude([a, b, c]: [Point; 3]) -> f64 {
-    let sides = [b - a, c - b, a - c].map(length);
-    let longest = sides.into_iter().fold(0.0, f64::max);
-    if longest > 0.0 {
-        length(cross(b - a, c - a)) / longest
-    } else {
-        0.0
-    }
 }

@@ -48,6 +48,17 @@ impl Piece {
     pub(super) fn ends_at_nodes(&self) -> [bool; 2] {
         [self.from == 0.0, self.to == 1.0]
     }
+
+    /// Whether it runs from node to node, and needs no point between them.
+    pub(super) fn is_crossing(&self) -> bool {
+        self.ends_at_nodes() == [true; 2] && !self.middle
+    }
+
+    /// The nodes at which it ends, as far as it ends at nodes.
+    pub(super) fn end_nodes(&self) -> [Option<Site>; 2] {
+        let at_nodes = self.ends_at_nodes();
+        [0, 1].map(|end| at_nodes[end].then_some(self.nodes[end]))
+    }
 }
 
 /// Where the plane crosses an edge: at the part `t` from the origin of the half-edge, or if not
@@ -75,7 +86,7 @@ pub(super) struct Snapped {
 }
 
 /// The slit on a mesh.
-pub(super) struct Trace {
+pub(in crate::scissor) struct Trace {
     pub(super) pieces: Vec<Piece>,
     /// The crossings that are nodes of pieces, by half-edge.
     pub(super) crossings: Vec<Crossing>,
@@ -88,7 +99,7 @@ pub(super) struct Trace {
 }
 
 impl Trace {
-    fn crossing(&self, h: HalfEdgeId) -> Option<&Crossing> {
+    pub(super) fn crossing(&self, h: HalfEdgeId) -> Option<&Crossing> {
         let at = self.crossings.binary_search_by_key(&h, |one| one.half_edge);
         at.ok().map(|at| &self.crossings[at])
     }
@@ -151,15 +162,37 @@ impl Trace {
         self.finish(mesh);
     }
 
+    /// Puts a piece in the place of the one that is there, or gives that up: the slit then ends at
+    /// the node from which it came.
+    pub(super) fn replace(&mut self, place: Place, better: Option<Piece>) {
+        let at = self.pieces.iter().position(|piece| piece.place == place);
+        let at = at.expect("a piece that is replaced is in the trace");
+        if let Some(better) = better {
+            self.pieces[at] = better;
+            return;
+        }
+        let gone = self.pieces.remove(at);
+        let [from, to] = gone.end_nodes();
+        let [begins, ends] = gone.tips;
+        let lone = [(ends, from), (begins, to)];
+        let lone = lone
+            .into_iter()
+            .filter_map(|(side, site)| Some((side?, site?)));
+        self.lone_tips.extend(lone);
+    }
+
+    /// The nodes at which pieces end, ascending, each as often as pieces end there.
+    pub(super) fn nodes(&self) -> Vec<Site> {
+        let ends = self.pieces.iter().flat_map(Piece::end_nodes);
+        let mut sites: Vec<Site> = ends.flatten().collect();
+        sites.sort_unstable();
+        sites
+    }
+
     /// Notes which crossings are used, and which pieces need a vertex in the middle: those of one
     /// edge between vertices that both stay joined.
     pub(super) fn finish(&mut self, mesh: &Mesh) {
-        let ends = |piece: &Piece| {
-            let at_nodes = piece.ends_at_nodes();
-            [0, 1].map(|end| at_nodes[end].then_some(piece.nodes[end]))
-        };
-        let mut sites: Vec<Site> = self.pieces.iter().flat_map(ends).flatten().collect();
-        sites.sort_unstable();
+        let sites = self.nodes();
         for crossing in &mut self.crossings {
             crossing.used = sites.binary_search(&Site::Edge(crossing.half_edge)).is_ok();
         }
@@ -168,13 +201,13 @@ impl Trace {
             sites.get(first + 1) == Some(&site) || !is_closed(mesh, site)
         };
         for piece in &mut self.pieces {
-            piece.middle = !ends(piece).into_iter().flatten().any(opens);
+            piece.middle = !piece.end_nodes().into_iter().flatten().any(opens);
         }
     }
 }
 
 /// Whether faces go all the way round a node, so that one edge of the slit does not divide them.
-fn is_closed(mesh: &Mesh, site: Site) -> bool {
+pub(super) fn is_closed(mesh: &Mesh, site: Site) -> bool {
     match site {
         Site::Vertex(v) => mesh.corners_of(v).all(|h| mesh.pair(h).is_some()),
         Site::Edge(h) => mesh.pair(h).is_some(),

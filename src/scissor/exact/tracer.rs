@@ -87,17 +87,7 @@ impl Tracer<'_> {
 
     /// How far a point is inside each side plane.
     fn depths(&self, p: Point) -> [f64; 2] {
-        if self.strip.through {
-            return [f64::INFINITY; 2];
-        }
-        self.strip.sides.map(|side| {
-            let depth = side.offset(p);
-            if depth.abs() <= self.offsets.bound() {
-                0.0
-            } else {
-                depth
-            }
-        })
+        self.strip.depths(p, self.offsets.bound())
     }
 
     /// The side plane passes through one joint, and by the others, on other sheets, as far

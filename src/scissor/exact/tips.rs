@@ -1,0 +1,195 @@
+//! Ends of the slit that leave no thin face.
+//!
+//! A crossing is at least the snap r away from the ends of its edge, and so no face that the slit
+//! crosses from edge to edge leaves a child with an altitude below r (1 − r) of its own. A tip
+//! inside a face is as near to the outline as the rays say, and where it is near an edge that has a
+//! crossing near its end, the two small numbers multiply. So each face with a tip is divided on
+//! trial, and where a child would be too thin, the tip moves along the slit: to the nearest place
+//! (of [`STEPS`]) that keeps the bound, or to the node where the slit enters or leaves the face.
+//! The seam stays where the plane is, and its end moves by less than the slit's way through one
+//! face. A slit is never made longer up to a boundary, which would open that.
+
+use super::planner::Planner;
+use super::trace::{Piece, Place, Site, Trace, is_closed};
+use crate::edit::{Child, Source};
+use crate::geometry::{Point, altitude, between};
+use crate::id::{FaceId, HalfEdgeId};
+use crate::mesh::Mesh;
+use crate::place::Positions;
+
+/// Into how many parts the way through a face is divided to look for a better tip.
+const STEPS: u32 = 32;
+
+/// A tip that moves may change whether its neighbour opens; more rounds than these would be a
+/// circle, and then pieces are given up.
+const ROUNDS: u32 = 8;
+
+/// Moves or gives up tips until every child keeps r (1 − r) of the altitude of its parent, where r
+/// is the snap.
+pub(super) fn settle(trace: &mut Trace, snap: f64, mesh: &Mesh, positions: &Positions) {
+    if snap == 0.0 {
+        return;
+    }
+    for round in 0.. {
+        let trial = Trial::new(trace, snap, mesh, positions);
+        let thin = trace.pieces.iter().filter(|piece| !trial.fits(piece));
+        let thin: Vec<Piece> = thin.copied().collect();
+        if thin.is_empty() {
+            return;
+        }
+        let choose = |piece: &Piece| trial.best(piece).filter(|_| round < ROUNDS);
+        let chosen: Vec<Option<Piece>> = thin.iter().map(choose).collect();
+        for (piece, better) in thin.iter().zip(chosen) {
+            trace.replace(piece.place, better);
+        }
+        trace.finish(mesh);
+    }
+}
+
+/// Divides faces on trial.
+struct Trial<'t> {
+    trace: &'t Trace,
+    /// The nodes at which pieces end, ascending, each as often as pieces end there.
+    nodes: Vec<Site>,
+    snap: f64,
+    mesh: &'t Mesh,
+    positions: &'t Positions,
+}
+
+impl<'t> Trial<'t> {
+    fn new(trace: &'t Trace, snap: f64, mesh: &'t Mesh, positions: &'t Positions) -> Trial<'t> {
+        Trial {
+            trace,
+            nodes: trace.nodes(),
+            snap,
+            mesh,
+            positions,
+        }
+    }
+
+    /// The piece with ends that keep the bound, moved as little as can be; `None` if giving it up
+    /// moves them less.
+    fn best(&self, piece: &Piece) -> Option<Piece> {
+        let [froms, tos] = [0, 1].map(|end| self.ends(piece, end));
+        let mut choices: Vec<(f64, Piece)> = Vec::new();
+        for &from in &froms {
+            for &to in &tos {
+                if to - from > self.trace.near {
+                    let moved = (from - piece.from).abs() + (to - piece.to).abs();
+                    choices.push((moved, Piece { from, to, ..*piece }));
+                }
+            }
+        }
+        let given_up = piece.to - piece.from;
+        choices.retain(|&(moved, _)| moved < given_up);
+        // The order of equals is that of the lists: fixed.
+        choices.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut choices = choices.into_iter().map(|(_, choice)| Piece {
+            middle: self.needs_middle(piece, &choice),
+            ..choice
+        });
+        choices.find(|choice| self.fits(choice))
+    }
+
+    /// Where an end of a piece may be: where it is, and if it is a tip, at other places.
+    fn ends(&self, piece: &Piece, end: usize) -> Vec<f64> {
+        let at = [piece.from, piece.to][end];
+        let mut ends = vec![at];
+        if piece.tips[end].is_some() {
+            ends.extend((1..STEPS).map(|step| f64::from(step) / f64::from(STEPS)));
+            // What goes on to a boundary opens it.
+            if is_closed(self.mesh, piece.nodes[end]) {
+                ends.push([0.0, 1.0][end]);
+            }
+        }
+        ends
+    }
+
+    /// Whether a piece leaves no face too thin.
+    fn fits(&self, piece: &Piece) -> bool {
+        let at_nodes = piece.end_nodes();
+        let tips = at_nodes.into_iter().zip(piece.tips);
+        let mut tips = tips.filter_map(|(site, tip)| site.filter(|_| tip.is_some()));
+        tips.all(|site| self.is_far(site)) && (piece.is_crossing() || self.keeps(piece))
+    }
+
+    /// Whether a node is far enough from the ends of its edge. One that the slit does not meet, but
+    /// goes on to, was not snapped.
+    fn is_far(&self, site: Site) -> bool {
+        let Site::Edge(h) = site else { return true };
+        let crossing = self.trace.crossing(h);
+        crossing.is_some_and(|one| one.t >= self.snap && 1.0 - one.t >= self.snap)
+    }
+
+    /// Whether a choice for a piece opens only with a vertex in its middle.
+    fn needs_middle(&self, piece: &Piece, choice: &Piece) -> bool {
+        let own = piece.end_nodes();
+        let opens = |site: Site| {
+            let first = self.nodes.partition_point(|&other| other < site);
+            let all = self.nodes[first..]
+                .iter()
+                .take_while(|&&other| other == site);
+            let others = all.count() - usize::from(own.contains(&Some(site)));
+            others > 0 || !is_closed(self.mesh, site)
+        };
+        !choice.end_nodes().into_iter().flatten().any(opens)
+    }
+
+    /// Whether all children of the faces that a piece divides keep enough of their altitude.
+    fn keeps(&self, piece: &Piece) -> bool {
+        let crossings = piece.nodes.into_iter().filter_map(|site| match site {
+            Site::Edge(h) => self.trace.crossing(h).copied(),
+            Site::Vertex(_) => None,
+        });
+        let mut crossings: Vec<_> = crossings.collect();
+        crossings.sort_by_key(|crossing| crossing.half_edge);
+        for crossing in &mut crossings {
+            let site = Site::Edge(crossing.half_edge);
+            let others = self.nodes.binary_search(&site).is_ok();
+            crossing.used = others || piece.end_nodes().contains(&Some(site));
+        }
+        let alone = Trace {
+            pieces: vec![*piece],
+            crossings,
+            lone_tips: Vec::new(),
+            snapped: Vec::new(),
+            near: self.trace.near,
+        };
+        let mut planner = Planner::new(self.mesh);
+        planner.crossings(&alone, self.mesh);
+        planner.piece(&alone, self.mesh, piece);
+        let Ok(insertion) = planner.plan.prepare(self.mesh) else {
+            return false; // Crowded.
+        };
+        let divided = |child: &&Child| match piece.place {
+            Place::Face(f) => child.parent == f,
+            Place::Edge { h, .. } => {
+                let across = self.mesh.pair(h).map(HalfEdgeId::face);
+                child.parent == h.face() || Some(child.parent) == across
+            }
+        };
+        let least = self.snap * (1.0 - self.snap);
+        let mut children = insertion.children().iter().filter(divided);
+        children.all(|child| self.altitude_of(child) >= least * self.altitude(child.parent))
+    }
+
+    fn corner(&self, h: HalfEdgeId) -> Point {
+        self.positions.at(self.mesh.origin(h))
+    }
+
+    fn altitude(&self, f: FaceId) -> f64 {
+        altitude(f.half_edges().map(|h| self.corner(h)))
+    }
+
+    fn altitude_of(&self, child: &Child) -> f64 {
+        altitude(child.sources.map(|source| match source {
+            Source::Corner(h) => self.corner(h),
+            Source::Edge { ends: [a, b], t } => between(self.corner(a), self.corner(b), t),
+            Source::Face { weights } => {
+                let corners = child.parent.half_edges().map(|h| self.corner(h).coords);
+                let terms = [0, 1, 2].map(|i| corners[i] * weights[i]);
+                Point::from(terms[0] + terms[1] + terms[2])
+            }
+        }))
+    }
+}
