@@ -199,7 +199,7 @@ pub(crate) fn scissor([a, b]: Rays) -> Scissor {
     Scissor::new(&ray(a), &ray(b)).expect("a plane")
 }
 
-fn ray((origin, along): ([f64; 3], [f64; 3])) -> Ray {
+pub(crate) fn ray((origin, along): ([f64; 3], [f64; 3])) -> Ray {
     Ray::new(Point::from(origin), Vector::from(along)).expect("a ray")
 }
 

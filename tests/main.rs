@@ -13,6 +13,7 @@ mod lockstep;
 mod methods;
 mod oracle;
 mod pieces;
+mod polygons;
 mod properties;
 #[path = "data/random.rs"]
 mod random;

@@ -90,9 +90,8 @@ impl Strip {
     /// parameters from 0 to 1; `None` if there is no such part.
     pub(super) fn clip(&self, p: Point, q: Point, bound: f64) -> Option<(f64, f64)> {
         let (mut from, mut to) = (0.0f64, 1.0f64);
-        let depths = [self.depths(p, bound), self.depths(q, bound)];
-        for side in 0..2 {
-            let (start, end) = (depths[0][side], depths[1][side]);
+        let depths = self.depths(p, bound).into_iter().zip(self.depths(q, bound));
+        for (start, end) in depths {
             if start < 0.0 && end < 0.0 {
                 return None;
             }

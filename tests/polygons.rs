@@ -1,0 +1,67 @@
+//! Closed polylines: what they go round comes out.
+
+use tearmesh::{Edits, Method, Scissor};
+
+use crate::exact::ray;
+use crate::oracle::straight::Surface;
+use crate::random::Random;
+use crate::straight::{built, down};
+use crate::straight_polylines::sheets;
+
+/// The corners of a polygon about a point, in order round it, well inside the unit square.
+fn polygon(random: &mut Random) -> Vec<[f64; 2]> {
+    let count = 3 + (4.0 * random.next()) as usize;
+    let centre = [0.0; 2].map(|_: f64| 0.45 + 0.1 * random.next());
+    let turn = random.next();
+    let corner = |i: usize| {
+        let part = (i as f64 + 0.7 * random.next()) / count as f64;
+        let (sin, cos) = (std::f64::consts::TAU * (turn + part)).sin_cos();
+        let far = 0.15 + 0.25 * random.next();
+        [centre[0] + far * cos, centre[1] + far * sin]
+    };
+    (0..count).map(corner).collect()
+}
+
+/// The pieces that are there after a cut along a closed polyline.
+fn pieces(sheet: &Surface, corners: &[[f64; 2]], snap: f64) -> usize {
+    let (mut mesh, mut positions) = built(sheet);
+    let mut edits = Edits::new();
+    let rays: Vec<_> = corners.iter().map(|&corner| ray(down(corner))).collect();
+    let mut last = None;
+    for i in 0..rays.len() {
+        let (from, to) = (&rays[i], &rays[(i + 1) % rays.len()]);
+        let scissor: Scissor = match &last {
+            None => Scissor::new(from, to).expect("a plane").snap(snap),
+            Some((scissor, report)) => {
+                Scissor::continued(scissor, report, &positions, to).expect("a plane")
+            }
+        };
+        let report = scissor.cut(Method::Exact, &mut mesh, &mut positions, &mut edits);
+        last = Some((scissor, report.expect("positions are in step")));
+    }
+    assert_eq!(mesh.check(), []);
+    mesh.components().count()
+}
+
+#[test]
+fn every_closed_polyline_cuts_a_piece_out() {
+    let sheets = sheets();
+    for (snap, count) in [(0.0, 1000), (Scissor::SNAP, 5635), (0.2, 1000)] {
+        let mut random = Random(97);
+        let mut open = Vec::new();
+        for i in 0..count {
+            let corners = polygon(&mut random);
+            let pieces = pieces(&sheets[i % sheets.len()], &corners, snap);
+            if pieces != 2 {
+                open.push((i, pieces, corners));
+            }
+        }
+        println!("snap {snap}: {} of {count} polygons stay open", open.len());
+        let first = open.iter().take(3);
+        assert!(
+            open.is_empty(),
+            "snap {snap}: {:?}",
+            first.collect::<Vec<_>>()
+        );
+    }
+}
