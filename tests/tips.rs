@@ -151,6 +151,7 @@ fn tips_keep_faces_from_getting_thin() {
             let cut = cut(sheet, &scissor(ends.map(down)).snap(snap));
             let (least, _) = cut.thinnest();
             slits += 1;
+            assert!(cut.report.separated || cut.splits() == 0, "{ends:?}");
             overshoots.extend(
                 cut.report
                     .tip_overshoots
@@ -209,7 +210,7 @@ fn what_slides_is_on_the_seam() {
         );
     });
     println!("{slid} vertices slid, {nothing} slits split nothing");
-    assert!(slid > 100 && nothing > 100);
+    assert!(slid > 100 && nothing > 20);
 }
 
 /// Rays through two points of the outline of a square, on different sides: two pieces, whatever

@@ -42,8 +42,9 @@ use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::subdivide::{Plan, Refusal};
 use planner::{Chain, Planner};
-use trace::Place;
 pub(super) use trace::Trace;
+use trace::{Place, Site};
+use tracer::Aim;
 
 /// What the method is told beyond the strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,8 +53,9 @@ pub(super) struct Settings {
     pub(super) snap: f64,
     /// Whether what was taken for a crossing slides onto the plane.
     pub(super) snap_move: bool,
-    /// Where this cut goes on from another: vertices on the plane and on the first side plane.
-    pub(super) joints: Vec<VertexId>,
+    /// Where this cut goes on from another, and where it comes back to one: vertices on the plane and
+    /// on the first side plane, and on the second.
+    pub(super) joints: [Vec<VertexId>; 2],
 }
 
 /// Finds where the slit runs, and where it has to end so that no face gets thin.
@@ -65,9 +67,24 @@ pub(super) fn trace(
     offsets: &Offsets,
 ) -> Trace {
     let Settings { snap, joints, .. } = settings;
-    let mut trace = tracer::trace(strip, *snap, joints, mesh, positions, offsets);
-    tips::settle(&mut trace, *snap, mesh, positions);
-    trace
+    // Nodes that the slit does not meet but has to go on to. Each round adds one that was not there.
+    let mut met: Vec<Site> = Vec::new();
+    loop {
+        let aim = Aim {
+            snap: *snap,
+            joints,
+            met: &met,
+        };
+        let mut trace = tracer::trace(strip, &aim, mesh, positions, offsets);
+        let beyond = tips::settle(&mut trace, *snap, mesh, positions);
+        let known = met.len();
+        met.extend(beyond);
+        met.sort_unstable();
+        met.dedup();
+        if met.len() == known {
+            return trace;
+        }
+    }
 }
 
 /// The pieces that a cut along a trace should leave.
@@ -78,7 +95,7 @@ pub(super) fn pieces_expected(
     offsets: &Offsets,
 ) -> usize {
     let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
-    on_plane.extend(&settings.joints);
+    on_plane.extend(settings.joints.iter().flatten());
     on_plane.sort_unstable();
     let sign = |v: VertexId| match on_plane.binary_search(&v) {
         Ok(_) => 0.0,
@@ -142,12 +159,13 @@ pub(super) fn cut(
     Outcome {
         labels,
         refused: 0,
-        ends: slit.ends(edits, before),
+        ends: Ends(slit.tips.map(|tips| with_copies(tips, edits, before))),
+        off_plane: with_copies(slit.off_plane, edits, before),
     }
 }
 
 /// The side of every face, once all vertices are inserted. A face that still lies on both sides
-/// has none: it is round a tip, or outside the strip.
+/// has none: it is round a tip, beside a piece that leaves the plane, or outside the strip.
 fn labels(
     strip: &Strip,
     mesh: &Mesh,
@@ -172,10 +190,10 @@ fn labels(
         let corners = mesh.corners(f);
         let on_both =
             corners.iter().any(|&v| sign(v) < 0.0) && corners.iter().any(|&v| sign(v) > 0.0);
-        let is_tip = |v: &VertexId| slit.tips.iter().any(|of_side| of_side.contains(v));
+        let mut ends = slit.tips.iter().chain([&slit.off_plane]);
+        let at_end = ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)));
         on_both
-            && (corners.iter().any(is_tip)
-                || !meets_strip(strip, offsets.bound(), corners.map(|v| positions.at(v))))
+            && (at_end || !meets_strip(strip, offsets.bound(), corners.map(|v| positions.at(v))))
     };
     let sides = label::all(mesh, sign, offset);
     let sides = mesh.faces().zip(sides);
@@ -205,6 +223,8 @@ struct Slit {
     nodes: Vec<VertexId>,
     /// The vertices at which each side plane ends the slit.
     tips: [Vec<VertexId>; 2],
+    /// The vertices of pieces that leave the plane, so that no face gets thin.
+    off_plane: Vec<VertexId>,
 }
 
 impl Slit {
@@ -214,8 +234,12 @@ impl Slit {
         planner.crossings(trace, mesh);
         let mut edges: Vec<[VertexId; 2]> = Vec::new();
         let mut tips: [Vec<VertexId>; 2] = Default::default();
+        let mut off_plane = Vec::new();
         for piece in &trace.pieces {
             let Chain { from, middle, to } = planner.piece(trace, mesh, piece);
+            if piece.inset > 0.0 {
+                off_plane.extend([from, to].into_iter().chain(middle));
+            }
             match middle {
                 Some(middle) => edges.extend([[from, middle], [middle, to]]),
                 None => edges.push([from, to]),
@@ -236,7 +260,12 @@ impl Slit {
         let mut nodes: Vec<VertexId> = edges.as_flattened().to_vec();
         nodes.sort_unstable();
         nodes.dedup();
-        let slit = Slit { edges, nodes, tips };
+        let slit = Slit {
+            edges,
+            nodes,
+            tips,
+            off_plane,
+        };
         (planner.plan, slit)
     }
 
@@ -245,21 +274,18 @@ impl Slit {
         let edges = self.edges.iter();
         edges.flat_map(|&ends| pair_between(mesh, ends))
     }
+}
 
-    /// The tips, those included that a tip on the boundary was split into by the edits from
-    /// `first` on.
-    fn ends(&self, edits: &Edits, first: u64) -> Ends {
-        let mut ends = self.tips.clone();
-        for edit in edits.since(first) {
-            let Edit::Split(split) = edit else { continue };
-            for of_side in &mut ends {
-                if of_side.contains(&split.old) {
-                    of_side.push(split.new);
-                }
-            }
+/// Vertices of the slit, and those that they were split into by the edits from `first` on.
+fn with_copies(mut vertices: Vec<VertexId>, edits: &Edits, first: u64) -> Vec<VertexId> {
+    for edit in edits.since(first) {
+        if let Edit::Split(split) = edit
+            && vertices.contains(&split.old)
+        {
+            vertices.push(split.new);
         }
-        Ends(ends)
     }
+    vertices
 }
 
 /// The half-edges of the edge between two vertices.

@@ -35,8 +35,8 @@ pub struct CutReport {
     pub pieces_before: usize,
     /// The components after the cut.
     pub pieces: usize,
-    /// The components that the cut should leave, by where its slit runs: for the method `exact` the
-    /// slit as it is cut, with vertices near it taken for points of it and tips settled.
+    /// The components that a cut exactly along the slit would leave, or more where the method
+    /// `exact` takes an end of the slit for a point of the boundary.
     pub pieces_expected: usize,
     /// Pieces beyond those expected.
     pub crumbs: usize,
@@ -72,6 +72,13 @@ pub struct CutReport {
 }
 
 impl CutReport {
+    /// The vertices at which the first side plane ended a cut of the method `exact`: there a
+    /// polyline that began with it is closed ([`Scissor::closed`](super::Scissor::closed)).
+    #[must_use]
+    pub fn ends_at_first_ray(&self) -> &[VertexId] {
+        &self.ends.0[0]
+    }
+
     /// The vertices at which the second side plane ended a cut of the method `exact`: there
     /// the next cut of a polyline goes on.
     #[must_use]
@@ -94,13 +101,13 @@ pub(super) struct Survey<'o> {
 }
 
 impl<'o> Survey<'o> {
-    /// `pieces_expected` is for a cut that has decided where the slit runs.
+    /// `pieces_expected` are those of the slit as it will be cut, if that is decided already.
     pub(super) fn new(
         strip: &Strip,
         mesh: &Mesh,
         positions: &Positions,
         offsets: &'o Offsets,
-        pieces_expected: Option<usize>,
+        pieces_expected: usize,
     ) -> Survey<'o> {
         let mut survey = Survey {
             offsets,
@@ -113,8 +120,10 @@ impl<'o> Survey<'o> {
             nearest_vertex: nearest_vertex(strip, mesh, positions),
         };
         survey.follow_slit(strip, mesh, positions);
-        survey.pieces_expected =
-            pieces_expected.unwrap_or_else(|| survey.pieces_expected(strip, mesh, positions));
+        // Where the slit ends nearer than the snap to a boundary it opens that; where it cuts off
+        // less than the snap, the report tells of a piece that is lost.
+        let expected = survey.pieces_expected(strip, mesh, positions);
+        survey.pieces_expected = expected.max(pieces_expected);
         survey
     }
 
@@ -330,9 +339,18 @@ fn separated(
     in_slit: &[bool],
     outcome: &Outcome,
 ) -> bool {
-    let Outcome { labels, ends, .. } = outcome;
+    let Outcome {
+        labels,
+        ends: Ends(ends),
+        off_plane,
+        ..
+    } = outcome;
     // `tip_overshoots` tells of tips.
-    let is_tip = |v: VertexId| ends.0.iter().any(|of_side| of_side.contains(&v));
+    // Beside what leaves the plane, its sides are not those of the seam.
+    let mut unjudged: Vec<VertexId> = ends.concat();
+    unjudged.extend(off_plane);
+    unjudged.sort_unstable();
+    let is_tip = |v: VertexId| unjudged.binary_search(&v).is_ok();
     let label = |h: HalfEdgeId| labels[h.face().index()];
     let shared_vertex = |v: VertexId| {
         let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == Some(side));

@@ -11,6 +11,8 @@ pub(super) struct Outcome {
     /// The splits that were tried in vain.
     pub(super) refused: usize,
     pub(super) ends: Ends,
+    /// Vertices of the seam that leave the plane inside a face, so that no face gets thin.
+    pub(super) off_plane: Vec<VertexId>,
 }
 
 /// The vertices at which each side plane ended a cut of the method `exact`.

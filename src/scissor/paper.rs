@@ -95,6 +95,7 @@ pub(super) fn cut(
         labels,
         refused,
         ends: Ends::default(),
+        off_plane: Vec::new(),
     }
 }
 

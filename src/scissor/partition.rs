@@ -58,6 +58,7 @@ pub(super) fn cut(
         labels: labels.into_iter().map(Some).collect(),
         refused: 0,
         ends: Ends::default(),
+        off_plane: Vec::new(),
     }
 }
 

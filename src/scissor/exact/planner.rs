@@ -112,8 +112,7 @@ impl Planner {
     fn point(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, at: f64) -> VertexId {
         match piece.place {
             Place::Face(f) => {
-                self.plan
-                    .in_face(f, trace.weights(mesh, f, piece.nodes, at));
+                self.plan.in_face(f, trace.weights(mesh, f, piece, at));
             }
             Place::Edge { h, forward: true } => {
                 self.plan.on_edge(h, at);

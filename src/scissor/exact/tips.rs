@@ -4,46 +4,58 @@
 //! crosses from edge to edge leaves a child with an altitude below r (1 − r) of its own. A tip
 //! inside a face is as near to the outline as the rays say, and where it is near an edge that has a
 //! crossing near its end, the two small numbers multiply. So each face with a tip is divided on
-//! trial, and where a child would be too thin, the tip moves along the slit: to the nearest place
-//! (of [`STEPS`]) that keeps the bound, or to the node where the slit enters or leaves the face.
-//! The seam stays where the plane is, and its end moves by less than the slit's way through one
-//! face. A slit is never made longer up to a boundary, which would open that.
+//! trial, and where a child would be too thin, the tip moves as little as keeps the bound: along the
+//! slit (to one of [`STEPS`] places, or to the node where the slit enters or leaves the face), away
+//! from the outline (by one of [`INSETS`], as a part of the face's height), or both. It moves by less
+//! than the slit's way through one face. A slit is never made longer up to a boundary, which would
+//! open that.
 
 use super::planner::Planner;
 use super::trace::{Piece, Place, Site, Trace, is_closed};
 use crate::edit::{Child, Source};
-use crate::geometry::{Point, altitude, between};
-use crate::id::{FaceId, HalfEdgeId};
+use crate::geometry::{Point, altitude, between, length};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
 /// Into how many parts the way through a face is divided to look for a better tip.
-const STEPS: u32 = 32;
+const STEPS: u32 = 16;
+
+/// How far from an edge the points of a piece are kept, to look for better ones.
+const INSETS: [f64; 6] = [0.0, 0.05, 0.1, 0.15, 0.2, 0.25];
 
 /// A tip that moves may change whether its neighbour opens; more rounds than these would be a
 /// circle, and then pieces are given up.
 const ROUNDS: u32 = 8;
 
 /// Moves or gives up tips until every child keeps r (1 − r) of the altitude of its parent, where r
-/// is the snap.
-pub(super) fn settle(trace: &mut Trace, snap: f64, mesh: &Mesh, positions: &Positions) {
-    if snap == 0.0 {
-        return;
-    }
+/// is the snap. Where that would leave nothing of a slit, returns nodes beyond its ends that it could
+/// reach, had they been snapped.
+pub(super) fn settle(
+    trace: &mut Trace,
+    snap: f64,
+    mesh: &Mesh,
+    positions: &Positions,
+) -> Vec<Site> {
+    let mut beyond = Vec::new();
     for round in 0.. {
         let trial = Trial::new(trace, snap, mesh, positions);
         let thin = trace.pieces.iter().filter(|piece| !trial.fits(piece));
         let thin: Vec<Piece> = thin.copied().collect();
-        if thin.is_empty() {
-            return;
+        if thin.is_empty() || snap == 0.0 {
+            break;
         }
         let choose = |piece: &Piece| trial.best(piece).filter(|_| round < ROUNDS);
         let chosen: Vec<Option<Piece>> = thin.iter().map(choose).collect();
+        let lost = thin.iter().zip(&chosen);
+        let lost = lost.filter(|(piece, chosen)| chosen.is_none() && !trial.goes_on(piece));
+        beyond.extend(lost.flat_map(|(piece, _)| trial.beyond(piece)));
         for (piece, better) in thin.iter().zip(chosen) {
             trace.replace(piece.place, better);
         }
         trace.finish(mesh);
     }
+    beyond
 }
 
 /// Divides faces on trial.
@@ -67,21 +79,28 @@ impl<'t> Trial<'t> {
         }
     }
 
-    /// The piece with ends that keep the bound, moved as little as can be; `None` if giving it up
-    /// moves them less.
+    /// The piece with ends that keep the bound, moved as little as can be; `None` if there is none, or
+    /// if giving it up moves them less and leaves a slit.
     fn best(&self, piece: &Piece) -> Option<Piece> {
         let [froms, tos] = [0, 1].map(|end| self.ends(piece, end));
         let mut choices: Vec<(f64, Piece)> = Vec::new();
         for &from in &froms {
-            for &to in &tos {
-                if to - from > self.trace.near {
-                    let moved = (from - piece.from).abs() + (to - piece.to).abs();
-                    choices.push((moved, Piece { from, to, ..*piece }));
+            for &to in tos.iter().filter(|&to| to - from > self.trace.near) {
+                for inset in INSETS {
+                    let choice = Piece {
+                        from,
+                        to,
+                        inset,
+                        ..*piece
+                    };
+                    choices.push((self.moved(piece, &choice), choice));
                 }
             }
         }
-        let given_up = piece.to - piece.from;
-        choices.retain(|&(moved, _)| moved < given_up);
+        if self.goes_on(piece) {
+            let given_up = length(self.point(piece, piece.to) - self.point(piece, piece.from));
+            choices.retain(|&(moved, _)| moved < given_up);
+        }
         // The order of equals is that of the lists: fixed.
         choices.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut choices = choices.into_iter().map(|(_, choice)| Piece {
@@ -89,6 +108,63 @@ impl<'t> Trial<'t> {
             ..choice
         });
         choices.find(|choice| self.fits(choice))
+    }
+
+    /// How far the ends of a piece are from where they were.
+    fn moved(&self, piece: &Piece, choice: &Piece) -> f64 {
+        let ends = [(piece.from, choice.from), (piece.to, choice.to)];
+        let moved = ends.map(|(was, is)| length(self.point(choice, is) - self.point(piece, was)));
+        moved[0] + moved[1]
+    }
+
+    /// A point of a piece, by its parameter. A node stays where it is, whatever the inset.
+    fn point(&self, piece: &Piece, at: f64) -> Point {
+        match piece.place {
+            Place::Face(f) => {
+                let inset = if at == 0.0 || at == 1.0 {
+                    0.0
+                } else {
+                    piece.inset
+                };
+                let piece = Piece { inset, ..*piece };
+                let weights = self.trace.weights(self.mesh, f, &piece, at);
+                let sum = weights[0] + weights[1] + weights[2];
+                self.weighted(f, weights.map(|weight| weight / sum))
+            }
+            Place::Edge { h, forward } => {
+                let [a, b] =
+                    [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.positions.at(v));
+                let [from, to] = if forward { [a, b] } else { [b, a] };
+                between(from, to, at)
+            }
+        }
+    }
+
+    fn weighted(&self, f: FaceId, weights: [f64; 3]) -> Point {
+        let corners = f.half_edges().map(|h| self.corner(h).coords);
+        let terms = [0, 1, 2].map(|i| corners[i] * weights[i]);
+        Point::from(terms[0] + terms[1] + terms[2])
+    }
+
+    /// Whether the slit goes on from where a piece came, and farther than to another tip.
+    fn goes_on(&self, piece: &Piece) -> bool {
+        piece.end_nodes().into_iter().flatten().any(|site| {
+            let ends_here = |other: &&Piece| other.end_nodes().contains(&Some(site));
+            let others = self.trace.pieces.iter().filter(ends_here);
+            others.into_iter().any(|other| other.tips == [None; 2])
+        })
+    }
+
+    /// The nodes beyond the tips of a piece that are near a vertex inside the mesh.
+    fn beyond(&self, piece: &Piece) -> impl Iterator<Item = Site> {
+        let tips = piece.nodes.into_iter().zip(piece.tips);
+        let nodes = tips.filter_map(|(site, tip)| tip.map(|_| site));
+        nodes.filter(|&site| {
+            let Site::Edge(h) = site else { return false };
+            let ends = [self.mesh.origin(h), self.mesh.target(h)];
+            let inside = |&v: &VertexId| is_closed(self.mesh, Site::Vertex(v));
+            !self.is_far(site) && ends.iter().all(inside)
+        })
     }
 
     /// Where an end of a piece may be: where it is, and if it is a tip, at other places.
@@ -185,11 +261,7 @@ impl<'t> Trial<'t> {
         altitude(child.sources.map(|source| match source {
             Source::Corner(h) => self.corner(h),
             Source::Edge { ends: [a, b], t } => between(self.corner(a), self.corner(b), t),
-            Source::Face { weights } => {
-                let corners = child.parent.half_edges().map(|h| self.corner(h).coords);
-                let terms = [0, 1, 2].map(|i| corners[i] * weights[i]);
-                Point::from(terms[0] + terms[1] + terms[2])
-            }
+            Source::Face { weights } => self.weighted(child.parent, weights),
         }))
     }
 }

@@ -41,6 +41,9 @@ pub(super) struct Piece {
     pub(super) tips: [Option<usize>; 2],
     /// Whether the piece needs a vertex in its middle to open.
     pub(super) middle: bool,
+    /// The least weight that a corner of its face has at a point of the piece: what is nearer to the
+    /// opposite edge is inserted a little off the plane.
+    pub(super) inset: f64,
 }
 
 impl Piece {
@@ -119,9 +122,9 @@ impl Trace {
         (along - across).abs() <= self.near
     }
 
-    /// The weights of the corners of a face at a parameter between two nodes.
-    pub(super) fn weights(&self, mesh: &Mesh, f: FaceId, nodes: [Site; 2], at: f64) -> [f64; 3] {
-        let [one, other] = nodes.map(|site| match site {
+    /// The weights of the corners of a face at a parameter of a piece in it.
+    pub(super) fn weights(&self, mesh: &Mesh, f: FaceId, piece: &Piece, at: f64) -> [f64; 3] {
+        let [one, other] = piece.nodes.map(|site| match site {
             Site::Vertex(v) => {
                 let mut weights = [0.0; 3];
                 weights[corner_of(mesh, f, v).corner()] = 1.0;
@@ -140,7 +143,7 @@ impl Trace {
                 weights
             }
         });
-        std::array::from_fn(|i| one[i] + at * (other[i] - one[i]))
+        std::array::from_fn(|i| (one[i] + at * (other[i] - one[i])).max(piece.inset))
     }
 
     /// A crossing, by the half-edge of this face.

@@ -13,33 +13,43 @@ use crate::place::Positions;
 /// snapping is off: the faces round them could not be told from nothing.
 const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// Traces the slit. `snap` and `joints` are those of the method's settings.
+/// What a slit is to pass.
+pub(super) struct Aim<'t> {
+    /// How near an end of its edge a crossing is taken for that end.
+    pub(super) snap: f64,
+    /// Vertices on the plane and on the first side plane, and on the second.
+    pub(super) joints: &'t [Vec<VertexId>; 2],
+    /// Nodes beyond the side planes that are snapped like those between them, ascending.
+    pub(super) met: &'t [Site],
+}
+
+/// Traces the slit.
 pub(super) fn trace(
     strip: &Strip,
-    snap: f64,
-    joints: &[VertexId],
+    aim: &Aim<'_>,
     mesh: &Mesh,
     positions: &Positions,
     offsets: &Offsets,
 ) -> Trace {
     let mut tracer = Tracer {
         strip,
-        snap,
-        joints,
+        aim,
         mesh,
         positions,
         offsets,
-        near: snap.max(TIP_MIN),
-        round_joints: Vec::new(),
+        near: aim.snap.max(TIP_MIN),
+        round_joints: Default::default(),
         snapped: Vec::new(),
+        passed: Vec::new(),
     };
     let mut touched = offsets.touched(mesh);
-    touched.extend(joints.iter().flat_map(|&v| mesh.faces_of(v)));
+    touched.extend(aim.joints.iter().flatten().flat_map(|&v| mesh.faces_of(v)));
     touched.sort_unstable();
     touched.dedup();
     tracer.look_round_joints();
     tracer.snap(&touched);
     tracer.look_round_joints();
+    tracer.look_beside_joints();
     tracer.trace(&touched)
 }
 
@@ -60,24 +70,29 @@ struct Span {
 /// A trace in the making.
 struct Tracer<'t> {
     strip: &'t Strip,
-    snap: f64,
-    joints: &'t [VertexId],
+    aim: &'t Aim<'t>,
     mesh: &'t Mesh,
     positions: &'t Positions,
     offsets: &'t Offsets,
     near: f64,
-    /// Nodes in the faces of joints, and the depth of the joint inside the first side plane. By
-    /// site.
-    round_joints: Vec<(Site, f64)>,
+    /// For each side plane, nodes in the faces of its joints, and the depth of the joint inside it.
+    /// By site.
+    round_joints: [Vec<(Site, f64)>; 2],
     /// By vertex.
     snapped: Vec<Snapped>,
+    /// Edges along which the slit comes to a joint: see [`Tracer::look_beside_joints`].
+    passed: Vec<HalfEdgeId>,
 }
 
 impl Tracer<'_> {
     /// Zero on the plane, else the sign of the side.
     fn sign(&self, v: VertexId) -> f64 {
-        let is_on = self.snap_of(v).is_some() || self.joints.contains(&v);
+        let is_on = self.snap_of(v).is_some() || self.is_joint(v);
         if is_on { 0.0 } else { self.offsets.of(v) }
+    }
+
+    fn is_joint(&self, v: VertexId) -> bool {
+        self.aim.joints.iter().any(|of_side| of_side.contains(&v))
     }
 
     fn snap_of(&self, v: VertexId) -> Option<&Snapped> {
@@ -94,27 +109,65 @@ impl Tracer<'_> {
     /// as they were snapped. Each cut begins at its joint: what is nearest to one is measured
     /// from there.
     fn look_round_joints(&mut self) {
-        self.round_joints.clear();
-        let mut round = Vec::new();
-        for &v in self.joints {
-            let depth = self.strip.sides[0].offset(self.positions.at(v));
-            let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
-            round.extend(faces.flatten().map(|node| (node.site, depth)));
-        }
-        round.sort_by(|a, b| a.partial_cmp(b).expect("depths are finite"));
-        round.dedup_by_key(|&mut (site, _)| site);
+        self.round_joints = Default::default();
+        let round = [0, 1].map(|side| {
+            let mut round = Vec::new();
+            for &v in &self.aim.joints[side] {
+                let depth = self.strip.sides[side].offset(self.positions.at(v));
+                let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
+                round.extend(faces.flatten().map(|node| (node.site, depth)));
+            }
+            round.sort_by(|a, b| a.partial_cmp(b).expect("depths are finite"));
+            round.dedup_by_key(|&mut (site, _)| site);
+            round
+        });
         self.round_joints = round;
     }
 
-    fn joint_depth(&self, site: Site) -> Option<f64> {
+    /// A neighbour of a joint may have been snapped, by a crossing on one of its other edges, and be
+    /// the only one on its side: then the plane touches the faces of the joint, and the slit passes
+    /// it by. It goes along the edge between them, and that neighbour counts as where the joint is.
+    fn look_beside_joints(&mut self) {
+        for side in 0..2 {
+            for &joint in &self.aim.joints[side] {
+                let is_node = |f: FaceId| {
+                    let nodes = self.nodes(f).into_iter().flatten();
+                    nodes
+                        .into_iter()
+                        .any(|node| node.site == Site::Vertex(joint))
+                };
+                if self.mesh.faces_of(joint).any(is_node) {
+                    continue;
+                }
+                let is_snapped = |h: &HalfEdgeId| {
+                    self.mesh.pair(*h).is_some() && self.snap_of(self.mesh.target(*h)).is_some()
+                };
+                let Some(h) = self.mesh.corners_of(joint).find(is_snapped) else {
+                    continue;
+                };
+                let beside = self.mesh.target(h);
+                let depth = self.depths_of(beside)[side];
+                let round = &mut self.round_joints[side];
+                let at = round.partition_point(|&(site, _)| site < Site::Vertex(beside));
+                round.insert(at, (Site::Vertex(beside), depth));
+                self.passed.push(h);
+            }
+        }
+    }
+
+    fn joint_depths(&self, site: Site) -> [Option<f64>; 2] {
         let key = |&(site, _): &(Site, f64)| site;
-        let at = self.round_joints.binary_search_by_key(&site, key);
-        at.ok().map(|at| self.round_joints[at].1)
+        self.round_joints.each_ref().map(|round| {
+            let at = round.binary_search_by_key(&site, key);
+            at.ok().map(|at| round[at].1)
+        })
     }
 
     /// The depths of a node that has these by its place.
     fn node(&self, site: Site, mut depths: [f64; 2]) -> Node {
-        depths[0] -= self.joint_depth(site).unwrap_or(0.0);
+        for (depth, of_joint) in depths.iter_mut().zip(self.joint_depths(site)) {
+            *depth -= of_joint.unwrap_or(0.0);
+        }
         Node { site, depths }
     }
 
@@ -147,11 +200,15 @@ impl Tracer<'_> {
     }
 
     fn vertex_node(&self, v: VertexId) -> Node {
-        let depths = match self.snap_of(v) {
+        self.node(Site::Vertex(v), self.depths_of(v))
+    }
+
+    /// The depths of a vertex, or of the crossing for which it stands.
+    fn depths_of(&self, v: VertexId) -> [f64; 2] {
+        match self.snap_of(v) {
             Some(snapped) => snapped.depths,
             None => self.depths(self.positions.at(v)),
-        };
-        self.node(Site::Vertex(v), depths)
+        }
     }
 
     /// The nodes of a face with vertices on both sides of the plane.
@@ -215,7 +272,7 @@ impl Tracer<'_> {
     /// Puts vertices on the plane that are near a crossing that the slit meets: nearer than
     /// the snap, as a part of the edge.
     fn snap(&mut self, touched: &[FaceId]) {
-        if self.snap == 0.0 {
+        if self.aim.snap == 0.0 {
             return;
         }
         let mut snapped = Vec::new();
@@ -226,16 +283,17 @@ impl Tracer<'_> {
                 Err(_) => [false; 2],
             };
             for (node, at_node) in nodes.into_iter().zip(at_node) {
-                let met = at_node || node.depths.into_iter().all(|depth| depth >= 0.0);
+                let inside = node.depths.into_iter().all(|depth| depth >= 0.0);
+                let met = at_node || inside || self.aim.met.contains(&node.site);
                 let Site::Edge(h) = node.site else { continue };
-                if self.joint_depth(node.site).is_some() {
+                if self.joint_depths(node.site) != [None; 2] {
                     continue;
                 }
                 let crossing = self.crossing(h);
                 let near = [crossing.t, 1.0 - crossing.t];
                 let [a, b] = self.ends(&crossing);
                 for ([vertex, toward], t) in [[a, b], [b, a]].into_iter().zip(near) {
-                    if met && t < self.snap {
+                    if met && t < self.aim.snap {
                         snapped.push(Snapped {
                             vertex,
                             t,
@@ -337,7 +395,8 @@ impl Tracer<'_> {
                 .pair(h)
                 .expect("only edges with a pair were taken");
             let [one, other] = [h, pair].map(|h| patches.side(self.mesh, h.face(), &sign));
-            if one == other {
+            let comes_to_joint = self.passed.contains(&h) || self.passed.contains(&pair);
+            if one == other && !comes_to_joint {
                 continue;
             }
             let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
@@ -363,6 +422,7 @@ impl Tracer<'_> {
                 to,
                 tips: sides,
                 middle: false,
+                inset: 0.0,
             }),
             Err(tip) => lone_tips.extend(tip),
         }

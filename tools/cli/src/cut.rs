@@ -49,10 +49,10 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let mut torn = TornDocument::new(&document);
     let is_exact = args.method == Method::Exact;
     let mut slid = false;
-    let mut last: Option<(Ray, Scissor, CutReport)> = None;
+    let mut line = Polyline::default();
     for (i, pair) in pairs.iter().enumerate() {
         let number = (pairs.len() > 1).then_some(i + 1);
-        let scissor = scissor(args, pair, last.as_ref(), &positions)?;
+        let scissor = scissor(args, pair, &line, &positions)?;
         let done = scissor.cut(
             args.method.of_library(),
             &mut mesh,
@@ -69,7 +69,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         session.words.push(words::cut(number, &done));
         let warnings = words::warnings(number, (args.through, is_exact), &done);
         session.faults.extend(warnings);
-        last = Some((pair[1], scissor, done));
+        line.push(pair, scissor, done);
     }
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
@@ -89,18 +89,62 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     Ok(())
 }
 
+/// The cuts of which each begins with the ray that ended the one before: the first and the last.
+#[derive(Default)]
+struct Polyline {
+    first: Option<Made>,
+    last: Option<Made>,
+}
+
+/// A cut that was made, and its rays.
+#[derive(Clone)]
+struct Made {
+    rays: [Ray; 2],
+    scissor: Scissor,
+    report: CutReport,
+}
+
+impl Polyline {
+    /// The last cut, if a pair of rays goes on from there.
+    fn goes_on(&self, pair: &Pair) -> Option<&Made> {
+        self.last.as_ref().filter(|last| last.rays[1] == pair[0])
+    }
+
+    /// The first cut, if a pair of rays that goes on comes back to where that began.
+    fn comes_back(&self, pair: &Pair) -> Option<&Made> {
+        self.first.as_ref().filter(|first| first.rays[0] == pair[1])
+    }
+
+    fn push(&mut self, pair: &Pair, scissor: Scissor, report: CutReport) {
+        let goes_on = self.goes_on(pair).is_some();
+        let made = Made {
+            rays: *pair,
+            scissor,
+            report,
+        };
+        if !goes_on {
+            self.first = Some(made.clone());
+        }
+        self.last = Some(made);
+    }
+}
+
 /// The scissor of two rays, which goes on from where the last cut ended if that ended with the
-/// first of them.
+/// first of them, and ends where the first of those cuts began if it comes back there.
 fn scissor(
     args: &CutArgs,
     pair: &Pair,
-    last: Option<&(Ray, Scissor, CutReport)>,
+    line: &Polyline,
     positions: &Positions,
 ) -> Result<Scissor, Stop> {
-    let goes_on = last.filter(|(ray, ..)| *ray == pair[0] && !args.through);
-    let scissor = match goes_on {
-        Some((_, scissor, done)) => scissor.continued(done, positions, &pair[1]),
-        None => Scissor::new(&pair[0], &pair[1]),
+    let last = line.goes_on(pair).filter(|_| !args.through);
+    let scissor = match (last, line.comes_back(pair)) {
+        (Some(last), Some(first)) => {
+            let first = (&first.scissor, &first.report);
+            last.scissor.closed(&last.report, first, positions)
+        }
+        (Some(last), None) => last.scissor.continued(&last.report, positions, &pair[1]),
+        (None, _) => Scissor::new(&pair[0], &pair[1]),
     };
     let scissor = scissor.map_err(|error| no_plane(pair, error))?;
     let tips = match args.tips {
