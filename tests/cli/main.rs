@@ -13,3 +13,4 @@ mod places;
 mod tear;
 mod through;
 mod transcripts;
+mod words;
