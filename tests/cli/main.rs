@@ -5,6 +5,7 @@
 
 mod files;
 mod frames;
+mod full;
 mod fuzz;
 mod harness;
 mod in_process;
