@@ -67,6 +67,18 @@ fn regression_a_full_standard_output_is_said() {
     assert_eq!(report["diagnostics"][0]["code"], "E-IO-WRITE");
 }
 
+/// What is printed as JSON and what the process ends with are the same story.
+#[test]
+fn regression_a_report_that_cannot_be_written_is_in_the_json() {
+    let folder = Folder::new();
+    let line = format!("tearmesh cut flag.obj {RAYS} --format json --report no/r.json");
+    let output = folder.run(&line);
+    assert_eq!(output.status.code(), Some(7));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!((&report["exit"], &report["ok"]), (&7.into(), &false.into()));
+    assert_eq!(report["diagnostics"][0]["code"], "E-IO-WRITE");
+}
+
 /// Takes so many bytes, and then fails.
 struct Narrow {
     room: usize,
@@ -129,7 +141,7 @@ fn standard_output_may_end_at_any_byte() {
         (&torn, vec!["mend", "-", "--format", "json", "--no-timing"]),
         (&torn, vec!["check", "-"]),
         (&torn, vec!["check", "-", "-v"]),
-        (&torn, vec!["check", "-", "no.obj", "--format", "json"]),
+        (&torn, vec!["check", "no.obj", "-", "--format", "json"]),
         (&torn, vec!["mend", "--help"]),
     ] {
         let mut all = Vec::new();
