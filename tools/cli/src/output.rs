@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 
 use tempfile::NamedTempFile;
 
-use crate::exit::Exit;
+use crate::say::Fault;
 
 /// The temporary file that is being written.
 static TEMPORARY: Mutex<Option<PathBuf>> = Mutex::new(None);
@@ -163,11 +163,26 @@ fn folder(path: &Path) -> Option<&Path> {
     path.parent().filter(|folder| *folder != Path::new(""))
 }
 
-/// Whoever read our output may have had enough: that is no failure.
-pub(crate) fn ignore_closed_pipe(written: io::Result<()>) -> Exit {
-    match written {
-        Ok(()) => Exit::Done,
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Done,
-        Err(_) => Exit::Output,
+/// Prints on standard output, to the end: what waits in a buffer could still be lost, and nobody
+/// told. Whoever read it may have had enough: that is no failure.
+pub(crate) fn print<T>(
+    out: &mut dyn Write,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+) -> Result<Option<T>, Fault> {
+    let filled = fill(out).and_then(|filled| out.flush().map(|()| filled));
+    match filled {
+        Ok(filled) => Ok(Some(filled)),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(None),
+        Err(error) => Err(cannot_write(Path::new("-"), &error)),
     }
+}
+
+/// Says that a file, or standard output where it is `-`, cannot be written.
+pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Fault {
+    let name = if path == Path::new("-") {
+        "standard output".to_owned()
+    } else {
+        format!("`{}`", path.display())
+    };
+    Fault::error("E-IO-WRITE", format!("cannot write {name}: {error}"))
 }
