@@ -9,6 +9,8 @@ mod full;
 mod fuzz;
 mod harness;
 mod in_process;
+#[cfg(unix)]
+mod killed;
 mod memory;
 mod places;
 mod tear;
