@@ -12,6 +12,7 @@ mod in_process;
 #[cfg(unix)]
 mod killed;
 mod memory;
+mod odd;
 mod places;
 mod tear;
 mod through;
