@@ -27,7 +27,8 @@ fn work(args: &ChartArgs, streams: &mut Streams<'_>) -> Ended {
     let files = [Some(&args.output), args.csv.as_ref(), args.json.as_ref()];
     let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
     for (i, path) in files.iter().enumerate() {
-        let twice = files[..i].contains(path) && *path != Path::new("-");
+        let is_it = |other: &&PathBuf| other == path || output::is_same_place(other, path);
+        let twice = *path != Path::new("-") && files[..i].iter().any(is_it);
         if twice || (i > 0 && *path == Path::new("-")) {
             let message = format!("`{}` is wanted twice, or is no file", path.display());
             let fault = Fault::error("E-USAGE", message).help("name a file for each");

@@ -52,6 +52,13 @@ pub(crate) fn check(path: &Path) -> io::Result<()> {
 
 /// The file that is written for a path, with what is there, which is no folder.
 fn place(path: &Path) -> io::Result<(PathBuf, Option<fs::Metadata>)> {
+    // The names of open pipes, as /dev/stdout, look like links that lead nowhere.
+    if let Ok(found) = fs::metadata(path)
+        && !found.is_file()
+        && !found.is_dir()
+    {
+        return Ok((path.to_owned(), Some(found)));
+    }
     let path = resolve_links(path)?;
     let existing = fs::metadata(&path).ok();
     if existing.as_ref().is_some_and(fs::Metadata::is_dir) {

@@ -84,7 +84,7 @@ impl Named {
     fn new(path: &Path) -> io::Result<Named> {
         sweep(path);
         for _ in 0..TRIES {
-            let file = named(path, |builder, folder| builder.tempfile_in(folder))?;
+            let file = named(path, create)?;
             let lock = file.as_file().try_lock();
             // Another run may sweep between the making and the locking: it holds the lock, or the
             // name, which never comes again, is gone.
@@ -130,26 +130,23 @@ fn registry() -> MutexGuard<'static, Option<PathBuf>> {
     NAMED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Makes a draft of a file that has a name, with the permissions of any new file.
-fn named<R>(
-    path: &Path,
-    make: impl FnOnce(&mut tempfile::Builder<'_, '_>, &Path) -> io::Result<NamedTempFile<R>>,
-) -> io::Result<NamedTempFile<R>> {
+/// Finds a name for a draft of a file, by which it can be made.
+fn named<R>(path: &Path, make: impl FnMut(&Path) -> io::Result<R>) -> io::Result<NamedTempFile<R>> {
     let prefix = prefix(path);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(SUFFIX).rand_bytes(RANDOM);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // The system applies the umask.
-        builder.permissions(fs::Permissions::from_mode(NEW));
-    }
-    make(&mut builder, folder(path))
+    builder.make_in(folder(path), make)
 }
 
-/// What a file gets that is made in the ordinary way, before the umask.
-#[cfg(unix)]
-const NEW: u32 = 0o666;
+/// A new file as any other: with the permissions that the system gives, and not those of a secret.
+/// Its error does not speak of the draft, whose name nobody gave.
+fn create(name: &Path) -> io::Result<File> {
+    File::options()
+        .read(true)
+        .write(true)
+        .create_new(true)
+        .open(name)
+}
 
 /// Removes the drafts of a file that runs left which are gone.
 fn sweep(path: &Path) {
@@ -220,10 +217,10 @@ mod linux {
 
     use super::*;
 
-    /// A file without a name.
+    /// A file without a name. The system applies the umask to its permissions.
     pub(super) fn unnamed(folder: &Path) -> io::Result<File> {
         let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
-        let file = rustix::fs::open(folder, flags, Mode::from_raw_mode(NEW))?;
+        let file = rustix::fs::open(folder, flags, Mode::from_raw_mode(0o666))?;
         Ok(File::from(file))
     }
 
@@ -258,9 +255,7 @@ mod linux {
         sweep(path);
         // Before there is a name by which another run could find it.
         let _ = file.try_lock();
-        let named = named(path, |builder, folder| {
-            builder.make_in(folder, |name| link(file, name))
-        })?;
+        let named = named(path, |name| link(file, name))?;
         Ok(named.persist(path).map_err(|failed| failed.error))
     }
 
