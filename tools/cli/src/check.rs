@@ -1,6 +1,6 @@
 //! The verb `check`: a line for each file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
@@ -15,6 +15,12 @@ use crate::streams::Streams;
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
+    let is_stream = |path: &&PathBuf| path.as_path() == Path::new("-");
+    if args.inputs.iter().filter(is_stream).count() > 1 {
+        let message = "two inputs both come from standard input".to_owned();
+        let fault = Fault::error("E-USAGE", message).help("name a file for one of them");
+        return streams.fail(&fault, args.color, Exit::Usage);
+    }
     let width = args
         .inputs
         .iter()
