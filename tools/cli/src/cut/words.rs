@@ -50,14 +50,14 @@ pub(crate) fn warnings(
         };
         warn("W-CUT-MISS", format!("no face lies {place}{why}"));
     } else if cut.splits == 0 {
-        let faces = count(cut.faces_crossed, "face", "faces");
         let why = match obstacle {
-            Obstacle::Seam => "it is already cut there",
-            Obstacle::Touch => "only touches the mesh",
-            Obstacle::Snap => "is shorter than the snap: --snap 0 makes it",
-            Obstacle::Unknown => "no vertex could be split",
+            Obstacle::Seam => "but it is already cut there",
+            Obstacle::Touch => "it only touches the mesh",
+            Obstacle::Snap => "but is shorter than the snap: --snap 0 makes it",
+            Obstacle::Unknown => "but no vertex could be split",
         };
-        warn("W-CUT-NONE", format!("the cut crosses {faces}, but {why}"));
+        let faces = count(cut.faces_crossed, "face", "faces");
+        warn("W-CUT-NONE", format!("the cut crosses {faces}, {why}"));
     } else {
         if cut.crumbs > 0 {
             let crumbs = count(cut.crumbs, "piece", "pieces");
