@@ -265,61 +265,6 @@ mod unix {
         }
     }
 
-    /// A flat sheet that takes a while to read and to write.
-    fn large_sheet(cells: usize) -> String {
-        let mut obj = String::new();
-        for j in 0..=cells {
-            for i in 0..=cells {
-                obj.push_str(&format!("v {} {} 0\n", i as f64 / 7.0, j as f64 / 7.0));
-            }
-        }
-        for j in 0..cells {
-            for i in 0..cells {
-                let a = j * (cells + 1) + i + 1;
-                let (b, c, d) = (a + 1, a + cells + 2, a + cells + 1);
-                obj.push_str(&format!("f {a} {b} {c}\nf {a} {c} {d}\n"));
-            }
-        }
-        obj
-    }
-
-    #[test]
-    fn a_run_killed_at_any_moment_leaves_the_old_file_or_the_new_one() {
-        let folder = Folder::new();
-        let (input, old) = (large_sheet(100), "something old\n");
-        folder.write("large.obj", &input);
-        let cut = |output: &str| {
-            let mut command = folder.command();
-            command.args([
-                "cut",
-                "large.obj",
-                "--rays",
-                "9.3,-1,5:0,0,-1",
-                "9.1,99,5:0,0,-1",
-            ]);
-            command.args(["-q", "-o", output]);
-            command.spawn().expect("a run")
-        };
-        let begun = std::time::Instant::now();
-        assert!(cut("new.obj").wait().expect("an end").success());
-        let whole = begun.elapsed();
-        let new = folder.read("new.obj");
-        for i in 0..=24 {
-            folder.write("out.obj", old);
-            let mut child = cut("out.obj");
-            if i < 24 {
-                std::thread::sleep(whole * i / 20);
-                let _ = child.kill(); // It may have ended already.
-            }
-            child.wait().expect("an end");
-            let now = folder.read("out.obj");
-            assert!(now == old || now == new, "run {i} left {} bytes", now.len());
-            assert!(i > 0 || now == old, "a run killed at once has written");
-            assert!(i < 24 || now == new, "a run left alone has not written");
-            assert!(folder.read("large.obj") == input, "the input was touched");
-        }
-    }
-
     #[test]
     fn an_interrupted_run_ends_with_130() {
         let folder = Folder::new();

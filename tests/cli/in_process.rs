@@ -68,6 +68,7 @@ impl Case {
         if ran.error.contains("wrote standard output") {
             self.the_mesh_is_whole(&ran.output);
         }
+        self.the_advice_works(&ran);
         let again = self.run();
         assert_eq!(again.exit, ran.exit, "the same again");
         match report {
@@ -127,6 +128,23 @@ impl Case {
                 assert!(says("error"), "{:?}: {}", ran.exit, ran.error);
                 assert_eq!(ran.output, b"", "refused, and nothing written");
             }
+        }
+    }
+
+    /// What is on the cut is not said to be away from it, and what is said to make a cut does.
+    fn the_advice_works(&self, ran: &Ran) {
+        let said = format!("{}{}", ran.error, String::from_utf8_lossy(&ran.output));
+        assert!(!said.contains(" is 0 away"), "{self:?}\n{said}");
+        if said.contains("--snap 0 makes it") {
+            let mut advised = self.clone();
+            let snap = advised.args.iter().position(|arg| arg == "--snap");
+            if let Some(at) = snap.filter(|at| at + 1 < advised.args.len()) {
+                advised.args.drain(at..=at + 1);
+            }
+            advised.args.retain(|arg| !arg.starts_with("--snap="));
+            advised.args.insert(0, "--snap=0".to_owned());
+            let then = advised.run();
+            assert_eq!(then.exit, Exit::Done, "{self:?}\n{said}{}", then.error);
         }
     }
 

@@ -5,11 +5,16 @@
 
 mod files;
 mod frames;
+mod full;
 mod fuzz;
 mod harness;
 mod in_process;
+#[cfg(unix)]
+mod killed;
 mod memory;
+mod odd;
 mod places;
 mod tear;
 mod through;
 mod transcripts;
+mod words;

@@ -506,11 +506,14 @@ pub(crate) fn join_rays(args: &[OsString]) -> Vec<OsString> {
     joined
 }
 
-/// Whether an argument is meant as a ray: numbers with commas between them.
+/// Whether an argument is meant as a ray: numbers with commas between them, or what is written like
+/// one, for which an error about the ray says more than one about an argument too many.
 fn looks_like_rays(arg: &OsStr) -> bool {
     let text = arg.to_string_lossy();
     let number = text.trim_start().trim_start_matches(['+', '-']);
-    text.contains(',') && number.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+    let is_number = number.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    let is_ray = !text.starts_with('-') && text.contains([':', '@']);
+    text.contains(',') && (is_number || is_ray)
 }
 
 #[cfg(test)]

@@ -9,24 +9,14 @@ use crate::args::{ChartArgs, What};
 use crate::exit::Exit;
 use crate::interrupt::Guard;
 use crate::output;
-use crate::say::{Fault, Screen, is_colored};
-use crate::session::cannot_write;
+use crate::say::Fault;
 use crate::streams::Streams;
 
 /// Makes the experiment, draws it, and gives the exit status.
 pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
     match work(args, streams) {
         Ok(exit) => exit,
-        Err((exit, fault)) => {
-            let colored = is_colored(args.color, streams.error_is_terminal);
-            let mut screen = Screen {
-                error: streams.error,
-                colored,
-            };
-            // Nowhere is left to complain if standard error is closed.
-            let _ = screen.show(&fault);
-            exit
-        }
+        Err((exit, fault)) => streams.fail(&fault, args.color, exit),
     }
 }
 
@@ -37,7 +27,8 @@ fn work(args: &ChartArgs, streams: &mut Streams<'_>) -> Ended {
     let files = [Some(&args.output), args.csv.as_ref(), args.json.as_ref()];
     let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
     for (i, path) in files.iter().enumerate() {
-        let twice = files[..i].contains(path) && *path != Path::new("-");
+        let is_it = |other: &&PathBuf| other == path || output::is_same_place(other, path);
+        let twice = *path != Path::new("-") && files[..i].iter().any(is_it);
         if twice || (i > 0 && *path == Path::new("-")) {
             let message = format!("`{}` is wanted twice, or is no file", path.display());
             let fault = Fault::error("E-USAGE", message).help("name a file for each");
@@ -86,28 +77,23 @@ fn work(args: &ChartArgs, streams: &mut Streams<'_>) -> Ended {
         .iter()
         .map(|path| path.display().to_string())
         .collect();
-    let said = writeln!(
-        streams.output,
-        "{}\nwrote {}",
-        study.conclusion,
-        names.join(", ")
-    );
-    Ok(output::ignore_closed_pipe(said))
+    let names = names.join(", ");
+    let said = output::print(streams.output, |out| {
+        writeln!(out, "{}\nwrote {names}", study.conclusion)
+    });
+    said.map_err(|fault| (Exit::Output, fault.help(format!("wrote {names}"))))?;
+    Ok(Exit::Done)
 }
 
 fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), (Exit, Fault)> {
-    let written = if path == Path::new("-") {
-        match output::ignore_closed_pipe(streams.output.write_all(text.as_bytes())) {
-            Exit::Done => Ok(()),
-            _ => Err(std::io::Error::other("standard output is closed")),
-        }
-    } else {
-        output::write(path, |out| out.write_all(text.as_bytes()))
-    };
+    if path == Path::new("-") {
+        let printed = output::print(streams.output, |out| out.write_all(text.as_bytes()));
+        return printed.map(|_| ()).map_err(|fault| (Exit::Output, fault));
+    }
+    let written = output::write(path, |out| out.write_all(text.as_bytes()));
     written.map_err(|error| unwritable(path, &error))
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> (Exit, Fault) {
-    let name = path.display().to_string();
-    (Exit::Output, cannot_write(&name, error))
+    (Exit::Output, output::cannot_write(path, error))
 }

@@ -1,7 +1,6 @@
 //! The verb `check`: a line for each file.
 
-use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
@@ -9,12 +8,19 @@ use crate::args::{CheckArgs, Format};
 use crate::defects;
 use crate::exit::Exit;
 use crate::input::Input;
+use crate::output;
 use crate::report::{Entry, File};
 use crate::say::{Fault, Screen, Severity, count, is_colored};
 use crate::streams::Streams;
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
+    let is_stream = |path: &&PathBuf| path.as_path() == Path::new("-");
+    if args.inputs.iter().filter(is_stream).count() > 1 {
+        let message = "two inputs both come from standard input".to_owned();
+        let fault = Fault::error("E-USAGE", message).help("name a file for one of them");
+        return streams.fail(&fault, args.color, Exit::Usage);
+    }
     let width = args
         .inputs
         .iter()
@@ -33,14 +39,17 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
         if args.quiet && found.exit() == Exit::Done {
             continue;
         }
-        let said = match args.format {
-            Format::Text => found.say(width, args, streams),
-            Format::Json => found.json(streams),
+        let line = match args.format {
+            Format::Text => found.line(width),
+            Format::Json => found.json(),
         };
-        match said {
-            Ok(()) => {}
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return exit,
-            Err(_) => return Exit::Output,
+        match output::print(streams.output, |out| writeln!(out, "{line}")) {
+            Ok(Some(())) => {}
+            Ok(None) => return exit, // Nobody reads on.
+            Err(fault) => return streams.fail(&fault, args.color, Exit::Output),
+        }
+        if args.verbose && args.format == Format::Text {
+            found.show(args, streams);
         }
     }
     exit
@@ -130,9 +139,9 @@ impl Found {
         }
     }
 
-    fn say(&self, width: usize, args: &CheckArgs, streams: &mut Streams<'_>) -> io::Result<()> {
+    fn line(&self, width: usize) -> String {
         let path = &self.path;
-        let line = match (self.errors().next(), &self.mesh) {
+        match (self.errors().next(), &self.mesh) {
             (None, Some(mesh)) => format!("{path:width$}  ok    {}", summary(mesh, &self.faults)),
             (first, _) => {
                 let first = first.map(Fault::line).unwrap_or_default();
@@ -144,24 +153,23 @@ impl Found {
                 };
                 format!("{path:width$}  FAIL  {first}{more}")
             }
-        };
-        writeln!(streams.output, "{line}")?;
-        if args.verbose {
-            // In order with the lines, where both go to one place.
-            streams.output.flush()?;
-            let colored = is_colored(args.color, streams.error_is_terminal);
-            let mut screen = Screen {
-                error: streams.error,
-                colored,
-            };
-            for fault in &self.faults {
-                screen.show(fault)?;
-            }
         }
-        Ok(())
     }
 
-    fn json(&self, streams: &mut Streams<'_>) -> io::Result<()> {
+    fn show(&self, args: &CheckArgs, streams: &mut Streams<'_>) {
+        let colored = is_colored(args.color, streams.error_is_terminal);
+        let mut screen = Screen {
+            error: streams.error,
+            colored,
+        };
+        for fault in &self.faults {
+            if screen.show(fault).is_err() {
+                break; // Standard error is closed: nowhere is left to complain.
+            }
+        }
+    }
+
+    fn json(&self) -> String {
         let line = Line {
             schema: "tearmesh.check/1",
             ok: self.exit() == Exit::Done,
@@ -169,8 +177,7 @@ impl Found {
             mesh: self.mesh.as_ref(),
             diagnostics: self.faults.iter().map(Entry::new).collect(),
         };
-        let json = serde_json::to_string(&line).expect("strings and numbers are JSON");
-        writeln!(streams.output, "{json}")
+        serde_json::to_string(&line).expect("strings and numbers are JSON")
     }
 }
 

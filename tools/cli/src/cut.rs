@@ -1,5 +1,6 @@
 //! The verb `cut`.
 
+pub(crate) mod nothing;
 pub(crate) mod scissors;
 pub(crate) mod words;
 
@@ -9,6 +10,7 @@ use std::path::Path;
 use tearmesh::{CutReport, Edit, Edits, Masses, Positions, Ray, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
+use self::nothing::Obstacle;
 use self::scissors::{no_plane, warn_of_skew};
 use crate::args::{CutArgs, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
@@ -67,7 +69,14 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let entry = report::Cut::new(pair, &scissor, how(args), &done);
         session.report.cuts.push(entry);
         session.words.push(words::cut(number, &done));
-        let warnings = words::warnings(number, (args.through, is_exact), &done);
+        let method = args.method.of_library();
+        let obstacle = if done.splits == 0 {
+            let how = (&scissor, method, args.snap);
+            nothing::obstacle(how, args.through, (&mesh, &positions), &done)
+        } else {
+            Obstacle::Unknown
+        };
+        let warnings = words::warnings(number, (args.through, is_exact), &done, obstacle);
         session.faults.extend(warnings);
         line.push(pair, scissor, done);
     }

@@ -9,11 +9,11 @@ use crate::say::Fault;
 pub enum Exit {
     /// Done.
     Done = 0,
-    /// Nothing was cut or mended; for `check`, some file failed.
+    /// Nothing was cut or mended; for `check`, some file is no mesh that could be cut.
     NothingCut = 1,
     /// The arguments make no sense.
     Usage = 2,
-    /// The input cannot be read, or is no valid mesh.
+    /// The input cannot be read, or is no valid mesh; for `check`, some file could not be opened.
     Input = 3,
     /// The rays span no plane.
     NoPlane = 4,

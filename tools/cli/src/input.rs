@@ -63,6 +63,17 @@ impl Input {
         }
     }
 
+    /// The text in it, without a byte order mark.
+    pub(crate) fn text(&self) -> Result<String, Fault> {
+        let mut text = String::new();
+        let read = self.open()?.read_to_string(&mut text);
+        read.map_err(|error| cannot_read(&self.name, &error))?;
+        match text.strip_prefix('\u{feff}') {
+            Some(rest) => Ok(rest.to_owned()),
+            None => Ok(text),
+        }
+    }
+
     /// The document in it.
     pub(crate) fn document(&self) -> Result<Document, Fault> {
         Document::read(self.open()?).map_err(|error| match error.diagnostic() {

@@ -39,11 +39,12 @@ pub use output::abandon as abandon_output;
 pub use streams::Streams;
 
 use args::{Args, Verb};
+use say::Color;
 
 /// Runs the command with these arguments, the first of which is the program's name.
 pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -> Exit {
     let args: Vec<OsString> = args.into_iter().collect();
-    let exit = match Args::try_parse_from(args::join_rays(&args)) {
+    match Args::try_parse_from(args::join_rays(&args)) {
         Ok(Args {
             verb: Verb::Cut(cut),
         }) => cut::run(&cut, &args, &mut streams),
@@ -61,12 +62,13 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         }) => chart::run(&chart, &mut streams),
         Err(help) if !help.use_stderr() => {
             let text = help.render();
-            let shown = if streams.output_is_terminal {
-                write!(streams.output, "{}", text.ansi())
-            } else {
-                write!(streams.output, "{text}")
-            };
-            output::ignore_closed_pipe(shown)
+            let is_terminal = streams.output_is_terminal;
+            let shown = output::print(streams.output, |out| match is_terminal {
+                true => write!(out, "{}", text.ansi()),
+                false => write!(out, "{text}"),
+            });
+            let shown = shown.map(|_| Exit::Done);
+            shown.unwrap_or_else(|fault| streams.fail(&fault, Color::Auto, Exit::Output))
         }
         Err(error) => {
             let text = error.render();
@@ -78,9 +80,5 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
             };
             Exit::Usage
         }
-    };
-    match output::ignore_closed_pipe(streams.output.flush()) {
-        Exit::Done => exit,
-        failed => failed,
     }
 }

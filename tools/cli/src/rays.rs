@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use tearmesh::{Point, Ray, Vector};
+use tearmesh::{Point, Ray, RayError, Vector};
 
 use crate::say::{Excerpt, Fault};
 
@@ -122,18 +122,24 @@ pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
     } else {
         Vector::from(second)
     };
-    Ray::new(origin, direction).map_err(|error| Unreadable {
-        code: "E-RAY-ZERO",
-        message: error.to_string(),
-        part: match error {
-            tearmesh::RayError::Origin { .. } => 0..at,
-            tearmesh::RayError::Direction { .. } => at + width..text.len(),
-        },
-        label: if aimed {
-            "expected another point than the origin"
-        } else {
-            "expected a direction"
-        },
+    Ray::new(origin, direction).map_err(|error| {
+        let (part, label) = match error {
+            RayError::Origin { .. } => (0..at, "expected an origin that is not so far away"),
+            RayError::Direction { .. } => {
+                let label = if aimed {
+                    "expected another point than the origin"
+                } else {
+                    "expected a direction"
+                };
+                (at + width..text.len(), label)
+            }
+        };
+        Unreadable {
+            code: "E-RAY-ZERO",
+            message: error.to_string(),
+            part,
+            label,
+        }
     })
 }
 

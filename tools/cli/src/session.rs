@@ -174,10 +174,8 @@ impl<'a> Session<'a> {
             _ => None,
         };
         for path in output.into_iter().chain(&self.files.report) {
-            output::check(path).map_err(|error| {
-                let name = path.display().to_string();
-                Stop::new(Exit::Output, cannot_write(&name, &error))
-            })?;
+            output::check(path)
+                .map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
         }
         Ok(())
     }
@@ -191,17 +189,13 @@ impl<'a> Session<'a> {
     ) -> Result<(), Stop> {
         let clock = Clock::start();
         let written = match &self.destination {
-            Destination::Nowhere { .. } => None,
-            Destination::File(path) => Some(output::write(path, fill)),
-            Destination::Output => match fill(streams.output) {
-                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => None,
-                written => Some(written),
-            },
+            Destination::Nowhere { .. } => Ok(None),
+            Destination::File(path) => output::write(path, fill)
+                .map(Some)
+                .map_err(|error| output::cannot_write(path, &error)),
+            Destination::Output => output::print(streams.output, fill),
         };
-        let written = written.transpose().map_err(|error| {
-            let name = self.destination.name().unwrap_or_default();
-            Stop::new(Exit::Output, cannot_write(&name, &error))
-        })?;
+        let written = written.map_err(|fault| Stop::new(Exit::Output, fault))?;
         self.report.timing_ms.get_or_insert_default().write = clock.milliseconds();
         self.report.output = Some(report::File::of(self.destination.name(), mesh));
         if let Some(separated) = written.map(|one| one.separated).filter(|&fans| fans > 0) {
@@ -240,46 +234,75 @@ impl<'a> Session<'a> {
         self.shown = self.faults.len();
     }
 
-    /// Says everything there is to say, in words or as JSON.
-    fn tell(mut self, exit: Exit, streams: &mut Streams<'_>) -> Exit {
-        self.report.ok = exit == Exit::Done;
-        self.report.exit = exit as u8;
-        self.report.diagnostics = self.faults.iter().map(Entry::new).collect();
-        if self.files.no_timing || exit != Exit::Done {
-            self.report.timing_ms = None;
-        }
-        let mut json = serde_json::to_string_pretty(&self.report)
-            .expect("a report of strings and finite numbers is JSON");
-        json.push('\n');
-        let mut exit = exit;
-        if let Some(path) = &self.files.report
-            && exit != Exit::Usage
-            && let Err(error) = output::write(path, |out| out.write_all(json.as_bytes()))
-        {
-            let name = path.display().to_string();
-            let fault = cannot_write(&name, &error);
+    /// Says everything there is to say, in words or as JSON, and in the report.
+    fn tell(mut self, mut exit: Exit, streams: &mut Streams<'_>) -> Exit {
+        let keeps_report = exit != Exit::Usage;
+        if keeps_report && let Err(fault) = self.keep_report(exit) {
             // It may have been found out before.
             if self.faults.iter().all(|one| one.message != fault.message) {
                 self.faults.push(fault);
             }
             exit = Exit::Output;
         }
+        let Err(fault) = self.print(exit, streams) else {
+            return exit;
+        };
+        let written = match (&self.destination, &self.report.output) {
+            (Destination::File(path), Some(_)) => Some(format!("`{}` was written", path.display())),
+            _ => None,
+        };
+        let help = written.or(fault.help);
+        self.faults.push(Fault { help, ..fault });
+        self.show(streams);
+        if keeps_report {
+            // So that it tells what the exit status does. If it cannot be written, that was said.
+            let _ = self.keep_report(Exit::Output);
+        }
+        Exit::Output
+    }
+
+    /// The report, of a run that ends so.
+    fn json(&mut self, exit: Exit) -> String {
+        self.report.ok = exit == Exit::Done;
+        self.report.exit = exit as u8;
+        self.report.diagnostics = self.faults.iter().map(Entry::new).collect();
+        if self.files.no_timing || exit != Exit::Done {
+            self.report.timing_ms = None;
+        }
+        let json = serde_json::to_string_pretty(&self.report);
+        json.expect("a report of strings and finite numbers is JSON") + "\n"
+    }
+
+    /// Writes the report into its file, if one is wanted.
+    fn keep_report(&mut self, exit: Exit) -> Result<(), Fault> {
+        let Some(path) = &self.files.report else {
+            return Ok(());
+        };
+        let json = self.json(exit);
+        let written = output::write(path, |out| out.write_all(json.as_bytes()));
+        written.map_err(|error| output::cannot_write(path, &error))
+    }
+
+    /// Shows what there is to say, or prints it as JSON.
+    fn print(&mut self, exit: Exit, streams: &mut Streams<'_>) -> Result<(), Fault> {
         if self.files.format == Format::Json {
-            let printed = output::ignore_closed_pipe(streams.output.write_all(json.as_bytes()));
-            return if printed == Exit::Done { exit } else { printed };
+            let json = self.json(exit);
+            let printed = output::print(streams.output, |out| out.write_all(json.as_bytes()));
+            return printed.map(|_| ());
         }
         self.show(streams);
         let has_words = matches!(exit, Exit::Done | Exit::Simulation | Exit::Interrupted);
         if self.files.quiet || !has_words || self.words.is_empty() {
-            return exit;
+            return Ok(());
         }
         let words = self.words.join("\n") + "\n";
-        let said = match self.destination {
-            Destination::Output => streams.error.write_all(words.as_bytes()),
-            _ => streams.output.write_all(words.as_bytes()),
-        };
-        let printed = output::ignore_closed_pipe(said);
-        if printed == Exit::Done { exit } else { printed }
+        if let Destination::Output = self.destination {
+            // Nowhere is left to complain if standard error is closed.
+            let _ = streams.error.write_all(words.as_bytes());
+            return Ok(());
+        }
+        let said = output::print(streams.output, |out| out.write_all(words.as_bytes()));
+        said.map(|_| ())
     }
 }
 
@@ -320,10 +343,6 @@ pub(crate) fn masses(made: Result<Masses, MassError>) -> Result<Masses, Stop> {
         };
         Stop::new(Exit::Input, fault)
     })
-}
-
-pub(crate) fn cannot_write(name: &str, error: &io::Error) -> Fault {
-    Fault::error("E-IO-WRITE", format!("cannot write `{name}`: {error}"))
 }
 
 pub(crate) struct Clock(Instant);

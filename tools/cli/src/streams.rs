@@ -2,6 +2,9 @@
 
 use std::io::{Read, Write};
 
+use crate::exit::Exit;
+use crate::say::{Color, Fault, Screen, is_colored};
+
 /// Where the command reads and writes.
 pub struct Streams<'a> {
     /// Standard input, read where the input is named `-`.
@@ -14,6 +17,20 @@ pub struct Streams<'a> {
     pub output_is_terminal: bool,
     /// Whether standard error is a terminal, which shows colours.
     pub error_is_terminal: bool,
+}
+
+impl Streams<'_> {
+    /// Shows an error, and ends with this exit status.
+    pub(crate) fn fail(&mut self, fault: &Fault, color: Color, exit: Exit) -> Exit {
+        let colored = is_colored(color, self.error_is_terminal);
+        let mut screen = Screen {
+            error: self.error,
+            colored,
+        };
+        // Nowhere is left to complain if standard error is closed.
+        let _ = screen.show(fault);
+        exit
+    }
 }
 
 impl std::fmt::Debug for Streams<'_> {

@@ -20,6 +20,7 @@ use tearmesh_obj::TornDocument;
 use self::frames::Frames;
 use self::points::places;
 use crate::args::{TearArgs, cut_name};
+use crate::cut::nothing::Obstacle;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::scene::{Source, method_name};
@@ -274,7 +275,9 @@ impl Play<'_> {
         let stability = stability.unwrap_or_default();
         session.words.push(format!("{line} · at {at} s{stability}"));
         let kind = (cut.through, cut.method == tearmesh::Method::Exact);
-        let warnings = crate::cut::words::warnings(many, kind, done);
+        // The cloth has moved since, and there is no snap to choose.
+        let why = Obstacle::Unknown;
+        let warnings = crate::cut::words::warnings(many, kind, done, why);
         session.faults.extend(warnings);
     }
 

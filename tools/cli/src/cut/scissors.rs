@@ -1,12 +1,10 @@
 //! From what was typed to scissors.
 
-use std::io::Read as _;
-
 use tearmesh::{Scissor, ScissorError};
 
 use crate::args::CutArgs;
 use crate::exit::{Exit, Stop};
-use crate::input::{Input, cannot_read};
+use crate::input::Input;
 use crate::rays::{self, Pair};
 use crate::say::{Fault, short};
 use crate::streams::Streams;
@@ -28,9 +26,7 @@ pub(super) fn pairs(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Pai
     if let Some(path) = &args.rays_file {
         let unreadable = |fault| Stop::new(Exit::Input, fault);
         let file = Input::find(path, streams.input).map_err(unreadable)?;
-        let mut text = String::new();
-        let read = file.open().map_err(unreadable)?.read_to_string(&mut text);
-        read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
+        let text = file.text().map_err(unreadable)?;
         pairs.extend(rays::file(&text, &file.name).map_err(refused)?);
     }
     if pairs.is_empty() {

@@ -2,6 +2,7 @@
 
 use tearmesh::CutReport;
 
+use super::nothing::Obstacle;
 use crate::say::{Fault, count, short};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
@@ -21,11 +22,12 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
     )
 }
 
-/// What a cut fell short of.
+/// What a cut fell short of; where it split nothing, `obstacle` says why.
 pub(crate) fn warnings(
     number: Option<usize>,
     (through, is_exact): (bool, bool),
     cut: &CutReport,
+    obstacle: Obstacle,
 ) -> Vec<Fault> {
     let mut warnings = Vec::new();
     let mut warn = |code, message: String| {
@@ -40,19 +42,22 @@ pub(crate) fn warnings(
         } else {
             "between the rays"
         };
-        let away = short(cut.nearest_vertex);
-        warn(
-            "W-CUT-MISS",
-            format!("no face lies {place}; the nearest vertex is {away} away"),
-        );
-    } else if cut.splits == 0 {
-        let faces = count(cut.faces_crossed, "face", "faces");
-        let why = if is_exact {
-            "is shorter than the snap: --snap 0 makes it"
-        } else {
-            "no vertex could be split"
+        let why = match obstacle {
+            Obstacle::Seam => ": it is already cut there".to_owned(),
+            Obstacle::Touch => ": the cut only touches the mesh".to_owned(),
+            _ if cut.nearest_vertex == 0.0 => ": the cut only touches the mesh".to_owned(),
+            _ => format!("; the nearest vertex is {} away", short(cut.nearest_vertex)),
         };
-        warn("W-CUT-NONE", format!("the cut crosses {faces}, but {why}"));
+        warn("W-CUT-MISS", format!("no face lies {place}{why}"));
+    } else if cut.splits == 0 {
+        let why = match obstacle {
+            Obstacle::Seam => "but it is already cut there",
+            Obstacle::Touch => "it only touches the mesh",
+            Obstacle::Snap => "but is shorter than the snap: --snap 0 makes it",
+            Obstacle::Unknown => "but no vertex could be split",
+        };
+        let faces = count(cut.faces_crossed, "face", "faces");
+        warn("W-CUT-NONE", format!("the cut crosses {faces}, {why}"));
     } else {
         if cut.crumbs > 0 {
             let crumbs = count(cut.crumbs, "piece", "pieces");

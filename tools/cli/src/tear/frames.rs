@@ -18,7 +18,6 @@ use super::points::places;
 use crate::args::{TearArgs, Topology};
 use crate::exit::{Exit, Stop};
 use crate::say::Fault;
-use crate::session::cannot_write;
 use crate::{output, report};
 
 /// How many frames a second.
@@ -268,8 +267,7 @@ fn name(number: usize) -> String {
 }
 
 fn unwritable(path: &Path, error: &io::Error) -> Stop {
-    let name = path.display().to_string();
-    Stop::new(Exit::Output, cannot_write(&name, error))
+    Stop::new(Exit::Output, output::cannot_write(path, error))
 }
 
 /// Refuses a file that a frame would replace.

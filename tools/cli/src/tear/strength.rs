@@ -1,10 +1,9 @@
 //! A file of strengths: `vertex strength` a line, vertices counted from 1.
 
-use std::io::Read as _;
 use std::path::Path;
 
 use crate::exit::{Exit, Stop};
-use crate::input::{Input, cannot_read};
+use crate::input::Input;
 use crate::say::{Excerpt, Fault};
 use crate::streams::Streams;
 
@@ -16,9 +15,7 @@ pub(super) fn read(
 ) -> Result<Vec<f64>, Stop> {
     let unreadable = |fault| Stop::new(Exit::Input, fault);
     let file = Input::find(path, streams.input).map_err(unreadable)?;
-    let mut text = String::new();
-    let read = file.open().map_err(unreadable)?.read_to_string(&mut text);
-    read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
+    let text = file.text().map_err(unreadable)?;
     let mut strengths = vec![1.0; vertices];
     for (i, line) in text.lines().enumerate() {
         let words = line.split('#').next().unwrap_or_default();

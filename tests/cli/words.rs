@@ -1,0 +1,129 @@
+//! What is said of cuts that split nothing: where it is cut already, where the mesh is only touched,
+//! and advice that works when it is typed.
+
+use tearmesh_cli::{Exit, Streams, run};
+
+use crate::harness::{Folder, seen};
+use crate::in_process::Case;
+
+/// Two squares side by side, each of two faces.
+const SQUARES: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n\
+                       f 1 2 3\nf 1 3 4\nf 2 5 6\nf 2 6 3\n";
+
+#[test]
+fn regression_a_second_cut_in_the_same_place_is_told_that_it_is_cut() {
+    let folder = Folder::new();
+    folder.write("squares.obj", SQUARES);
+    let along = "--rays 1,2,5:0,0,-1 1,-1,5:0,0,-1";
+    let across = "--rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1";
+    for (mesh, first, again) in [
+        ("squares.obj", along.to_owned(), along.to_owned()),
+        ("squares.obj", along.to_owned(), format!("{along} --snap 0")),
+        (
+            "squares.obj",
+            along.to_owned(),
+            format!("{along} --through"),
+        ),
+        ("flag.obj", across.to_owned(), across.to_owned()),
+        ("flag.obj", across.to_owned(), format!("{across} --snap 0")),
+        (
+            "flag.obj",
+            format!("{across} --method partition"),
+            format!("{across} --method partition"),
+        ),
+        (
+            "sheet.obj",
+            "--rays 0.3,0.8,5:0,0,-1 0.3,0.2,5:0,0,-1".to_owned(),
+            "--rays 0.3,0.7,5:0,0,-1 0.3,0.3,5:0,0,-1".to_owned(),
+        ),
+    ] {
+        let output = folder.run(&format!("tearmesh cut {mesh} {first} -o torn.obj"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        let said = seen(&folder.run(&format!("tearmesh cut torn.obj {again} -o twice.obj")));
+        // A straight slit through a snapped seam may have something left to cut.
+        if said.ends_with("(exit 1)\n") {
+            assert!(said.contains("it is already cut there. twice"), "{said}");
+        } else {
+            assert!(mesh == "sheet.obj", "{again}: {said}");
+        }
+    }
+    let said = seen(&folder.run(&format!(
+        "tearmesh cut squares.obj {along} {along} -o torn.obj"
+    )));
+    assert!(
+        said.contains("cut 2: no face lies between the rays: it is"),
+        "{said}"
+    );
+}
+
+#[test]
+fn regression_what_is_only_touched_is_not_0_away() {
+    let folder = Folder::new();
+    folder.write("squares.obj", SQUARES);
+    for rays in [
+        "0,2,5:0,0,-1 0,-1,5:0,0,-1",
+        "0,0,5:0,0,-1 -1,-1,5:0,0,-1",
+        "-1,1,5:0,0,-1 1,-1,5:0,0,-1",
+    ] {
+        for snap in ["0", "0.05"] {
+            let line = format!("tearmesh cut squares.obj --rays {rays} --snap {snap} -o x.obj");
+            let said = seen(&folder.run(&line));
+            assert!(said.contains("only touches the mesh. x.obj not"), "{said}");
+        }
+    }
+}
+
+/// A run, as exit status, standard output and words.
+fn cut(args: &str, mesh: &[u8]) -> (Exit, Vec<u8>, String) {
+    let (mut output, mut error) = (Vec::new(), Vec::new());
+    let streams = Streams {
+        input: &mut &mesh[..],
+        output: &mut output,
+        error: &mut error,
+        output_is_terminal: false,
+        error_is_terminal: false,
+    };
+    let typed = format!("tearmesh cut - {args}");
+    let exit = run(typed.split(' ').map(Into::into), streams);
+    (
+        exit,
+        output,
+        String::from_utf8(error).expect("words are text"),
+    )
+}
+
+/// Every cut between two points of a lattice, some of which lie on corners and edges and some within
+/// the snap of them; and each of them twice.
+#[test]
+fn cuts_on_a_lattice_say_what_is_so() {
+    let (xs, ys) = ([-0.5, 0.0, 0.02, 0.5, 1.0, 2.5], [-0.5, 0.0, 0.3, 1.0]);
+    let points: Vec<_> = xs.iter().flat_map(|x| ys.map(|y| (*x, y))).collect();
+    let (mut cases, mut twice) = (0, 0);
+    for snap in ["0", "0.05", "0.3"] {
+        for (i, (ax, ay)) in points.iter().enumerate() {
+            for (bx, by) in &points[i + 1..] {
+                let rays = format!("--rays={ax},{ay},5:0,0,-1;{bx},{by},5:0,0,-1");
+                cases += 1;
+                let bytes = format!("{rays}|--snap={snap}\n{SQUARES}");
+                if Case::from_bytes(bytes.as_bytes()).check() != Exit::Done {
+                    continue;
+                }
+                let args = format!("{rays} --snap={snap}");
+                let (_, torn, _) = cut(&args, SQUARES.as_bytes());
+                let (exit, _, said) = cut(&args, &torn);
+                if exit == Exit::Done {
+                    continue; // A seam that was snapped is not where the plane is.
+                }
+                twice += 1;
+                let is_said = said.contains("it is already cut there");
+                let is_advised = said.contains("--snap 0 makes it");
+                assert!(is_said || is_advised, "{cases}: {args}\n{said}");
+                let mut again = format!("{rays}|--snap={snap}\n").into_bytes();
+                again.extend(torn);
+                Case::from_bytes(&again).check();
+            }
+        }
+    }
+    println!("{cases} cuts, {twice} of them made twice");
+    assert!(twice > 100);
+}

@@ -1,0 +1,116 @@
+//! Why a cut split nothing.
+
+use tearmesh::{CutReport, Edits, HalfEdgeId, Mesh, Method, Point, Positions, Scissor, Side};
+
+/// What kept a cut from splitting anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Obstacle {
+    /// It follows the seam of an earlier cut.
+    Seam,
+    /// It meets the mesh in a corner or along the boundary, and goes through no face.
+    Touch,
+    /// Its crossings are all within the snap of vertices; without a snap it splits some.
+    Snap,
+    /// None that is known: what the report says is all.
+    Unknown,
+}
+
+/// Looks for what kept a cut from splitting anything; `snap` is that of the scissor. Linear in the
+/// mesh, and not worth asking of a cut that split something.
+///
+/// Whether it was the snap is tried on a copy and not concluded, so that the advice to cut without
+/// one works when it is typed.
+pub(super) fn obstacle(
+    (scissor, method, snap): (&Scissor, Method, f64),
+    through: bool,
+    (mesh, positions): (&Mesh, &Positions),
+    done: &CutReport,
+) -> Obstacle {
+    let is_exact = method == Method::Exact;
+    let slit = Slit {
+        scissor,
+        near: is_exact.then_some(snap.max(ROUNDING)),
+        through,
+        mesh,
+        positions,
+    };
+    let lengths = mesh.half_edges().map(|h| slit.length(h));
+    if mesh.half_edges().any(|h| slit.follows(h)) {
+        Obstacle::Seam
+    } else if done.faces_crossed == 0
+        && done.nearest_vertex <= ROUNDING * lengths.fold(0.0, f64::max)
+    {
+        Obstacle::Touch
+    } else if is_exact && snap > 0.0 && splits_without_snap(scissor, mesh, positions) {
+        Obstacle::Snap
+    } else {
+        Obstacle::Unknown
+    }
+}
+
+/// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses words.
+const ROUNDING: f64 = 1e-6;
+
+/// Whether the cut would split something with `--snap 0`.
+fn splits_without_snap(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> bool {
+    let (mut mesh, points) = (mesh.clone(), positions.as_slice().iter().copied());
+    let mut positions = Positions::new(points).expect("points of a mesh that is being cut");
+    let tried =
+        scissor
+            .clone()
+            .snap(0.0)
+            .cut(Method::Exact, &mut mesh, &mut positions, &mut Edits::new());
+    tried.is_ok_and(|done| done.splits > 0)
+}
+
+/// Where the cut was to go.
+struct Slit<'a> {
+    scissor: &'a Scissor,
+    /// How far from the plane, in edges, the ends of its seam may be; none for a method whose
+    /// seam follows the edges that there are.
+    near: Option<f64>,
+    through: bool,
+    mesh: &'a Mesh,
+    positions: &'a Positions,
+}
+
+impl Slit<'_> {
+    /// Whether a half-edge is torn, and its faces lie as those on a seam of this cut do: on two sides
+    /// of the plane, and between the rays.
+    fn follows(&self, h: HalfEdgeId) -> bool {
+        let Some(ghost) = self.mesh.ghost_pair(h) else {
+            return false;
+        };
+        let plane = self.scissor.plane();
+        let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.positions.at(v));
+        let middle = ends[0] + (ends[1] - ends[0]) * 0.5;
+        let sides = self.scissor.sides();
+        let is_between = self.through || sides.iter().all(|side| side.offset(middle) >= 0.0);
+        let is_near = self.near.is_none_or(|near| {
+            let far = near * self.longest(h).max(self.longest(ghost));
+            ends.iter().all(|&end| plane.distance(end).abs() <= far)
+        });
+        let [one, other] = [h, ghost].map(|h| Side::of(plane.offset(self.centre(h))));
+        is_between && is_near && one != other
+    }
+
+    /// The centre of the face of a half-edge.
+    fn centre(&self, h: HalfEdgeId) -> Point {
+        let corners = self.mesh.corners(h.face());
+        let [a, b, c] = corners.map(|v| self.positions.at(v));
+        Point::from((a.coords + b.coords + c.coords) / 3.0)
+    }
+
+    /// The longest edge of the face of a half-edge.
+    fn longest(&self, h: HalfEdgeId) -> f64 {
+        let next = h.next();
+        [h, next, next.next()]
+            .map(|h| self.length(h))
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    fn length(&self, h: HalfEdgeId) -> f64 {
+        (self.positions.at(self.mesh.target(h)) - self.positions.at(self.mesh.origin(h))).norm()
+    }
+}
