@@ -10,6 +10,7 @@ mod figures;
 mod foreign;
 mod fuzz;
 mod house;
+mod hub;
 mod lockstep;
 mod methods;
 mod oracle;
