@@ -135,7 +135,7 @@ impl<T> std::ops::Index<VertexId> for PerVertex<T> {
     type Output = T;
 
     fn index(&self, v: VertexId) -> &T {
-        &self.values[v.index()]
+        v.of(&self.values)
     }
 }
 
@@ -235,7 +235,7 @@ impl<T> std::ops::Index<HalfEdgeId> for PerCorner<T> {
     type Output = T;
 
     fn index(&self, h: HalfEdgeId) -> &T {
-        &self.values[h.index()]
+        h.of(&self.values)
     }
 }
 

@@ -16,7 +16,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If the face is none of this mesh, or `place` does not know its vertices.
+/// If the face is not one of this mesh (I2), or `place` does not know its vertices.
 #[must_use]
 pub fn face(mesh: &Mesh, f: FaceId, plane: &Plane, place: &(impl Place + ?Sized)) -> Side {
     side(mesh, f, |v| plane.offset(place.at(v)))
@@ -35,7 +35,7 @@ pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> 
 ///
 /// # Panics
 ///
-/// If the vertex is none of this mesh, or `place` does not know its neighbours.
+/// If the vertex is not one of this mesh (I2), or `place` does not know its neighbours.
 pub fn faces_of<'m, P: Place + ?Sized>(
     mesh: &'m Mesh,
     v: VertexId,

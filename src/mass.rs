@@ -239,8 +239,8 @@ impl Masses {
     #[must_use]
     pub fn at(&self, v: VertexId) -> f64 {
         match &self.store {
-            Store::Area { vertices, .. } => vertices[v.index()] as f64 * self.unit,
-            Store::Half { vertices } => vertices[v.index()].mass(),
+            Store::Area { vertices, .. } => *v.of(vertices) as f64 * self.unit,
+            Store::Half { vertices } => v.of(vertices).mass(),
         }
     }
 

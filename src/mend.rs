@@ -32,7 +32,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If a vertex is none of this mesh.
+/// If a vertex is not one of this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{mend, shapes, split, Edits, FaceId, VertexId};
@@ -54,6 +54,7 @@ pub fn merge<'e>(
     weights: [f64; 2],
     edits: &'e mut Edits,
 ) -> Result<Merge<'e>, Refusal> {
+    let corners = [one.min(other), one.max(other)].map(|v| mesh.half_edge_of(v));
     let share = share_of_first(weights).ok_or(Refusal::Weights { given: weights })?;
     if one == other {
         return Err(Refusal::Same { vertex: one });
@@ -63,7 +64,6 @@ pub fn merge<'e>(
     } else {
         (other, one, 1.0 - share)
     };
-    let corners = [kept, gone].map(|v| mesh.half_edge_of(v));
     let [Some(_), Some(first)] = corners else {
         return Err(Refusal::Roots { one, other });
     };
@@ -225,7 +225,7 @@ pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
 ///
 /// # Panics
 ///
-/// If a vertex is none of this mesh, or unknown to `place`.
+/// If a vertex is not one of this mesh (I2), or unknown to `place`.
 pub fn sew(
     mesh: &mut Mesh,
     place: &(impl Place + ?Sized),
@@ -237,8 +237,9 @@ pub fn sew(
     let mut refused = Vec::new();
     for &stitch in stitches {
         let Stitch { gone, kept } = stitch;
+        let roots = [gone, kept].map(|v| mesh.root(v));
         let distance = length(place.at(gone) - place.at(kept));
-        if mesh.root(gone) != mesh.root(kept) {
+        if roots[0] != roots[1] {
             refused.push((stitch, StitchError::Roots));
         } else if share_of_first([weight(gone), weight(kept)]).is_none() {
             refused.push((stitch, StitchError::Weights));

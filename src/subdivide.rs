@@ -41,14 +41,38 @@ impl Plan {
     ///
     /// # Panics
     ///
-    /// If an id is none of this mesh or of this plan.
+    /// If an id is not one of this mesh (I2) or of this plan.
     pub fn apply<'e>(&self, mesh: &mut Mesh, edits: &'e mut Edits) -> Result<Insert<'e>, Refusal> {
+        self.expect_known(mesh);
         let work = Work::new(self, mesh)?;
         work.carry_out(mesh);
         let Work {
             placed, children, ..
         } = work;
         Ok(edits.finish_insert(placed, children))
+    }
+
+    /// Panics at an id that is foreign.
+    fn expect_known(&self, mesh: &Mesh) {
+        for &point in &self.points {
+            match point {
+                Point::Edge { h, .. } => _ = mesh.origin(h),
+                Point::Face { f, .. } => _ = mesh.corners(f),
+            }
+        }
+        for &Chord { f, ends } in &self.chords {
+            mesh.half_edges_of(f);
+            for end in ends {
+                match end {
+                    ChordEnd::Corner(h) => _ = mesh.origin(h),
+                    ChordEnd::Point(p) => assert!(
+                        p.index() < self.points.len(),
+                        "I2: point {} is not one of this plan",
+                        p.index()
+                    ),
+                }
+            }
+        }
     }
 }
 
@@ -131,6 +155,7 @@ impl Work {
             face.run().map_err(|fault| match fault {
                 Fault::Chord => Refusal::Chord { face: f },
                 Fault::Crowded => Refusal::Crowded { face: f },
+                Fault::Share(share) => Refusal::Share { face: f, share },
             })?;
             work.divide(mesh, f, &face, &mut next_face);
         }
@@ -410,6 +435,14 @@ pub enum Refusal {
         /// The face.
         face: FaceId,
     },
+    /// A part of a face would be too small for its share of the face to be a positive number:
+    /// between points that are very near a corner.
+    Share {
+        /// The face.
+        face: FaceId,
+        /// The share.
+        share: f64,
+    },
     /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
     Full {
         /// The number of faces it would have.
@@ -436,6 +469,9 @@ impl fmt::Display for Refusal {
             }
             Refusal::Chord { face } => write!(f, "a chord does not cross {face}"),
             Refusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
+            Refusal::Share { face, share } => {
+                write!(f, "a part of {face} would have the share {share} of it")
+            }
             Refusal::Full { faces } => {
                 write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)
             }

@@ -2,7 +2,9 @@
 //! the id, and leaves mesh, log and followers as they were.
 
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::sync::Once;
 
 use tearmesh::mend::{self, Stitch};
 use tearmesh::script::{Script, World};
@@ -226,6 +228,27 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     cases
 }
 
+thread_local! {
+    static QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+/// The panic of what is to panic, which is not printed: there are thousands.
+fn panic_of<T>(run: impl FnOnce() -> T) -> Option<Box<dyn Any + Send>> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let print = take_hook();
+        set_hook(Box::new(move |info| {
+            if !QUIET.get() {
+                print(info);
+            }
+        }));
+    });
+    QUIET.set(true);
+    let panic = catch_unwind(AssertUnwindSafe(run)).err();
+    QUIET.set(false);
+    panic
+}
+
 fn message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref().copied())
@@ -236,7 +259,7 @@ fn message(panic: &(dyn Any + Send)) -> &str {
 fn a_foreign_id_is_a_panic_that_changes_nothing(world: &World, case: &Case<'_>) {
     let Case { id, name, run } = case;
     let mut after = world.clone();
-    let Err(panic) = catch_unwind(AssertUnwindSafe(|| run(&mut after))) else {
+    let Some(panic) = panic_of(|| run(&mut after)) else {
         panic!("{name}: {id} was taken for an id of this mesh");
     };
     let message = message(&*panic);
@@ -283,10 +306,9 @@ fn regression_a_foreign_face_among_those_that_move() {
     let hub = VertexId::new(0).expect("an id");
     let faces = [0, 9].map(|f| FaceId::new(f).expect("an id"));
     let mut edits = Edits::new();
-    let tried = catch_unwind(AssertUnwindSafe(|| {
-        split::faces(&mut mesh, hub, &faces, &mut edits).map(|split| split.new)
-    }));
-    let panic = tried.expect_err("f9 is foreign");
+    let panic =
+        panic_of(|| split::faces(&mut mesh, hub, &faces, &mut edits).map(|split| split.new));
+    let panic = panic.expect("f9 is foreign");
     assert_eq!(mesh, before, "the mesh is as it was");
     assert_eq!(
         message(&*panic),
@@ -308,11 +330,9 @@ fn regression_every_face_id_has_half_edges() {
 fn regression_a_foreign_vertex_is_not_merely_apart() {
     let (mesh, _) = shapes::triangle();
     let [v, foreign] = [0, 3].map(|v| VertexId::new(v).expect("an id"));
-    let tried = catch_unwind(|| {
-        let mut edits = Edits::new();
-        slide::toward(&mesh, v, foreign, 0.5, &mut edits).map(|slide| slide.t)
-    });
-    let panic = tried.expect_err("v3 is foreign");
+    let mut edits = Edits::new();
+    let panic = panic_of(|| slide::toward(&mesh, v, foreign, 0.5, &mut edits).map(|slide| slide.t));
+    let panic = panic.expect("v3 is foreign");
     assert_eq!(
         message(&*panic),
         "I2: v3 is not a vertex of this mesh, which has 3"
@@ -345,10 +365,9 @@ fn regression_a_place_that_panics_leaves_nothing_in_the_log() {
     for v in mesh.vertices() {
         let (mut torn, mut edits) = (mesh.clone(), Edits::new());
         let place = Unknown(positions.as_slice(), v);
-        let tried = catch_unwind(AssertUnwindSafe(|| {
-            split::by_plane(&mut torn, hub, &plane, &place, &mut edits).is_some()
-        }));
-        assert!(tried.is_err(), "{v} is asked for");
+        let panic =
+            panic_of(|| split::by_plane(&mut torn, hub, &plane, &place, &mut edits).is_some());
+        assert!(panic.is_some(), "{v} is asked for");
         assert_eq!(torn, mesh);
         assert_eq!(told(&mesh, edits), expected, "without {v}");
     }

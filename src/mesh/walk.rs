@@ -47,6 +47,7 @@ impl Mesh {
     /// the vertex at which `h` starts.
     #[must_use]
     pub fn fan(&self, h: HalfEdgeId) -> Fan<'_> {
+        h.of(&self.link); // The first step asks for the one before, and would name that.
         Fan {
             mesh: self,
             first: h,
@@ -180,7 +181,7 @@ impl Mesh {
 
     /// The faces that share an edge with a face, up to three.
     pub fn neighbours(&self, f: FaceId) -> impl FusedIterator<Item = FaceId> + '_ {
-        f.half_edges()
+        self.half_edges_of(f)
             .into_iter()
             .filter_map(|h| self.pair(h))
             .map(HalfEdgeId::face)
@@ -327,6 +328,6 @@ impl Components {
     /// The component of a face, from 0; components are numbered by their smallest face.
     #[must_use]
     pub fn of(&self, f: FaceId) -> usize {
-        self.of_face[f.index()] as usize
+        *f.of(&self.of_face) as usize
     }
 }
