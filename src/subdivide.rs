@@ -352,9 +352,26 @@ impl Work {
             self.children.iter().flat_map(corner_of).collect();
         starts.sort_unstable();
         starts.dedup_by_key(|&mut (v, _)| v);
-        for (v, h) in starts {
-            let smallest = mesh.orbit(h).filter(|&g| mesh.origin(g) == v).min();
-            let smallest = smallest.expect("the walk starts at a corner of the vertex");
+        // One walk tells of all copies of a vertex, each of which is among `starts` or has the
+        // half-edge that it had.
+        let mut known = vec![false; starts.len()];
+        for i in 0..starts.len() {
+            if known[i] {
+                continue;
+            }
+            let (v, h) = starts[i];
+            for g in mesh.orbit(h) {
+                let at = match mesh.origin(g) {
+                    u if u == v => Ok(i),
+                    u => starts.binary_search_by_key(&u, |&(v, _)| v),
+                };
+                if let Ok(at) = at {
+                    starts[at].1 = starts[at].1.min(g);
+                    known[at] = true;
+                }
+            }
+        }
+        for (v, smallest) in starts {
             if v == mesh.next_vertex() {
                 mesh.push_vertex(smallest);
             } else {

@@ -83,6 +83,19 @@ impl Mesh {
             .unwrap_or(v)
     }
 
+    /// [`Mesh::root`] of every vertex. Linear, however many copies a vertex has.
+    pub(crate) fn all_roots(&self) -> Vec<VertexId> {
+        let mut roots: Vec<VertexId> = self.vertices().collect();
+        for v in self.vertices() {
+            // The smallest comes first, and speaks for all copies.
+            if let (true, Some(h)) = (roots[v.index()] == v, self.half_edge_of(v)) {
+                self.orbit(h)
+                    .for_each(|h| roots[self.origin(h).index()] = v);
+            }
+        }
+        roots
+    }
+
     /// The vertices that were split from the same one as `v`, and `v` itself, each as often as it
     /// has faces.
     pub(crate) fn copies(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
