@@ -91,6 +91,16 @@ pub fn faces<'e>(
     Ok(commit(mesh, v, stays, edits))
 }
 
+/// Splits these corners off a vertex: some of its own in the order of a walk, and not the smallest.
+/// Linear in them alone.
+pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &mut Edits) {
+    let stays = mesh.half_edge_of(v);
+    let stays = stays.expect("I9: a vertex with a face has a half-edge");
+    debug_assert!(moving.iter().all(|&h| mesh.origin(h) == v && h != stays));
+    moving.iter().for_each(|&h| edits.note_corner(h));
+    commit(mesh, v, stays, edits);
+}
+
 /// Splits a vertex by a plane: its faces whose centres are strictly behind the plane move
 /// to a new vertex (Souza et al. 2014 §IV). `None` if all are on one side: then
 /// nothing has changed.
