@@ -62,7 +62,7 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 7,500 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 7,300 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`subdivide`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
