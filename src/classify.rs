@@ -16,7 +16,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If the face is none of this mesh, or `place` does not know its vertices.
+/// If the face is not one of this mesh (I2), or `place` does not know its vertices.
 #[must_use]
 pub fn face(mesh: &Mesh, f: FaceId, plane: &Plane, place: &(impl Place + ?Sized)) -> Side {
     side(mesh, f, |v| plane.offset(place.at(v)))
@@ -35,7 +35,7 @@ pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> 
 ///
 /// # Panics
 ///
-/// If the vertex is none of this mesh, or `place` does not know its neighbours.
+/// If the vertex is not one of this mesh (I2), or `place` does not know its neighbours.
 pub fn faces_of<'m, P: Place + ?Sized>(
     mesh: &'m Mesh,
     v: VertexId,
@@ -44,28 +44,4 @@ pub fn faces_of<'m, P: Place + ?Sized>(
 ) -> impl Iterator<Item = (FaceId, Side)> + 'm {
     mesh.faces_of(v)
         .map(move |f| (f, face(mesh, f, plane, place)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::Vector;
-    use crate::shapes;
-
-    #[test]
-    fn faces_of_a_vertex_fall_on_both_sides_and_ties_in_front() {
-        // A closed fan in the plane z = 0, cut by the plane x = 0 through the hub.
-        let (mesh, positions) = shapes::fan(4, true);
-        let hub = VertexId::from_u32(0);
-        let plane = Plane::new(positions.at(hub), Vector::x()).unwrap();
-        let mut sides: Vec<_> = faces_of(&mesh, hub, &plane, &positions).collect();
-        sides.sort();
-        let sides: Vec<Side> = sides.into_iter().map(|(_, side)| side).collect();
-        assert_eq!(sides, [Side::Front, Side::Back, Side::Back, Side::Front]);
-
-        let flat = Plane::new(positions.at(hub), Vector::z()).unwrap();
-        assert!(faces_of(&mesh, hub, &flat, &positions).all(|(_, side)| side == Side::Front));
-        let flat = flat.flipped();
-        assert!(faces_of(&mesh, hub, &flat, &positions).all(|(_, side)| side == Side::Front));
-    }
 }

@@ -8,14 +8,14 @@
 use std::fmt;
 
 macro_rules! id {
-    ($(#[$doc:meta])* $name:ident, $letter:literal) => {
+    ($(#[$doc:meta])* $name:ident, $letter:literal, $noun:literal, $limit:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $name(u32);
 
         impl $name {
             /// The number of ids of this kind: ids run from 0 to `LIMIT - 1`.
-            pub const LIMIT: usize = u32::MAX as usize;
+            pub const LIMIT: usize = $limit as usize;
 
             /// The id with this index, or `None` from [`Self::LIMIT`] on.
             #[inline]
@@ -29,6 +29,23 @@ macro_rules! id {
             #[must_use]
             pub const fn index(self) -> usize {
                 self.0 as usize
+            }
+
+            /// The entry of this id in a table with one for each.
+            #[inline]
+            #[track_caller]
+            pub(crate) fn of<T>(self, table: &[T]) -> &T {
+                match table.get(self.index()) {
+                    Some(entry) => entry,
+                    None => self.is_foreign(table.len()),
+                }
+            }
+
+            #[cold]
+            #[track_caller]
+            pub(crate) fn is_foreign(self, count: usize) -> ! {
+                let noun = $noun;
+                panic!("I2: {self} is not a {noun} of this mesh, which has {count}")
             }
 
             /// The id whose index is known to fit: every mesh keeps its counts
@@ -64,19 +81,25 @@ id!(
     ///
     /// Ids are stable: a split appends a vertex and never renumbers one.
     VertexId,
-    "v"
+    "v",
+    "vertex",
+    u32::MAX
 );
 id!(
     /// A half-edge, which is also a corner of a face. Written `h7`.
     ///
     /// The half-edge `h` of a face starts at the corner `h`, so one id names both.
     HalfEdgeId,
-    "h"
+    "h",
+    "half-edge",
+    u32::MAX
 );
 id!(
     /// A face, always a triangle. Written `f7`.
     FaceId,
-    "f"
+    "f",
+    "face",
+    u32::MAX / 3
 );
 
 impl VertexId {

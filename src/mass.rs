@@ -239,8 +239,8 @@ impl Masses {
     #[must_use]
     pub fn at(&self, v: VertexId) -> f64 {
         match &self.store {
-            Store::Area { vertices, .. } => vertices[v.index()] as f64 * self.unit,
-            Store::Half { vertices } => vertices[v.index()].mass(),
+            Store::Area { vertices, .. } => *v.of(vertices) as f64 * self.unit,
+            Store::Half { vertices } => v.of(vertices).mass(),
         }
     }
 
@@ -527,92 +527,6 @@ impl std::error::Error for MassError {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::Edits;
-    use crate::{mend, shapes, split};
-
-    #[test]
-    fn a_flat_unit_square_weighs_its_density() {
-        for (columns, rows) in [(1, 1), (3, 5), (32, 32)] {
-            let (mesh, positions) = shapes::grid(columns, rows);
-            let masses = Masses::area(&mesh, &positions, 2.5).unwrap();
-            let total = masses.total().to_f64();
-            assert!((total - 2.5).abs() < 1e-13, "{total}");
-            let halves = Masses::half(&mesh, &positions, 2.5).unwrap();
-            assert_eq!(masses.total(), halves.total());
-        }
-    }
-
-    #[test]
-    fn what_cannot_be_exact_is_refused() {
-        let (mesh, positions) = shapes::fan(80, true);
-        assert_eq!(
-            Masses::area(&mesh, &positions, f64::NAN)
-                .unwrap_err()
-                .to_string(),
-            "the density NaN is not a positive finite number"
-        );
-        let flat = vec![[0.0; 3]; mesh.vertex_count()];
-        assert_eq!(
-            Masses::area(&mesh, &flat[..], 1.0).unwrap_err(),
-            MassError::NoArea
-        );
-        let nan = vec![[f64::NAN; 3]; mesh.vertex_count()];
-        assert_eq!(
-            Masses::area(&mesh, &nan[..], 1.0).unwrap_err(),
-            MassError::NoArea
-        );
-        for density in [1e308, 1e-308] {
-            let error = Masses::area(&mesh, &positions, density).unwrap_err();
-            assert!(
-                matches!(error, MassError::OutOfRange { .. }),
-                "{density}: {error}"
-            );
-        }
-    }
-
-    #[test]
-    fn halving_is_refused_exactly_where_it_would_leave_the_normal_numbers() {
-        // The hub could be halved 79 times, a vertex of the rim once.
-        let (mesh, positions) = shapes::fan(80, true);
-        let hub = VertexId::new(0).unwrap();
-        let at_one = Masses::area(&mesh, &positions, 1.0).unwrap().at(hub);
-        let lightest = power_of_two(-1022 + 79 - (exponent_above(at_one) - 1));
-        let masses = Masses::half(&mesh, &positions, lightest).unwrap();
-        assert!(masses.at(hub) * power_of_two(-79) >= f64::MIN_POSITIVE);
-        assert_eq!(
-            Masses::half(&mesh, &positions, lightest / 2.0).unwrap_err(),
-            MassError::TooLight {
-                vertices: vec![hub]
-            }
-        );
-        assert!(Masses::area(&mesh, &positions, lightest / 2.0).is_ok());
-    }
-
-    #[test]
-    fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
-        let (mut mesh, mut positions) = shapes::fan(6, true);
-        let mut edits = Edits::new();
-        let hub = VertexId::new(0).unwrap();
-        let split = |mesh: &mut Mesh, edits: &mut Edits| {
-            let face = mesh.faces_of(hub).next().unwrap();
-            split::faces(mesh, hub, &[face], edits).unwrap().new
-        };
-        let first = split(&mut mesh, &mut edits);
-        edits.replay(&mut positions);
-        edits.clear();
-        let halves = Masses::half(&mesh, &positions, 1.0).unwrap();
-        let mut masses = halves.starting_at(edits.next_number());
-        let [of_hub, of_first] = [hub, first].map(|v| masses.at(v));
-        let second = split(&mut mesh, &mut edits);
-        mend::merge(&mut mesh, first, second, [1.0; 2], &mut edits).unwrap();
-        edits.replay(&mut masses);
-        assert_eq!(masses.at(hub), of_hub / 2.0);
-        assert_eq!(masses.at(first), of_first + of_hub / 2.0);
-        mend::merge(&mut mesh, hub, first, [1.0; 2], &mut edits).unwrap();
-        edits.replay(&mut masses);
-        assert_eq!(masses.at(hub), of_hub + of_first);
-        assert!(masses.ledger().is_balanced());
-    }
 
     #[test]
     fn halving_takes_as_many_steps_as_powers_of_two_need() {
@@ -622,50 +536,5 @@ mod tests {
         assert_eq!(halved(1.0, 1001), power_of_two(-1001));
         assert_eq!(halved(power_of_two(900), 1900), power_of_two(-1000));
         assert_eq!(halved(power_of_two(1000), 2001), power_of_two(-1001));
-    }
-
-    #[test]
-    fn a_ledger_sees_the_smallest_difference() {
-        let sum = |numbers: &[f64]| ExactSum::from_iter(numbers.iter().copied());
-        let balanced = Ledger {
-            before: sum(&[1.0]),
-            after: sum(&[0.25, 0.75]),
-        };
-        assert!(balanced.is_balanced());
-        let lost = Ledger {
-            before: sum(&[1.0, 5e-324]),
-            after: sum(&[1.0]),
-        };
-        assert!(!lost.is_balanced());
-    }
-
-    #[test]
-    fn masses_know_how_many_and_which_edit_comes_next() {
-        let (mesh, positions) = shapes::triangle();
-        for masses in [
-            Masses::area(&mesh, &positions, 1.0),
-            Masses::half(&mesh, &positions, 1.0),
-        ] {
-            let masses = masses.unwrap();
-            assert_eq!(
-                (masses.len(), masses.is_empty(), masses.next_edit()),
-                (3, false, 0)
-            );
-            assert_eq!(masses.starting_at(7).next_edit(), 7);
-        }
-    }
-
-    #[test]
-    fn a_face_without_area_still_weighs_three_units() {
-        let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).unwrap();
-        let points = [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.5, 0.5, 0.0],
-        ];
-        let masses = Masses::area(&mesh, &points[..], 2.0).unwrap();
-        let lightest = masses.at(VertexId::new(3).unwrap());
-        assert_eq!(lightest, power_of_two(1 - 52));
     }
 }

@@ -9,11 +9,12 @@
 //!
 //! Souza et al. 2014 has no merge. That a split only relabels corners makes it simple.
 
+use std::collections::BinaryHeap;
 use std::fmt;
 
 use crate::edit::{Edits, Merge, TornLink};
 use crate::geometry::length;
-use crate::id::VertexId;
+use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
@@ -32,7 +33,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If a vertex is none of this mesh.
+/// If a vertex is not one of this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{mend, shapes, split, Edits, FaceId, VertexId};
@@ -54,6 +55,7 @@ pub fn merge<'e>(
     weights: [f64; 2],
     edits: &'e mut Edits,
 ) -> Result<Merge<'e>, Refusal> {
+    let corners = [one.min(other), one.max(other)].map(|v| mesh.half_edge_of(v));
     let share = share_of_first(weights).ok_or(Refusal::Weights { given: weights })?;
     if one == other {
         return Err(Refusal::Same { vertex: one });
@@ -63,7 +65,6 @@ pub fn merge<'e>(
     } else {
         (other, one, 1.0 - share)
     };
-    let corners = [kept, gone].map(|v| mesh.half_edge_of(v));
     let [Some(_), Some(first)] = corners else {
         return Err(Refusal::Roots { one, other });
     };
@@ -78,7 +79,10 @@ pub fn merge<'e>(
         edits.discard_noted();
         return Err(Refusal::Roots { one, other });
     }
-    Ok(commit(mesh, kept, gone, share, edits))
+    let note_corners = |mesh: &Mesh, v, edits: &mut Edits| {
+        mesh.corners_of(v).for_each(|h| edits.note_corner(h));
+    };
+    Ok(commit(mesh, [kept, gone], share, edits, note_corners))
 }
 
 /// The part of the first of two weights in their sum.
@@ -90,13 +94,13 @@ fn share_of_first([one, other]: [f64; 2]) -> Option<f64> {
     Some(if sum > 0.0 { one / sum } else { 0.5 })
 }
 
-/// Carries out the merge whose corners were noted.
+/// Carries out the merge whose corners were noted. `note_corners` notes those of another vertex.
 fn commit<'e>(
     mesh: &mut Mesh,
-    kept: VertexId,
-    gone: VertexId,
+    [kept, gone]: [VertexId; 2],
     share: f64,
     edits: &'e mut Edits,
+    note_corners: impl FnOnce(&Mesh, VertexId, &mut Edits),
 ) -> Merge<'e> {
     let noted = edits.noted();
     for i in noted.clone() {
@@ -120,21 +124,24 @@ fn commit<'e>(
             }
         }
     }
-    let renumbered = free(mesh, gone, edits);
+    let renumbered = free(mesh, gone, edits, note_corners);
     edits.finish_merge([kept, gone], share, renumbered)
 }
 
 /// Takes a vertex without corners off the mesh: the last vertex gets its id. Notes the corners
 /// of that one, and returns it and where they start.
-fn free(mesh: &mut Mesh, gone: VertexId, edits: &mut Edits) -> Option<(VertexId, usize)> {
+fn free(
+    mesh: &mut Mesh,
+    gone: VertexId,
+    edits: &mut Edits,
+    note_corners: impl FnOnce(&Mesh, VertexId, &mut Edits),
+) -> Option<(VertexId, usize)> {
     let last = VertexId::from_u32(mesh.next_vertex().to_u32() - 1);
     let start = edits.noted().end;
     if gone != last {
         if let Some(first) = mesh.half_edge_of(last) {
             mesh.set_half_edge_of(gone, first);
-            for h in mesh.corners_of(last) {
-                edits.note_corner(h);
-            }
+            note_corners(mesh, last, edits);
             for i in start..edits.noted().end {
                 mesh.set_origin(edits.corner(i), gone);
             }
@@ -200,10 +207,11 @@ impl Stitch {
 /// ```
 #[must_use]
 pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
+    let roots = mesh.all_roots();
     let mut lowest = vec![None; mesh.vertex_count()];
     let mut stitches = Vec::new();
     for v in mesh.vertices().filter(|&v| chosen(v)) {
-        match &mut lowest[mesh.root(v).index()] {
+        match &mut lowest[roots[v.index()].index()] {
             Some(kept) => stitches.extend(Stitch::new(*kept, v)),
             none => *none = Some(v),
         }
@@ -216,7 +224,7 @@ pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
 ///
 /// `place` is read before anything is changed. `weight` is the mass of each vertex, as for
 /// [`merge`]. Undoing the splits of a mesh pops them one by one, so
-/// ids come out as they were before.
+/// ids come out as they were before. Linear in the mesh, where the faces of each copy lie together.
 ///
 /// # Errors
 ///
@@ -225,7 +233,7 @@ pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
 ///
 /// # Panics
 ///
-/// If a vertex is none of this mesh, or unknown to `place`.
+/// If a vertex is not one of this mesh (I2), or unknown to `place`.
 pub fn sew(
     mesh: &mut Mesh,
     place: &(impl Place + ?Sized),
@@ -234,11 +242,13 @@ pub fn sew(
     max_distance: f64,
     edits: &mut Edits,
 ) -> Result<usize, SewError> {
+    let roots = mesh.all_roots();
     let mut refused = Vec::new();
     for &stitch in stitches {
         let Stitch { gone, kept } = stitch;
+        let [one, other] = [gone, kept].map(|v| v.of(&roots));
         let distance = length(place.at(gone) - place.at(kept));
-        if mesh.root(gone) != mesh.root(kept) {
+        if one != other {
             refused.push((stitch, StitchError::Roots));
         } else if share_of_first([weight(gone), weight(kept)]).is_none() {
             refused.push((stitch, StitchError::Weights));
@@ -249,44 +259,95 @@ pub fn sew(
     if !refused.is_empty() {
         return Err(SewError { refused });
     }
+    let mut copies = Copies::new(mesh, &roots, weight);
     // Highest first: what is renumbered on the way is above all that is still to go, and so
     // is in no stitch.
-    let mut order = stitches.to_vec();
-    order.sort_unstable_by(|a, b| b.cmp(a));
-    let mut weights: Vec<f64> = mesh.vertices().map(weight).collect();
+    let mut rest: BinaryHeap<Stitch> = stitches.iter().copied().collect();
     let mut merges = 0;
-    let mut rest = &mut order[..];
-    while let Some((&mut Stitch { gone, kept }, tail)) = rest.split_first_mut() {
-        let both = [weights[kept.index()], weights[gone.index()]];
-        merge(mesh, kept, gone, both, edits).expect("stitches were checked");
-        weights[kept.index()] += weights[gone.index()];
-        weights.swap_remove(gone.index());
+    while let Some(Stitch { gone, kept }) = rest.pop() {
+        let [one, other] = [kept, gone].map(|v| copies.of[v.index()]);
+        let share = share_of_first([one.weight, other.weight]).expect("stitches were checked");
+        copies.note_corners(mesh, gone, edits);
+        commit(mesh, [kept, gone], share, edits, |mesh, v, edits| {
+            copies.note_corners(mesh, v, edits);
+        });
+        let joined = &mut copies.of[kept.index()];
+        joined.weight += other.weight;
+        joined.corners += other.corners;
+        copies.of.swap_remove(gone.index());
         merges += 1;
-        rest = join_the_rest(gone, kept, tail);
+        // `gone` is now `kept`: stitches that name it too are those of `kept`.
+        while rest.peek().is_some_and(|stitch| stitch.gone == gone) {
+            let also = rest.pop().and_then(|stitch| Stitch::new(stitch.kept, kept));
+            rest.extend(also);
+        }
     }
     Ok(merges)
 }
 
-/// `gone` is now `kept`: stitches that name it too are those of `kept`. Returns what is
-/// left to be done, highest first.
-fn join_the_rest(gone: VertexId, kept: VertexId, rest: &mut [Stitch]) -> &mut [Stitch] {
-    let same = rest.iter().take_while(|stitch| stitch.gone == gone).count();
-    if same == 0 {
-        return rest;
-    }
-    for stitch in &mut rest[..same] {
-        // A stitch of `kept` with itself goes below all others, and is dropped there.
-        *stitch = Stitch::new(stitch.kept, kept).unwrap_or(Stitch { gone: kept, kept });
-    }
-    rest.sort_unstable_by(|a, b| b.cmp(a));
-    let mut left = 0;
-    for i in 0..rest.len() {
-        if rest[i].gone != rest[i].kept {
-            rest[left] = rest[i];
-            left += 1;
+/// What sewing knows of each vertex, so that it need not walk round a whole hub for each copy.
+struct Copies {
+    of: Vec<Copied>,
+    behind: Vec<HalfEdgeId>,
+}
+
+#[derive(Clone, Copy)]
+struct Copied {
+    weight: f64,
+    corners: usize,
+    /// Whether the boundary of the mesh as it was built passes through it.
+    open: bool,
+}
+
+impl Copies {
+    fn new(mesh: &Mesh, roots: &[VertexId], weight: impl Fn(VertexId) -> f64) -> Copies {
+        let whole = |v| Copied {
+            weight: weight(v),
+            corners: 0,
+            open: false,
+        };
+        let mut of: Vec<Copied> = mesh.vertices().map(whole).collect();
+        for h in mesh.half_edges() {
+            let v = mesh.origin(h);
+            of[v.index()].corners += 1;
+            of[roots[v.index()].index()].open |= mesh.ahead(h).is_none();
         }
+        for v in mesh.vertices() {
+            of[v.index()].open = of[roots[v.index()].index()].open;
+        }
+        let behind = Vec::new();
+        Copies { of, behind }
     }
-    &mut rest[..left]
+
+    /// Notes the corners of a vertex as a walk meets them. It goes both ways in turn, so that it
+    /// ends with the last of them and not with the last of all copies.
+    fn note_corners(&mut self, mesh: &Mesh, v: VertexId, edits: &mut Edits) {
+        let Copied { corners, open, .. } = self.of[v.index()];
+        let mut ahead = mesh.half_edge_of(v);
+        let mut behind = ahead.and_then(|h| mesh.behind(h));
+        let mut left = corners;
+        self.behind.clear();
+        while left > 0 {
+            if let Some(h) = ahead {
+                if mesh.origin(h) == v {
+                    edits.note_corner(h);
+                    left -= 1;
+                }
+                ahead = mesh.ahead(h);
+            }
+            if let (true, Some(h)) = (left > 0, behind) {
+                if mesh.origin(h) == v {
+                    self.behind.push(h);
+                    left -= 1;
+                }
+                behind = mesh.behind(h);
+            }
+        }
+        if !open {
+            self.behind.reverse(); // A walk comes to them from the other side.
+        }
+        self.behind.iter().for_each(|&h| edits.note_corner(h));
+    }
 }
 
 /// Why a merge was refused. Nothing has changed.

@@ -149,11 +149,11 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// Like all queries: if the id is none of this mesh.
+    /// Like all queries: if the id is not one of this mesh. The message names the id and I2.
     #[inline]
     #[must_use]
     pub fn pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        let link = self.link[h.index()];
+        let link = h.of(&self.link);
         if link.is_torn() {
             None
         } else {
@@ -166,7 +166,7 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn ghost_pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        let link = self.link[h.index()];
+        let link = h.of(&self.link);
         if link.is_torn() {
             link.opposite()
         } else {
@@ -179,14 +179,14 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn pair_or_ghost(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        self.link[h.index()].opposite()
+        h.of(&self.link).opposite()
     }
 
     /// The vertex at which a half-edge starts.
     #[inline]
     #[must_use]
     pub fn origin(&self, h: HalfEdgeId) -> VertexId {
-        VertexId::from_u32(self.origin[h.index()])
+        VertexId::from_u32(*h.of(&self.origin))
     }
 
     /// The vertex at which a half-edge ends.
@@ -200,7 +200,17 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn corners(&self, f: FaceId) -> [VertexId; 3] {
-        f.half_edges().map(|h| self.origin(h))
+        self.half_edges_of(f).map(|h| self.origin(h))
+    }
+
+    /// The half-edges of a face, which has to be one of this mesh.
+    #[inline]
+    #[track_caller]
+    pub(crate) fn half_edges_of(&self, f: FaceId) -> [HalfEdgeId; 3] {
+        if 3 * f.index() >= self.origin.len() {
+            f.is_foreign(self.face_count());
+        }
+        f.half_edges()
     }
 
     /// The smallest half-edge that starts at `v`; `None` for a vertex without
@@ -208,7 +218,7 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn half_edge_of(&self, v: VertexId) -> Option<HalfEdgeId> {
-        match self.outgoing[v.index()] {
+        match *v.of(&self.outgoing) {
             NO_HALF_EDGE => None,
             h => Some(HalfEdgeId::from_u32(h)),
         }

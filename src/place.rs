@@ -24,13 +24,13 @@ pub trait Place {
 
 impl Place for [Point] {
     fn at(&self, v: VertexId) -> Point {
-        self[v.index()]
+        *v.of(self)
     }
 }
 
 impl Place for [[f64; 3]] {
     fn at(&self, v: VertexId) -> Point {
-        self[v.index()].into()
+        (*v.of(self)).into()
     }
 }
 
@@ -104,7 +104,7 @@ impl Positions {
     #[inline]
     #[must_use]
     pub fn at(&self, v: VertexId) -> Point {
-        self.points[v.index()]
+        *v.of(&self.points)
     }
 
     /// The number of vertices.

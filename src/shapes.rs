@@ -3,7 +3,7 @@
 //! Each function gives a mesh and the positions of its vertices. Faces are oriented
 //! counter-clockwise seen from +z, or from outside.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, sine_and_cosine};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
@@ -89,7 +89,7 @@ pub fn fan(faces: u32, closed: bool) -> (Mesh, Positions) {
         std::f64::consts::PI
     };
     for i in 0..rim {
-        let (y, x) = (turn * f64::from(i) / f64::from(faces)).sin_cos();
+        let (y, x) = sine_and_cosine(turn * f64::from(i) / f64::from(faces));
         points.push([x, y, 0.0]);
     }
     made(points, &spokes(faces, rim))
@@ -143,7 +143,7 @@ pub fn tube(around: u32, along: u32) -> (Mesh, Positions) {
     let mut points = Vec::new();
     for ring in 0..=along {
         for i in 0..around {
-            let (y, x) = (std::f64::consts::TAU * f64::from(i) / f64::from(around)).sin_cos();
+            let (y, x) = sine_and_cosine(std::f64::consts::TAU * f64::from(i) / f64::from(around));
             points.push([x, y, f64::from(ring) / f64::from(along)]);
         }
     }
@@ -160,10 +160,11 @@ pub fn torus(around: u32, across: u32) -> (Mesh, Positions) {
     assert!(around >= 3 && across >= 3, "a torus goes round both ways");
     let mut points = Vec::new();
     for i in 0..across {
-        let (height, depth) = (std::f64::consts::TAU * f64::from(i) / f64::from(across)).sin_cos();
+        let (height, depth) =
+            sine_and_cosine(std::f64::consts::TAU * f64::from(i) / f64::from(across));
         let radius = 1.0 - 0.4 * depth;
         for j in 0..around {
-            let (y, x) = (std::f64::consts::TAU * f64::from(j) / f64::from(around)).sin_cos();
+            let (y, x) = sine_and_cosine(std::f64::consts::TAU * f64::from(j) / f64::from(around));
             points.push([radius * x, radius * y, 0.4 * height]);
         }
     }

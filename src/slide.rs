@@ -21,7 +21,7 @@ use crate::mesh::Mesh;
 ///
 /// # Panics
 ///
-/// If a vertex is none of this mesh.
+/// If a vertex is not one of this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{shapes, slide, Edits, VertexId};
@@ -41,6 +41,7 @@ pub fn toward<'e>(
     t: f64,
     edits: &'e mut Edits,
 ) -> Result<Slide<'e>, Refusal> {
+    let _known = [vertex, toward].map(|v| mesh.half_edge_of(v));
     if !(t > 0.0 && t < 1.0) {
         return Err(Refusal::Parameter { t });
     }

@@ -8,10 +8,10 @@
 //! is not the case, the routine of vertex splitting simply does nothing" (§IV-A): a
 //! refused split leaves mesh and log bit-identical, and is a value rather than an error.
 //!
-//! Cost: linear in the faces that the vertex had when the mesh was built, and nothing is
-//! allocated where [`Mesh::reserve`] and [`Edits::reserve`] made room. The sets are told
-//! apart without a table: a corner that moves is relabelled at once, and relabelled back if
-//! the split turns out to be none.
+//! Cost: at most linear in the faces that the vertex had when the mesh was built; to tear off all
+//! its faces one by one is linear in the mesh, all in all. Nothing is allocated where
+//! [`Mesh::reserve`] and [`Edits::reserve`] made room. The sets are told apart without a table: a
+//! corner that moves is relabelled at once, and relabelled back if the split turns out to be none.
 
 use std::fmt;
 
@@ -32,7 +32,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If the vertex or a face is none of this mesh.
+/// If the vertex or a face is not one of this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{split, Edits, FaceId, Mesh, VertexId};
@@ -51,10 +51,11 @@ pub fn faces<'e>(
     moving: &[FaceId],
     edits: &'e mut Edits,
 ) -> Result<Split<'e>, Refusal> {
-    assert!(
-        v.index() < mesh.vertex_count(),
-        "{v} is no vertex of this mesh"
-    );
+    // A foreign id is found before anything is changed.
+    let start = mesh.half_edge_of(v);
+    for &face in moving {
+        mesh.half_edges_of(face);
+    }
     let new = mesh.next_vertex();
     for (i, &face) in moving.iter().enumerate() {
         if let Some(h) = corner_at(mesh, face, v) {
@@ -72,25 +73,32 @@ pub fn faces<'e>(
     if moving.is_empty() {
         return Err(Refusal::Empty { vertex: v });
     }
-    // A vertex with a face in the set has an orbit to walk; the start is as good a corner
-    // as any, whether or not it moves.
-    let start = mesh
-        .half_edge_of(v)
-        .expect("I9: a vertex with a face has a half-edge");
-    let mut stays = None;
-    for h in mesh.orbit(start) {
-        if mesh.origin(h) == new {
-            edits.note_corner(h);
-        } else if mesh.origin(h) == v {
-            stays = Some(stays.map_or(h, |least: HalfEdgeId| least.min(h)));
-        }
+    let start = start.expect("I9: a vertex with a face has a half-edge");
+    // Corners are noted in the order of a walk from the start; one alone is in order.
+    let from = match moving {
+        &[face] => corner_at(mesh, face, new).unwrap_or(start),
+        _ => start,
+    };
+    let moved = mesh.orbit(from).filter(|&h| mesh.origin(h) == new);
+    for h in moved.take(moving.len()) {
+        edits.note_corner(h);
     }
-    let Some(stays) = stays else {
+    let Some(stays) = smallest_from(mesh, v, start) else {
         edits.discard_noted();
         give_back(mesh, v, moving);
         return Err(Refusal::Everything { vertex: v });
     };
     Ok(commit(mesh, v, stays, edits))
+}
+
+/// Splits these corners off a vertex: some of its own in the order of a walk, and not the smallest.
+/// Linear in them alone.
+pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &mut Edits) {
+    let stays = mesh.half_edge_of(v);
+    let stays = stays.expect("I9: a vertex with a face has a half-edge");
+    debug_assert!(moving.iter().all(|&h| mesh.origin(h) == v && h != stays));
+    moving.iter().for_each(|&h| edits.note_corner(h));
+    commit(mesh, v, stays, edits);
 }
 
 /// Splits a vertex by a plane: its faces whose centres are strictly behind the plane move
@@ -102,7 +110,7 @@ pub fn faces<'e>(
 ///
 /// # Panics
 ///
-/// If the vertex is none of this mesh, or `place` does not know one of its neighbours.
+/// If the vertex is not one of this mesh (I2), or `place` does not know one of its neighbours.
 pub fn by_plane<'e>(
     mesh: &mut Mesh,
     v: VertexId,
@@ -110,21 +118,49 @@ pub fn by_plane<'e>(
     place: &(impl Place + ?Sized),
     edits: &'e mut Edits,
 ) -> Option<Split<'e>> {
+    let noting = Noting(&mut *edits);
     let mut stays = None;
     for h in mesh.corners_of(v) {
         if classify::face(mesh, h.face(), plane, place) == Side::Back {
-            edits.note_corner(h);
+            noting.0.note_corner(h);
         } else {
             stays = Some(stays.map_or(h, |least: HalfEdgeId| least.min(h)));
         }
     }
-    match stays {
-        Some(stays) if edits.has_noted() => Some(commit(mesh, v, stays, edits)),
-        _ => {
-            edits.discard_noted();
-            None
+    let stays = stays.filter(|_| noting.0.has_noted())?;
+    std::mem::forget(noting);
+    Some(commit(mesh, v, stays, edits))
+}
+
+/// Drops what was noted, unless it is forgotten: `place` is the caller's, and may panic.
+struct Noting<'e>(&'e mut Edits);
+
+impl Drop for Noting<'_> {
+    fn drop(&mut self) {
+        self.0.discard_noted();
+    }
+}
+
+/// The smallest corner of a vertex, given one that none of them is below; `None` if there is none.
+///
+/// A walk round the vertex and a search upwards take turns, and the shorter one ends it. No later
+/// split needs to search again what was searched, since the smallest corner only grows: so a vertex
+/// is torn into all its faces in time linear in the mesh, and not in the square of its faces.
+fn smallest_from(mesh: &Mesh, v: VertexId, start: HalfEdgeId) -> Option<HalfEdgeId> {
+    let mut walk = mesh.orbit(start);
+    let mut least: Option<HalfEdgeId> = None;
+    for h in (start.to_u32()..mesh.half_edge_count() as u32).map(HalfEdgeId::from_u32) {
+        if mesh.origin(h) == v {
+            return Some(h);
+        }
+        let Some(g) = walk.next() else {
+            return least;
+        };
+        if mesh.origin(g) == v {
+            least = Some(least.map_or(g, |least| least.min(g)));
         }
     }
+    None
 }
 
 /// Carries out the split that was noted. `stays` is the smallest corner that stays.

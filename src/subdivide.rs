@@ -41,7 +41,7 @@ impl Plan {
     ///
     /// # Panics
     ///
-    /// If an id is none of this mesh or of this plan.
+    /// If an id is not one of this mesh (I2) or of this plan.
     pub fn apply<'e>(&self, mesh: &mut Mesh, edits: &'e mut Edits) -> Result<Insert<'e>, Refusal> {
         Ok(self.prepare(mesh)?.carry_out(mesh, edits))
     }
@@ -49,7 +49,31 @@ impl Plan {
     /// All that inserting the points takes, which changes nothing yet. Positions may change before
     /// it is carried out, and the mesh may not.
     pub(crate) fn prepare(&self, mesh: &Mesh) -> Result<Work, Refusal> {
+        self.expect_known(mesh);
         Work::new(self, mesh)
+    }
+
+    /// Panics at an id that is foreign.
+    fn expect_known(&self, mesh: &Mesh) {
+        for &point in &self.points {
+            match point {
+                Point::Edge { h, .. } => _ = mesh.origin(h),
+                Point::Face { f, .. } => _ = mesh.corners(f),
+            }
+        }
+        for &Chord { f, ends } in &self.chords {
+            mesh.half_edges_of(f);
+            for end in ends {
+                match end {
+                    ChordEnd::Corner(h) => _ = mesh.origin(h),
+                    ChordEnd::Point(p) => assert!(
+                        p.index() < self.points.len(),
+                        "I2: point {} is not one of this plan",
+                        p.index()
+                    ),
+                }
+            }
+        }
     }
 }
 
@@ -132,6 +156,7 @@ impl Work {
             face.run().map_err(|fault| match fault {
                 Fault::Chord => Refusal::Chord { face: f },
                 Fault::Crowded => Refusal::Crowded { face: f },
+                Fault::Share(share) => Refusal::Share { face: f, share },
             })?;
             work.divide(mesh, f, &face, &mut next_face);
         }
@@ -339,9 +364,26 @@ impl Work {
             self.children.iter().flat_map(corner_of).collect();
         starts.sort_unstable();
         starts.dedup_by_key(|&mut (v, _)| v);
-        for (v, h) in starts {
-            let smallest = mesh.orbit(h).filter(|&g| mesh.origin(g) == v).min();
-            let smallest = smallest.expect("the walk starts at a corner of the vertex");
+        // One walk tells of all copies of a vertex, each of which is among `starts` or has the
+        // half-edge that it had.
+        let mut known = vec![false; starts.len()];
+        for i in 0..starts.len() {
+            if known[i] {
+                continue;
+            }
+            let (v, h) = starts[i];
+            for g in mesh.orbit(h) {
+                let at = match mesh.origin(g) {
+                    u if u == v => Ok(i),
+                    u => starts.binary_search_by_key(&u, |&(v, _)| v),
+                };
+                if let Ok(at) = at {
+                    starts[at].1 = starts[at].1.min(g);
+                    known[at] = true;
+                }
+            }
+        }
+        for (v, smallest) in starts {
             if v == mesh.next_vertex() {
                 mesh.push_vertex(smallest);
             } else {
@@ -422,6 +464,14 @@ pub enum Refusal {
         /// The face.
         face: FaceId,
     },
+    /// A part of a face would be too small for its share of the face to be a positive number:
+    /// between points that are very near a corner.
+    Share {
+        /// The face.
+        face: FaceId,
+        /// The share.
+        share: f64,
+    },
     /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
     Full {
         /// The number of faces it would have.
@@ -448,6 +498,9 @@ impl fmt::Display for Refusal {
             }
             Refusal::Chord { face } => write!(f, "a chord does not cross {face}"),
             Refusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
+            Refusal::Share { face, share } => {
+                write!(f, "a part of {face} would have the share {share} of it")
+            }
             Refusal::Full { faces } => {
                 write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)
             }

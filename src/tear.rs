@@ -75,7 +75,7 @@ use crate::split;
 ///
 /// # Panics
 ///
-/// If the half-edge is none of this mesh, or `place` does not know its surroundings.
+/// If the half-edge is not one of this mesh (I2), or `place` does not know its surroundings.
 pub fn edge<'e>(
     mesh: &mut Mesh,
     edge: HalfEdgeId,

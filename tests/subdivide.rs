@@ -50,6 +50,12 @@ fn random_plan(mesh: &Mesh, random: &mut Random) -> Plan {
             for _ in 0..=below(random, 3) {
                 plan.on_edge(h, 0.02 + 0.96 * random.next());
             }
+            if below(random, 4) == 0 {
+                // Near a corner, on both of its edges: a child there may be next to nothing.
+                let mut near = || 2f64.powi(-2 - below(random, 1000) as i32);
+                plan.on_edge(h, near());
+                plan.on_edge_backward(h.prev(), near());
+            }
         }
     }
     plan
@@ -75,9 +81,19 @@ fn random_edits_keep_every_invariant_and_the_surface() {
                         let plan = random_plan(&mesh, &mut random);
                         let before = mesh.clone();
                         match plan.apply(&mut mesh, &mut edits) {
-                            Ok(_) => insertions += 1,
+                            Ok(insert) => {
+                                insertions += 1;
+                                for child in insert.children {
+                                    assert!(child.share > 0.0, "{name}, seed {seed}: {child:?}");
+                                }
+                            }
                             Err(refusal) => {
-                                assert!(matches!(refusal, Refusal::Crowded { .. }), "{refusal}");
+                                let known = match refusal {
+                                    Refusal::Share { share, .. } => share <= 0.0,
+                                    Refusal::Crowded { .. } | Refusal::Repeated { .. } => true,
+                                    _ => false,
+                                };
+                                assert!(known, "{refusal}");
                                 assert_eq!(mesh, before, "refused is untouched");
                             }
                         }
@@ -221,6 +237,32 @@ fn points_that_nearly_coincide_make_no_child_without_area() {
         }
     }
     assert!((1_000..19_000).contains(&refused), "{refused} were refused");
+}
+
+/// Between a corner and two points 1e-300 from it there is a child that covers 1e-600 of the
+/// face, which is no `f64`.
+#[test]
+fn regression_a_child_whose_share_would_be_zero() {
+    let divided = |t: f64| {
+        let mut mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a triangle");
+        let mut plan = Plan::new();
+        plan.on_edge(half_edge(0), t);
+        plan.on_edge_backward(half_edge(2), t);
+        let mut edits = Edits::new();
+        let before = mesh.clone();
+        let shares = plan.apply(&mut mesh, &mut edits);
+        let shares = shares.map(|insert| insert.children.iter().map(|child| child.share).collect());
+        assert!(shares.is_ok() || (mesh == before && edits.is_empty()));
+        shares
+    };
+    for t in [1e-300, 1e-170, 5e-324] {
+        let refusal: Result<Vec<f64>, Refusal> = divided(t);
+        let told = refusal.map_err(|refusal| refusal.to_string());
+        let expected = "nothing was inserted: a part of f0 would have the share 0 of it";
+        assert_eq!(told, Err(expected.to_string()), "{t}");
+    }
+    let shares = divided(1e-150).expect("small, and not zero");
+    assert!(shares.iter().all(|&share| share > 0.0), "{shares:?}");
 }
 
 /// Where p on one edge and q on another are equally far along, the quad between them is divided

@@ -85,7 +85,7 @@ impl Mesh {
     /// The root of every vertex, as [`Mesh::build_torn`] takes them. Linear.
     #[must_use]
     pub fn roots(&self) -> Vec<u32> {
-        self.vertices().map(|v| self.root(v).to_u32()).collect()
+        self.all_roots().into_iter().map(VertexId::to_u32).collect()
     }
 }
 

@@ -47,6 +47,7 @@ impl Mesh {
     /// the vertex at which `h` starts.
     #[must_use]
     pub fn fan(&self, h: HalfEdgeId) -> Fan<'_> {
+        h.of(&self.link); // The first step asks for the one before, and would name that.
         Fan {
             mesh: self,
             first: h,
@@ -80,6 +81,19 @@ impl Mesh {
             .map(|h| self.origin(h))
             .min()
             .unwrap_or(v)
+    }
+
+    /// [`Mesh::root`] of every vertex. Linear, however many copies a vertex has.
+    pub(crate) fn all_roots(&self) -> Vec<VertexId> {
+        let mut roots: Vec<VertexId> = self.vertices().collect();
+        for v in self.vertices() {
+            // The smallest comes first, and speaks for all copies.
+            if let (true, Some(h)) = (roots[v.index()] == v, self.half_edge_of(v)) {
+                self.orbit(h)
+                    .for_each(|h| roots[self.origin(h).index()] = v);
+            }
+        }
+        roots
     }
 
     /// The vertices that were split from the same one as `v`, and `v` itself, each as often as it
@@ -180,7 +194,7 @@ impl Mesh {
 
     /// The faces that share an edge with a face, up to three.
     pub fn neighbours(&self, f: FaceId) -> impl FusedIterator<Item = FaceId> + '_ {
-        f.half_edges()
+        self.half_edges_of(f)
             .into_iter()
             .filter_map(|h| self.pair(h))
             .map(HalfEdgeId::face)
@@ -327,6 +341,6 @@ impl Components {
     /// The component of a face, from 0; components are numbered by their smallest face.
     #[must_use]
     pub fn of(&self, f: FaceId) -> usize {
-        self.of_face[f.index()] as usize
+        *f.of(&self.of_face) as usize
     }
 }

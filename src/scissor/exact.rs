@@ -290,9 +290,14 @@ fn with_copies(mut vertices: Vec<VertexId>, edits: &Edits, first: u64) -> Vec<Ve
 
 /// The half-edges of the edge between two vertices.
 fn pair_between(mesh: &Mesh, [from, to]: [VertexId; 2]) -> [HalfEdgeId; 2] {
-    let found = mesh.corners_of(from).find_map(|h| {
-        let pair = mesh.pair(h)?;
-        (mesh.target(h) == to).then_some([h, pair])
+    // From both ends at once, since one may be a hub.
+    let mut corners = mesh.corners_of(from).zip(mesh.corners_of(to));
+    let found = corners.find_map(|(h, g)| {
+        if mesh.target(h) == to {
+            return mesh.pair(h).map(|pair| [h, pair]);
+        }
+        let pair = mesh.pair(g).filter(|_| mesh.target(g) == from);
+        pair.map(|pair| [pair, g])
     });
     found.expect("an edge of the slit has a face on each side")
 }

@@ -227,6 +227,7 @@ impl<'o> Survey<'o> {
     ) -> CutReport {
         let mut in_slit = self.in_slit.clone();
         let mut tips = Tips::default();
+        let roots = mesh.all_roots();
         let pieces = mesh.components().count();
         let (angle_min_deg, altitude_min) = quality(mesh, positions);
         let mut splits = 0;
@@ -247,7 +248,7 @@ impl<'o> Survey<'o> {
                             let deviation = strip.plane.distance(end).abs();
                             seam_deviation_max = seam_deviation_max.max(deviation);
                         }
-                        tips.add([mesh.origin(h), mesh.target(h)].map(|v| mesh.root(v)));
+                        tips.add([mesh.origin(h), mesh.target(h)].map(|v| roots[v.index()]));
                     }
                 }
                 Edit::Insert(insert) => {
@@ -352,12 +353,15 @@ fn separated(
     unjudged.sort_unstable();
     let is_tip = |v: VertexId| unjudged.binary_search(&v).is_ok();
     let label = |h: HalfEdgeId| labels[h.face().index()];
+    // A walk round each vertex would cost a hub the square of its faces.
+    let mut has = vec![[false; 2]; mesh.vertex_count()];
+    for h in mesh.half_edges() {
+        if let Some(side) = label(h) {
+            has[mesh.origin(h).index()][side as usize] = true;
+        }
+    }
     let shared_vertex = |v: VertexId| {
-        let has = |side: Side| mesh.corners_of(v).any(|h| label(h) == Some(side));
-        !is_tip(v)
-            && strip.depth(positions.at(v), bound) > 0.0
-            && has(Side::Front)
-            && has(Side::Back)
+        has[v.index()] == [true; 2] && !is_tip(v) && strip.depth(positions.at(v), bound) > 0.0
     };
     let shared_edge = |h: HalfEdgeId| {
         let Some(pair) = mesh.pair(h) else {

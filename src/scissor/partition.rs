@@ -11,7 +11,7 @@
 //!    with it, none.
 //! 3. **Unshare by fan** (`unshare.rs`), which is why the method always divides.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use super::offsets::Offsets;
 use super::outcome::{Ends, Outcome};
@@ -107,13 +107,14 @@ fn is_crumb(mesh: &Mesh, offsets: &Offsets, labels: &[Side], f: FaceId) -> bool 
         Side::Back => offsets.of(v) < 0.0,
     };
     let mut reached = vec![f];
+    let mut seen = BTreeSet::from([f]);
     let mut next = 0;
     while let Some(&face) = reached.get(next) {
         next += 1;
         for h in face.half_edges() {
             let Some(pair) = mesh.pair(h) else { continue };
             let goes_on = on_side(mesh.origin(h)) || on_side(mesh.target(h));
-            if !goes_on || reached.contains(&pair.face()) {
+            if !goes_on || !seen.insert(pair.face()) {
                 continue;
             }
             if labels[pair.face().index()] == label {

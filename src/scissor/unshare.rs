@@ -10,7 +10,7 @@
 //! and those separate fans before and after.
 
 use crate::edit::Edits;
-use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::split;
 
@@ -24,46 +24,55 @@ pub(super) fn by_fan(
     let mut fans = Fans::default();
     for &v in vertices {
         fans.find(mesh, v, &is_cut);
-        for faces in fans.leaving() {
-            split::faces(mesh, v, faces, edits).expect("a fan is some of a vertex's faces");
+        for corners in fans.leaving() {
+            split::off(mesh, v, corners, edits);
         }
     }
 }
 
-/// The faces of a vertex, grouped by fan. Reused from vertex to vertex.
+/// The corners of a vertex, grouped by fan. Reused from vertex to vertex.
 #[derive(Default)]
 struct Fans {
-    faces: Vec<FaceId>,
-    /// The smallest half-edge of each fan, and where its faces end.
+    corners: Vec<HalfEdgeId>,
+    /// The smallest half-edge of each fan, and where its corners start and end.
     fans: Vec<(HalfEdgeId, usize, usize)>,
 }
 
 impl Fans {
-    /// Groups the faces of `v` by the edges at `v` that join them: those with a pair for
-    /// which `is_cut` does not hold.
+    /// Groups the corners of `v` by the edges at `v` that join them: those with a pair for
+    /// which `is_cut` does not hold. Those of a fan are in the order of a walk round `v`.
     fn find(&mut self, mesh: &Mesh, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) {
-        self.faces.clear();
+        self.corners.clear();
         self.fans.clear();
         let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !is_cut(h));
-        for first in mesh.corners_of(v).filter(|&h| joined(h).is_none()) {
-            let start = self.faces.len();
+        let mut before = None;
+        for first in mesh.corners_of(v) {
+            let before = before.replace(first);
+            if joined(first).is_some() {
+                continue;
+            }
+            let start = self.corners.len();
             let mut smallest = first;
             let mut at = Some(first);
             while let Some(h) = at {
-                self.faces.push(h.face());
+                self.corners.push(h);
                 smallest = smallest.min(h);
                 at = joined(h.prev());
             }
-            self.fans.push((smallest, start, self.faces.len()));
+            // Behind the corner where it started, a walk comes from the other side.
+            if before.is_some() && self.corners.get(start + 1) == before.as_ref() {
+                self.corners[start..].reverse();
+            }
+            self.fans.push((smallest, start, self.corners.len()));
         }
         self.fans.sort();
     }
 
-    /// The faces of each fan that does not keep the vertex.
-    fn leaving(&self) -> impl Iterator<Item = &[FaceId]> {
+    /// The corners of each fan that does not keep the vertex.
+    fn leaving(&self) -> impl Iterator<Item = &[HalfEdgeId]> {
         self.fans
             .iter()
             .skip(1)
-            .map(|&(_, start, end)| &self.faces[start..end])
+            .map(|&(_, start, end)| &self.corners[start..end])
     }
 }

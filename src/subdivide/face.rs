@@ -45,10 +45,12 @@ pub(super) struct Retriangulation {
 }
 
 /// Why a face cannot be divided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fault {
     Chord,
     Crowded,
+    /// A child would have this share.
+    Share(f64),
 }
 
 impl Retriangulation {
@@ -148,12 +150,14 @@ impl Retriangulation {
             return self.star();
         }
         match self.chord.or_else(|| self.implied_chord()) {
-            Some(ends) => self.halves(ends),
-            None => {
-                let all: Vec<usize> = (0..self.ring).collect();
-                self.fill(&all);
-                Ok(())
-            }
+            Some(ends) => self.halves(ends)?,
+            None => self.fill(&(0..self.ring).collect::<Vec<usize>>()),
+        }
+        // Near a corner a child may be smaller than any `f64`.
+        let shares = self.triangles.iter().map(|&triangle| self.share(triangle));
+        match shares.into_iter().find(|&share| share <= 0.0) {
+            Some(share) => Err(Fault::Share(share)),
+            None => Ok(()),
         }
     }
 

@@ -323,15 +323,22 @@ impl Tracer<'_> {
                 self.mesh.ghost_pair(h).is_some() || self.mesh.ghost_pair(h.prev()).is_some()
             })
         };
-        for i in 0..snapped.len() {
+        // The nearest first: whoever heard of it has nothing to tell, and a hub with many
+        // crossings or copies is walked round once.
+        let mut order: Vec<usize> = (0..snapped.len()).collect();
+        order.sort_by(|&i, &j| snapped[i].t.total_cmp(&snapped[j].t));
+        let mut told = vec![false; self.mesh.vertex_count()];
+        for i in order {
             let one = snapped[i];
-            if !torn(one.vertex) {
+            if std::mem::replace(&mut told[one.vertex.index()], true) || !torn(one.vertex) {
                 continue;
             }
             let place = self.positions.at(one.vertex);
             let copies = self.mesh.copies(one.vertex);
-            let copies = copies.filter(|&v| v != one.vertex && self.positions.at(v) == place);
-            snapped.extend(copies.map(|vertex| Snapped { vertex, ..one }));
+            for v in copies.filter(|&v| v != one.vertex && self.positions.at(v) == place) {
+                told[v.index()] = true;
+                snapped.push(Snapped { vertex: v, ..one });
+            }
         }
     }
 

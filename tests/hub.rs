@@ -1,0 +1,243 @@
+//! Vertices with very many faces: whatever touches one takes time linear in its faces, not in their
+//! square.
+//!
+//! The table: `cargo test -p tearmesh --release --test main -- --ignored --nocapture hub`.
+
+use std::time::Instant;
+
+use tearmesh::{
+    Edits, FaceId, Masses, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId, mend,
+    shapes, split,
+};
+
+use crate::random::Random;
+
+/// Steps and the nanoseconds a face that each took.
+struct Clock {
+    faces: f64,
+    steps: Vec<(String, f64)>,
+}
+
+impl Clock {
+    fn new(faces: u32) -> Clock {
+        Clock {
+            faces: f64::from(faces),
+            steps: Vec::new(),
+        }
+    }
+
+    fn time<T>(&mut self, step: impl Into<String>, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let done = work();
+        let taken = start.elapsed().as_secs_f64() * 1e9 / self.faces;
+        self.steps.push((step.into(), taken));
+        done
+    }
+}
+
+/// A mesh with its followers, and the log.
+struct Sheet {
+    mesh: Mesh,
+    positions: Positions,
+    masses: Masses,
+    edits: Edits,
+}
+
+impl Sheet {
+    fn new(mesh: &Mesh, positions: &Positions) -> Sheet {
+        Sheet {
+            masses: Masses::area(mesh, positions, 1.0).expect("it has an area"),
+            mesh: mesh.clone(),
+            positions: positions.clone(),
+            edits: Edits::new(),
+        }
+    }
+
+    /// Checks the mesh, and sews everything.
+    fn check_and_sew(&mut self, what: &str, clock: &mut Clock) {
+        let Sheet {
+            mesh,
+            positions,
+            masses,
+            edits,
+        } = self;
+        edits.replay(&mut (&mut *positions, &mut *masses));
+        assert!(masses.ledger().is_balanced(), "{what}");
+        assert_eq!(clock.time(format!("{what}: check"), || mesh.check()), []);
+        clock.time(format!("{what}: sew"), || {
+            let stitches = mend::stitches(mesh, |_| true);
+            let weight = |v| masses.at(v);
+            mend::sew(mesh, &*positions, &stitches, weight, 1e-9, edits).expect("nothing moved");
+        });
+        edits.replay(&mut (positions, masses));
+        assert!(mesh.half_edges().all(|h| mesh.ghost_pair(h).is_none()));
+    }
+}
+
+/// The scissor with rays straight down at two places of the plane.
+fn scissor(a: [f64; 2], b: [f64; 2]) -> Scissor {
+    let down = Vector::new(0.0, 0.0, -1.0);
+    let ray = |[x, y]: [f64; 2]| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
+    Scissor::new(&ray(a), &ray(b)).expect("two rays")
+}
+
+/// Cuts a fan in all ways, and mends it.
+fn cut(faces: u32, closed: bool, clock: &mut Clock) {
+    let (mesh, positions) = clock.time("build", || shapes::fan(faces, closed));
+    for method in [Method::Exact, Method::Partition] {
+        for (place, y) in [("the hub", 0.0), ("near", 0.001), ("beside", 0.1)] {
+            for (extent, x) in [("finite", 0.5), ("through", 2.0)] {
+                let what = format!("{method:?}, {place}, {extent}");
+                let mut sheet = Sheet::new(&mesh, &positions);
+                let Sheet {
+                    mesh: cut,
+                    positions,
+                    edits,
+                    ..
+                } = &mut sheet;
+                let scissor = scissor([-x, y - 0.3 * x], [x, y + 0.3 * x]);
+                let scissor = scissor.through(extent == "through");
+                let report =
+                    clock.time(what.clone(), || scissor.cut(method, cut, positions, edits));
+                let report = report.expect("all is in step");
+                assert!(report.faces_crossed > 0, "{what}");
+                sheet.check_and_sew(&what, clock);
+                assert!(method == Method::Exact || sheet.mesh == mesh, "{what}");
+            }
+        }
+    }
+}
+
+/// Cuts a crown, whose rim is before and behind a plane through the hub by turns, into as many fans.
+fn crown(faces: u32, closed: bool, clock: &mut Clock) {
+    let (mesh, positions) = shapes::fan(faces, closed);
+    let mut up = (0..).map(|i| if i % 8 < 4 { 0.5 } else { -0.5 });
+    let mut points = positions.as_slice().to_vec();
+    points[1..]
+        .iter_mut()
+        .for_each(|p| p.z = up.next().expect("without end"));
+    let positions = Positions::new(points).expect("they are finite");
+    let ray = |y| Ray::new(Point::new(-5.0, y, 0.0), Vector::x()).expect("a ray");
+    let scissor = Scissor::new(&ray(-3.0), &ray(3.0))
+        .expect("two rays")
+        .through(true);
+    for method in [Method::Exact, Method::Partition] {
+        let what = format!("{method:?}, a crown");
+        let mut sheet = Sheet::new(&mesh, &positions);
+        let Sheet {
+            mesh: cut,
+            positions,
+            edits,
+            ..
+        } = &mut sheet;
+        let report = clock.time(what.clone(), || scissor.cut(method, cut, positions, edits));
+        assert!(
+            report.expect("all is in step").splits as u32 > faces / 5,
+            "{what}"
+        );
+        sheet.check_and_sew(&what, clock);
+    }
+}
+
+/// Tears a fan face by face until each face has a vertex of its own, and mends it.
+fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
+    let (mesh, positions) = shapes::fan(faces, closed);
+    let mut sheet = Sheet::new(&mesh, &positions);
+    let hub = VertexId::new(0).expect("an id");
+    let mut all: Vec<FaceId> = mesh.faces().collect();
+    match order {
+        "descending" => all.reverse(),
+        "shuffled" => {
+            let mut random = Random(7);
+            for i in 1..all.len() {
+                all.swap(i, (random.next() * (i + 1) as f64) as usize);
+            }
+        }
+        _ => {}
+    }
+    let last = all.pop().expect("a face");
+    clock.time(format!("torn, {order}"), || {
+        for &face in &all {
+            split::faces(&mut sheet.mesh, hub, &[face], &mut sheet.edits).expect("one stays");
+        }
+    });
+    let refused = split::faces(&mut sheet.mesh, hub, &[last], &mut sheet.edits);
+    assert!(matches!(refused, Err(split::Refusal::Everything { .. })));
+    assert_eq!(sheet.mesh.half_edge_of(hub).map(|h| h.face()), Some(last));
+    let torn = sheet.mesh.clone();
+    sheet.edits.replay(&mut sheet.positions);
+    let place = Positions::new(sheet.positions.as_slice().to_vec()).expect("they were accepted");
+    sheet.check_and_sew(&format!("torn, {order}"), clock);
+    assert_eq!(sheet.mesh, mesh, "{order}");
+    if order == "shuffled" {
+        rebuild_and_cut(&torn, &place, clock);
+    }
+}
+
+/// Builds a torn mesh again from its triangles and roots, and cuts it beside the hub.
+fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
+    let again = clock.time("torn: roots, build", || {
+        let faces = torn.faces();
+        let triangles: Vec<[u32; 3]> = faces.map(|f| torn.corners(f).map(u32::from)).collect();
+        Mesh::build_torn(&triangles, &torn.roots())
+    });
+    assert_eq!(again.as_ref(), Ok(torn));
+    for (what, y) in [("near", 0.001), ("beside", 0.1)] {
+        let (mut mesh, mut positions) = (torn.clone(), positions.clone());
+        let scissor = scissor([-2.0, y], [2.0, 1.1 * y]).through(true);
+        let mut edits = Edits::new();
+        let report = clock.time(format!("torn: cut {what}"), || {
+            scissor.cut(Method::Exact, &mut mesh, &mut positions, &mut edits)
+        });
+        assert!(report.expect("all is in step").faces_crossed > 0);
+        assert_eq!(
+            clock.time(format!("torn: cut {what}: check"), || mesh.check()),
+            []
+        );
+    }
+}
+
+const ORDERS: [&str; 3] = ["ascending", "descending", "shuffled"];
+
+/// With a square in it this takes minutes; as it is, a few seconds.
+#[test]
+fn a_large_hub_is_cut_torn_and_mended() {
+    let faces = 100_000;
+    let mut clock = Clock::new(faces);
+    cut(faces, true, &mut clock);
+    for closed in [true, false] {
+        crown(faces, closed, &mut clock);
+    }
+    for order in ORDERS {
+        tear(faces, order == "shuffled", order, &mut clock);
+    }
+}
+
+#[test]
+#[ignore = "a table of times"]
+fn hub_table() {
+    let sizes: Vec<u32> = (0..8).map(|i| 10_000 << i).collect();
+    for closed in [true, false] {
+        let mut clocks: Vec<Clock> = Vec::new();
+        for &faces in &sizes {
+            let mut clock = Clock::new(faces);
+            cut(faces, closed, &mut clock);
+            crown(faces, closed, &mut clock);
+            for order in ORDERS {
+                tear(faces, closed, order, &mut clock);
+            }
+            clocks.push(clock);
+        }
+        println!("\nclosed: {closed}; ns a face, for so many thousand faces round one vertex");
+        print!("{:44}", "");
+        sizes.iter().for_each(|faces| print!("{:>7}", faces / 1000));
+        println!();
+        for (i, (step, _)) in clocks[0].steps.iter().enumerate() {
+            print!("{step:44}");
+            for clock in &clocks {
+                print!("{:7.0}", clock.steps[i].1);
+            }
+            println!();
+        }
+    }
+}
