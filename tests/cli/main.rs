@@ -3,6 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod edited;
 mod files;
 mod frames;
 mod fuzz;
