@@ -109,7 +109,8 @@
 //! * The hash of the header is that of the number of `v` and of the vertices of all faces, that of
 //!   the end is of the lines between: 64 bits, FNV-1a, in hexadecimal.
 //!
-//! What another program does to positions, texture or groups leaves the record in force.
+//! What another program does to positions, texture or groups leaves the record in force, and
+//! [`TornDocument::simplified`] keeps the vertices that it was done to.
 //! Where it changed faces or the number of vertices, or the record itself, a warning says so, the
 //! file is read as one without a record, and what was one is left out.
 //!
@@ -142,7 +143,7 @@
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
 //! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
-//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again |
+//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again, and what was edited since |
 //! | `record.rs` | what is on record, and the checksum |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
 //! | `simplify.rs` | a document without what can be taken out again |
@@ -176,5 +177,6 @@ pub use polygons::Corner;
 #[cfg(feature = "obj-rs")]
 pub use raw::{Item, RawObjError};
 pub use repair::Repair;
+pub use simplify::Simplified;
 pub use torn::TornDocument;
 pub use write::WriteSummary;
