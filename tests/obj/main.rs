@@ -5,6 +5,7 @@
 mod accept;
 mod corpus;
 mod differential;
+mod edited;
 mod fuzz;
 mod memory;
 mod mesh;

@@ -41,6 +41,16 @@ impl<'d> Work<'d> {
             .replay(&mut (&mut self.positions, &mut self.torn));
     }
 
+    /// Edits the mesh, and has the document follow.
+    pub(crate) fn edit<T>(
+        &mut self,
+        edit: impl FnOnce(&mut Mesh, &mut Positions, &mut Edits) -> T,
+    ) -> T {
+        let done = edit(&mut self.mesh, &mut self.positions, &mut self.edits);
+        self.follow();
+        done
+    }
+
     pub(crate) fn written(&self) -> Vec<u8> {
         let mut out = Vec::new();
         let done = self.torn.write(&self.mesh, &self.positions, &mut out);
