@@ -14,3 +14,4 @@ mod places;
 mod tear;
 mod through;
 mod transcripts;
+mod units;
