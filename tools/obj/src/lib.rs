@@ -138,7 +138,7 @@
 //! |---|---|
 //! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and the compact lists it is made of |
 //! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, indices, references ahead, what is carried through, faults |
-//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, diagonals that collide |
+//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, thin faces that are avoided, diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
