@@ -112,7 +112,8 @@
 //! What another program does to positions, texture or groups leaves the record in force, and
 //! [`TornDocument::simplified`] keeps the vertices that it was done to.
 //! Where it changed faces or the number of vertices, or the record itself, a warning says so, the
-//! file is read as one without a record, and what was one is left out.
+//! file is read as one without a record, and the lines of what was one are left out of what is
+//! written, as the warning says.
 //!
 //! # Why not obj-rs
 //!
