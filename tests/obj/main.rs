@@ -10,6 +10,7 @@ mod edited;
 mod fuzz;
 mod memory;
 mod mesh;
+mod normals;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]
 mod random;
