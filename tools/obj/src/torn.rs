@@ -364,6 +364,9 @@ impl<'d> TornDocument<'d> {
     }
 
     fn split_off(&self) -> Vec<SplitOff> {
+        if self.ancestry.is_whole() {
+            return Vec::new();
+        }
         // Looking up shortens the ways to what was merged, which does not show.
         self.ancestry.clone().split_off()
     }
