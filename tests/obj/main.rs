@@ -11,6 +11,7 @@ mod fuzz;
 mod memory;
 mod mesh;
 mod normals;
+mod objects;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]
 mod random;
