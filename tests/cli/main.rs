@@ -3,6 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod edited;
 mod files;
 mod frames;
 mod full;
@@ -17,4 +18,5 @@ mod places;
 mod tear;
 mod through;
 mod transcripts;
+mod units;
 mod words;

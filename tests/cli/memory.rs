@@ -79,3 +79,25 @@ fn a_refused_file_takes_no_more_memory_than_promised() {
         }
     }
 }
+
+#[test]
+fn regression_repairing_a_vertex_of_many_fans_takes_no_more_memory_than_promised() {
+    if !cfg!(target_os = "linux") {
+        let said = writeln!(stderr(), "skipped: peaks of memory, which only Linux tells");
+        said.expect("standard error is open");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [path, out] = ["fans.obj", "out.obj"].map(|name| folder.path().join(name));
+    let [path, out] = [&path, &out].map(|path| path.to_str().expect("a plain name"));
+    let fan = |i: usize| format!("v 1 0 0\nv 0 1 0\nf 1 {} {}\n", 2 * i + 2, 2 * i + 3);
+    let file = "v 0 0 0\n".to_owned() + &(0..300_000).map(fan).collect::<String>();
+    std::fs::write(path, &file).expect("a temporary file");
+    let rays = ["--rays", "9,9,1:0,0,-1", "9,8,1:0,0,-1", "--allow-miss"];
+    let args = ["tearmesh", "cut", path, "--repair", "-q", "-o", out];
+    let (exit, peak) = exit_and_peak(&[&args[..], &rays].concat());
+    let allowed = 12 * file.len() / 1024;
+    println!("300,000 fans: {exit}, peak {peak:7} KiB of {allowed:7}");
+    assert_eq!(exit, "Done");
+    assert!(peak <= allowed, "{peak} KiB of {allowed}");
+}

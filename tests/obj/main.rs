@@ -3,11 +3,15 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod accept;
+mod collinear;
 mod corpus;
 mod differential;
+mod edited;
 mod fuzz;
 mod memory;
 mod mesh;
+mod normals;
+mod objects;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]
 mod random;

@@ -170,7 +170,8 @@ fn mended(mut torn: TornDocument<'_>, mut mesh: Mesh, mut positions: Positions) 
     .expect("all are of one root");
     edits.replay(&mut (&mut positions, &mut torn));
     assert_eq!(torn.cuts(), []);
-    match torn.simplified(&mesh, &positions).expect("it can be read") {
+    let simplified = torn.simplified(&mesh, &positions);
+    match simplified.expect("it can be read").document {
         None => write_torn(&torn, &mesh, &positions),
         Some(simple) => {
             let mesh = simple.mesh().expect("a simplified mesh is one");

@@ -304,6 +304,39 @@ fn positions_may_change_and_copies_that_part_are_vertices() {
     assert_eq!(Ok(&work.mesh), document.mesh().as_ref());
 }
 
+fn is_of_record(line: &str) -> bool {
+    ["#tearmesh record", "#~ ", "#tearmesh end"]
+        .iter()
+        .any(|start| line.starts_with(start))
+}
+
+#[test]
+fn regression_the_lines_of_a_damaged_record_are_said_to_be_left_out() {
+    let whole = record(ITEMS);
+    for (damaged, lines) in [
+        (whole.replace("#~ split 5 2 1", "#~ split 5 6 1"), 6),
+        (whole.replace("record 1", "record 2"), 6),
+        (whole.replace("#~ edge 7 1 3 4 0.5", "#~ edge 7 1 3 4 x"), 6),
+        (whole.replace("v 7 f 3", "v 8 f 3"), 6),
+        (
+            whole
+                .lines()
+                .take(3)
+                .map(|line| format!("{line}\n"))
+                .collect(),
+            3,
+        ),
+        (format!("{whole}{whole}"), 12),
+    ] {
+        let file = format!("{TORN}{damaged}");
+        assert_eq!(
+            file.lines().filter(|line| is_of_record(line)).count(),
+            lines
+        );
+        assert!(exercise(file.as_bytes()));
+    }
+}
+
 /// Everything that can be done with a file, whatever its record says.
 fn exercise(bytes: &[u8]) -> bool {
     let Ok(document) = Document::read(bytes) else {
@@ -314,6 +347,23 @@ fn exercise(bytes: &[u8]) -> bool {
     };
     assert!(mesh.check().is_empty());
     let written = rewritten(bytes);
+    // What is left out is said to be.
+    let lines = |bytes: &[u8]| {
+        text(bytes)
+            .lines()
+            .filter(|line| is_of_record(line))
+            .count()
+    };
+    if lines(&written) == 0 && lines(bytes) > 0 {
+        let helps = document
+            .diagnostics()
+            .iter()
+            .filter_map(|one| one.help.as_ref());
+        let said = helps
+            .filter(|help| help.contains("left out of what is written"))
+            .count();
+        assert_eq!(said, 1, "{:?}\n{}", document.diagnostics(), text(bytes));
+    }
     assert_eq!(text(&rewritten(&written)), text(&written));
     let mut work = Work::on(&document);
     let stitches = work.torn.stitches_of_last(1);
@@ -329,7 +379,8 @@ fn exercise(bytes: &[u8]) -> bool {
     )
     .expect("the stitches are of one root");
     edits.replay(&mut (&mut work.positions, &mut work.torn));
-    if let Ok(Some(simple)) = work.torn.simplified(&work.mesh, &work.positions) {
+    let simplified = work.torn.simplified(&work.mesh, &work.positions);
+    if let Some(simple) = simplified.ok().and_then(|one| one.document) {
         let _refused = simple.mesh().is_ok();
     }
     true

@@ -8,7 +8,7 @@ use tearmesh::{
     Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId,
     mend, split,
 };
-use tearmesh_obj::{Document, TornDocument};
+use tearmesh_obj::{Document, ReadError, Simplified, TornDocument};
 
 use super::random::Random;
 use super::{positions, read, rewritten, text};
@@ -39,6 +39,16 @@ impl<'d> Work<'d> {
     fn follow(&mut self) {
         self.edits
             .replay(&mut (&mut self.positions, &mut self.torn));
+    }
+
+    /// Edits the mesh, and has the document follow.
+    pub(crate) fn edit<T>(
+        &mut self,
+        edit: impl FnOnce(&mut Mesh, &mut Positions, &mut Edits) -> T,
+    ) -> T {
+        let done = edit(&mut self.mesh, &mut self.positions, &mut self.edits);
+        self.follow();
+        done
     }
 
     pub(crate) fn written(&self) -> Vec<u8> {
@@ -122,6 +132,13 @@ impl<'d> Work<'d> {
         let corners = |f| self.mesh.corners(f).map(u32::from);
         order.into_iter().map(corners).collect()
     }
+}
+
+/// What is simplified where nothing was edited.
+fn unedited(simplified: Result<Simplified, ReadError>) -> Option<Document> {
+    let Simplified { document, edited } = simplified.expect("what we wrote can be read");
+    assert_eq!(edited, 0, "nothing was edited");
+    document
 }
 
 /// The files of `tests/data`, and one where everything comes late.
@@ -266,7 +283,7 @@ fn mending_and_simplifying_gives_back_the_mesh_before_the_cut() {
             let file = work.written();
             work.sew_all();
             let simple = work.torn.simplified(&work.mesh, &work.positions);
-            let simple = simple.expect("positions are as they were");
+            let simple = unedited(simple);
             let bytes = simple.map_or_else(|| work.written(), |simple| Work::on(&simple).written());
             assert_eq!(text(&bytes), uncut, "{name}");
 
@@ -274,7 +291,7 @@ fn mending_and_simplifying_gives_back_the_mesh_before_the_cut() {
             let mut work = Work::on(&again);
             work.sew_all();
             let simple = work.torn.simplified(&work.mesh, &work.positions);
-            let simple = simple.expect("positions are as they were");
+            let simple = unedited(simple);
             let bytes = simple.map_or_else(|| work.written(), |simple| Work::on(&simple).written());
             if name.starts_with("late") || name.starts_with("quilt") {
                 // `v` that stood behind faces were moved up; nothing else differs.
@@ -309,28 +326,21 @@ fn a_part_is_simplified_and_the_rest_still_can_be() {
                 .collect();
             work.sew(&mend::stitches(&work.mesh, |v| chosen[v.index()]));
             let simple = work.torn.simplified(&work.mesh, &work.positions);
-            let Some(simple) = simple.expect("positions are as they were") else {
+            let Some(simple) = unedited(simple) else {
                 continue;
             };
             parts += 1;
             let mut rest = Work::on(&simple);
             assert!(rest.mesh.check().is_empty());
             survives(&rest, &name);
-            assert!(
-                rest.torn
-                    .simplified(&rest.mesh, &rest.positions)
-                    .expect("fine")
-                    .is_none()
-            );
+            let again = rest.torn.simplified(&rest.mesh, &rest.positions);
+            assert!(unedited(again).is_none());
             assert_eq!(
                 area(&rest.mesh, &rest.positions),
                 area(&work.mesh, &work.positions)
             );
             rest.sew_all();
-            let all = rest
-                .torn
-                .simplified(&rest.mesh, &rest.positions)
-                .expect("fine");
+            let all = unedited(rest.torn.simplified(&rest.mesh, &rest.positions));
             let bytes = all.map_or_else(|| rest.written(), |all| Work::on(&all).written());
             let lines = |text: &str| text.lines().count();
             assert_eq!(lines(&text(&bytes)), lines(&uncut), "{name}, seed {seed}");
@@ -438,9 +448,7 @@ fn straight_cuts_are_undone_to_the_byte() {
             assert_eq!(work.torn.cuts().len(), left, "{name}");
         }
         let simple = work.torn.simplified(&work.mesh, &work.positions);
-        let simple = simple
-            .expect("positions are as they were")
-            .expect("it was cut");
+        let simple = unedited(simple).expect("it was cut");
         if name != "quilt" {
             let bytes = Work::on(&simple).written();
             assert_eq!(text(&bytes), text(&rewritten(&source(&name))));
@@ -585,7 +593,7 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
             mend::sew(&mut mesh, &at, &stitches, |_| 1.0, 0.0, &mut edits).expect("one place");
             edits.replay(&mut (&mut at, &mut torn));
             let mut whole = Vec::new();
-            match torn.simplified(&mesh, &at).expect("what we wrote") {
+            match unedited(torn.simplified(&mesh, &at)) {
                 Some(simple) => {
                     let mesh = simple.mesh().expect("a mesh");
                     simple

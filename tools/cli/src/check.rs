@@ -3,15 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use tearmesh::{Masses, Positions};
 
 use crate::args::{CheckArgs, Format};
-use crate::defects;
 use crate::exit::Exit;
 use crate::input::Input;
 use crate::output;
 use crate::report::{Entry, File};
 use crate::say::{Fault, Screen, Severity, count, is_colored};
 use crate::streams::Streams;
+use crate::{defects, session};
+
+/// The code of an invariant that does not hold.
+const BROKEN: &str = "E-BUG-INVARIANT";
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
@@ -110,11 +114,17 @@ impl Found {
         match document.mesh() {
             Ok(mesh) => {
                 found.mesh = Some(File::of(Some(input.name.clone()), &mesh));
+                let points = document.positions().iter().copied();
+                let positions = Positions::new(points).expect("the reader accepts no others");
+                // What no verb could weigh, none can cut.
+                if let Err(error) = Masses::area(&mesh, &positions, 1.0) {
+                    found.faults.push(session::no_masses(&error));
+                }
                 // For a mesh that was just built a violation would be a bug of ours.
                 let violations = mesh.check().into_iter();
-                found.faults.extend(
-                    violations.map(|broken| Fault::error("E-BUG-INVARIANT", broken.to_string())),
-                );
+                found
+                    .faults
+                    .extend(violations.map(|broken| Fault::error(BROKEN, broken.to_string())));
             }
             Err(error) => {
                 let defects = defects::faults(&input, document, error, "or cut with");
@@ -134,7 +144,7 @@ impl Found {
         match self.errors().next() {
             None => Exit::Done,
             Some(_) if self.unreadable => Exit::Input,
-            Some(_) if self.mesh.is_some() => Exit::Bug,
+            Some(_) if self.errors().any(|fault| fault.code == BROKEN) => Exit::Bug,
             Some(_) => Exit::NothingCut,
         }
     }

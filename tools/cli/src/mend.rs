@@ -5,7 +5,7 @@ use std::io::Write;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
 use tearmesh::{Edits, Masses, Mesh, Positions};
-use tearmesh_obj::{Document, TornDocument};
+use tearmesh_obj::{Simplified, TornDocument};
 
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
@@ -55,11 +55,18 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     session.verify(&mesh, &ledger, broken)?;
     session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
 
-    let simplified = if args.simplify {
-        simplified(&torn, &mesh, &positions)
+    let Simplified {
+        document: simplified,
+        edited,
+    } = if args.simplify {
+        let simplified = torn.simplified(&mesh, &positions);
+        simplified.expect("what we wrote can be read")
     } else {
-        None
+        Simplified::default()
     };
+    if edited > 0 {
+        session.faults.push(kept(edited));
+    }
     if merged == 0 && simplified.is_none() {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
@@ -89,6 +96,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         merged,
         cuts_left,
         vertices_removed: taken_out,
+        vertices_edited: edited,
         faces_removed: faces_before - mesh.face_count(),
         pieces_before,
         pieces,
@@ -128,10 +136,14 @@ fn stitches(
     }
 }
 
-/// The document without what cuts inserted, if anything can go.
-fn simplified(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions) -> Option<Document> {
-    torn.simplified(mesh, positions)
-        .expect("what we wrote can be read")
+/// Says that vertices stay that were to be taken out.
+fn kept(edited: usize) -> Fault {
+    let vertices = count(edited, "inserted vertex was", "inserted vertices were");
+    let stays = if edited == 1 { "stays" } else { "stay" };
+    let message = format!(
+        "{vertices} edited since the cut and {stays}, with the divided faces that hang together there"
+    );
+    Fault::warning("W-MEND-EDITED", message)
 }
 
 /// Refuses numbers that make no sense.

@@ -134,6 +134,8 @@ pub(crate) struct Mend {
     /// The cuts that still keep something apart.
     pub(crate) cuts_left: usize,
     pub(crate) vertices_removed: usize,
+    /// Inserted ones that stay because they were edited since.
+    pub(crate) vertices_edited: usize,
     pub(crate) faces_removed: usize,
     pub(crate) pieces_before: usize,
     pub(crate) pieces: usize,

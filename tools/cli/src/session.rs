@@ -335,14 +335,16 @@ pub(crate) fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> 
 
 /// Masses, or why there are none.
 pub(crate) fn masses(made: Result<Masses, MassError>) -> Result<Masses, Stop> {
-    made.map_err(|error| {
-        let fault = Fault::error("E-MASS", error.to_string());
-        let fault = match error {
-            MassError::TooLight { .. } => fault.help("use --mass area"),
-            _ => fault,
-        };
-        Stop::new(Exit::Input, fault)
-    })
+    made.map_err(|error| Stop::new(Exit::Input, no_masses(&error)))
+}
+
+/// Why there are no masses.
+pub(crate) fn no_masses(error: &MassError) -> Fault {
+    let fault = Fault::error("E-MASS", error.to_string());
+    match error {
+        MassError::TooLight { .. } => fault.help("use --mass area"),
+        _ => fault,
+    }
 }
 
 pub(crate) struct Clock(Instant);

@@ -109,9 +109,11 @@
 //! * The hash of the header is that of the number of `v` and of the vertices of all faces, that of
 //!   the end is of the lines between: 64 bits, FNV-1a, in hexadecimal.
 //!
-//! What another program does to positions, texture or groups leaves the record in force.
+//! What another program does to positions, texture or groups leaves the record in force, and
+//! [`TornDocument::simplified`] keeps the vertices that it was done to.
 //! Where it changed faces or the number of vertices, or the record itself, a warning says so, the
-//! file is read as one without a record, and what was one is left out.
+//! file is read as one without a record, and the lines of what was one are left out of what is
+//! written, as the warning says.
 //!
 //! # Why not obj-rs
 //!
@@ -137,12 +139,12 @@
 //! |---|---|
 //! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and the compact lists it is made of |
 //! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, indices, references ahead, what is carried through, faults |
-//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, diagonals that collide |
+//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, thin faces that are avoided, diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
 //! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
-//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again |
+//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again, and what was edited since |
 //! | `record.rs` | what is on record, and the checksum |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
 //! | `simplify.rs` | a document without what can be taken out again |
@@ -176,5 +178,6 @@ pub use polygons::Corner;
 #[cfg(feature = "obj-rs")]
 pub use raw::{Item, RawObjError};
 pub use repair::Repair;
+pub use simplify::Simplified;
 pub use torn::TornDocument;
 pub use write::WriteSummary;

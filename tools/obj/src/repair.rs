@@ -264,6 +264,7 @@ impl Document {
         let said = Said::in_document(self, &vertices);
         let lines = self.lines_of(bow_ties.iter().map(|(vertex, _)| vertex.index()));
         let mut added = Vec::with_capacity(copies);
+        self.positions.reserve_exact(copies); // To double them would be the peak of a repair.
         for (&(vertex, fans), &line) in bow_ties.iter().zip(&lines) {
             for fan in fans.iter().skip(1) {
                 let copy = self.positions.len();
@@ -360,6 +361,7 @@ impl Document {
             layout.append(run);
         }
         self.text.splice(text_before..text_before, copies);
+        layout.shrink();
         self.layout = layout;
     }
 

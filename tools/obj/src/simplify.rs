@@ -7,9 +7,19 @@ use crate::document::Document;
 use crate::torn::TornDocument;
 use crate::write::{Prepared, write};
 
+/// What [`TornDocument::simplified`] found.
+#[derive(Clone, Debug, Default)]
+pub struct Simplified {
+    /// The document without what can go; `None` if nothing can.
+    pub document: Option<Document>,
+    /// How many inserted vertices stay only because they were edited since. Other vertices may
+    /// have to stay with them.
+    pub edited: usize,
+}
+
 impl TornDocument<'_> {
     /// The document without the vertices that cuts inserted and that keep nothing apart any more,
-    /// and with the faces that they divided whole again; `None` if nothing can go.
+    /// and with the faces that they divided whole again.
     ///
     /// Mending sews the sides of a cut, and leaves the vertices along it. An inserted vertex goes if
     /// all its copies are one again and every face that it divided is restored. A divided
@@ -18,9 +28,18 @@ impl TornDocument<'_> {
     /// faces go together along the whole length of a cut, up to where it is still open.
     /// Texture coordinates and normals that were inserted go if no face is left that has them.
     ///
-    /// After a cut is mended altogether, this gives what was there before it, bit for bit; but for
-    /// the positions of vertices that were moved, and in a file that has `v` after `f`, for the place
-    /// of `v` statements that the cut had to move up.
+    /// An inserted vertex stays if it was *edited* since, by another program or by a later cut: if
+    /// its position, its extra numbers, or its texture coordinate or normal at some corner is not,
+    /// but for the rounding of a few operations on `f64`, what the recorded insertion makes of those
+    /// at the vertices that it was put between, as these are now. A vertex was edited, then, if it
+    /// was moved, if it slid or an end of its edge did, if its copies lay apart and were sewn
+    /// somewhere between, or if a program rounded all coordinates of the file. The faces round
+    /// it stay divided, and so does what hangs together with them; so the surface is
+    /// where it was. [`Simplified::edited`] counts these vertices.
+    ///
+    /// After a cut is mended altogether and nothing was edited, this gives what was there before it,
+    /// bit for bit; but for the positions of vertices that slid, and in a file that has `v` after
+    /// `f`, for the place of `v` statements that the cut had to move up.
     ///
     /// The document is made by writing and reading: linear, in the memory of a file more.
     ///
@@ -47,19 +66,18 @@ impl TornDocument<'_> {
     /// plan.apply(&mut mesh, &mut edits)?;
     /// edits.replay(&mut (&mut positions, &mut torn));
     ///
-    /// let simple = torn.simplified(&mesh, &positions)?.expect("the vertex holds nothing apart");
+    /// let simple = torn.simplified(&mesh, &positions)?.document;
+    /// let simple = simple.expect("the vertex holds nothing apart");
     /// assert_eq!(simple.triangles(), document.triangles());
     /// assert_eq!(simple.positions(), document.positions());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn simplified(
-        &self,
-        mesh: &Mesh,
-        positions: &Positions,
-    ) -> Result<Option<Document>, ReadError> {
+    pub fn simplified(&self, mesh: &Mesh, positions: &Positions) -> Result<Simplified, ReadError> {
         self.assert_in_step(mesh, positions);
-        let Some(removal) = self.removal(mesh) else {
-            return Ok(None);
+        let (removal, edited) = self.removal(mesh, positions);
+        let Some(removal) = removal else {
+            let document = None;
+            return Ok(Simplified { document, edited });
         };
         let mut bytes = Vec::new();
         write(
@@ -68,6 +86,7 @@ impl TornDocument<'_> {
             positions,
             &mut bytes,
         )?;
-        Document::read(&bytes[..]).map(Some)
+        let document = Some(Document::read(&bytes[..])?);
+        Ok(Simplified { document, edited })
     }
 }

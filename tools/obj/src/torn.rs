@@ -7,6 +7,7 @@
 
 mod ancestry;
 mod corners;
+mod edited;
 mod removal;
 mod slots;
 
@@ -363,6 +364,9 @@ impl<'d> TornDocument<'d> {
     }
 
     fn split_off(&self) -> Vec<SplitOff> {
+        if self.ancestry.is_whole() {
+            return Vec::new();
+        }
         // Looking up shortens the ways to what was merged, which does not show.
         self.ancestry.clone().split_off()
     }
@@ -480,6 +484,22 @@ impl TornDocument<'_> {
     /// Whether faces and corners are those of the document.
     pub(crate) fn is_undivided(&self) -> bool {
         self.corners.is_none()
+    }
+
+    fn texture_row(&self, index: u32) -> &[f64] {
+        let count = self.document.texture.len();
+        match ((index as usize).checked_sub(count), &self.corners) {
+            (Some(new), Some(corners)) => corners.new_texture.row(new),
+            _ => self.document.texture.row(index as usize),
+        }
+    }
+
+    fn normal(&self, index: u32) -> [f64; 3] {
+        let count = self.document.normals.len();
+        match (index as usize).checked_sub(count) {
+            None => self.document.normals[index as usize],
+            Some(new) => self.new_normals()[new],
+        }
     }
 
     pub(crate) fn new_texture(&self) -> Option<&Rows> {

@@ -1,18 +1,28 @@
 //! Polygons to triangles.
 //!
 //! A polygon of n corners gives n − 2 triangles whatever its shape. Each is cut by itself
-//! (`ears.rs`), and then diagonals that collide with other edges are flipped (`flip.rs`).
+//! (`ears.rs`); where that leaves a face without area to speak of, and another way does not, it is
+//! cut that way (`thin.rs`). Then diagonals that collide with other edges are flipped (`flip.rs`).
 
 mod corners;
 mod ears;
 mod flip;
+mod thin;
 
 use tearmesh::Point;
 
 use self::corners::Corners;
 use self::ears::{cut_into_triangles, flatten, quad_is_fan};
 use self::flip::flip_colliding;
+use self::thin::{is_thin, thicken};
 use crate::polygons::Polygons;
+
+/// Whether a quad is cut from its first corner without further thought.
+#[inline]
+fn quad_is_good_fan(quad: [Point; 4]) -> bool {
+    let [a, b, c, d] = quad;
+    quad_is_fan(quad) && !is_thin([a, b, c]) && !is_thin([a, c, d])
+}
 
 /// The triangles of all polygons, where not all are triangles.
 #[derive(Clone, Debug, Default)]
@@ -36,7 +46,7 @@ impl Triangulation {
                     continue;
                 }
                 // Nearly all others.
-                [a, b, c, d] if quad_is_fan([a, b, c, d].map(|v| positions[v as usize])) => {
+                [a, b, c, d] if quad_is_good_fan([a, b, c, d].map(|v| positions[v as usize])) => {
                     corners.push_fan(2);
                     triangles.extend([[a, b, c], [a, c, d]]);
                     continue;
@@ -46,6 +56,8 @@ impl Triangulation {
             flatten(vertices, positions, &mut flat);
             cut.clear();
             cut_into_triangles(&flat, &mut cut);
+            let place = |corner: u16| positions[vertices[usize::from(corner)] as usize];
+            thicken(&flat, place, &mut cut);
             corners.keep_each(count, polygons, polygon);
             for &triangle in &cut {
                 corners.push(triangle);

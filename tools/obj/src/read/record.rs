@@ -97,7 +97,10 @@ impl RecordReader {
             self.warning = Some(Diagnostic {
                 level: Level::Warning,
                 code: CODE, // A number that cannot be read has another.
-                help: Some(diagnostic.help.unwrap_or_else(|| HELP.to_owned())),
+                help: Some(match diagnostic.help {
+                    Some(help) => format!("{help}; {LEFT_OUT}"),
+                    None => without_record(),
+                }),
                 ..*diagnostic
             });
         }
@@ -348,7 +351,7 @@ impl RecordReader {
                 location: Some(location),
                 message,
                 excerpt: Some(excerpt.labelled("begins here")),
-                help: Some(HELP.to_owned()),
+                help: Some(without_record()),
             });
             return;
         }
@@ -493,7 +496,14 @@ fn join(document: &mut Document, record: &mut Record, fans: &[u32]) {
     }
 }
 
-const HELP: &str = "the file is read as one without a record: what is torn in it cannot be mended";
+/// What becomes of a file whose record is not used.
+fn without_record() -> String {
+    format!(
+        "the file is read as one without a record: what is torn in it cannot be mended, and {LEFT_OUT}"
+    )
+}
+
+const LEFT_OUT: &str = "the lines of the record are left out of what is written";
 
 const DAMAGED: &str = "the record is damaged";
 

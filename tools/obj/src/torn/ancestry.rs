@@ -23,7 +23,8 @@ pub(crate) struct SplitOff {
 /// The trees of all roots.
 #[derive(Clone, Debug)]
 pub(super) struct Ancestry {
-    /// The node of each vertex.
+    /// The node of each vertex. Empty, as the tree is, until something is split, inserted or
+    /// merged: up to then each vertex is a tree.
     nodes: Vec<u32>,
     tree: Vec<Node>,
     classes: u32,
@@ -44,14 +45,16 @@ impl Ancestry {
     /// `count` vertices, each its own root but for those that were split off, which are in
     /// ascending order, each from a lower one. The class of a vertex is then its root.
     pub(super) fn new(count: usize, splits: &[SplitOff]) -> Ancestry {
-        let count = count as u32;
-        let alone = |v| Node {
-            from: v,
-            cut: NEVER,
-            class: v,
-            merged: v,
+        let mut ancestry = Ancestry {
+            nodes: Vec::new(),
+            tree: Vec::new(),
+            classes: count as u32,
         };
-        let mut tree: Vec<Node> = (0..count).map(alone).collect();
+        if splits.is_empty() {
+            return ancestry;
+        }
+        ancestry.plant();
+        let tree = &mut ancestry.tree;
         for split in splits {
             tree[split.vertex as usize] = Node {
                 from: split.from,
@@ -60,20 +63,42 @@ impl Ancestry {
                 merged: split.vertex,
             };
         }
-        Ancestry {
-            nodes: (0..count).collect(),
-            tree,
-            classes: count,
+        ancestry
+    }
+
+    /// Makes a tree of each vertex, if there are none yet.
+    fn plant(&mut self) {
+        if self.is_whole() {
+            let alone = |v| Node {
+                from: v,
+                cut: NEVER,
+                class: v,
+                merged: v,
+            };
+            self.nodes = (0..self.classes).collect();
+            self.tree = (0..self.classes).map(alone).collect();
         }
     }
 
     /// The number of vertices.
     pub(super) fn len(&self) -> usize {
-        self.nodes.len()
+        if self.is_whole() {
+            self.class_count()
+        } else {
+            self.nodes.len()
+        }
+    }
+
+    /// Whether nothing was split, inserted or merged yet.
+    pub(super) fn is_whole(&self) -> bool {
+        self.tree.is_empty()
     }
 
     /// The class of a vertex.
     pub(super) fn class(&self, v: usize) -> u32 {
+        if self.is_whole() {
+            return v as u32;
+        }
         self.tree[self.nodes[v] as usize].class
     }
 
@@ -102,11 +127,13 @@ impl Ancestry {
 
     /// Adds a vertex of a class of its own.
     pub(super) fn insert(&mut self) {
+        self.plant();
         self.push(None);
     }
 
     /// Adds a vertex that is apart from another since a cut.
     pub(super) fn split(&mut self, old: usize, cut: u32) {
+        self.plant();
         self.push(Some((self.nodes[old], cut)));
     }
 
@@ -152,6 +179,7 @@ impl Ancestry {
 
     /// The cut since which two vertices of one class are apart; [`NEVER`] for one vertex.
     pub(super) fn apart_since(&mut self, one: usize, other: usize) -> u32 {
+        self.plant();
         let [one, other] = [one, other].map(|v| self.nodes[v]);
         self.oldest_between(one, other)
             .map_or(NEVER, |(.., cut)| cut)
@@ -165,6 +193,7 @@ impl Ancestry {
     pub(super) fn merge(&mut self, kept: usize, gone: usize) {
         assert_eq!(self.class(kept), self.class(gone), "both have one root");
         assert!(kept < gone, "the lower id is kept");
+        self.plant();
         let vertex = kept;
         let (kept, gone) = (self.nodes[kept], self.nodes.swap_remove(gone));
         if let Some((below, on_side_of_kept, _)) = self.oldest_between(kept, gone) {

@@ -2,9 +2,10 @@
 
 use std::slice::from_ref;
 
-use tearmesh::Mesh;
+use tearmesh::{Mesh, Positions};
 
 use super::TornDocument;
+use super::edited::CornerAt;
 use super::slots::Slots;
 use crate::record::Parent;
 
@@ -68,13 +69,16 @@ impl Removal {
 }
 
 impl TornDocument<'_> {
-    /// What can go; `None` if nothing can.
-    pub(crate) fn removal(&self, mesh: &Mesh) -> Option<Removal> {
+    /// What can go, `None` if nothing can; and how many vertices stay because they were edited.
+    pub(crate) fn removal(&self, mesh: &Mesh, positions: &Positions) -> (Option<Removal>, usize) {
         let slots = self.slots();
-        let going = Going::find(self, mesh, &slots);
-        if going.restored.is_empty() {
-            return None;
-        }
+        let going = Going::find(self, mesh, positions, &slots);
+        let edited = going.edited;
+        let removal = (!going.restored.is_empty()).then(|| self.removal_of(going, &slots));
+        (removal, edited)
+    }
+
+    fn removal_of(&self, going: Going, slots: &Slots) -> Removal {
         let classes = self.classes();
         let mut removal = Removal {
             vertices: classes.iter().map(|&class| going.goes(class)).collect(),
@@ -89,7 +93,7 @@ impl TornDocument<'_> {
             let all = 0..counts[which];
             all.map(|index| index >= before[which]).collect::<Vec<_>>()
         });
-        for &face in &removal.slots(&slots).faces {
+        for &face in &removal.slots(slots).faces {
             let own = [
                 3 * face as usize,
                 3 * face as usize + 1,
@@ -105,7 +109,7 @@ impl TornDocument<'_> {
             }
         }
         [removal.texture, removal.normals] = unused;
-        Some(removal)
+        removal
     }
 
     /// How many texture coordinates and normals there are.
@@ -123,6 +127,8 @@ struct Going {
     /// By class: whether it was inserted and may go.
     goes: Vec<bool>,
     restored: Vec<Restored>,
+    /// How many might go but for what was done to them since.
+    edited: usize,
 }
 
 impl Going {
@@ -131,7 +137,7 @@ impl Going {
     }
 
     /// Begins with everything inserted, and takes back what cannot go until nothing more follows.
-    fn find(torn: &TornDocument<'_>, mesh: &Mesh, slots: &Slots) -> Going {
+    fn find(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions, slots: &Slots) -> Going {
         let classes = torn.classes();
         let mut copies = vec![0_u32; torn.ancestry.class_count()];
         for &class in &classes {
@@ -149,6 +155,7 @@ impl Going {
         // What a parent has inside stands and falls with it.
         let mut within: Vec<(u32, u32)> = Vec::new();
         let mut candidates: Vec<Option<Restored>> = Vec::with_capacity(parents.len());
+        let mut edited: Vec<u32> = Vec::new();
         let mut covered = 0;
         for (number, &parent) in parents.iter().enumerate() {
             let faces = slots.of(parent.first as usize..parent.end as usize);
@@ -166,9 +173,18 @@ impl Going {
                     .filter(own)
                     .map(|h| (class_at(h), number as u32)),
             );
-            candidates.push(torn.whole(parent, half_edges(), mesh, class_at));
+            let whole = torn.whole(parent, half_edges(), mesh, class_at);
+            if whole.is_some() {
+                let corners = half_edges().map(|half_edge| {
+                    let vertex = mesh.indices()[half_edge] as usize;
+                    (class_at(half_edge), CornerAt { half_edge, vertex })
+                });
+                edited.extend(torn.edited_within(corners.collect(), &goes, positions));
+            }
+            candidates.push(whole);
         }
         keep(&mut goes, &slots.faces[covered..], class_at);
+        edited.retain(|&class| std::mem::take(&mut goes[class as usize]));
         within.sort_unstable();
         within.dedup();
         let mut by_parent: Vec<(u32, u32)> = within.iter().map(|&(c, p)| (p, c)).collect();
@@ -216,6 +232,7 @@ impl Going {
         Going {
             goes,
             restored: candidates.into_iter().flatten().collect(),
+            edited: edited.len(),
         }
     }
 }
@@ -230,6 +247,31 @@ fn keep(goes: &mut [bool], faces: &[u32], class_at: impl Fn(usize) -> u32) {
 }
 
 impl TornDocument<'_> {
+    /// The classes that go, of those at the corners of the parts of one face, but are no longer as
+    /// they were inserted.
+    fn edited_within(
+        &self,
+        mut corners: Vec<(u32, CornerAt)>,
+        goes: &[bool],
+        positions: &Positions,
+    ) -> Vec<u32> {
+        corners.sort_by_key(|&(class, _)| class);
+        let first = |class: u32| {
+            let at = corners.partition_point(|&(other, _)| other < class);
+            let found = corners.get(at).filter(|&&(other, _)| other == class);
+            found.map(|&(_, corner)| corner)
+        };
+        let inserted = self.inserted();
+        let is_edited = |&&(class, corner): &&(u32, CornerAt)| {
+            let place = inserted.binary_search_by_key(&class, |one| one.vertex);
+            let at = place.map(|place| inserted[place].at);
+            goes[class as usize]
+                && !at.is_ok_and(|at| self.is_as_inserted(corner, &at, first, positions))
+        };
+        let edited = corners.iter().filter(is_edited);
+        edited.map(|&(class, _)| class).collect()
+    }
+
     /// The face that these half-edges are those of the parts of, if the parts agree on its corners.
     fn whole(
         &self,

@@ -1,0 +1,318 @@
+//! Files that were edited between a cut and its mending, by a text editor or by a cut that slides
+//! vertices: what is simplified loses nothing of that.
+
+use std::collections::BTreeMap;
+
+use tearmesh::{Edit, Method, Point, Ray, Scissor, Vector};
+
+use super::random::Random;
+use super::torn_record::{Work, files};
+use super::{read, text};
+
+fn below(random: &mut Random, bound: usize) -> usize {
+    (random.next() * bound as f64) as usize
+}
+
+/// The lines of a file, to be edited, and its vertices, looked up as a person would.
+struct Lines(Vec<String>);
+
+impl Lines {
+    fn of(file: &[u8]) -> Lines {
+        Lines(text(file).lines().map(str::to_owned).collect())
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        (self.0.join("\n") + "\n").into_bytes()
+    }
+
+    /// Where the statements of a keyword stand.
+    fn all(&self, keyword: &str) -> Vec<usize> {
+        let is = |line: &str| line.split(' ').next() == Some(keyword);
+        (0..self.0.len()).filter(|&i| is(&self.0[i])).collect()
+    }
+
+    fn places(&self) -> Vec<[f64; 3]> {
+        let place = |i: &usize| {
+            let words: Vec<&str> = self.0[*i].split(' ').collect();
+            [1, 2, 3].map(|at: usize| words[at].parse().expect("a number"))
+        };
+        self.all("v").iter().map(place).collect()
+    }
+
+    /// Vertices that are on record as inserted, from 1.
+    fn inserted(&self) -> Vec<usize> {
+        let items = self.0.iter().filter_map(|line| {
+            let edge = line.strip_prefix("#~ edge ");
+            edge.or(line.strip_prefix("#~ face "))
+        });
+        let number = |item: &str| item.split(' ').next()?.parse().ok();
+        items.filter_map(number).collect()
+    }
+
+    /// The area of all triangles.
+    fn area(&self) -> f64 {
+        let places = self.places();
+        let faces = self.all("f").into_iter().map(|i| {
+            let corner = |word: &str| word.split('/').next()?.parse().ok();
+            let corners = self.0[i].split(' ').filter_map(corner);
+            let corners: Vec<usize> = corners.collect();
+            let [a, b, c] = [0, 1, 2].map(|at| places[corners[at] - 1]);
+            let (u, v) = (
+                [0, 1, 2].map(|i| b[i] - a[i]),
+                [0, 1, 2].map(|i| c[i] - a[i]),
+            );
+            let normal = [
+                u[1] * v[2] - u[2] * v[1],
+                u[2] * v[0] - u[0] * v[2],
+                u[0] * v[1] - u[1] * v[0],
+            ];
+            normal.iter().map(|x| x * x).sum::<f64>().sqrt() / 2.0
+        });
+        faces.sum()
+    }
+}
+
+/// A file that was cut at random twice, and sewn.
+fn sewn(file: &[u8], random: &mut Random) -> Lines {
+    let document = read(file);
+    let mut work = Work::on(&document);
+    for _ in 0..2 {
+        work.tear(random, 10, true);
+        work.torn.next_cut();
+    }
+    work.sew_all();
+    Lines::of(&work.written())
+}
+
+/// What is left of a file once it is simplified, and how many vertices stay for their edits.
+fn simplified(file: &[u8]) -> (Lines, usize) {
+    let document = read(file);
+    let work = Work::on(&document);
+    let simplified = work.torn.simplified(&work.mesh, &work.positions);
+    let simplified = simplified.expect("what we wrote, with other numbers");
+    let left = match &simplified.document {
+        Some(document) => Work::on(document).written(),
+        None => work.written(),
+    };
+    (Lines::of(&left), simplified.edited)
+}
+
+/// Any vertices, inserted ones or others, moved by little or by much.
+#[test]
+fn the_surface_stays_whatever_was_moved() {
+    let (mut kept, mut smaller) = (0, 0);
+    for seed in 0..600 {
+        let all = files();
+        let (name, file) = &all[if seed % 6 == 0 { 1 + seed / 6 % 4 } else { 0 }];
+        let mut random = Random(9000 + seed as u64);
+        let mut lines = sewn(file, &mut random);
+        let statements = lines.all("v");
+        let inserted = lines.inserted();
+        let mut moved: BTreeMap<usize, String> = BTreeMap::new();
+        for _ in 0..below(&mut random, 3) {
+            let vertex = match inserted.len() {
+                0 => below(&mut random, statements.len()),
+                count if random.next() < 0.6 => inserted[below(&mut random, count)] - 1,
+                _ => below(&mut random, statements.len()),
+            };
+            let far = [1e-7, 0.125, 3.0][below(&mut random, 3)];
+            let line = &mut lines.0[statements[vertex]];
+            let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+            let axis = 1 + below(&mut random, 3);
+            let number: f64 = words[axis].parse().expect("a number");
+            words[axis] = (number + far).to_string();
+            *line = words.join(" ");
+            moved.insert(vertex, words[..4].join(" "));
+        }
+        let (after, edited) = simplified(&lines.bytes());
+        let [was, is] = [&lines, &after].map(Lines::area);
+        assert!(
+            (was - is).abs() <= 1e-12 * was,
+            "{name}, seed {seed}: {was} became {is}"
+        );
+        for place in moved.values() {
+            let written = |line: &String| line.starts_with(place.as_str());
+            assert!(
+                after.0.iter().any(written),
+                "{name}, seed {seed}: {place} is gone"
+            );
+        }
+        assert!(
+            edited == 0 || !moved.is_empty(),
+            "{name}, seed {seed}: nothing was edited"
+        );
+        kept += usize::from(edited > 0);
+        smaller += usize::from(after.0.len() < lines.0.len());
+    }
+    println!("600 files: edited vertices kept in {kept}, something taken out of {smaller}");
+    assert!(kept > 100 && smaller > 100, "{kept} {smaller}");
+}
+
+/// An inserted vertex, or a corner of a face there, is given numbers that no other has.
+#[test]
+fn other_numbers_at_an_inserted_vertex_are_kept() {
+    let mut tried = BTreeMap::new();
+    for seed in 0..600 {
+        let all = files();
+        let (name, file) = &all[if seed % 6 == 0 { 1 + seed / 6 % 4 } else { 0 }];
+        let mut random = Random(7000 + seed as u64);
+        let mut lines = sewn(file, &mut random);
+        let inserted = lines.inserted();
+        if inserted.is_empty() {
+            continue;
+        }
+        let vertex = inserted[below(&mut random, inserted.len())];
+        let at_vertex = |corner: &str| corner.split('/').next() == Some(&vertex.to_string());
+        let with = |lines: &Lines, which: usize| -> Option<(usize, String)> {
+            let faces = lines.all("f").into_iter();
+            let corners = faces.flat_map(|i| {
+                let words = lines.0[i]
+                    .split(' ')
+                    .skip(1)
+                    .map(move |word| (i, word.to_owned()));
+                words.collect::<Vec<_>>()
+            });
+            let mut corners = corners.filter(|(_, corner)| at_vertex(corner));
+            corners.find(|(_, corner)| corner.split('/').nth(which).is_some_and(|i| !i.is_empty()))
+        };
+        let kind = ["v", "vt", "vn"][below(&mut random, 3)];
+        match kind {
+            "v" => {
+                let statement = lines.all("v")[vertex - 1];
+                let line = &mut lines.0[statement];
+                let words: Vec<&str> = line.split(' ').collect();
+                let bare = words[..4].join(" ");
+                *line = if words.len() > 4 {
+                    format!("{bare} 0.375 0.4375 0.5")
+                } else {
+                    continue;
+                };
+            }
+            _ => {
+                let which = if kind == "vt" { 1 } else { 2 };
+                let Some((face, corner)) = with(&lines, which) else {
+                    continue;
+                };
+                let index = corner.split('/').nth(which).expect("it has one");
+                let index: usize = index.parse().expect("a number");
+                let statement = lines.all(kind)[index - 1];
+                // If others have it too, it is theirs as well; one that was there is no edit.
+                let users = lines.all("f").iter().filter(|&&i| i != face).count();
+                assert!(users > 0, "a divided mesh has more faces");
+                let numbers = if kind == "vt" {
+                    "0.375 0.4375 0.5"
+                } else {
+                    "0.375 0.4375 -0.5"
+                };
+                lines.0[statement] = format!("{kind} {numbers}");
+            }
+        }
+        let (after, edited) = simplified(&lines.bytes());
+        let marks = ["0.375 0.4375 0.5", "0.375 0.4375 -0.5"];
+        let marked =
+            |line: &String| line.starts_with(kind) && marks.iter().any(|mark| line.ends_with(mark));
+        assert!(
+            after.0.iter().any(marked),
+            "{name}, seed {seed}: the {kind} is gone"
+        );
+        *tried.entry((kind, edited > 0)).or_insert(0) += 1;
+    }
+    println!("{tried:?}");
+    assert!(
+        ["v", "vt", "vn"]
+            .iter()
+            .all(|&kind| tried[&(kind, true)] > 3),
+        "{tried:?}"
+    );
+}
+
+/// Cuts that slide near vertices onto the plane. That a vertex slid is not on record yet, so it
+/// stays where it slid to when the cut is mended; the surface is the one that was mended, every
+/// other vertex of the file is where it was, and if no vertex is said to be edited, the faces
+/// are those of the file.
+#[test]
+fn the_surface_stays_where_vertices_slid() {
+    let (mut slid_in, mut kept, mut whole) = (0, 0, 0);
+    for (name, file) in files().into_iter().filter(|(name, _)| name != "late") {
+        for seed in 0..30 {
+            let mut random = Random(5000 + seed);
+            let uncut = read(&file);
+            let mut bytes = file.clone();
+            let mut slid = vec![false; uncut.positions().len()];
+            for _ in 0..2 {
+                let document = read(&bytes);
+                let mut work = Work::on(&document);
+                let slides = work.cut_sliding(&mut random);
+                let of_file = slides
+                    .into_iter()
+                    .filter(|&vertex| vertex < uncut.positions().len());
+                of_file.for_each(|vertex| slid[vertex] = true);
+                bytes = work.written();
+            }
+            let document = read(&bytes);
+            let mut work = Work::on(&document);
+            work.sew_all();
+            let sewn = work.written();
+            let (after, edited) = simplified(&sewn);
+            let [was, is] = [&Lines::of(&sewn), &after].map(Lines::area);
+            assert!(
+                (was - is).abs() <= 1e-12 * was,
+                "{name}, seed {seed}: {was} became {is}"
+            );
+            let places = after.places();
+            for (v, point) in uncut
+                .positions()
+                .iter()
+                .enumerate()
+                .filter(|&(v, _)| !slid[v])
+            {
+                assert_eq!(
+                    places[v],
+                    [point.x, point.y, point.z],
+                    "{name}, seed {seed}: {v}"
+                );
+            }
+            if edited == 0 {
+                let again = read(&after.bytes());
+                assert_eq!(again.triangles(), uncut.triangles(), "{name}, seed {seed}");
+                whole += 1;
+            } else {
+                assert!(slid.contains(&true), "{name}, seed {seed}: nothing slid");
+                kept += 1;
+            }
+            slid_in += usize::from(slid.contains(&true));
+        }
+    }
+    println!("vertices slid in {slid_in} of 120; {kept} stay divided, {whole} are whole again");
+    assert!(
+        slid_in > 60 && kept > 5 && whole > 30,
+        "{slid_in} {kept} {whole}"
+    );
+}
+
+impl Work<'_> {
+    /// Cuts somewhere, and slides vertices that are near the plane onto it; which ones slid.
+    fn cut_sliding(&mut self, random: &mut Random) -> Vec<usize> {
+        let points = self.positions.as_slice();
+        let near = |random: &mut Random| {
+            let middle = points[below(random, points.len())];
+            middle + Vector::new(random.next() - 0.5, random.next() - 0.5, 0.0) * 0.2
+        };
+        let [p, q]: [Point; 2] = [near(random), near(random)];
+        let down = Vector::new(0.0, 0.0, -1.0);
+        let rays = [p, q].map(|p| Ray::new(p - down * 50.0, down).expect("a ray"));
+        let Ok(scissor) = Scissor::new(&rays[0], &rays[1]) else {
+            return Vec::new();
+        };
+        let scissor = scissor.snap(0.2).snap_move(true);
+        self.edit(|mesh, positions, edits| {
+            let done = scissor.cut(Method::Exact, mesh, positions, edits);
+            done.expect("positions are in step");
+            let slides = edits.since(0).filter_map(|edit| match edit {
+                Edit::Slide(slide) => Some(slide.vertex.index()),
+                _ => None,
+            });
+            slides.collect()
+        })
+    }
+}

@@ -1,0 +1,161 @@
+//! Whether an inserted vertex is still as it was inserted.
+//!
+//! The record says where a vertex was inserted: between which vertices, and how far along. That
+//! place follows from the numbers of the file as it is now, and so do the extra numbers, the
+//! texture coordinates and the normals there. A vertex that has others was edited since, by
+//! whichever program, and taking it out would lose that.
+//!
+//! The numbers of a file that we wrote read back as the same bits, so what nobody touched differs by
+//! the rounding of a few operations at most, and by nothing else. Where another program rounded all
+//! numbers, to six digits say, every vertex was edited in this sense: how much it meant to round
+//! is not to be known, and to keep a vertex is no loss. The same holds where an end of the edge
+//! was moved, or slid along another edge by a later cut.
+
+use tearmesh::{Blend, Positions};
+
+use super::TornDocument;
+use crate::record::At;
+
+/// By how many units of the last place of the largest number concerned a number may differ: an
+/// interpolation rounds three times, whichever end it begins at, and so does the mean of
+/// two copies that are merged.
+const ROUNDINGS: f64 = 8.0;
+
+/// A corner of a face and the vertex there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CornerAt {
+    pub(super) half_edge: usize,
+    pub(super) vertex: usize,
+}
+
+/// Sources of an inserted value, with their weights.
+type Sources<T> = [(T, f64); 3];
+
+impl TornDocument<'_> {
+    /// Whether a corner is that of a vertex as it was inserted at a place, `None` of whose ends
+    /// are known if the record does not fit; all of them are corners of parts of one face.
+    pub(super) fn is_as_inserted(
+        &self,
+        corner: CornerAt,
+        at: &At,
+        end: impl Fn(u32) -> Option<CornerAt>,
+        positions: &Positions,
+    ) -> bool {
+        let sources = match *at {
+            At::Edge { ends: [a, b], t } => [(a, 1.0 - t), (b, t), (b, 0.0)],
+            At::Face {
+                corners: [a, b, c],
+                weights: [u, v, w],
+            } => [(a, u), (b, v), (c, w)],
+        };
+        let [Some(a), Some(b), Some(c)] = sources.map(|(class, _)| end(class)) else {
+            return false;
+        };
+        let weights = sources.map(|(_, weight)| weight);
+        let with = |corners: [CornerAt; 3]| [0, 1, 2].map(|i| (corners[i], weights[i]));
+        let sources = with([a, b, c]);
+        self.is_in_place(corner, sources, positions)
+            && self.has_its_extras(corner, sources)
+            && self.has_its_texture(corner, sources)
+            && self.has_its_normal(corner, sources)
+    }
+
+    fn is_in_place(
+        &self,
+        corner: CornerAt,
+        sources: Sources<CornerAt>,
+        positions: &Positions,
+    ) -> bool {
+        let place = |corner: CornerAt| {
+            let point = positions.as_slice()[corner.vertex];
+            [point.x, point.y, point.z]
+        };
+        let sources = sources.map(|(corner, weight)| (place(corner), weight));
+        let rows = sources.each_ref().map(|(row, weight)| (&row[..], *weight));
+        is_between(&place(corner), rows)
+    }
+
+    fn has_its_extras(&self, corner: CornerAt, sources: Sources<CornerAt>) -> bool {
+        let rows = sources.map(|(corner, weight)| (self.extra_numbers(corner.vertex), weight));
+        let is = self.extra_numbers(corner.vertex);
+        let alike = rows.iter().all(|(row, _)| row.len() == rows[0].0.len());
+        if alike {
+            is.len() == rows[0].0.len() && is_between(is, rows)
+        } else {
+            is.is_empty()
+        }
+    }
+
+    fn has_its_texture(&self, corner: CornerAt, sources: Sources<CornerAt>) -> bool {
+        let of = |corner: CornerAt| self.corner_of(corner.half_edge)[0];
+        let [a, b, c] = sources.map(|(corner, _)| of(corner));
+        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+            return of(corner).is_none();
+        };
+        let Some(is) = of(corner) else { return false };
+        let rows = [a, b, c].map(|index| self.texture_row(index));
+        let weighted = [0, 1, 2].map(|i| (rows[i], sources[i].1));
+        is_between(self.texture_row(is), weighted)
+    }
+
+    fn has_its_normal(&self, corner: CornerAt, sources: Sources<CornerAt>) -> bool {
+        let of = |corner: CornerAt| self.corner_of(corner.half_edge)[1];
+        let [a, b, c] = sources.map(|(corner, _)| of(corner));
+        let (Some(a), Some(b), Some(c)) = (a, b, c) else {
+            return of(corner).is_none();
+        };
+        let Some(is) = of(corner) else { return false };
+        let normals = [a, b, c].map(|index| self.normal(index));
+        is_normal_between(
+            self.normal(is),
+            [0, 1, 2].map(|i| (normals[i], sources[i].1)),
+        )
+    }
+}
+
+/// Whether each number is, but for rounding, the weighted sum of those of the sources; a number that
+/// a row has not counts as 0, as it does for texture coordinates.
+fn is_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
+    let length = sources.iter().map(|(row, _)| row.len()).max();
+    (0..is.len().max(length.unwrap_or(0))).all(|i| {
+        let at = |row: &[f64]| row.get(i).copied().unwrap_or(0.0);
+        let values = sources.map(|(row, _)| at(row));
+        let wanted = blend(values, sources.map(|(_, weight)| weight));
+        let largest = values.map(f64::abs).into_iter().fold(0.0, f64::max);
+        (at(is) - wanted).abs() <= ROUNDINGS * f64::EPSILON * largest
+    })
+}
+
+/// Whether a normal is, but for rounding, in the direction between others, and as long as
+/// between them. Where these cancel each other it is one of them.
+fn is_normal_between(is: [f64; 3], sources: Sources<[f64; 3]>) -> bool {
+    let weights = sources.map(|(_, weight)| weight);
+    let normals = sources.map(|(normal, _)| normal);
+    let between = [0, 1, 2].map(|axis| blend(normals.map(|normal| normal[axis]), weights));
+    let lengths = normals.map(length);
+    let wanted = blend(lengths, weights);
+    let scale = wanted / length(between);
+    if !scale.is_finite() {
+        return normals.contains(&is);
+    }
+    // Where they nearly cancel, the direction of what is left is rounding, and says nothing.
+    let largest = lengths.into_iter().fold(0.0, f64::max);
+    let allowed = ROUNDINGS * f64::EPSILON * largest * scale.max(1.0);
+    let near = |axis: usize| (is[axis] - between[axis] * scale).abs() <= allowed;
+    allowed >= wanted || (0..3).all(near)
+}
+
+/// The weighted sum of three numbers; of the first two, where the third has no weight, as along an
+/// edge.
+fn blend([a, b, c]: [f64; 3], weights: [f64; 3]) -> f64 {
+    if weights[2] == 0.0 {
+        a.between(&b, weights[1])
+    } else {
+        f64::weighted([&a, &b, &c], weights)
+    }
+}
+
+fn length(normal: [f64; 3]) -> f64 {
+    let [x, y, z] = normal.map(|x| x * x);
+    (x + y + z).sqrt()
+}
