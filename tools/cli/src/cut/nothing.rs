@@ -41,7 +41,11 @@ pub(super) fn obstacle(
         && done.nearest_vertex <= ROUNDING * lengths.fold(0.0, f64::max)
     {
         Obstacle::Touch
-    } else if is_exact && snap > 0.0 && splits_without_snap(scissor, mesh, positions) {
+    } else if is_exact
+        && snap > 0.0
+        && !done.missed
+        && splits_without_snap(scissor, mesh, positions)
+    {
         Obstacle::Snap
     } else {
         Obstacle::Unknown
