@@ -17,6 +17,7 @@ mod mass;
 mod methods;
 mod oracle;
 mod pieces;
+mod planes;
 mod polygons;
 mod properties;
 #[path = "data/random.rs"]
