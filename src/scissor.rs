@@ -280,14 +280,22 @@ impl Scissor {
         in_step(mesh, positions, edits)?;
         let offsets = self.offsets(method, positions);
         let ready = self.ready(method, mesh, positions, &offsets);
+        let strip = &self.strip;
         let expected = match &ready {
-            Ready::Exact(trace) => exact::pieces_expected(trace, &self.exact, mesh, &offsets),
-            Ready::Partition | Ready::Paper(_) => 0,
+            Ready::Exact(trace) => Some(exact::pieces_expected(
+                strip,
+                &self.exact,
+                trace,
+                mesh,
+                positions,
+                &offsets,
+            )),
+            Ready::Partition | Ready::Paper(_) => None,
         };
-        let survey = Survey::new(&self.strip, mesh, positions, &offsets, expected);
+        let survey = Survey::new(strip, mesh, positions, &offsets, expected);
         let first_edit = edits.next_number();
         let outcome = self.make(ready, mesh, positions, &offsets, true, edits);
-        Ok(survey.report(&self.strip, mesh, positions, outcome, edits, first_edit))
+        Ok(survey.report(strip, mesh, positions, outcome, edits, first_edit))
     }
 
     /// Cuts a mesh like [`Scissor::cut`], and measures nothing: what takes most of the time there

@@ -87,15 +87,30 @@ pub(super) fn trace(
     }
 }
 
-/// The pieces that a cut along a trace should leave.
+/// The pieces that a cut along a trace should leave: those of the slit as it is, or more where the
+/// trace ends nearer than the snap to a boundary, which it opens.
 pub(super) fn pieces_expected(
-    trace: &Trace,
+    strip: &Strip,
     settings: &Settings,
+    trace: &Trace,
     mesh: &Mesh,
+    positions: &Positions,
     offsets: &Offsets,
 ) -> usize {
+    let joints = &settings.joints;
+    let unsnapped = Aim {
+        snap: 0.0,
+        joints,
+        met: &[],
+    };
+    let unsnapped = tracer::trace(strip, &unsnapped, mesh, positions, offsets);
+    let pieces = |trace: &Trace| pieces_of(trace, joints, mesh, offsets);
+    pieces(&unsnapped).max(pieces(trace))
+}
+
+fn pieces_of(trace: &Trace, joints: &[Vec<VertexId>; 2], mesh: &Mesh, offsets: &Offsets) -> usize {
     let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
-    on_plane.extend(settings.joints.iter().flatten());
+    on_plane.extend(joints.iter().flatten());
     on_plane.sort_unstable();
     let sign = |v: VertexId| match on_plane.binary_search(&v) {
         Ok(_) => 0.0,
@@ -103,11 +118,8 @@ pub(super) fn pieces_expected(
     };
     let mut faces = vec![false; mesh.face_count()];
     let mut edges = Vec::new();
-    for piece in trace
-        .pieces
-        .iter()
-        .filter(|piece| piece.ends_at_nodes() == [true; 2])
-    {
+    let pieces = trace.pieces.iter();
+    for piece in pieces.filter(|piece| piece.ends_at_nodes() == [true; 2]) {
         match piece.place {
             Place::Face(f) => faces[f.index()] = true,
             Place::Edge { h, .. } => edges.push(h),

@@ -36,7 +36,8 @@ pub struct CutReport {
     /// The components after the cut.
     pub pieces: usize,
     /// The components that a cut exactly along the slit would leave, or more where the method
-    /// `exact` takes an end of the slit for a point of the boundary.
+    /// `exact` takes an end of the slit for a point of the boundary. What lies on the plane is in
+    /// front, but for the method `exact`, to which touching is not cutting.
     pub pieces_expected: usize,
     /// Pieces beyond those expected.
     pub crumbs: usize,
@@ -101,13 +102,13 @@ pub(super) struct Survey<'o> {
 }
 
 impl<'o> Survey<'o> {
-    /// `pieces_expected` are those of the slit as it will be cut, if that is decided already.
+    /// `pieces_expected` is for a method that decides where the slit runs before it cuts.
     pub(super) fn new(
         strip: &Strip,
         mesh: &Mesh,
         positions: &Positions,
         offsets: &'o Offsets,
-        pieces_expected: usize,
+        pieces_expected: Option<usize>,
     ) -> Survey<'o> {
         let mut survey = Survey {
             offsets,
@@ -120,10 +121,8 @@ impl<'o> Survey<'o> {
             nearest_vertex: nearest_vertex(strip, mesh, positions),
         };
         survey.follow_slit(strip, mesh, positions);
-        // Where the slit ends nearer than the snap to a boundary it opens that; where it cuts off
-        // less than the snap, the report tells of a piece that is lost.
-        let expected = survey.pieces_expected(strip, mesh, positions);
-        survey.pieces_expected = expected.max(pieces_expected);
+        survey.pieces_expected =
+            pieces_expected.unwrap_or_else(|| survey.pieces_expected(strip, mesh, positions));
         survey
     }
 
