@@ -101,8 +101,8 @@ pub(crate) struct CutArgs {
     /// How near an end of its edge, as a part of it, a crossing is taken for the end.
     ///
     /// 0 gives a seam straight to the last digit and may give thin faces; with R, the altitude of
-    /// no new face is below R(1-R) of that of the face it was part of. Up to 0.49; for the
-    /// method exact.
+    /// no new face is below R(1-R) of that of the face it was part of. An end of the cut moves
+    /// within its face where it would leave a thinner one. Up to 0.49; for the method exact.
     #[arg(long, value_name = "R", allow_negative_numbers = true, default_value_t = tearmesh::Scissor::SNAP)]
     pub(crate) snap: f64,
 
