@@ -133,7 +133,7 @@ fn pieces_of(trace: &Trace, joints: &[Vec<VertexId>; 2], mesh: &Mesh, offsets: &
     pieces::expected(mesh, sign, |f| faces[f.index()], is_slit_along)
 }
 
-/// Cuts along a trace. `label` asks for the side of every face, for the report.
+/// Cuts along a trace. The offsets are for whoever wants the side of every face, for a report.
 pub(super) fn cut(
     strip: &Strip,
     mut trace: Trace,

@@ -38,11 +38,15 @@ pub(super) fn settle(
     positions: &Positions,
 ) -> Vec<Site> {
     let mut beyond = Vec::new();
+    if snap == 0.0 {
+        return beyond;
+    }
+    // Beyond ROUNDS each round takes pieces away.
     for round in 0.. {
         let trial = Trial::new(trace, snap, mesh, positions);
         let thin = trace.pieces.iter().filter(|piece| !trial.fits(piece));
         let thin: Vec<Piece> = thin.copied().collect();
-        if thin.is_empty() || snap == 0.0 {
+        if thin.is_empty() {
             break;
         }
         let choose = |piece: &Piece| trial.best(piece).filter(|_| round < ROUNDS);
@@ -63,6 +67,8 @@ struct Trial<'t> {
     trace: &'t Trace,
     /// The nodes at which pieces end, ascending, each as often as pieces end there.
     nodes: Vec<Site>,
+    /// Those of pieces that have no tip, in the same way.
+    through: Vec<Site>,
     snap: f64,
     mesh: &'t Mesh,
     positions: &'t Positions,
@@ -70,9 +76,13 @@ struct Trial<'t> {
 
 impl<'t> Trial<'t> {
     fn new(trace: &'t Trace, snap: f64, mesh: &'t Mesh, positions: &'t Positions) -> Trial<'t> {
+        let pieces = trace.pieces.iter().filter(|piece| !piece.has_tip());
+        let mut through: Vec<Site> = pieces.flat_map(Piece::end_nodes).flatten().collect();
+        through.sort_unstable();
         Trial {
             trace,
             nodes: trace.nodes(),
+            through,
             snap,
             mesh,
             positions,
@@ -148,11 +158,9 @@ impl<'t> Trial<'t> {
 
     /// Whether the slit goes on from where a piece came, and farther than to another tip.
     fn goes_on(&self, piece: &Piece) -> bool {
-        piece.end_nodes().into_iter().flatten().any(|site| {
-            let ends_here = |other: &&Piece| other.end_nodes().contains(&Some(site));
-            let others = self.trace.pieces.iter().filter(ends_here);
-            others.into_iter().any(|other| other.tips == [None; 2])
-        })
+        let own = usize::from(!piece.has_tip());
+        let mut nodes = piece.end_nodes().into_iter().flatten();
+        nodes.any(|site| count_of(&self.through, site) > own)
     }
 
     /// The nodes beyond the tips of a piece that are near a vertex inside the mesh.
@@ -201,11 +209,7 @@ impl<'t> Trial<'t> {
     fn needs_middle(&self, piece: &Piece, choice: &Piece) -> bool {
         let own = piece.end_nodes();
         let opens = |site: Site| {
-            let first = self.nodes.partition_point(|&other| other < site);
-            let all = self.nodes[first..]
-                .iter()
-                .take_while(|&&other| other == site);
-            let others = all.count() - usize::from(own.contains(&Some(site)));
+            let others = count_of(&self.nodes, site) - usize::from(own.contains(&Some(site)));
             others > 0 || !is_closed(self.mesh, site)
         };
         !choice.end_nodes().into_iter().flatten().any(opens)
@@ -264,4 +268,11 @@ impl<'t> Trial<'t> {
             Source::Face { weights } => self.weighted(child.parent, weights),
         }))
     }
+}
+
+/// How often a site is in a sorted list.
+fn count_of(sites: &[Site], site: Site) -> usize {
+    let first = sites.partition_point(|&other| other < site);
+    let all = sites[first..].iter().take_while(|&&other| other == site);
+    all.count()
 }

@@ -52,6 +52,11 @@ impl Piece {
         [self.from == 0.0, self.to == 1.0]
     }
 
+    /// Whether a side plane ends the slit at one of its ends.
+    pub(super) fn has_tip(&self) -> bool {
+        self.tips != [None; 2]
+    }
+
     /// Whether it runs from node to node, and needs no point between them.
     pub(super) fn is_crossing(&self) -> bool {
         self.ends_at_nodes() == [true; 2] && !self.middle
