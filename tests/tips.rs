@@ -252,3 +252,40 @@ fn rays_exactly_on_the_boundary_cut_off_a_piece() {
         &wrong[..wrong.len().min(5)]
     );
 }
+
+/// Cuts from one side of a square to the next, whose rays are barely beyond the outline: a vertex of
+/// the outline that is taken for the crossing beside it may lie outside the strip, and the cut goes
+/// through all the same.
+#[test]
+fn rays_barely_beyond_the_boundary_cut_off_a_piece() {
+    let mut random = Random(107);
+    for snap in [0.0, 0.02, Scissor::SNAP, 0.2] {
+        let mut wrong = Vec::new();
+        for _ in 0..600 {
+            let n = 3 + (6.0 * random.next()) as u32;
+            let sheet = crate::straight::surface(&shapes::grid(n, n));
+            // More than an edge from the corner, and near a vertex as often as not.
+            let mut along = || {
+                let vertex = 1.0 + (f64::from(n - 2) * random.next()).floor();
+                let off = random.next() * [0.05, 1.0][usize::from(random.next() < 0.5)];
+                (vertex + off) / f64::from(n)
+            };
+            let (p, q) = ([along(), 1.0], [1.0, along()]);
+            let beyond = [1e-3, 1e-5][usize::from(random.next() < 0.5)];
+            let [dx, dy] = [q[0] - p[0], q[1] - p[1]].map(|d| beyond * d);
+            let ends = [[p[0] - dx, p[1] - dy], [q[0] + dx, q[1] + dy]];
+            let cut = cut(&sheet, &scissor(ends.map(down)).snap(snap));
+            let report = &cut.report;
+            let counts = (report.pieces, report.crumbs, report.lost);
+            if counts != (2, 0, 0) {
+                wrong.push((n, ends, counts));
+            }
+        }
+        let first = wrong.first();
+        assert!(
+            wrong.is_empty(),
+            "snap {snap}: {} of 600: {first:?}",
+            wrong.len()
+        );
+    }
+}
