@@ -7,8 +7,8 @@
 //!    well inside their edges, and so no child has an altitude below r (1 − r) of its parent's.
 //! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from
 //!    node to node (a vertex on the plane, or a crossing) as far as the strip between the side
-//!    planes goes. Where that ends inside the face there is a *tip*, which moves along the slit where
-//!    it would leave a thin face (`exact/tips.rs`).
+//!    planes goes. Where that ends inside the face there is a *tip*, which moves along the slit or
+//!    away from an edge where it would leave a thin face (`exact/tips.rs`).
 //! 4. **Insert** all crossings and tips at once, each computed once from the same end, so both sides
 //!    of the seam have the same bits, and a flat sheet stays flat. An opening needs an end
 //!    that differs: a slit of one edge between vertices that both stay joined gets one in the

@@ -61,8 +61,8 @@ impl Plan {
         })
     }
 
-    /// The same, at the part `t` of the way from the target of `h` to its origin. That is not
-    /// the same bits as `1 − t` the other way.
+    /// Adds a point on an edge, at the part `t` of the way from the target of `h` to its origin; on a
+    /// torn edge also on the other side. [`Plan::on_edge`] with `1 − t` may differ in the last bit.
     pub fn on_edge_backward(&mut self, h: HalfEdgeId, t: f64) -> PointId {
         self.push(Point::Edge {
             h,
