@@ -221,8 +221,8 @@ impl<'d> Corners<'d> {
     }
 }
 
-/// The value between three, or on an edge between the first two.
-fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
+/// The value between three by these weights, or on an edge between the first two.
+pub(super) fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
     if on_edge {
         a.between(&b, weights[1])
     } else {
@@ -230,7 +230,7 @@ fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
     }
 }
 
-fn length(normal: [f64; 3]) -> f64 {
+pub(super) fn length(normal: [f64; 3]) -> f64 {
     let [x, y, z] = normal.map(|x| x * x);
     (x + y + z).sqrt()
 }

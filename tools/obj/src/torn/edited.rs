@@ -11,9 +11,10 @@
 //! is not to be known, and to keep a vertex is no loss. The same holds where an end of the edge
 //! was moved, or slid along another edge by a later cut.
 
-use tearmesh::{Blend, Positions};
+use tearmesh::Positions;
 
 use super::TornDocument;
+use super::corners::{blend, length};
 use crate::record::At;
 
 /// By how many units of the last place of the largest number concerned a number may differ: an
@@ -120,7 +121,8 @@ fn is_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
     (0..is.len().max(length.unwrap_or(0))).all(|i| {
         let at = |row: &[f64]| row.get(i).copied().unwrap_or(0.0);
         let values = sources.map(|(row, _)| at(row));
-        let wanted = blend(values, sources.map(|(_, weight)| weight));
+        let weights = sources.map(|(_, weight)| weight);
+        let wanted = blend(values, weights, is_on_edge(weights));
         let largest = values.map(f64::abs).into_iter().fold(0.0, f64::max);
         (at(is) - wanted).abs() <= ROUNDINGS * f64::EPSILON * largest
     })
@@ -131,9 +133,10 @@ fn is_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
 fn is_normal_between(is: [f64; 3], sources: Sources<[f64; 3]>) -> bool {
     let weights = sources.map(|(_, weight)| weight);
     let normals = sources.map(|(normal, _)| normal);
-    let between = [0, 1, 2].map(|axis| blend(normals.map(|normal| normal[axis]), weights));
+    let blended = |values: [f64; 3]| blend(values, weights, is_on_edge(weights));
+    let between = [0, 1, 2].map(|axis| blended(normals.map(|normal| normal[axis])));
     let lengths = normals.map(length);
-    let wanted = blend(lengths, weights);
+    let wanted = blended(lengths);
     let scale = wanted / length(between);
     if !scale.is_finite() {
         return normals.contains(&is);
@@ -145,17 +148,7 @@ fn is_normal_between(is: [f64; 3], sources: Sources<[f64; 3]>) -> bool {
     allowed >= wanted || (0..3).all(near)
 }
 
-/// The weighted sum of three numbers; of the first two, where the third has no weight, as along an
-/// edge.
-fn blend([a, b, c]: [f64; 3], weights: [f64; 3]) -> f64 {
-    if weights[2] == 0.0 {
-        a.between(&b, weights[1])
-    } else {
-        f64::weighted([&a, &b, &c], weights)
-    }
-}
-
-fn length(normal: [f64; 3]) -> f64 {
-    let [x, y, z] = normal.map(|x| x * x);
-    (x + y + z).sqrt()
+/// Whether a point is between the first two of its sources alone.
+fn is_on_edge(weights: [f64; 3]) -> bool {
+    weights[2] == 0.0
 }
