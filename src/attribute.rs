@@ -85,7 +85,7 @@ impl Blend for Point {
 /// let mut speeds = PerVertex::new(vec![0.5, 1.0, 1.5, 2.0]);
 /// let mut edits = Edits::new();
 /// let v = VertexId::new(0).unwrap();
-/// split::faces(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?;
+/// split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?;
 /// edits.replay(&mut speeds);
 /// assert_eq!(speeds[VertexId::new(4).unwrap()], 0.5);
 /// # Ok::<(), tearmesh::split::Refusal>(())
@@ -189,7 +189,7 @@ impl<T: Blend> Follower for PerVertex<T> {
 /// value go with them.
 ///
 /// ```
-/// use tearmesh::{shapes, subdivide::Plan, Edits, HalfEdgeId, PerCorner};
+/// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerCorner};
 ///
 /// let (mut mesh, positions) = shapes::grid(1, 1);
 /// let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
@@ -200,7 +200,7 @@ impl<T: Blend> Follower for PerVertex<T> {
 /// plan.apply(&mut mesh, &mut edits)?;
 /// edits.replay(&mut uv);
 /// assert_eq!(uv.as_slice().iter().filter(|uv| **uv == [0.25, 0.0]).count(), 2);
-/// # Ok::<(), tearmesh::subdivide::Refusal>(())
+/// # Ok::<(), tearmesh::insert::Refusal>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerCorner<T> {

@@ -24,7 +24,7 @@ pub fn face(mesh: &Mesh, f: FaceId, plane: &Plane, place: &(impl Place + ?Sized)
 
 /// The same, of offsets that are known already.
 pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> Side {
-    let mut corners = mesh.corners(f);
+    let mut corners = mesh.face_vertices(f);
     corners.sort();
     let [a, b, c] = corners.map(offset);
     Side::of(a + b + c)

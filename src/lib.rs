@@ -64,7 +64,7 @@
 //! |---|---|---|
 //! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 7,300 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`subdivide`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) | 3,100 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
@@ -97,6 +97,7 @@ mod edit;
 mod exact;
 pub mod geometry;
 mod id;
+pub mod insert;
 mod mass;
 pub mod mend;
 mod mesh;
@@ -107,7 +108,6 @@ pub mod script;
 pub mod shapes;
 pub mod slide;
 pub mod split;
-pub mod subdivide;
 pub mod tear;
 
 pub use attribute::{Blend, PerCorner, PerVertex};

@@ -39,7 +39,7 @@ use crate::place::Place;
 ///
 /// let mut edits = Edits::new();
 /// let face = mesh.faces_of(v).next().unwrap();
-/// let new = split::faces(&mut mesh, v, &[face], &mut edits)?.new;
+/// let new = split::vertex(&mut mesh, v, &[face], &mut edits)?.new;
 /// edits.replay(&mut masses);
 /// assert_eq!(masses.at(v) + masses.at(new), before); // bit for bit
 /// assert!(masses.ledger().is_balanced());
@@ -339,7 +339,7 @@ fn lattice(
         return Err(MassError::Density { given: density });
     }
     let mass = |f: FaceId| {
-        let [a, b, c] = mesh.corners(f).map(|v| place.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
         area(a, b, c) * density
     };
     let total: f64 = mesh.faces().map(mass).sum();

@@ -42,7 +42,7 @@ use crate::place::Place;
 /// let uncut = mesh.clone();
 /// let mut edits = Edits::new();
 /// let v = VertexId::new(0).unwrap();
-/// let new = split::faces(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?.new;
+/// let new = split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?.new;
 /// let merge = mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits)?;
 /// assert_eq!((merge.kept, merge.sewn.len()), (v, 1));
 /// assert_eq!(mesh, uncut);
@@ -196,7 +196,7 @@ impl Stitch {
 /// let mut edits = Edits::new();
 /// for v in uncut.vertices().skip(6).take(9) {
 ///     let first = mesh.faces_of(v).next().unwrap();
-///     split::faces(&mut mesh, v, &[first], &mut edits)?;
+///     split::vertex(&mut mesh, v, &[first], &mut edits)?;
 /// }
 /// edits.replay(&mut positions);
 ///

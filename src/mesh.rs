@@ -3,7 +3,7 @@
 //! A [`Mesh`] is made of triangles by [`Mesh::build`], which accepts an oriented
 //! 2-manifold with or without boundary and refuses anything else. From then on three
 //! operations change it: the vertex split (`split.rs`), its inverse the merge (`mend.rs`), and
-//! the insertion of vertices (`subdivide.rs`). A torn mesh need no longer be a manifold:
+//! the insertion of vertices (`insert.rs`). A torn mesh need no longer be a manifold:
 //! two fans of triangles may share a vertex without sharing an edge (Souza et al. 2014,
 //! Fig. 2). All faces of such a vertex are still found, because a half-edge
 //! that loses its pair keeps it as its *ghost pair* (§IV-B, Fig. 3).
@@ -199,7 +199,7 @@ impl Mesh {
     /// The three vertices of a face, in order.
     #[inline]
     #[must_use]
-    pub fn corners(&self, f: FaceId) -> [VertexId; 3] {
+    pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {
         self.half_edges_of(f).map(|h| self.origin(h))
     }
 
@@ -301,7 +301,7 @@ impl Mesh {
         self.link[h.index()] = Link::BOUNDARY;
     }
 
-    /// Links two half-edges, as a pair or as ghost pairs. For `subdivide.rs` alone, which links
+    /// Links two half-edges, as a pair or as ghost pairs. For `insert.rs` alone, which links
     /// the parts of an edge as the edge was.
     pub(crate) fn link(&mut self, h: HalfEdgeId, g: HalfEdgeId, torn: bool) {
         let mark = if torn { Link::TORN } else { 0 };

@@ -40,12 +40,12 @@ use crate::place::Place;
 /// let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
 /// let mut edits = Edits::new();
 /// let v = VertexId::new(1).unwrap();
-/// let split = split::faces(&mut mesh, v, &[FaceId::new(1).unwrap()], &mut edits)?;
+/// let split = split::vertex(&mut mesh, v, &[FaceId::new(1).unwrap()], &mut edits)?;
 /// assert_eq!((split.new.index(), split.corners.len(), split.torn.len()), (4, 1, 1));
 /// assert_eq!(mesh.indices(), [0, 1, 2, 2, 4, 3]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn faces<'e>(
+pub fn vertex<'e>(
     mesh: &mut Mesh,
     v: VertexId,
     moving: &[FaceId],

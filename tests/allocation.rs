@@ -54,8 +54,8 @@ impl Torn {
             splits += usize::from(split::by_plane(mesh, v, &plane, &*positions, edits).is_some());
             edits.replay(&mut (&mut *positions, &mut *masses));
             let face = mesh.faces_of(v).next().expect("every vertex keeps a face");
-            splits += usize::from(split::faces(mesh, v, &[face], edits).is_ok());
-            assert!(split::faces(mesh, v, &[face, face], edits).is_err());
+            splits += usize::from(split::vertex(mesh, v, &[face], edits).is_ok());
+            assert!(split::vertex(mesh, v, &[face, face], edits).is_err());
             edits.replay(&mut (&mut *positions, &mut *masses));
         }
         splits

@@ -269,7 +269,7 @@ impl World {
         let triangles: Vec<[u32; 3]> = self
             .mesh
             .faces()
-            .map(|f| self.mesh.corners(f).map(u32::from))
+            .map(|f| self.mesh.face_vertices(f).map(u32::from))
             .collect();
         let again = Mesh::build_torn(&triangles, &self.mesh.roots());
         assert_eq!(
@@ -282,7 +282,7 @@ impl World {
 
 fn area(mesh: &Mesh, positions: &Positions) -> f64 {
     let of = |f: FaceId| {
-        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         let (b, c): (Vector, Vector) = (b - a, c - a);
         b.cross(&c).norm() / 2.0
     };

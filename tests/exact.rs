@@ -337,7 +337,10 @@ fn a_snap_that_moves_makes_the_seam_straight() {
             let mut cutting = Cutting::new(&sheet);
             let areas = |cutting: &Cutting| {
                 let of = |f| {
-                    let [a, b, c] = cutting.mesh.corners(f).map(|v| cutting.positions.at(v));
+                    let [a, b, c] = cutting
+                        .mesh
+                        .face_vertices(f)
+                        .map(|v| cutting.positions.at(v));
                     (b - a).cross(&(c - a)).norm() / 2.0
                 };
                 cutting.mesh.faces().map(of).sum::<f64>()
@@ -379,7 +382,7 @@ fn a_snap_that_moves_makes_the_seam_straight() {
 /// The smallest altitude of each face.
 pub(crate) fn altitudes(mesh: &Mesh, positions: &Positions) -> Vec<f64> {
     let of = |f| {
-        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         let longest = [(a, b), (b, c), (c, a)].map(|(p, q)| (q - p).norm());
         (b - a).cross(&(c - a)).norm() / longest.into_iter().fold(0.0, f64::max)
     };

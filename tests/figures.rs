@@ -29,7 +29,7 @@ fn faces_of(mesh: &Mesh, vertex: usize) -> Vec<usize> {
 /// Splits a vertex by faces, all by number.
 fn split(mesh: &mut Mesh, vertex: usize, moving: &[usize]) {
     let faces: Vec<FaceId> = moving.iter().map(|&face| f(face)).collect();
-    split::faces(mesh, v(vertex), &faces, &mut Edits::new()).expect("some faces, not all");
+    split::vertex(mesh, v(vertex), &faces, &mut Edits::new()).expect("some faces, not all");
     assert_eq!(mesh.check(), []);
 }
 
@@ -194,7 +194,7 @@ fn the_walk_goes_both_ways_from_any_start() {
 fn only_the_edges_at_the_vertex_are_torn() {
     let (mut mesh, _) = shapes::tetrahedron();
     let mut edits = Edits::new();
-    let split = split::faces(&mut mesh, v(0), &[f(0)], &mut edits).expect("one of three");
+    let split = split::vertex(&mut mesh, v(0), &[f(0)], &mut edits).expect("one of three");
     assert_eq!(split.torn.len(), 2);
     // f0 is 0, 1, 2; its edge 1-2 is shared with f3, which does not have v0.
     assert_eq!(mesh.pair(side(0, 1)).map(HalfEdgeId::face), Some(f(3)));
@@ -222,7 +222,7 @@ fn a_split_of_a_bow_tie_tears_nothing() {
     let mut mesh = open_fan_of_three();
     split(&mut mesh, 0, &[1]);
     let mut edits = Edits::new();
-    let split = split::faces(&mut mesh, v(0), &[f(2)], &mut edits).expect("one of two");
+    let split = split::vertex(&mut mesh, v(0), &[f(2)], &mut edits).expect("one of two");
     assert!(split.torn.is_empty());
 }
 
@@ -325,7 +325,7 @@ fn a_vertex_without_a_face_keeps_its_number_and_cannot_be_split() {
     let mut mesh = Mesh::build(5, &[[0, 1, 3]]).expect("a triangle");
     assert_eq!((mesh.vertex_count(), mesh.half_edge_of(v(2))), (5, None));
     let mut edits = Edits::new();
-    let refused = split::faces(&mut mesh, v(2), &[], &mut edits);
+    let refused = split::vertex(&mut mesh, v(2), &[], &mut edits);
     assert_eq!(refused, Err(split::Refusal::Empty { vertex: v(2) }));
     assert_eq!(mesh.check(), []);
 }
@@ -350,7 +350,7 @@ fn a_log_with_room_does_not_move() {
     for vertex in mesh.vertices() {
         let faces: Vec<FaceId> = mesh.faces_of(vertex).collect();
         for &face in &faces[1..] {
-            split::faces(&mut mesh, vertex, &[face], &mut edits).expect("not the last");
+            split::vertex(&mut mesh, vertex, &[face], &mut edits).expect("not the last");
             let first = lockstep::split_of(edits.iter().next().expect("a split"));
             let now = (first.corners.as_ptr(), first.torn.as_ptr());
             assert_eq!(*at.get_or_insert(now), now);

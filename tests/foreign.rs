@@ -6,9 +6,9 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use std::sync::Once;
 
+use tearmesh::insert::{ChordEnd, Plan};
 use tearmesh::mend::{self, Stitch};
 use tearmesh::script::{Script, World};
-use tearmesh::subdivide::{ChordEnd, Plan};
 use tearmesh::{
     Edits, FaceId, HalfEdgeId, Mesh, PerVertex, Place, Plane, Point, Vector, VertexId, classify,
     shapes, slide, split, tear,
@@ -71,19 +71,19 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
         };
     }
 
-    with!(v, "split a vertex", |w| split::faces(
+    with!(v, "split a vertex", |w| split::vertex(
         &mut w.mesh,
         v,
         &[corner.face()],
         &mut w.edits
     ));
-    with!(v, "split into nothing", |w| split::faces(
+    with!(v, "split into nothing", |w| split::vertex(
         &mut w.mesh,
         v,
         &[],
         &mut w.edits
     ));
-    with!(f, "split off a face", |w| split::faces(
+    with!(f, "split off a face", |w| split::vertex(
         &mut w.mesh,
         own,
         &moving,
@@ -201,7 +201,7 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     with!(h, "either pair", |w| w.mesh.pair_or_ghost(h));
     with!(h, "origin", |w| w.mesh.origin(h));
     with!(h.next(), "target", |w| w.mesh.target(h));
-    with!(f, "corners", |w| w.mesh.corners(f));
+    with!(f, "face_vertices", |w| w.mesh.face_vertices(f));
     with!(f, "neighbours", |w| w.mesh.neighbours(f).count());
     with!(f, "component", |w| w.mesh.components().of(f));
     with!(v, "half-edge of", |w| w.mesh.half_edge_of(v));
@@ -307,7 +307,7 @@ fn regression_a_foreign_face_among_those_that_move() {
     let faces = [0, 9].map(|f| FaceId::new(f).expect("an id"));
     let mut edits = Edits::new();
     let panic =
-        panic_of(|| split::faces(&mut mesh, hub, &faces, &mut edits).map(|split| split.new));
+        panic_of(|| split::vertex(&mut mesh, hub, &faces, &mut edits).map(|split| split.new));
     let panic = panic.expect("f9 is foreign");
     assert_eq!(mesh, before, "the mesh is as it was");
     assert_eq!(

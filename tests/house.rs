@@ -158,7 +158,7 @@ const FLOORS: [(&str, u32); 17] = [
     ("edit", 1),
     ("split", 2),
     ("mend", 2),
-    ("subdivide", 2),
+    ("insert", 2),
     ("slide", 2),
     ("classify", 2),
     ("place", 2),
@@ -287,7 +287,7 @@ fn topology_knows_no_float() {
         // The log has the weights of insertions and merges, and no more.
         let foreign: &[&str] = match &*module {
             "id" | "mesh" | "split" => &["f32", "f64", "Point", "Vector"],
-            "edit" | "subdivide" => &["f32", "Vector", "geometry"],
+            "edit" | "insert" => &["f32", "Vector", "geometry"],
             _ => &[],
         };
         let float = words(&code).find(|word| foreign.contains(word));
@@ -302,12 +302,12 @@ fn one_file_tears_links_and_one_sews_them() {
         (".sew(", &["mend"]),
         (".pop_vertex(", &["mend"]),
         (".isolate(", &["mend"]),
-        (".link(", &["subdivide"]),
-        (".unlink(", &["subdivide"]),
-        (".push_face(", &["subdivide"]),
-        (".push_vertex(", &["split", "subdivide"]),
-        (".set_origin(", &["split", "mend", "subdivide"]),
-        (".set_half_edge_of(", &["split", "mend", "subdivide"]),
+        (".link(", &["insert"]),
+        (".unlink(", &["insert"]),
+        (".push_face(", &["insert"]),
+        (".push_vertex(", &["split", "insert"]),
+        (".set_origin(", &["split", "mend", "insert"]),
+        (".set_half_edge_of(", &["split", "mend", "insert"]),
     ];
     for Source { path, code, .. } in sources() {
         for (writer, files) in writers {

@@ -158,10 +158,10 @@ fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
     let last = all.pop().expect("a face");
     clock.time(format!("torn, {order}"), || {
         for &face in &all {
-            split::faces(&mut sheet.mesh, hub, &[face], &mut sheet.edits).expect("one stays");
+            split::vertex(&mut sheet.mesh, hub, &[face], &mut sheet.edits).expect("one stays");
         }
     });
-    let refused = split::faces(&mut sheet.mesh, hub, &[last], &mut sheet.edits);
+    let refused = split::vertex(&mut sheet.mesh, hub, &[last], &mut sheet.edits);
     assert!(matches!(refused, Err(split::Refusal::Everything { .. })));
     assert_eq!(sheet.mesh.half_edge_of(hub).map(|h| h.face()), Some(last));
     let torn = sheet.mesh.clone();
@@ -178,7 +178,9 @@ fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
 fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
     let again = clock.time("torn: roots, build", || {
         let faces = torn.faces();
-        let triangles: Vec<[u32; 3]> = faces.map(|f| torn.corners(f).map(u32::from)).collect();
+        let triangles: Vec<[u32; 3]> = faces
+            .map(|f| torn.face_vertices(f).map(u32::from))
+            .collect();
         Mesh::build_torn(&triangles, &torn.roots())
     });
     assert_eq!(again.as_ref(), Ok(torn));

@@ -77,7 +77,7 @@ fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
     let hub = VertexId::new(0).expect(USUAL);
     let split = |mesh: &mut Mesh, edits: &mut Edits| {
         let face = mesh.faces_of(hub).next().expect(USUAL);
-        split::faces(mesh, hub, &[face], edits).expect(USUAL).new
+        split::vertex(mesh, hub, &[face], edits).expect(USUAL).new
     };
     let first = split(&mut mesh, &mut edits);
     edits.replay(&mut positions);

@@ -181,7 +181,7 @@ fn damaged_shapes_are_built_or_refused_like_the_oracle_does() {
             vertices: mesh.vertex_count(),
             faces: mesh
                 .faces()
-                .map(|f| mesh.corners(f).map(u32::from))
+                .map(|f| mesh.face_vertices(f).map(u32::from))
                 .collect(),
         };
         for [kind, a, b] in damage {

@@ -561,7 +561,7 @@ proptest! {
         };
         for v in mesh.vertices().filter(|&v| inside(positions.at(v))) {
             let side = |d: f64| mesh.faces_of(v).any(|f| {
-                mesh.corners(f).iter().all(|&c| {
+                mesh.face_vertices(f).iter().all(|&c| {
                     let p = positions.at(c);
                     d * ((p.x - centre.0) * sin - (p.y - centre.1) * cos) > 1e-9
                 })

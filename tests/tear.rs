@@ -72,7 +72,7 @@ fn an_overstretched_edge_tears_by_the_rule_of_the_paper() {
                 let h = HalfEdgeId::new(h).expect("a half-edge");
                 let triangles: Vec<[usize; 3]> = mesh
                     .faces()
-                    .map(|f| mesh.corners(f).map(VertexId::index))
+                    .map(|f| mesh.face_vertices(f).map(VertexId::index))
                     .collect();
                 let points: Vec<[f64; 3]> =
                     positions.as_slice().iter().map(|&p| p.into()).collect();

@@ -150,7 +150,7 @@ impl Report<'_> {
     fn faces(&mut self) {
         let mesh = self.mesh;
         let mut sorted = |f: FaceId| {
-            let mut vertices = mesh.corners(f);
+            let mut vertices = mesh.face_vertices(f);
             vertices.sort_unstable();
             if vertices[0] == vertices[1] || vertices[1] == vertices[2] {
                 let found = format!("{f} has the vertices {vertices:?}");
@@ -416,7 +416,7 @@ mod tests {
     fn broken_by(damage: impl FnOnce(&mut Mesh)) -> Vec<Invariant> {
         let (mut mesh, _) = shapes::fan(3, false);
         let middle = [FaceId::from_u32(1)];
-        split::faces(&mut mesh, VertexId::from_u32(0), &middle, &mut Edits::new())
+        split::vertex(&mut mesh, VertexId::from_u32(0), &middle, &mut Edits::new())
             .expect("two faces stay");
         assert_eq!(mesh.check(), []);
         damage(&mut mesh);

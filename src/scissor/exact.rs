@@ -38,9 +38,9 @@ use super::{pieces, unshare};
 use crate::edit::{Edit, Edits};
 use crate::geometry::{Point, Side, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::insert::{Plan, Refusal};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::subdivide::{Plan, Refusal};
 use planner::{Chain, Planner};
 pub(super) use trace::Trace;
 use trace::{Place, Site};
@@ -199,7 +199,7 @@ fn labels(
     }
     let sign = |v: VertexId| signs[v.index()];
     let goes_on = |f: FaceId| {
-        let corners = mesh.corners(f);
+        let corners = mesh.face_vertices(f);
         let on_both =
             corners.iter().any(|&v| sign(v) < 0.0) && corners.iter().any(|&v| sign(v) > 0.0);
         let mut ends = slit.tips.iter().chain([&slit.off_plane]);

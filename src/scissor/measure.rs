@@ -175,7 +175,7 @@ impl<'o> Survey<'o> {
 
     /// The side of a face that is not crossed; one that lies on the plane is in front.
     fn lone_side(&self, mesh: &Mesh, f: FaceId) -> Side {
-        let offsets = mesh.corners(f).map(|v| self.offsets.of(v));
+        let offsets = mesh.face_vertices(f).map(|v| self.offsets.of(v));
         Side::of(offsets.into_iter().fold(0.0, f64::min))
     }
 
@@ -422,7 +422,7 @@ fn quality(mesh: &Mesh, positions: &Positions) -> (f64, f64) {
     let mut cotangent_max = (f64::NEG_INFINITY, (0.0, 0.0));
     let mut altitude_min = f64::INFINITY;
     for f in mesh.faces() {
-        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         let sides = [b - a, c - b, a - c];
         altitude_min = altitude_min.min(altitude([a, b, c]));
         for (one, other) in [(0, 2), (1, 0), (2, 1)] {

@@ -59,7 +59,7 @@ impl Offsets {
 
     /// Whether a face has vertices strictly on both sides of the plane.
     pub(super) fn cross(&self, mesh: &Mesh, f: FaceId) -> bool {
-        let offsets = mesh.corners(f).map(|v| self.of(v));
+        let offsets = mesh.face_vertices(f).map(|v| self.of(v));
         offsets.iter().any(|&d| d < 0.0) && offsets.iter().any(|&d| d > 0.0)
     }
 

@@ -22,12 +22,18 @@ pub(super) fn expected(
     is_slit_along: impl Fn(HalfEdgeId) -> bool,
 ) -> usize {
     let is_crossed = |f: FaceId| {
-        let signs = mesh.corners(f).map(&sign);
+        let signs = mesh.face_vertices(f).map(&sign);
         signs.iter().any(|&d| d < 0.0) && signs.iter().any(|&d| d > 0.0)
     };
     // Of a face that is not crossed; one that lies on the plane is in front.
-    let lone_side =
-        |f: FaceId| Side::of(mesh.corners(f).map(&sign).into_iter().fold(0.0, f64::min));
+    let lone_side = |f: FaceId| {
+        Side::of(
+            mesh.face_vertices(f)
+                .map(&sign)
+                .into_iter()
+                .fold(0.0, f64::min),
+        )
+    };
     let mut parts = Parts::new(mesh.face_count());
     for f in mesh.faces() {
         if is_crossed(f) && !is_slit(f) {

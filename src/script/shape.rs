@@ -122,7 +122,7 @@ fn subdivided((mesh, positions): (Mesh, Positions), times: u8) -> (Mesh, Positio
     }
     let mut triangles = Vec::new();
     for f in mesh.faces() {
-        let [a, b, c] = mesh.corners(f).map(u32::from);
+        let [a, b, c] = mesh.face_vertices(f).map(u32::from);
         let [ab, bc, ca] = f.half_edges().map(|h| middle[h.index()]);
         triangles.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
     }

@@ -14,7 +14,7 @@ pub struct Triangles {
 
 impl Triangles {
     pub(super) fn new(mesh: &Mesh) -> Triangles {
-        let of = mesh.faces().map(|f| mesh.corners(f).map(u32::from));
+        let of = mesh.faces().map(|f| mesh.face_vertices(f).map(u32::from));
         Triangles {
             of: of.collect(),
             next_edit: 0,

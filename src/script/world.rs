@@ -5,13 +5,13 @@ use crate::attribute::PerCorner;
 use crate::edit::Edits;
 use crate::geometry::{Plane, Point, Ray, Vector};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::insert::{self, ChordEnd, Plan, PointId};
 use crate::mass::Masses;
 use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::scissor::{CutReport, Method, Scissor, Tips};
 use crate::split::{self, Refusal};
-use crate::subdivide::{self, ChordEnd, Plan, PointId};
 
 /// A mesh and everything that can follow it.
 #[derive(Clone, Debug)]
@@ -102,7 +102,7 @@ pub enum Step<'s> {
         /// The chord that was demanded, and across which face.
         chord: Option<(FaceId, [AskedEnd; 2])>,
         /// The edit, or why there was none.
-        outcome: Result<u64, subdivide::Refusal>,
+        outcome: Result<u64, insert::Refusal>,
     },
     /// A merge was tried.
     Merge {
@@ -271,7 +271,7 @@ impl World {
         faces: &[FaceId],
         mut observe: impl FnMut(&World, &Step<'_>),
     ) {
-        let outcome = split::faces(&mut self.mesh, vertex, faces, &mut self.edits);
+        let outcome = split::vertex(&mut self.mesh, vertex, faces, &mut self.edits);
         let outcome = outcome.map(|split| split.number);
         self.replay();
         let step = Step::Split {

@@ -87,7 +87,7 @@ fn an_edit_costs_no_matrix_product_and_a_step_measures_only_what_the_bound_leave
     let omega = cloth.system_mut().frequency_bound();
     for v in mesh.vertices().skip(20).take(40) {
         let face = mesh.faces_of(v).next().expect("a face");
-        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        split::vertex(&mut mesh, v, &[face], &mut edits).expect("a split");
         edits.replay(&mut cloth);
         assert_eq!(cloth.system().counters().matrix_products, 0);
     }
@@ -180,7 +180,7 @@ fn times_of_projections_steps_and_splits() {
         let some = fastest(|| {
             for v in splits.by_ref().take(100) {
                 let face = mesh.faces_of(v).next().expect("a face");
-                let _ = split::faces(&mut mesh, v, &[face], &mut edits);
+                let _ = split::vertex(&mut mesh, v, &[face], &mut edits);
             }
             edits.replay(&mut cloth);
             edits.clear();

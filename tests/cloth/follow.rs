@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::subdivide::Plan;
+use tearmesh::insert::Plan;
 use tearmesh::{
     Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split,
 };
@@ -124,7 +124,7 @@ fn check_triangles(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
     assert_eq!(triangles, anew.system().triangles());
     assert_eq!(triangles.len(), mesh.face_count());
     for (f, triangle) in mesh.faces().zip(triangles) {
-        let corners = mesh.corners(f);
+        let corners = mesh.face_vertices(f);
         assert_eq!(triangle.vertices, corners.map(|v| v.index() as u32));
         let [p, q, r] = corners.map(|v| rest.at(v));
         let normal = (q - p).cross(&(r - p));
@@ -236,7 +236,7 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
         0 | 1 => {
             let v = VertexId::new(below(mesh.vertex_count())).expect("a vertex");
             let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| below(2) == 0).collect();
-            match split::faces(mesh, v, &faces, edits) {
+            match split::vertex(mesh, v, &faces, edits) {
                 Ok(_) => Done::Split,
                 Err(_) => Done::Nothing,
             }
@@ -425,7 +425,7 @@ fn pieces_of_a_face_without_area_fall_and_meet_again() {
             break;
         };
         let face = mesh.faces_of(v).next().expect("a face");
-        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        split::vertex(&mut mesh, v, &[face], &mut edits).expect("a split");
         edits.replay(&mut cloth);
     }
     let light = mesh.vertices().filter(|&v| cloth.masses().at(v) == 0.0);
@@ -477,7 +477,7 @@ fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
         let mut edits = Edits::new();
         let before = cloth.system().elastic_energy_j();
         let torn: Vec<_> = {
-            let split = split::faces(&mut mesh, v, &faces, &mut edits).expect("a split");
+            let split = split::vertex(&mut mesh, v, &faces, &mut edits).expect("a split");
             split.torn.to_vec()
         };
         let extension = |cloth: &Cloth, h| {
@@ -550,7 +550,7 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
         let mut edits = Edits::new();
         let v = VertexId::new(12).expect("the centre");
         let faces: Vec<FaceId> = mesh.faces_of(v).take(2).collect();
-        let new = split::faces(&mut mesh, v, &faces, &mut edits)
+        let new = split::vertex(&mut mesh, v, &faces, &mut edits)
             .expect("a split")
             .new;
         edits.replay(&mut cloth);
@@ -580,7 +580,7 @@ fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
     let v = VertexId::new(4).expect("the centre");
     let mut edits = Edits::new();
     let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
-    let new = split::faces(&mut mesh, v, &faces, &mut edits)
+    let new = split::vertex(&mut mesh, v, &faces, &mut edits)
         .expect("a split")
         .new;
     edits.replay(&mut cloth);

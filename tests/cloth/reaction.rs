@@ -153,7 +153,7 @@ fn copies_of_a_torn_link_share_its_multiplier() {
         .map(|h| threshold.edge_load(&mesh, &cloth, h))
         .collect();
     let mut edits = tearmesh::Edits::new();
-    tearmesh::split::faces(&mut mesh, centre, &faces, &mut edits).expect("a split");
+    tearmesh::split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
     edits.replay(&mut cloth);
     for h in mesh.half_edges() {
         let share = if mesh.ghost_pair(h).is_some() {

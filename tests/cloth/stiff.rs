@@ -119,7 +119,7 @@ fn a_falling_cloth_keeps_its_shape_while_it_is_torn() {
         if step % 10 == 5 {
             let v = mesh.vertices().nth(10 + step / 3).expect("a vertex");
             let face = mesh.faces_of(v).next().expect("a face");
-            split::faces(&mut mesh, v, &[face], &mut edits).expect("more than one face");
+            split::vertex(&mut mesh, v, &[face], &mut edits).expect("more than one face");
             edits.replay(&mut cloth);
         }
     }
@@ -196,7 +196,7 @@ fn a_step_that_misses_its_tolerance_is_no_blow_up() {
 /// A crumb: a triangle of springs that nothing holds, spinning by ω about its centre.
 fn crumb(omega_rad_per_s: f64) -> System {
     let (mesh, positions) = shapes::grid(1, 1);
-    let corners = mesh.corners(mesh.faces().next().expect("a face"));
+    let corners = mesh.face_vertices(mesh.faces().next().expect("a face"));
     let size = 1.0 / 64.0;
     let points = corners.map(|v| Point::from(positions.at(v).coords * size));
     let mut crumb = System::new(points, vec![4e-5; 3]).expect("three particles");

@@ -90,7 +90,7 @@ fn no_direction_is_stretched_more_than_the_principal_one() {
         *p += Vector::new(random.next(), random.next(), random.next()) * 0.6;
     }
     for f in mesh.faces() {
-        let v = mesh.corners(f).map(VertexId::index);
+        let v = mesh.face_vertices(f).map(VertexId::index);
         let [rest, now] = [positions.as_slice(), cloth.positions()]
             .map(|points| [points[v[1]] - points[v[0]], points[v[2]] - points[v[0]]]);
         let tried = (0..20_000).map(|i| {

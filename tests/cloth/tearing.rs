@@ -1,7 +1,7 @@
 //! The loop above the tearing rule: what a threshold means, what goes first, what holds, and what a
 //! tear keeps.
 
-use tearmesh::subdivide::Plan;
+use tearmesh::insert::Plan;
 use tearmesh::{
     Edit, Edits, Masses, Mesh, Point, Positions, Vector, VertexId, mend, shapes, split,
 };
@@ -209,7 +209,7 @@ fn an_edge_tears_after_it_was_above_its_threshold_for_so_long() {
     assert!(torn.apply(0.02).waiting > 0);
     let v = VertexId::new(12).expect("the centre");
     let faces: Vec<_> = torn.mesh.faces_of(v).take(3).collect();
-    let new_vertex = split::faces(&mut torn.mesh, v, &faces, &mut torn.edits)
+    let new_vertex = split::vertex(&mut torn.mesh, v, &faces, &mut torn.edits)
         .expect("a split")
         .new;
     assert_eq!(torn.apply(0.02).splits, 0);

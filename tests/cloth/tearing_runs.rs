@@ -1,7 +1,7 @@
 //! Cloths that tear while they run: what it takes to tear a strip, what a weak tip does, what the
 //! time step changes, what must not tear, and everything at random.
 
-use tearmesh::subdivide::Plan;
+use tearmesh::insert::Plan;
 use tearmesh::{
     Edits, HalfEdgeId, Mesh, PerVertex, Plane, Point, Positions, Vector, VertexId, mend, shapes,
     slide, split,

@@ -317,7 +317,7 @@ fn a_step_that_is_refused_leaves_all_as_it_was() {
         let mut edits = Edits::new();
         let v = VertexId::new(12).expect("a vertex");
         let face = mesh.faces_of(v).next().expect("a face");
-        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        split::vertex(&mut mesh, v, &[face], &mut edits).expect("a split");
         edits.replay(&mut cloth);
         let before = left_behind(&cloth);
         let mut untried = cloth.clone();

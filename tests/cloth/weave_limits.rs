@@ -1,6 +1,6 @@
 //! Cloth of triangles: what its limits are, what is refused, and what it costs.
 
-use tearmesh::subdivide::Plan;
+use tearmesh::insert::Plan;
 use tearmesh::{Edit, Edits, FaceId, Masses, Point, Vector, VertexId, shapes, slide, split};
 use tearmesh_cloth::{
     Cloth, ClothError, Culprit, Fabric, ImplicitCloth, Pbd, Provot, Rk4, Solver, StepError, System,
@@ -202,7 +202,7 @@ fn warp_may_be_named_face_by_face_by_texture_coordinates() {
     let warps: Vec<Vector> = mesh
         .faces()
         .map(|f| {
-            let corners = mesh.corners(f);
+            let corners = mesh.face_vertices(f);
             let rest = corners.map(|v| positions.at(v));
             let along = corners
                 .iter()
@@ -233,7 +233,7 @@ fn children_inherit_the_warp_of_their_face() {
     let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let is_along = |f: FaceId| f.index() % 2 == 1;
     let warps = mesh.faces().map(|f| {
-        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         let round = Vector::z().cross(&(b - a).cross(&(c - a)));
         if is_along(f) { Vector::z() } else { round }
     });
@@ -303,7 +303,7 @@ fn edits_take_no_sum_over_all_triangles() {
     let mut edits = Edits::new();
     for v in mesh.vertices().skip(20).step_by(7).take(15) {
         let face = mesh.faces_of(v).next().expect("a face");
-        split::faces(&mut mesh, v, &[face], &mut edits).expect("a split");
+        split::vertex(&mut mesh, v, &[face], &mut edits).expect("a split");
         let h = mesh.half_edge_of(v).expect("an edge");
         slide::toward(&mesh, v, mesh.target(h), 0.1, &mut edits).expect("a slide");
         let mut plan = Plan::new();

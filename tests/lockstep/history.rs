@@ -59,7 +59,7 @@ pub(crate) fn told(edits: &Edits) -> Vec<Told> {
 
 pub(crate) fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     mesh.faces()
-        .map(|f| mesh.corners(f).map(u32::from))
+        .map(|f| mesh.face_vertices(f).map(u32::from))
         .collect()
 }
 

@@ -1,7 +1,7 @@
 //! What an insertion must do, and what it must leave as it was.
 
+use tearmesh::insert::Refusal;
 use tearmesh::script::{Asked, AskedEnd};
-use tearmesh::subdivide::Refusal;
 use tearmesh::{Edit, FaceId, HalfEdgeId, Insert, Location, Mesh};
 
 use super::beside::weights_in_parent;
@@ -123,7 +123,11 @@ pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, insert: &Insert<
     );
     for f in before.faces() {
         if insert.families().all(|family| family[0].parent != f) {
-            assert_eq!(after.corners(f), before.corners(f), "{f} was not divided");
+            assert_eq!(
+                after.face_vertices(f),
+                before.face_vertices(f),
+                "{f} was not divided"
+            );
         }
     }
     assert_eq!(euler(after), euler(before), "the Euler characteristic");

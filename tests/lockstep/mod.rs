@@ -258,7 +258,7 @@ impl Model {
             assert_eq!(expected, Ok(()), "a cut makes no split that is refused");
             let before = mesh.clone();
             let mut edits = Edits::new();
-            let again = split_op::faces(&mut mesh, split.old, &faces, &mut edits);
+            let again = split_op::vertex(&mut mesh, split.old, &faces, &mut edits);
             let again = again.map(|split| Told::by(&Edit::Split(split)));
             assert_eq!(again, Ok(Told::by(&edit)), "a split of a cut is a split");
             split::changes_nothing_else(&before, &mesh, &split);

@@ -2,7 +2,7 @@
 //!
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
-use tearmesh::subdivide::Plan;
+use tearmesh::insert::Plan;
 use tearmesh::{Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, split};
 use tearmesh_obj::{Document, TornDocument};
 
@@ -34,7 +34,7 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
         let mut bit = 0..;
         faces.retain(|_| bit.next().is_some_and(|i: u32| mask >> (i % 16) & 1 == 1));
         // The empty and the full set are refused, and nothing has happened then.
-        let _ = split::faces(&mut mesh, v, &faces, &mut edits);
+        let _ = split::vertex(&mut mesh, v, &faces, &mut edits);
     }
     let mut torn = TornDocument::new(&document);
     edits.replay(&mut (&mut positions, &mut torn));
@@ -187,7 +187,7 @@ fn corners_are_the_same(before: &Document, mesh: &Mesh, positions: &Positions, a
     assert_eq!(after.triangles().len(), before.triangles().len());
     assert_eq!(after.triangles().len(), mesh.face_count());
     for (f, triangle) in mesh.faces().zip(after.triangles()) {
-        for (i, v) in mesh.corners(f).into_iter().enumerate() {
+        for (i, v) in mesh.face_vertices(f).into_iter().enumerate() {
             let (was, is) = (positions.at(v), after.positions()[triangle[i] as usize]);
             for axis in 0..3 {
                 assert_eq!(is[axis].to_bits(), was[axis].to_bits(), "{v} of {f}");

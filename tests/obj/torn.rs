@@ -19,7 +19,7 @@ fn cut(document: &Document, cuts: &[Cut<'_>]) -> (Mesh, Positions) {
             .iter()
             .map(|&f| FaceId::new(f).expect("small"))
             .collect();
-        split::faces(&mut mesh, vertex, &faces, &mut edits).expect("a split that is possible");
+        split::vertex(&mut mesh, vertex, &faces, &mut edits).expect("a split that is possible");
     }
     edits.replay(&mut positions);
     (mesh, positions)
@@ -213,7 +213,7 @@ proptest! {
                 .filter(|(i, _)| mask >> i & 1 == 1)
                 .map(|(_, face)| face)
                 .collect();
-            let _refused = split::faces(&mut mesh, vertex, &moving, &mut edits);
+            let _refused = split::vertex(&mut mesh, vertex, &moving, &mut edits);
         }
         let mut followed = TornDocument::new(&document);
         edits.replay(&mut (&mut positions, &mut followed));

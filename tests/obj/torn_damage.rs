@@ -251,7 +251,7 @@ fn positions_may_change_and_copies_that_part_are_vertices() {
     let faces = [0, 3].map(|f| FaceId::new(f).expect("small"));
     let v = VertexId::new(0).expect("small");
     let mut edits = Edits::new();
-    tearmesh::split::faces(&mut work.mesh, v, &faces, &mut edits).expect("a split");
+    tearmesh::split::vertex(&mut work.mesh, v, &faces, &mut edits).expect("a split");
     edits.replay(&mut (&mut work.positions, &mut work.torn));
     let written = text(&work.written());
     let again = read(written.as_bytes());

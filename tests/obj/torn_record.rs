@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use tearmesh::subdivide::Plan;
+use tearmesh::insert::Plan;
 use tearmesh::{
     Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId,
     mend, split,
@@ -83,7 +83,7 @@ impl<'d> Work<'d> {
         let v = self.vertex(random);
         let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
         faces.retain(|_| below(random, 2) == 0);
-        let _refused = split::faces(&mut self.mesh, v, &faces, &mut self.edits);
+        let _refused = split::vertex(&mut self.mesh, v, &faces, &mut self.edits);
         self.follow();
     }
 
@@ -129,7 +129,7 @@ impl<'d> Work<'d> {
     /// The faces in the order of the file, each with its place in the mesh's terms.
     fn faces(&self) -> Vec<[u32; 3]> {
         let order = self.torn.faces_in_order();
-        let corners = |f| self.mesh.corners(f).map(u32::from);
+        let corners = |f| self.mesh.face_vertices(f).map(u32::from);
         order.into_iter().map(corners).collect()
     }
 }
@@ -352,7 +352,7 @@ fn a_part_is_simplified_and_the_rest_still_can_be() {
 /// To nine digits.
 fn area(mesh: &Mesh, positions: &Positions) -> String {
     let of = |f| {
-        let [a, b, c]: [Point; 3] = mesh.corners(f).map(|v| positions.at(v));
+        let [a, b, c]: [Point; 3] = mesh.face_vertices(f).map(|v| positions.at(v));
         (b - a).cross(&(c - a)).norm() / 2.0
     };
     format!("{:.9}", mesh.faces().map(of).sum::<f64>())
@@ -372,7 +372,7 @@ vt 6 6\nvn 1 0 0\nvn 0 1 0\nf 1/1/1 2/2/1 3/3/2\nf 3/3/2 2/2/1 4/4/2\nf 3/5/2 4/
             for v in [1, 2] {
                 let v = VertexId::new(v).expect("small");
                 let f = FaceId::new(0).expect("small");
-                split::faces(&mut work.mesh, v, &[f], &mut work.edits).expect("a split");
+                split::vertex(&mut work.mesh, v, &[f], &mut work.edits).expect("a split");
             }
         }
         let mut plan = Plan::new();
@@ -486,7 +486,7 @@ fn what_is_said_of_copies_comes_and_goes_with_them() {
     let mut edits = Edits::new();
     // Two opposite faces move: both halves are bow-ties.
     let faces = [0, 3].map(|f| FaceId::new(f).expect("small"));
-    split::faces(
+    split::vertex(
         &mut mesh,
         VertexId::new(6).expect("small"),
         &faces,
@@ -547,7 +547,7 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
             file += &format!("v {} {} {}\n", p.x, p.y, p.z);
         }
         for f in mesh.faces() {
-            let [a, b, c] = mesh.corners(f).map(|v| v.index() + 1);
+            let [a, b, c] = mesh.face_vertices(f).map(|v| v.index() + 1);
             file += &format!("f {a}/1 {b}/2 {c}/3\n");
         }
         let file = rewritten(file.as_bytes());

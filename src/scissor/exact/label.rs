@@ -92,6 +92,6 @@ impl Patches {
 
 /// The side of a face with a vertex that is not on the plane.
 fn by_vertex(mesh: &Mesh, f: FaceId, sign: &impl Fn(VertexId) -> f64) -> Option<Side> {
-    let signs = mesh.corners(f).map(sign);
+    let signs = mesh.face_vertices(f).map(sign);
     signs.into_iter().find(|&d| d != 0.0).map(Side::of)
 }

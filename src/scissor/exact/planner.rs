@@ -2,8 +2,8 @@
 
 use super::trace::{Crossing, Piece, Place, Site, Trace, corner_of};
 use crate::id::{HalfEdgeId, VertexId};
+use crate::insert::{ChordEnd, Plan, PointId};
 use crate::mesh::Mesh;
-use crate::subdivide::{ChordEnd, Plan, PointId};
 
 /// Collects the points to insert, and foresees their vertices.
 pub(super) struct Planner {

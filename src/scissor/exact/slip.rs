@@ -60,7 +60,7 @@ fn is_harmless(
 ) -> bool {
     let moved = between(positions.at(vertex), positions.at(toward), t);
     mesh.faces_of(vertex).all(|f| {
-        let corners = mesh.corners(f);
+        let corners = mesh.face_vertices(f);
         let before = corners.map(|v| positions.at(v));
         let after = corners.map(|v| if v == vertex { moved } else { positions.at(v) });
         let [normal, turned] = [before, after].map(|[a, b, c]| cross(b - a, c - a));

@@ -326,7 +326,7 @@ pub(crate) fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> 
     let area = |[a, b, c]: [Point; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
     let triangles = document.triangles().iter();
     let before: f64 = triangles.map(|t| area(t.map(|v| was[v as usize]))).sum();
-    let faces = mesh.faces().map(|f| mesh.corners(f));
+    let faces = mesh.faces().map(|f| mesh.face_vertices(f));
     let after: f64 = faces.map(|t| area(t.map(|v| positions.at(v)))).sum();
     // Each area and each sum is rounded; what is lost or twice there would be far more.
     let bound = 1e-9 * before;

@@ -19,7 +19,7 @@
 //! let mut edits = Edits::new();
 //! for v in [1, 2] {
 //!     let v = VertexId::new(v).expect("small");
-//!     split::faces(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+//!     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
 //! }
 //! edits.replay(&mut positions);
 //!

@@ -53,7 +53,7 @@ impl TornDocument<'_> {
     /// position for each vertex.
     ///
     /// ```
-    /// use tearmesh::{Edits, HalfEdgeId, Positions, subdivide::Plan};
+    /// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};
     /// use tearmesh_obj::{Document, TornDocument};
     ///
     /// let document = Document::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..])?;

@@ -46,7 +46,7 @@ use crate::store::Rows;
 ///   others that have the same index.
 ///
 /// ```
-/// use tearmesh::{Edits, HalfEdgeId, Positions, subdivide::Plan};
+/// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};
 /// use tearmesh_obj::{Document, TornDocument};
 ///
 /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\ng seam\nf 1/1 2/2 3/3\n";
@@ -175,7 +175,7 @@ impl<'d> TornDocument<'d> {
     /// let mut edits = Edits::new();
     /// for v in [1, 2] {
     ///     let v = VertexId::new(v).expect("small");
-    ///     split::faces(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+    ///     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
     ///     edits.replay(&mut (&mut positions, &mut torn));
     ///     torn.next_cut();
     /// }

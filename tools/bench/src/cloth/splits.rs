@@ -137,6 +137,6 @@ fn measured(solver: &mut dyn Solver, mut mesh: Mesh, mut cloth: Cloth) -> Times 
 fn split_all(vertices: &[(usize, VertexId)], mesh: &mut Mesh, edits: &mut Edits) {
     for &(_, v) in vertices {
         let face = mesh.faces_of(v).next().expect("it has faces");
-        split::faces(mesh, v, &[face], edits).expect("one of six faces");
+        split::vertex(mesh, v, &[face], edits).expect("one of six faces");
     }
 }

@@ -91,7 +91,7 @@ fn corner(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> Point {
 /// The areas of all faces.
 fn areas(mesh: &Mesh, positions: &Positions) -> impl Iterator<Item = f64> {
     mesh.faces().map(|f| {
-        let [a, b, c] = mesh.corners(f).map(|v| positions.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         (b - a).cross(&(c - a)).norm() / 2.0
     })
 }
@@ -134,7 +134,7 @@ fn altitudes(before: (&Mesh, &Positions), positions: &Positions, edits: &Edits) 
         let Edit::Insert(insert) = edit else { continue };
         for child in insert.children {
             let (mesh, old) = before;
-            let parent = altitude(mesh.corners(child.parent).map(|v| old.at(v)));
+            let parent = altitude(mesh.face_vertices(child.parent).map(|v| old.at(v)));
             let own = altitude(child.vertices.map(|v| positions.at(v)));
             altitudes.push(own / parent);
         }

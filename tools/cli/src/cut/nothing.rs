@@ -100,7 +100,7 @@ impl Slit<'_> {
 
     /// The centre of the face of a half-edge.
     fn centre(&self, h: HalfEdgeId) -> Point {
-        let corners = self.mesh.corners(h.face());
+        let corners = self.mesh.face_vertices(h.face());
         let [a, b, c] = corners.map(|v| self.positions.at(v));
         Point::from((a.coords + b.coords + c.coords) / 3.0)
     }

@@ -197,7 +197,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
 
 /// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
 fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
-    let corners = opened.mesh.corners(face);
+    let corners = opened.mesh.face_vertices(face);
     let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
     let name = corners.map(|v| (v.index() + 1).to_string()).join("-");
     if (b - a).cross(&(c - a)) == Vector::zeros() {

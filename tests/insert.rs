@@ -1,7 +1,7 @@
 //! Insertions and merges: what they must leave as it was.
 
+use tearmesh::insert::{Plan, Refusal};
 use tearmesh::mend::{Stitch, StitchError};
-use tearmesh::subdivide::{Plan, Refusal};
 use tearmesh::{
     Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, PerCorner, Point, Positions, VertexId, mend,
     shapes, split,
@@ -24,7 +24,7 @@ fn meshes() -> Vec<(&'static str, Mesh, Positions)> {
 
 fn area(mesh: &Mesh, place: &Positions) -> f64 {
     let of = |f: FaceId| {
-        let [a, b, c] = mesh.corners(f).map(|v| place.at(v));
+        let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
         (b - a).cross(&(c - a)).norm() / 2.0
     };
     mesh.faces().map(of).sum()
@@ -119,7 +119,7 @@ fn random_edits_keep_every_invariant_and_the_surface() {
                             .copied()
                             .filter(|_| below(&mut random, 2) == 0)
                             .collect();
-                        if split::faces(&mut mesh, v, &some, &mut edits).is_ok() {
+                        if split::vertex(&mut mesh, v, &some, &mut edits).is_ok() {
                             splits += 1;
                         }
                     }
@@ -142,7 +142,7 @@ fn random_edits_keep_every_invariant_and_the_surface() {
                 }
                 let triangles: Vec<[u32; 3]> = mesh
                     .faces()
-                    .map(|f| mesh.corners(f).map(u32::from))
+                    .map(|f| mesh.face_vertices(f).map(u32::from))
                     .collect();
                 assert_eq!(
                     Mesh::build_torn(&triangles, &mesh.roots()).as_ref(),
@@ -299,7 +299,7 @@ fn sewing_lists_every_stitch_that_it_refuses_and_changes_nothing() {
     let mut edits = Edits::new();
     for old in [3, 4, 5] {
         let face = mesh.faces_of(v(old)).next().expect("a face");
-        split::faces(&mut mesh, v(old), &[face], &mut edits).expect("others stay");
+        split::vertex(&mut mesh, v(old), &[face], &mut edits).expect("others stay");
     }
     let place: Vec<[f64; 3]> = (0..12).map(|i| [f64::from(i), 0.0, 0.0]).collect();
     let stitches: Vec<Stitch> = [(3, 9), (11, 5), (4, 10), (0, 1)]
@@ -329,7 +329,7 @@ fn sewing_lists_every_stitch_that_it_refuses_and_changes_nothing() {
     let uncut = mesh.clone();
     for face in 1..6 {
         let face = FaceId::new(face).expect("a small number");
-        split::faces(&mut mesh, v(0), &[face], &mut edits).expect("one stays");
+        split::vertex(&mut mesh, v(0), &[face], &mut edits).expect("one stays");
     }
     edits.replay(&mut positions.clone().starting_at(before.1));
     let place = vec![[0.0; 3]; mesh.vertex_count()];

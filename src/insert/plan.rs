@@ -5,7 +5,7 @@ use crate::id::{FaceId, HalfEdgeId};
 /// What to insert, all at once.
 ///
 /// ```
-/// use tearmesh::{shapes, subdivide::Plan, Edits, FaceId, HalfEdgeId};
+/// use tearmesh::{shapes, insert::Plan, Edits, FaceId, HalfEdgeId};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(1, 1);
 /// let diagonal = mesh.half_edges().find(|&h| mesh.pair(h).is_some()).unwrap();
@@ -18,7 +18,7 @@ use crate::id::{FaceId, HalfEdgeId};
 /// assert_eq!((mesh.vertex_count(), mesh.face_count()), (5, 4));
 /// assert_eq!(positions.as_slice()[4], [0.5, 0.5, 0.0].into());
 /// assert!(mesh.check().is_empty());
-/// # Ok::<(), tearmesh::subdivide::Refusal>(())
+/// # Ok::<(), tearmesh::insert::Refusal>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Plan {

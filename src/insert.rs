@@ -9,7 +9,7 @@
 //! alone, the walk round a vertex could not cross the link any more. No mark is made or
 //! lost here: only `split.rs` tears, and only `mend.rs` sews.
 //!
-//! The rule of retriangulation (`subdivide/face.rs`) needs no coordinates: it compares areas
+//! The rule of retriangulation (`insert/face.rs`) needs no coordinates: it compares areas
 //! as parts of the divided face, which no affine map changes.
 //!
 //! Ids: new vertices are the last ones, in the order of the plan. The first child of a divided
@@ -58,7 +58,7 @@ impl Plan {
         for &point in &self.points {
             match point {
                 Point::Edge { h, .. } => _ = mesh.origin(h),
-                Point::Face { f, .. } => _ = mesh.corners(f),
+                Point::Face { f, .. } => _ = mesh.face_vertices(f),
             }
         }
         for &Chord { f, ends } in &self.chords {
@@ -218,7 +218,7 @@ impl Work {
                         return Err(Refusal::Weights { face: f, weights });
                     }
                     let weights = weights.map(|w| w / sum);
-                    let vertices = mesh.corners(f);
+                    let vertices = mesh.face_vertices(f);
                     let vertex = new_vertex();
                     let at = Location::Face { vertices, weights };
                     self.placed.push(InsertedPoint { vertex, at });
