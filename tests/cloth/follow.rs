@@ -6,7 +6,6 @@ use tearmesh::insert::Plan;
 use tearmesh::{
     Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split,
 };
-use tearmesh_cloth::implicit::Buckling;
 use tearmesh_cloth::{
     Bending, Cloth, Constraint, Copies, Fabric, Loads, Rk4, Unbend, Unstable, Verlet, Weave, Xpbd,
 };
@@ -319,7 +318,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         if seed >= 90 && with_bends {
             fabric.bend = Some(Bending::Buckling {
                 flexural_n_m2: 1e-3,
-                law: Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
+                law: tearmesh_cloth::Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
             });
         }
         let triangles_alone = fabric.stretch_n_per_m == 0.0 && !with_bends;

@@ -324,7 +324,7 @@ fn stretch_beyond_the_limit_is_a_blow_up() {
     let folded = || {
         let mut bend = row();
         bend.bend([0, 2], 2.0, 10.0).expect("a bend");
-        bend.set_buckling(Some(implicit::Buckling::new(0.95).expect("a law")));
+        bend.set_buckling(Some(tearmesh_cloth::Buckling::new(0.95).expect("a law")));
         bend
     };
     let woven = || {

@@ -3,7 +3,7 @@
 
 use tearmesh::geometry::Vector;
 
-use crate::implicit::Buckling;
+use crate::bend::Buckling;
 use crate::sheet::ClothError;
 
 /// What a cloth is made of, and what becomes of constraints when it tears.
@@ -121,8 +121,8 @@ impl Weave {
 /// What resists bending, between the two vertices opposite an interior edge.
 ///
 /// ```
-/// use tearmesh_cloth::implicit::{Buckling, Settings};
-/// use tearmesh_cloth::{Bending, Cloth, Fabric, ImplicitCloth, StepError, Xpbd};
+/// use tearmesh_cloth::implicit::Settings;
+/// use tearmesh_cloth::{Bending, Buckling, Cloth, Fabric, ImplicitCloth, StepError, Xpbd};
 /// use tearmesh::{shapes, Masses};
 ///
 /// let bend = Bending::Buckling { flexural_n_m2: 1e-6, law: Buckling::new(0.95).unwrap() };

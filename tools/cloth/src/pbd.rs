@@ -9,9 +9,10 @@
 
 use tearmesh::geometry::{Point, Vector};
 
-use crate::kernel;
+use crate::element::Forces;
 use crate::solver::{Failure, SettingError, Solver};
-use crate::system::{Forces, Model, System};
+use crate::spring;
+use crate::system::{Model, System};
 
 /// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
 /// soft as [`Pbd::stiffness`] says.
@@ -80,11 +81,11 @@ impl Solver for Pbd {
         model.clear_multipliers();
         for _ in 0..self.sweeps.max(1) {
             for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
-                for (batch, multipliers) in family.batches_mut() {
+                for (batch, memories) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
-                    Failure::unless(kernel::project(
+                    Failure::unless(spring::project(
                         batch,
-                        multipliers,
+                        memories.multipliers,
                         &model.inverse_masses,
                         fraction,
                         model.stretch_ratio_max,

@@ -11,9 +11,10 @@
 //! with what it did itself the force that each constraint carried ([`System::force_n`]).
 //! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
-use crate::kernel;
+use crate::element::Forces;
 use crate::solver::{Failure, SettingError, Solver, StepError};
-use crate::system::{Forces, System};
+use crate::spring;
+use crate::system::System;
 use crate::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
@@ -119,8 +120,8 @@ impl Provot {
         } = system;
         scratch.before.clone_from(positions);
         model.set_aside();
-        for (batch, ratios) in model.stretch.ratios_mut() {
-            kernel::ratios(batch, positions, ratios);
+        for (batch, memories) in model.stretch.batches_mut() {
+            spring::ratios(batch, positions, memories.ratios);
         }
         model.is_limited = true;
         model.clear_multipliers();
@@ -130,10 +131,10 @@ impl Provot {
         while report.passes < limiter.passes_max && largest > ratio_max {
             last = largest;
             largest = 0.0;
-            for (batch, multipliers) in model.stretch.batches_mut() {
+            for (batch, memories) in model.stretch.batches_mut() {
                 counters.projections += batch.ends.len() as u64;
                 let masses = &model.inverse_masses;
-                let met = kernel::limit(batch, multipliers, masses, ratio_max, positions);
+                let met = spring::limit(batch, memories.multipliers, masses, ratio_max, positions);
                 largest = largest.max(met);
             }
             if report.passes == 0 {

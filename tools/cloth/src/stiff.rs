@@ -6,6 +6,8 @@
 
 use tearmesh::geometry::Vector;
 
+use crate::bend::Buckling;
+use crate::constraint::Constraints;
 use crate::implicit::{
     self, Bend, Filter, Implicit, ModelError, Part, Settings, Spring, Tolerance,
 };
@@ -53,6 +55,7 @@ pub struct ImplicitCloth {
     accelerations: Vec<Vector>,
     springs: Vec<Spring>,
     bends: Vec<Bend>,
+    triangles: Vec<implicit::Triangle>,
     report: Option<implicit::StepReport>,
 }
 
@@ -94,21 +97,36 @@ impl ImplicitCloth {
         self.filters.clear();
         self.filters.extend(model.inverse_masses.iter().map(filter));
         self.springs.clear();
-        for batch in model.springs() {
+        self.bends.clear();
+        self.gather_pairs(&model.stretch, None);
+        self.gather_pairs(&model.bend, model.buckling);
+        let triangles = model.triangles.as_slice().iter();
+        self.triangles.clear();
+        self.triangles.extend(triangles.map(|t| implicit::Triangle {
+            vertices: t.vertices,
+            rest_inverse: t.rest_inverse,
+            area: t.area,
+            stiffness: t.stiffness,
+        }));
+    }
+
+    fn gather_pairs(&mut self, constraints: &Constraints, law: Option<Buckling>) {
+        let law = law.and_then(|law| implicit::Buckling::new(law.buckles_below()));
+        for batch in constraints.batches() {
             let numbers = batch.ends.iter().zip(batch.rest).zip(batch.stiffness);
             // Edges of a cloth of triangles alone are measured, and pull at nothing.
-            let springs = numbers.filter(|(_, stiffness)| **stiffness > 0.0);
-            self.springs
-                .extend(springs.map(|((&ends, &rest_length), &stiffness)| Spring {
-                    ends,
-                    rest_length,
-                    stiffness,
-                    tension_only: false,
-                }));
-        }
-        self.bends.clear();
-        for bends in model.buckles() {
-            self.bends.extend(bends.iter());
+            let acting = numbers.filter(|(_, stiffness)| **stiffness > 0.0);
+            for ((&ends, &rest_length), &stiffness) in acting {
+                match law {
+                    Some(law) => self.bends.push(law.bend(ends, rest_length, stiffness)),
+                    None => self.springs.push(Spring {
+                        ends,
+                        rest_length,
+                        stiffness,
+                        tension_only: false,
+                    }),
+                }
+            }
         }
     }
 }
@@ -142,7 +160,7 @@ impl Solver for ImplicitCloth {
             accelerations: &self.accelerations,
             springs: &self.springs,
             bends: &self.bends,
-            triangles: system.model.triangles.as_slice(),
+            triangles: &self.triangles,
             drag_per_s: system.model.drag_per_s(),
         };
         let (positions, velocities) = (&mut system.positions, &mut system.velocities);

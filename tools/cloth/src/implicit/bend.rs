@@ -104,14 +104,6 @@ impl Bend {
         self.ends
     }
 
-    pub(crate) fn rest_length(&self) -> f64 {
-        self.rest_length
-    }
-
-    pub(crate) fn compression(&self) -> f64 {
-        self.compression
-    }
-
     /// The same between other particles: for a tear that gives an end to a copy.
     #[must_use]
     pub fn between(&self, ends: [u32; 2]) -> Bend {
@@ -153,7 +145,7 @@ impl Bend {
     }
 
     /// Energy, force and slope with the ends so far apart.
-    pub(crate) fn axial(&self, distance: f64) -> Axial {
+    fn axial(&self, distance: f64) -> Axial {
         let gap = distance - self.rest_length;
         if gap >= 0.0 {
             return Axial {
@@ -255,14 +247,6 @@ impl Buckling {
             energy_shift: self.shift * (compression * (l * l)),
         }
     }
-
-    /// The largest stiffness that a bend has at any length, by c: that of the spring, or that of the
-    /// arc where both ends meet, 12π² k / L³. The arc's force is concave in d, so it is nowhere
-    /// stiffer.
-    pub(crate) fn stiffest(&self) -> f64 {
-        let pi = std::f64::consts::PI;
-        (12.0 * (pi * pi) / self.number).max(1.0)
-    }
 }
 
 /// The energy, in J, with the ends at `p` and `q`.
@@ -296,10 +280,10 @@ pub fn hessian(bend: &Bend, p: Point, q: Point, clamp: bool) -> (Block, bool) {
 
 /// An energy that depends on a distance, with its first two derivatives.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Axial {
-    pub(crate) energy: f64,
-    pub(crate) force: f64,
-    pub(crate) slope: f64,
+struct Axial {
+    energy: f64,
+    force: f64,
+    slope: f64,
 }
 
 /// Functions of u = t², for t in 0 … π.

@@ -39,7 +39,6 @@
 //!     filters: &filters,
 //!     accelerations: &gravity,
 //!     springs: &springs,
-//!     triangles: chain.triangles(),
 //!     ..Model::default()
 //! };
 //!

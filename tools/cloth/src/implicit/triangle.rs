@@ -81,16 +81,6 @@ impl Triangle {
         bad.copied()
     }
 
-    /// One that resists nothing, in the place of one without area.
-    pub(crate) fn slack(vertices: [u32; 3]) -> Triangle {
-        Triangle {
-            vertices,
-            rest_inverse: [[0.0; 2]; 2],
-            area: f64::MIN_POSITIVE,
-            stiffness: [0.0; 3],
-        }
-    }
-
     /// How `w_u` and `w_v` change with each corner.
     pub(crate) fn weights(&self) -> [[f64; 3]; 2] {
         let d = &self.rest_inverse;
@@ -105,13 +95,6 @@ impl Triangle {
         let d = &self.rest_inverse;
         [0, 1].map(|c| a * d[0][c] + b * d[1][c])
     }
-}
-
-/// Where the corners are.
-#[inline]
-#[must_use]
-pub(crate) fn corners(triangle: &Triangle, positions: &[Point]) -> [Point; 3] {
-    triangle.vertices.map(|v| positions[v as usize])
 }
 
 /// The energy, in J, with the corners at these points.
@@ -166,15 +149,6 @@ pub fn stiffness_times(triangle: &Triangle, corners: [Point; 3], u: [Vector; 3])
     let p_v = along(w_v, k_v, d_v) + (w_u * sheared + both * (0.5 * sign)) * k_s;
     let [f1, f2] = [0, 1].map(|e| (p_u * d[e][0] + p_v * d[e][1]) * triangle.area);
     [-(f1 + f2), f1, f2]
-}
-
-/// |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|: `k_s` times this bounds the second derivative of the shear
-/// term by `w_u` and `w_v`. It is 2 at rest.
-#[inline]
-#[must_use]
-pub(crate) fn shear_growth(triangle: &Triangle, corners: [Point; 3]) -> f64 {
-    let [w_u, w_v] = triangle.derivatives(corners);
-    dot(w_u, w_u) + dot(w_v, w_v) + dot(w_u, w_v).abs()
 }
 
 /// 1 − 1/|w|, which is zero for a w of zero, since that has no direction.

@@ -2,7 +2,7 @@
 
 use super::{Tearing, TearingError};
 use crate::constraint::{Constraint, ConstraintId};
-use crate::system::System;
+use crate::system::{Family, System};
 
 /// A link that was cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,10 +37,11 @@ impl Tearing {
         torn.sort_unstable_by(|(one, a), (other, b)| other.total_cmp(one).then(a.cmp(b)));
         torn.truncate(self.splits_per_step_max.unwrap_or(usize::MAX));
         let cut = |(load, id)| {
-            let energy_j = system.elastic_of(id);
+            let constraint = system.cut(id);
+            let energy_j = system.elastic_of(Family::Stretch, &constraint);
             CutLink {
                 id,
-                constraint: system.cut(id),
+                constraint,
                 load,
                 energy_j,
             }
