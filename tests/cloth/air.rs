@@ -3,8 +3,8 @@
 
 use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::{
-    Cloth, Fabric, ImplicitCloth, Loads, Pbd, Provot, Rk4, Solver, StepError, System, Unstable,
-    Verlet, Wind, Xpbd,
+    Cloth, Fabric, Implicit, Loads, Pbd, Provot, Rk4, Solver, StepError, System, Unstable, Verlet,
+    Wind, Xpbd,
 };
 
 use crate::random::Random;
@@ -24,7 +24,7 @@ const METHODS: [Method; 6] = [
     ("RK4", RK4, || Box::new(Rk4::new())),
     ("PBD", 2.0, || Box::new(Pbd::default())),
     ("XPBD", 20.0, || Box::new(Xpbd::new(10, 1))),
-    ("implicit", 2.0, || Box::new(ImplicitCloth::default())),
+    ("implicit", 2.0, || Box::new(Implicit::default())),
 ];
 
 /// Wind across a sheet.

@@ -54,7 +54,7 @@ fn steps_of_a_cloth_do_not_allocate() {
 
 #[test]
 fn steps_of_a_cloth_of_triangles_do_not_allocate() {
-    use tearmesh_cloth::{Cloth, Fabric, ImplicitCloth, Rk4, Solver, Unstable, Verlet, Weave};
+    use tearmesh_cloth::{Cloth, Fabric, Implicit, Rk4, Solver, Unstable, Verlet, Weave};
 
     let (mesh, positions) = shapes::grid(10, 10);
     let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
@@ -69,7 +69,7 @@ fn steps_of_a_cloth_of_triangles_do_not_allocate() {
     system.hold(0);
     system.state_mut().1[60] = Vector::new(0.1, 0.1, 0.3);
     system.when_unstable(Unstable::Substep);
-    let (mut implicit, mut rk4) = (ImplicitCloth::default(), Rk4::new());
+    let (mut implicit, mut rk4) = (Implicit::default(), Rk4::new());
     let methods: [&mut dyn Solver; 3] = [&mut Verlet::new(), &mut rk4, &mut implicit];
     for method in methods {
         // The first step makes room.

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use tearmesh::{Edits, Masses, Mesh, Plane, Point, Vector, shapes, split};
 use tearmesh_cloth::{
-    Cloth, Collider, Fabric, ImplicitCloth, Loads, Pbd, Solver, Unstable, Verlet, Xpbd,
+    Cloth, Collider, Fabric, Implicit, Loads, Pbd, Solver, Unstable, Verlet, Xpbd,
 };
 
 /// A sheet of n × n cells that hangs by its upper edge.
@@ -157,10 +157,7 @@ fn times_of_projections_steps_and_splits() {
                     cloth.step(solver, 1e-6).expect("a step");
                 }) / faces
             };
-            [
-                step(&mut Verlet::new()),
-                step(&mut ImplicitCloth::default()),
-            ]
+            [step(&mut Verlet::new()), step(&mut Implicit::default())]
         });
         println!(
             "{n}²: ns a face: Verlet on springs {:.1}, on triangles {:.1}; implicit {:.0} and {:.0}",

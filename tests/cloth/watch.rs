@@ -4,7 +4,7 @@
 use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::{
-    Cloth, Fabric, Failure, Frequency, ImplicitCloth, Limiter, Loads, Path, Pbd, Provot, Rk4,
+    Cloth, Fabric, Failure, Frequency, Implicit, Limiter, Loads, Path, Pbd, Provot, Rk4,
     SettingError, Solver, StepError, System, Verlet, Wind, Xpbd,
 };
 
@@ -178,7 +178,7 @@ fn every() -> [(&'static str, Box<dyn Solver>); 7] {
         ("unlimited", Box::new(Provot::unlimited())),
         ("PBD", Box::new(Pbd::default())),
         ("XPBD", Box::new(Xpbd::default())),
-        ("implicit", Box::new(ImplicitCloth::default())),
+        ("implicit", Box::new(Implicit::default())),
     ]
 }
 
@@ -398,7 +398,7 @@ fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
             tolerance,
             ..Settings::default()
         };
-        refused.push((Box::new(ImplicitCloth::new(settings)), "tolerance", given));
+        refused.push((Box::new(Implicit::new(settings)), "tolerance", given));
     }
     for (mut solver, name, number) in refused {
         let mut system = stiff();

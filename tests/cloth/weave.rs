@@ -4,7 +4,7 @@
 use tearmesh::{Masses, Mesh, Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
 use tearmesh_cloth::{
-    Cloth, Fabric, ImplicitCloth, Loads, Provot, Rk4, Solver, System, Unstable, Verlet, Weave,
+    Cloth, Fabric, Implicit, Loads, Provot, Rk4, Solver, System, Unstable, Verlet, Weave,
 };
 
 use crate::answers::{G, gravity, near, run};
@@ -42,8 +42,8 @@ pub(crate) fn strip(rows: usize, mass: f64, stiffness: f64, rest: f64, apart: Ve
     strip
 }
 
-pub(crate) fn implicit(method: Method, tolerance: f64) -> ImplicitCloth {
-    ImplicitCloth::new(Settings {
+pub(crate) fn implicit(method: Method, tolerance: f64) -> Implicit {
+    Implicit::new(Settings {
         method,
         tolerance: Tolerance::Fixed(tolerance),
         newton_iterations_max: 30,

@@ -3,7 +3,7 @@
 use tearmesh::insert::Plan;
 use tearmesh::{Edit, Edits, FaceId, Masses, Point, Vector, VertexId, shapes, slide, split};
 use tearmesh_cloth::{
-    Cloth, ClothError, Culprit, Fabric, ImplicitCloth, Pbd, Provot, Rk4, Solver, StepError, System,
+    Cloth, ClothError, Culprit, Fabric, Implicit, Pbd, Provot, Rk4, Solver, StepError, System,
     SystemError, Unstable, Verlet, Weave, Xpbd, warp_of_texture,
 };
 
@@ -282,9 +282,7 @@ fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted(
         for _ in 0..10 {
             cloth.step(&mut Verlet::new(), dt).expect("a step");
         }
-        cloth
-            .step(&mut ImplicitCloth::default(), dt)
-            .expect("a step");
+        cloth.step(&mut Implicit::default(), dt).expect("a step");
     }
     let [springs, woven] = [&springs, &woven].map(|cloth| cloth.system().counters());
     assert_eq!(springs.triangle_evaluations, 0);

@@ -167,6 +167,11 @@ impl Link for Bend {
     fn force(self, length: f64) -> f64 {
         self.axial(length).force
     }
+    fn stiffness(self, length: f64) -> [f64; 2] {
+        let axial = self.axial(length);
+        [axial.slope, axial.force / length]
+    }
+
     fn pull(self, slope: Slope, d: Vector, u: Vector) -> Vector {
         let square = dot(d, d);
         let stiffness = match slope {

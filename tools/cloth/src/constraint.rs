@@ -84,6 +84,7 @@ struct Colour {
 /// The constraints of one colour, no two of which share a particle: slices of the same length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Batch<'a> {
+    pub(crate) ids: &'a [u32],
     pub(crate) ends: &'a [[u32; 2]],
     pub(crate) rest: &'a [f64],
     pub(crate) stiffness: &'a [f64],
@@ -361,6 +362,7 @@ impl Colour {
 
     fn batch(&self) -> Batch<'_> {
         Batch {
+            ids: &self.ids,
             ends: &self.ends,
             rest: &self.rest,
             stiffness: &self.stiffness,
@@ -370,6 +372,7 @@ impl Colour {
 
     fn batch_mut(&mut self) -> (Batch<'_>, Memories<'_>) {
         let batch = Batch {
+            ids: &self.ids,
             ends: &self.ends,
             rest: &self.rest,
             stiffness: &self.stiffness,

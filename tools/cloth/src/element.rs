@@ -11,6 +11,7 @@
 use tearmesh::geometry::{Point, Vector};
 
 use crate::culprit::Longest;
+use crate::matrix::Hessian;
 
 /// All constraints of one kind.
 pub(crate) trait Element {
@@ -54,6 +55,14 @@ pub(crate) trait Element {
 
     /// The largest row among the constraints of a particle.
     fn largest_row_at(&self, particle: usize, reach: f64, sum: &dyn Fn(usize) -> f64) -> f64;
+
+    /// The pairs of particles that act on each other, each with a number that stays that of its
+    /// constraint.
+    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2]));
+
+    /// Adds the second derivatives of the energy, each pair's to its slot by that number. With
+    /// `clamp` every term is positive semidefinite; returns how many had a part dropped for it.
+    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64;
 }
 
 /// Where the forces of the last step are to be read.

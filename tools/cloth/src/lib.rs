@@ -16,7 +16,7 @@
 //! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
 //! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
 //! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
-//! | [`ImplicitCloth`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
+//! | [`Implicit`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
 //! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
@@ -53,6 +53,7 @@ pub mod implicit;
 mod incidence;
 mod load;
 mod material;
+mod matrix;
 mod pair;
 mod particle;
 mod pbd;
@@ -64,7 +65,6 @@ mod solver;
 mod spectrum;
 mod spring;
 mod step;
-mod stiff;
 mod strain;
 mod system;
 mod tearing;
@@ -79,6 +79,7 @@ pub use bend::Buckling;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use culprit::Culprit;
 pub use fabric::{Bending, Copies, Fabric, Unbend, Weave};
+pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
 pub use material::warp_of_texture;
 pub use pbd::Pbd;
@@ -87,7 +88,6 @@ pub use rk4::Rk4;
 pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
 pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;
-pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};
 pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;

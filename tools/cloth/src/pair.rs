@@ -6,6 +6,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 use crate::constraint::{Batch, Constraint, Constraints};
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Busiest, Element, Forces, Slope};
+use crate::matrix::{Block, Hessian};
 
 /// A law by which constraints act, all of them alike but for their rest length and stiffness.
 pub(crate) trait Law: Copy {
@@ -27,6 +28,10 @@ pub(crate) trait Link: Copy {
 
     /// The pull, in newtons: the derivative of the energy. Negative where it pushes apart.
     fn force(self, length: f64) -> f64;
+
+    /// The derivative of that along the line, and that of the force across it for a turn, force
+    /// over length, in newtons per metre.
+    fn stiffness(self, length: f64) -> [f64; 2];
 
     /// The change of the force when the line `d` changes by `u`, to first order and without
     /// negative stiffness.
@@ -198,4 +203,54 @@ impl<L: Law> Element for Pairs<'_, L> {
         let rows = constraints.map(|id| row(self.constraints.get(id)));
         rows.fold(0.0, f64::max)
     }
+
+    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2])) {
+        for batch in self.constraints.batches() {
+            for (&id, &ends) in batch.ids.iter().zip(batch.ends) {
+                visit(id as usize, ends);
+            }
+        }
+    }
+
+    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64 {
+        let mut clamped = 0;
+        for batch in self.constraints.batches() {
+            let numbers = batch.rest.iter().zip(batch.stiffness);
+            let constraints = batch.ids.iter().zip(batch.ends).zip(numbers);
+            for ((&id, &ends), (&rest, &stiffness)) in constraints {
+                // Edges of a cloth of triangles alone are measured, and pull at nothing.
+                let link = self.law.link(rest, stiffness).filter(|_| stiffness > 0.0);
+                if let Some(link) = link {
+                    let [p, q] = ends.map(|end| x[end as usize]);
+                    let (block, dropped) = block(link, q - p, clamp);
+                    clamped += u64::from(dropped);
+                    hessian.add_pair(slots[id as usize], ends, &block);
+                }
+            }
+        }
+        clamped
+    }
+}
+
+/// The second derivative of a link's energy by the position of either end (by both it is the
+/// negative), and whether a part of it was dropped that is indefinite:
+///
+/// ```text
+/// H = E″ t tᵀ + E′/l (I − t tᵀ),   t the direction, l the length
+/// ```
+///
+/// Under compression the second term is negative; Choi and Ko 2002 §4 drop it there. Where both
+/// ends are one point the derivative does not exist, and E″ I is given for it.
+fn block(link: impl Link, d: Vector, clamp: bool) -> (Block, bool) {
+    let length = dot(d, d).sqrt();
+    let [along, across] = link.stiffness(length);
+    if length == 0.0 {
+        return (Block::identity_times(along), false);
+    }
+    let direction = d / length;
+    let clamped = clamp && across < 0.0;
+    let across = if clamped { 0.0 } else { across };
+    let line = Block::outer(direction, direction);
+    let block = Block::identity_times(across).plus(along - across, &line);
+    (block, clamped)
 }

@@ -52,6 +52,12 @@ impl Link for Spring {
         self.stiffness * (length - self.rest)
     }
     #[inline]
+    fn stiffness(self, length: f64) -> [f64; 2] {
+        let across = self.stiffness * ((length - self.rest) / length);
+        [self.stiffness, across]
+    }
+
+    #[inline]
     fn pull(self, _slope: Slope, d: Vector, u: Vector) -> Vector {
         let square = dot(d, d);
         if square == 0.0 {
@@ -241,6 +247,7 @@ mod tests {
 
     /// Constraints of one colour: some with one end held, one with both, one without length.
     struct Pairs {
+        ids: Vec<u32>,
         ends: Vec<[u32; 2]>,
         rest: Vec<f64>,
         stiffness: Vec<f64>,
@@ -266,6 +273,7 @@ mod tests {
             inverse_masses[10..12].fill(0.0);
             let stiffness: Vec<f64> = (0..COUNT).map(|_| 1.0 + 9.0 * random()).collect();
             Pairs {
+                ids: (0..COUNT as u32).collect(),
                 ends: (0..COUNT as u32).map(|i| [2 * i, 2 * i + 1]).collect(),
                 rest: (0..COUNT).map(|_| 0.1 + random()).collect(),
                 compliance: stiffness.iter().map(|k| 1.0 / k).collect(),
@@ -277,6 +285,7 @@ mod tests {
 
         fn batch(&self) -> Batch<'_> {
             Batch {
+                ids: &self.ids,
                 ends: &self.ends,
                 rest: &self.rest,
                 stiffness: &self.stiffness,

@@ -30,6 +30,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
+use crate::matrix::{Block, Hessian};
 
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,8 +136,8 @@ impl Triangle {
         [-(f1 + f2), f1, f2]
     }
 
-    /// The change of the forces on the corners when these move by `u`, negated, to first order: without
-    /// what is indefinite.
+    /// The change of the forces on the corners when these move by `u`, negated, to first order: what
+    /// [`Triangle::hessian`] with `clamp` gives, without the matrix.
     #[inline]
     fn stiffness_times(&self, corners: [Point; 3], u: [Vector; 3]) -> [Vector; 3] {
         let [w_u, w_v] = self.derivatives(corners);
@@ -170,6 +171,61 @@ impl Triangle {
         let [w_u, w_v] = self.derivatives(corners);
         dot(w_u, w_u) + dot(w_v, w_v) + dot(w_u, w_v).abs()
     }
+    /// The second derivatives of the energy: `[i][j]` is the block of corners i and j, in N/m; and
+    /// how many of the three terms (u, v, shear) had a part dropped.
+    fn hessian(&self, corners: [Point; 3], clamp: bool) -> ([[Block; 3]; 3], u32) {
+        let [w_u, w_v] = self.derivatives(corners);
+        let [k_u, k_v, k_s] = self.stiffness;
+        let shear = dot(w_u, w_v);
+        let mut clamped = 0;
+        let mut along = |w: Vector, k: f64, other: Vector| {
+            let mut across = stretch(w);
+            if clamp && across < 0.0 {
+                across = 0.0;
+                clamped += u32::from(k > 0.0);
+            }
+            let l = length(w);
+            let direction = if l > 0.0 { w / l } else { w };
+            Block::identity_times(k * across)
+                .plus(k * (1.0 - across), &Block::outer(direction, direction))
+                .plus(k_s, &Block::outer(other, other))
+        };
+        let mut uu = along(w_u, k_u, w_v);
+        let mut vv = along(w_v, k_v, w_u);
+        let mut uv = Block::outer(w_v, w_u);
+        // s [0 I; I 0] is half |s| [I ±I; ±I I] less half |s| [I ∓I; ∓I I].
+        if clamp {
+            let half = Block::identity_times(0.5 * k_s * shear.abs());
+            uu = uu.plus(1.0, &half);
+            vv = vv.plus(1.0, &half);
+            uv = uv.plus(0.5 * shear, &Block::identity_times(1.0));
+            clamped += u32::from(k_s * shear != 0.0);
+        } else {
+            uv = uv.plus(shear, &Block::identity_times(1.0));
+        }
+        let uv = Block::ZERO.plus(k_s, &uv);
+        let vu = uv.transposed();
+        let [g_u, g_v] = self.weights();
+        let a = self.area;
+        let block = |i: usize, j: usize| {
+            Block::ZERO
+                .plus(a * (g_u[i] * g_u[j]), &uu)
+                .plus(a * (g_v[i] * g_v[j]), &vv)
+                .plus(a * (g_u[i] * g_v[j]), &uv)
+                .plus(a * (g_v[i] * g_u[j]), &vu)
+        };
+        // Moving the whole triangle changes no force: rows sum to zero, and the first corner's
+        // blocks follow from the others'.
+        let (b11, b12, b22) = (block(1, 1), block(1, 2), block(2, 2));
+        let b21 = b12.transposed();
+        let zero = Block::ZERO;
+        let b10 = zero.plus(-1.0, &b11).plus(-1.0, &b12);
+        let b20 = zero.plus(-1.0, &b21).plus(-1.0, &b22);
+        let b00 = zero.plus(-1.0, &b10).plus(-1.0, &b20);
+        let (b01, b02) = (b10.transposed(), b20.transposed());
+        ([[b00, b01, b02], [b10, b11, b12], [b20, b21, b22]], clamped)
+    }
+
     /// How much the extensions along warp and along weft, times √(A k), change with each corner: what
     /// √k is of a spring.
     fn roots(&self, reach: f64) -> [[f64; 3]; 2] {
@@ -381,6 +437,31 @@ impl Element for Triangles {
         let triangles = self.of(particle).map(|(t, _)| &self.list[t]);
         let rows = triangles.map(|t| t.row(reach, t.vertices.map(|v| sum(v as usize))));
         rows.fold(0.0, f64::max)
+    }
+
+    /// The edges of triangle t have the numbers 3 t and on.
+    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2])) {
+        for (t, triangle) in self.list.iter().enumerate() {
+            let [a, b, c] = triangle.vertices;
+            for (i, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+                visit(3 * t + i, ends);
+            }
+        }
+    }
+
+    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64 {
+        let mut clamped = 0;
+        for (t, slots) in self.list.iter().zip(slots.as_chunks::<3>().0) {
+            let (blocks, dropped) = t.hessian(t.corners(x), clamp);
+            clamped += u64::from(dropped);
+            for (i, &slot) in slots.iter().enumerate() {
+                let j = (i + 1) % 3;
+                let (a, b) = (t.vertices[i], t.vertices[j]);
+                hessian.add(slot, [a, a], &blocks[i][i]);
+                hessian.add(slot, [a, b], &blocks[i][j]);
+            }
+        }
+        clamped
     }
 }
 
