@@ -62,7 +62,7 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 7,300 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 8,000 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
@@ -110,10 +110,10 @@ pub mod slide;
 pub mod split;
 pub mod tear;
 
-pub use attribute::{Blend, PerCorner, PerVertex};
+pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
 pub use edit::{
-    Child, Edit, Edits, Follower, Insert, InsertedPoint, Location, Merge, Renumbered, Slide,
-    Source, Split, TornLink,
+    Child, CornerOp, Cursor, Edit, Edits, Family, Follower, Followers, Insert, InsertedPoint,
+    Location, Merge, Mix, Renumbered, Slide, Source, Split, TornLink, VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
