@@ -62,7 +62,7 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 8,000 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,000 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
@@ -105,6 +105,7 @@ mod place;
 mod scissor;
 #[cfg(feature = "script")]
 pub mod script;
+mod sets;
 pub mod shapes;
 pub mod slide;
 pub mod split;
@@ -125,3 +126,4 @@ pub use mesh::{
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
+pub use sets::DisjointSets;
