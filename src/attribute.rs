@@ -1,14 +1,18 @@
-//! Data beside the mesh: values of vertices, and values of corners.
+//! Data beside the mesh: values of vertices, of corners and of faces.
 //!
 //! A split duplicates a vertex and moves corners. What belongs to the vertex is copied
 //! to the new one ([`PerVertex`]). What belongs to the corner, such as a texture
 //! coordinate, stays with it ([`PerCorner`]): a split never makes a texture seam. Where a vertex
 //! is inserted, values are interpolated, corner by corner, so a texture seam stays one; where two
-//! are merged, those of the vertex are joined by weight. [`Blend`] says how.
+//! are merged, those of the vertex are joined by weight. [`Blend`] says how. What belongs to a face
+//! ([`PerFace`]) is copied to its children.
+//!
+//! Each is a list with its place in the log. A list of another type follows a log without these:
+//! see [`Edits::replay_vertices`](crate::Edits::replay_vertices).
 
-use crate::edit::{Edit, Follower, Location, Source};
-use crate::geometry::{Point, Vector};
-use crate::id::{HalfEdgeId, VertexId};
+use crate::edit::{Cursor, Edit, Follower, Mix};
+use crate::geometry::{Point, Vector, between};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A value that can be interpolated.
 ///
@@ -23,6 +27,16 @@ pub trait Blend: Clone + PartialEq {
     /// The weighted sum of three values. The weights are positive and of sum one.
     #[must_use]
     fn weighted(values: [&Self; 3], weights: [f64; 3]) -> Self;
+
+    /// The value that one, two or three others give.
+    #[must_use]
+    fn blend(mix: Mix<&Self>) -> Self {
+        match mix {
+            Mix::Copy(one) => one.clone(),
+            Mix::Between { ends: [a, b], t } => a.between(b, t),
+            Mix::Weighted { of, weights } => Self::weighted(of, weights),
+        }
+    }
 }
 
 impl Blend for f64 {
@@ -68,7 +82,7 @@ impl Blend for Vector {
 
 impl Blend for Point {
     fn between(&self, other: &Point, t: f64) -> Point {
-        self.coords.between(&other.coords, t).into()
+        between(*self, *other, t)
     }
 
     fn weighted(values: [&Point; 3], weights: [f64; 3]) -> Point {
@@ -93,23 +107,27 @@ impl Blend for Point {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerVertex<T> {
     values: Vec<T>,
-    next_edit: u64,
+    seen: Cursor,
 }
 
 impl<T: Blend> PerVertex<T> {
     /// The values of vertices 0, 1, 2, …, which have seen no edit yet.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
-        PerVertex {
-            values,
-            next_edit: 0,
-        }
+        let seen = Cursor::START;
+        PerVertex { values, seen }
     }
 
-    /// The same values, for a log whose next record has this number.
+    /// Takes the values for those of the mesh at this place in its log.
     #[must_use]
-    pub fn starting_at(self, next_edit: u64) -> Self {
-        PerVertex { next_edit, ..self }
+    pub fn starting_at(self, seen: Cursor) -> Self {
+        PerVertex { seen, ..self }
+    }
+
+    /// Up to where the values have seen the log of the mesh.
+    #[must_use]
+    pub fn seen(&self) -> Cursor {
+        self.seen
     }
 
     /// Makes room for this many more vertices, so that as many splits can be replayed without
@@ -124,7 +142,7 @@ impl<T: Blend> PerVertex<T> {
         &self.values
     }
 
-    /// The same, to be changed.
+    /// The values of all vertices, by id, to be changed.
     #[must_use]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.values
@@ -146,40 +164,14 @@ impl<T> std::ops::IndexMut<VertexId> for PerVertex<T> {
 }
 
 impl<T: Blend> Follower for PerVertex<T> {
-    fn next_edit(&self) -> u64 {
-        self.next_edit
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let in_step = |new: VertexId, count: usize| {
-            assert_eq!(new.index(), count, "values are in step with the mesh");
-        };
-        match edit {
-            Edit::Split(split) => {
-                in_step(split.new, self.values.len());
-                self.values.push(self[split.old].clone());
-            }
-            Edit::Insert(insert) => {
-                for point in insert.points {
-                    in_step(point.vertex, self.values.len());
-                    let value = match point.at {
-                        Location::Edge { ends: [a, b], t } => self[a].between(&self[b], t),
-                        Location::Face { vertices, weights } => {
-                            T::weighted(vertices.map(|v| &self[v]), weights)
-                        }
-                    };
-                    self.values.push(value);
-                }
-            }
-            Edit::Merge(merge) => {
-                let gone = self.values.swap_remove(merge.gone.index());
-                self[merge.kept] = self[merge.kept].between(&gone, 1.0 - merge.share);
-            }
-            Edit::Slide(slide) => {
-                self[slide.vertex] = self[slide.vertex].between(&self[slide.toward], slide.t);
-            }
+        for op in edit.vertex_ops() {
+            op.apply(&mut self.values, T::blend);
         }
-        self.next_edit = edit.number() + 1;
     }
 }
 
@@ -205,23 +197,21 @@ impl<T: Blend> Follower for PerVertex<T> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerCorner<T> {
     values: Vec<T>,
-    next_edit: u64,
+    seen: Cursor,
 }
 
 impl<T: Blend> PerCorner<T> {
     /// The values of corners 0, 1, 2, … (three a face), which have seen no edit yet.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
-        PerCorner {
-            values,
-            next_edit: 0,
-        }
+        let seen = Cursor::START;
+        PerCorner { values, seen }
     }
 
-    /// The same values, for a log whose next record has this number.
+    /// Takes the values for those of the mesh at this place in its log.
     #[must_use]
-    pub fn starting_at(self, next_edit: u64) -> Self {
-        PerCorner { next_edit, ..self }
+    pub fn starting_at(self, seen: Cursor) -> Self {
+        PerCorner { seen, ..self }
     }
 
     /// The values of all corners, by half-edge.
@@ -240,64 +230,76 @@ impl<T> std::ops::Index<HalfEdgeId> for PerCorner<T> {
 }
 
 impl<T: Blend> Follower for PerCorner<T> {
-    fn next_edit(&self) -> u64 {
-        self.next_edit
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        match edit {
-            // The corners move with their faces to another vertex, and keep their values.
-            Edit::Split(_) | Edit::Merge(_) => {}
-            Edit::Insert(insert) => {
-                for family in insert.families() {
-                    let parent = family[0].parent.half_edges();
-                    let before = parent.map(|h| self[h].clone());
-                    for child in family {
-                        let values = child.sources.map(|source| from(&source, &before));
-                        let start = 3 * child.face.index();
-                        if child.face == child.parent {
-                            self.values[start..start + 3].clone_from_slice(&values);
-                        } else {
-                            assert_eq!(
-                                start,
-                                self.values.len(),
-                                "values are in step with the mesh"
-                            );
-                            self.values.extend(values);
-                        }
-                    }
-                }
-            }
-            Edit::Slide(slide) => {
-                let changes = slide.along.map(|corners| {
-                    let [corner, toward] = corners?;
-                    let before = self[corner].clone();
-                    let after = before.between(&self[toward], slide.t);
-                    Some((corner, before, after))
-                });
-                let changes: Vec<_> = changes.into_iter().flatten().collect();
-                for &h in slide.corners {
-                    // Where values differ round the vertex there is a seam, and the edge is
-                    // none of the other side's.
-                    let value = &mut self.values[h.index()];
-                    let own = changes.iter().find(|(corner, ..)| *corner == h);
-                    let same = || changes.iter().find(|(_, before, _)| before == value);
-                    if let Some((.., after)) = own.or_else(same) {
-                        *value = after.clone();
-                    }
-                }
-            }
+        for op in edit.corner_ops() {
+            op.apply(&mut self.values, T::blend);
         }
-        self.next_edit = edit.number() + 1;
     }
 }
 
-/// The value at a place in a face whose corners have these values.
-fn from<T: Blend>(source: &Source, corners: &[T; 3]) -> T {
-    let at = |h: HalfEdgeId| &corners[h.corner()];
-    match *source {
-        Source::Corner(h) => at(h).clone(),
-        Source::Edge { ends: [a, b], t } => at(a).between(at(b), t),
-        Source::Face { weights } => T::weighted(corners.each_ref(), weights),
+/// One value for each face, such as a material. Where a face is divided, each of its children has a
+/// copy; nothing else changes a face.
+///
+/// ```
+/// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerFace};
+///
+/// let (mut mesh, _) = shapes::grid(1, 1);
+/// let mut materials = PerFace::new(vec!["silk", "wool"]);
+/// let mut plan = Plan::new();
+/// plan.on_edge(HalfEdgeId::new(0).unwrap(), 0.5);
+/// let mut edits = Edits::new();
+/// plan.apply(&mut mesh, &mut edits)?;
+/// edits.replay(&mut materials);
+/// assert_eq!(materials.as_slice(), ["silk", "wool", "silk"]);
+/// # Ok::<(), tearmesh::insert::Refusal>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PerFace<T> {
+    values: Vec<T>,
+    seen: Cursor,
+}
+
+impl<T: Clone> PerFace<T> {
+    /// The values of faces 0, 1, 2, …, which have seen no edit yet.
+    #[must_use]
+    pub fn new(values: Vec<T>) -> Self {
+        let seen = Cursor::START;
+        PerFace { values, seen }
+    }
+
+    /// Takes the values for those of the mesh at this place in its log.
+    #[must_use]
+    pub fn starting_at(self, seen: Cursor) -> Self {
+        PerFace { seen, ..self }
+    }
+
+    /// The values of all faces, by id.
+    #[must_use]
+    pub fn as_slice(&self) -> &[T] {
+        &self.values
+    }
+}
+
+impl<T> std::ops::Index<FaceId> for PerFace<T> {
+    type Output = T;
+
+    fn index(&self, f: FaceId) -> &T {
+        f.of(&self.values)
+    }
+}
+
+impl<T: Clone> Follower for PerFace<T> {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        for family in edit.families() {
+            family.apply_to_faces(&mut self.values);
+        }
     }
 }

@@ -7,14 +7,22 @@
 //! makes the technique "easily adapted to nearly any cloth model" (Souza et al. 2014 §I).
 //!
 //! A record is self-contained: a follower never looks at the mesh, which is already
-//! further on. Records are numbered from 0 for ever; a follower remembers the next number it
-//! wants, so nothing is applied twice, and a gap is a panic that names it.
+//! further on. A follower has a [`Cursor`]: its place in the log, which replaying moves. So nothing
+//! is applied twice, and a follower that comes too late or has followed another log is told so.
+//!
+//! A record has two faces. [`Edit`] is what happened, for those who need structure: constraints, the
+//! record in a file, masses. For values there is a normal form ([`VertexOp`], [`CornerOp`],
+//! [`Family`]): [`Edits::replay_vertices`] and its like bring a list of any type up to date.
 //!
 //! The log is flat: lists of all records lie one after the other in a few vectors, which
 //! [`Edits::reserve`] can make room in beforehand, so that splits do not allocate.
 
+mod cursor;
+mod form;
 mod record;
 
+pub use cursor::Cursor;
+pub use form::{CornerOp, Family, Mix, VertexOp};
 pub use record::{
     Child, Edit, Insert, InsertedPoint, Location, Merge, Renumbered, Slide, Source, Split, TornLink,
 };
@@ -37,8 +45,8 @@ use crate::id::{HalfEdgeId, VertexId};
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Edits {
-    /// The number of the oldest record that is still here.
-    first: u64,
+    /// Before the oldest record that is still here.
+    first: Cursor,
     records: Vec<Record>,
     corners: Vec<HalfEdgeId>,
     links: Vec<TornLink>,
@@ -57,6 +65,8 @@ struct Record {
     kind: Kind,
     corners_end: usize,
     links_end: usize,
+    /// That of the cursor after this record.
+    hash: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -103,6 +113,16 @@ impl Edits {
         Self::default()
     }
 
+    /// An empty log that goes on where another one ended: for a mesh that was saved, and whose
+    /// followers were saved with their cursors.
+    #[must_use]
+    pub fn starting_at(cursor: Cursor) -> Self {
+        Edits {
+            first: cursor,
+            ..Self::default()
+        }
+    }
+
     /// Makes room for this many splits with, in all, so many moved corners and newly
     /// torn links. A corner moves with each split that moves it, and a link tears once.
     pub fn reserve(&mut self, splits: usize, corners: usize, torn: usize) {
@@ -123,10 +143,11 @@ impl Edits {
         self.records.is_empty()
     }
 
-    /// The number that the next record will have. A follower made now starts here.
+    /// The place after the last record: that of a follower whose values are those of the mesh as
+    /// it is now.
     #[must_use]
-    pub fn next_number(&self) -> u64 {
-        self.first + self.records.len() as u64
+    pub fn cursor(&self) -> Cursor {
+        self.place(self.records.len())
     }
 
     /// The records, oldest first.
@@ -135,45 +156,136 @@ impl Edits {
         (0..self.records.len()).map(|i| self.record(i))
     }
 
-    /// The records from this number on, oldest first.
+    /// The records after a place, oldest first.
     ///
     /// # Panics
     ///
-    /// If a record from there on was cleared.
+    /// If the place is not one of this log, or records after it were cleared.
     #[must_use]
     pub fn since(
         &self,
-        number: u64,
+        cursor: Cursor,
     ) -> impl ExactSizeIterator<Item = Edit<'_>> + DoubleEndedIterator {
+        let (first, end) = (self.first.number(), self.cursor().number());
+        let seen = cursor.number();
         assert!(
-            number >= self.first,
-            "edits {number} to {} were cleared before they were replayed",
-            self.first
+            seen >= first,
+            "late: this follower has seen {seen} edits of this log, and the first {first} were \
+             cleared. Replay before `clear`. One whose values are those of the mesh as it is now \
+             begins with `starting_at(edits.cursor())`"
         );
-        let skipped = (number - self.first).min(self.records.len() as u64) as usize;
+        assert!(
+            seen <= end,
+            "ahead: this follower has seen {seen} edits, and there are {end} in this log: it \
+             followed another one. One whose values are those of this mesh begins with \
+             `starting_at(edits.cursor())`"
+        );
+        let skipped = (seen - first) as usize;
+        assert!(
+            cursor == self.place(skipped),
+            "foreign: this follower has seen {seen} edits, which are not the first {seen} of this \
+             log: it followed another one. One whose values are those of this mesh begins with \
+             `starting_at(edits.cursor())`"
+        );
         (skipped..self.records.len()).map(|i| self.record(i))
     }
 
-    /// Brings a follower, or a tuple of them, up to date: each sees every record it has
-    /// not yet seen, in order.
+    /// Brings a follower, or each of a tuple of them, up to date: it sees every record that it has
+    /// not yet seen, in order, and its cursor is moved behind them.
     ///
     /// # Panics
     ///
-    /// If records that a follower has not seen were cleared, or if it does not
-    /// count the record it was given.
-    pub fn replay<F: Follower + ?Sized>(&self, follower: &mut F) {
-        for edit in self.since(follower.next_edit()) {
-            follower.follow(&edit);
-            assert!(
-                follower.next_edit() > edit.number(),
-                "a follower counts the edits it follows"
-            );
-        }
+    /// If a follower has seen the records of another log, or records that it has not seen were
+    /// cleared. The message says which of these, and what to call.
+    pub fn replay<F: Followers + ?Sized>(&self, followers: &mut F) {
+        followers.see(self);
     }
 
-    /// Forgets the records, and keeps the memory and the numbering. Replay first.
+    /// Brings values of vertices up to date. `mix` makes a value of those that it comes from.
+    ///
+    /// Values may be of any type: to follow a log takes no trait of this crate.
+    ///
+    /// ```
+    /// use tearmesh::{shapes, insert::Plan, Cursor, Edits, HalfEdgeId, Mix};
+    ///
+    /// // The bone that moves each vertex: there is none between two bones.
+    /// let (mut mesh, _) = shapes::grid(1, 1);
+    /// let (mut bones, mut seen) = (vec![3, 3, 5, 5], Cursor::START);
+    /// let mut edits = Edits::new();
+    /// let mut plan = Plan::new();
+    /// plan.on_edge(mesh.half_edge_of(mesh.vertices().next().unwrap()).unwrap(), 0.75);
+    /// plan.apply(&mut mesh, &mut edits)?;
+    /// edits.replay_vertices(&mut seen, &mut bones, |mix| *mix.nearest());
+    /// assert_eq!(bones.len(), mesh.vertex_count());
+    /// # Ok::<(), tearmesh::insert::Refusal>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// As [`Edits::replay`], or if there is not one value for each vertex.
+    pub fn replay_vertices<T>(
+        &self,
+        seen: &mut Cursor,
+        values: &mut Vec<T>,
+        mut mix: impl FnMut(Mix<&T>) -> T,
+    ) {
+        for edit in self.since(*seen) {
+            edit.vertex_ops().for_each(|op| op.apply(values, &mut mix));
+        }
+        *seen = self.cursor();
+    }
+
+    /// Brings values of corners up to date, three for each face. `mix` makes a value of those that
+    /// it comes from.
+    ///
+    /// Where a vertex slides, corners with equal values go together: that is why values can be
+    /// compared.
+    ///
+    /// # Panics
+    ///
+    /// As [`Edits::replay`], or if there are not three values for each face.
+    pub fn replay_corners<T: PartialEq>(
+        &self,
+        seen: &mut Cursor,
+        values: &mut Vec<T>,
+        mut mix: impl FnMut(Mix<&T>) -> T,
+    ) {
+        for edit in self.since(*seen) {
+            edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
+        }
+        *seen = self.cursor();
+    }
+
+    /// Brings an index buffer up to date: the vertex of each corner, as in
+    /// [`Mesh::indices`](crate::Mesh::indices).
+    ///
+    /// # Panics
+    ///
+    /// As [`Edits::replay`], or if there are not three indices for each face.
+    pub fn replay_indices(&self, seen: &mut Cursor, indices: &mut Vec<u32>) {
+        for edit in self.since(*seen) {
+            edit.corner_ops()
+                .for_each(|op| op.apply_to_indices(indices));
+        }
+        *seen = self.cursor();
+    }
+
+    /// Brings values of faces up to date: where a face is divided, each of its children has a copy.
+    ///
+    /// # Panics
+    ///
+    /// As [`Edits::replay`], or if there is not one value for each face.
+    pub fn replay_faces<T: Clone>(&self, seen: &mut Cursor, values: &mut Vec<T>) {
+        for edit in self.since(*seen) {
+            edit.families()
+                .for_each(|family| family.apply_to_faces(values));
+        }
+        *seen = self.cursor();
+    }
+
+    /// Forgets the records, and keeps the memory and the place. Replay first.
     pub fn clear(&mut self) {
-        self.first = self.next_number();
+        self.first = self.cursor();
         self.records.clear();
         self.corners.clear();
         self.links.clear();
@@ -182,6 +294,17 @@ impl Edits {
         self.inserts.clear();
         self.merges.clear();
         self.slides.clear();
+    }
+
+    /// The place before record `i` of those that are here, or after the last.
+    fn place(&self, i: usize) -> Cursor {
+        match i.checked_sub(1) {
+            None => self.first,
+            Some(last) => {
+                let number = self.first.number() + i as u64;
+                Cursor::new(number, self.records[last].hash)
+            }
+        }
     }
 
     fn record(&self, i: usize) -> Edit<'_> {
@@ -196,7 +319,7 @@ impl Edits {
     fn split(&self, i: usize, old: VertexId, new: VertexId) -> Split<'_> {
         let (corners, torn) = self.lists(i);
         Split {
-            number: self.first + i as u64,
+            before: self.place(i),
             old,
             new,
             corners,
@@ -210,7 +333,7 @@ impl Edits {
             start.map_or((0, 0), |ends| (ends.points_end, ends.children_end));
         let ends = self.inserts[j];
         Insert {
-            number: self.first + i as u64,
+            before: self.place(i),
             points: &self.points[points_start..ends.points_end],
             children: &self.children[children_start..ends.children_end],
         }
@@ -228,7 +351,7 @@ impl Edits {
         let moved = renumbered.map_or(corners.len(), |(_, at)| at - start);
         let (corners, others) = corners.split_at(moved);
         Merge {
-            number: self.first + i as u64,
+            before: self.place(i),
             kept,
             gone,
             share,
@@ -250,7 +373,7 @@ impl Edits {
             along,
         } = self.slides[j];
         Slide {
-            number: self.first + i as u64,
+            before: self.place(i),
             vertex,
             toward,
             t,
@@ -368,45 +491,61 @@ impl Edits {
     }
 
     fn finish(&mut self, kind: Kind) {
+        let i = self.records.len();
         self.records.push(Record {
             kind,
             corners_end: self.corners.len(),
             links_end: self.links.len(),
+            hash: 0,
         });
+        self.records[i].hash = self.record(i).after().hash();
     }
 }
 
 /// Whoever keeps data beside a mesh and brings it up to date from the log.
 ///
+/// Values of vertices, corners and faces need no follower of their own: [`Edits::replay_vertices`]
+/// and its like bring any list up to date, and [`PerVertex`](crate::PerVertex) is such a list with
+/// its cursor. A follower is for what has more to say, and may use them for its parts:
+///
 /// ```
-/// use tearmesh::{Edit, Follower};
+/// use tearmesh::{Cursor, Edit, Follower, Masses, Mix};
 ///
-/// /// Velocities of a simulation of one's own: a new vertex has that of the old one.
-/// struct Velocities { of: Vec<[f64; 3]>, next: u64 }
+/// /// A simulation of one's own, whose velocities know nothing of this crate. Those that two
+/// /// vertices had give one that keeps the momentum; masses keep themselves.
+/// struct Cloth { velocities: Vec<[f32; 2]>, masses: Masses, seen: Cursor }
 ///
-/// impl Follower for Velocities {
-///     fn next_edit(&self) -> u64 {
-///         self.next
+/// impl Follower for Cloth {
+///     fn cursor(&mut self) -> &mut Cursor {
+///         &mut self.seen
 ///     }
 ///     fn follow(&mut self, edit: &Edit<'_>) {
-///         if let Edit::Split(split) = edit {
-///             self.of.push(self.of[split.old.index()]);
+///         let sum = |a: f32, b: f32, t: f64| a + (b - a) * t as f32;
+///         for op in edit.vertex_ops() {
+///             op.apply(&mut self.velocities, |mix| match mix {
+///                 Mix::Copy(v) => *v,
+///                 Mix::Between { ends: [a, b], t } => [0, 1].map(|i| sum(a[i], b[i], t)),
+///                 Mix::Weighted { of, weights } => {
+///                     [0, 1].map(|i| (0..3).map(|j| of[j][i] * weights[j] as f32).sum())
+///                 }
+///             });
 ///         }
-///         self.next = edit.number() + 1;
+///         edit.pass_on(&mut self.masses);
 ///     }
 /// }
 /// ```
 pub trait Follower {
-    /// The number of the first record that this follower has not seen.
-    fn next_edit(&self) -> u64;
+    /// Up to where this follower has seen the log. [`Edits::replay`] moves it.
+    fn cursor(&mut self) -> &mut Cursor;
 
-    /// Takes in the record with the number [`Follower::next_edit`], and counts it.
+    /// Takes in the record behind its cursor. To be called by [`Edits::replay`] and
+    /// [`Edit::pass_on`] alone, which then move the cursor.
     fn follow(&mut self, edit: &Edit<'_>);
 }
 
 impl<F: Follower + ?Sized> Follower for &mut F {
-    fn next_edit(&self) -> u64 {
-        (**self).next_edit()
+    fn cursor(&mut self) -> &mut Cursor {
+        (**self).cursor()
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
@@ -414,18 +553,45 @@ impl<F: Follower + ?Sized> Follower for &mut F {
     }
 }
 
+impl Edit<'_> {
+    /// Shows this record to one follower, and moves its cursor: for a follower that has others as
+    /// its parts.
+    ///
+    /// # Panics
+    ///
+    /// If the follower does not stand before this record.
+    pub fn pass_on<F: Follower + ?Sized>(&self, follower: &mut F) {
+        let (seen, number) = (*follower.cursor(), self.number());
+        assert!(
+            seen == self.before(),
+            "a follower that has seen {} edits was shown edit {number}, or one of another log",
+            seen.number()
+        );
+        follower.follow(self);
+        *follower.cursor() = self.after();
+    }
+}
+
+/// A follower, or a tuple of up to six, each of which sees what it has not yet seen.
+pub trait Followers {
+    /// Brings them up to date. See [`Edits::replay`].
+    fn see(&mut self, edits: &Edits);
+}
+
+impl<F: Follower + ?Sized> Followers for F {
+    fn see(&mut self, edits: &Edits) {
+        for edit in edits.since(*self.cursor()) {
+            self.follow(&edit);
+        }
+        *self.cursor() = edits.cursor();
+    }
+}
+
 macro_rules! tuple_of_followers {
     ($($name:ident $index:tt),+) => {
-        /// Each follower of a tuple sees what it has not yet seen.
-        impl<$($name: Follower),+> Follower for ($($name,)+) {
-            fn next_edit(&self) -> u64 {
-                [$(self.$index.next_edit()),+].into_iter().fold(u64::MAX, u64::min)
-            }
-
-            fn follow(&mut self, edit: &Edit<'_>) {
-                $(if self.$index.next_edit() == edit.number() {
-                    self.$index.follow(edit);
-                })+
+        impl<$($name: Followers),+> Followers for ($($name,)+) {
+            fn see(&mut self, edits: &Edits) {
+                $(self.$index.see(edits);)+
             }
         }
     };
@@ -434,3 +600,5 @@ macro_rules! tuple_of_followers {
 tuple_of_followers!(A 0, B 1);
 tuple_of_followers!(A 0, B 1, C 2);
 tuple_of_followers!(A 0, B 1, C 2, D 3);
+tuple_of_followers!(A 0, B 1, C 2, D 3, E 4);
+tuple_of_followers!(A 0, B 1, C 2, D 3, E 4, F 5);

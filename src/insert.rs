@@ -35,6 +35,21 @@ impl Plan {
     /// The new vertices are in the order of the plan. A point on a torn edge has two: first that
     /// on the side of the half-edge that was given, then that on the other.
     ///
+    /// ```text
+    ///   on an edge                on a torn edge              in a face
+    ///
+    ///       c             c             c             c             c             c
+    ///      / \           /|\           / \           /|\           / \           /|\
+    ///     /   \         / | \         /   \         / | \         /   \         / | \
+    ///    a-----b   ->  a--v--b       a-----b   ->  a--v--b       /     \   ->  /  v  \
+    ///     \   /         \ | /        a'----b'      a'-w--b'     /       \     / ,' `. \
+    ///      \ /           \|/          \   /         \ | /      a---------b   a'-------`b
+    ///       d             d            \ /           \|/
+    ///                                   d             d
+    ///
+    ///   One child of a divided face keeps its id. On a torn edge v and w are of one root.
+    /// ```
+    ///
     /// # Errors
     ///
     /// [`Refusal`] says why nothing was changed.

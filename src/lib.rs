@@ -62,14 +62,14 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding) | 7,300 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,000 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) | 3,100 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
 //!
-//! The solver layer stands on all of this, in a crate of its own, `tearmesh-cloth` (12,000 lines).
+//! The solver layer stands on all of this, in a crate of its own, `tearmesh-cloth` (12,100 lines).
 //! Nothing here knows of it: any simulation can follow the log.
 //!
 //! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
@@ -105,15 +105,16 @@ mod place;
 mod scissor;
 #[cfg(feature = "script")]
 pub mod script;
+mod sets;
 pub mod shapes;
 pub mod slide;
 pub mod split;
 pub mod tear;
 
-pub use attribute::{Blend, PerCorner, PerVertex};
+pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
 pub use edit::{
-    Child, Edit, Edits, Follower, Insert, InsertedPoint, Location, Merge, Renumbered, Slide,
-    Source, Split, TornLink,
+    Child, CornerOp, Cursor, Edit, Edits, Family, Follower, Followers, Insert, InsertedPoint,
+    Location, Merge, Mix, Renumbered, Slide, Source, Split, TornLink, VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
@@ -125,3 +126,4 @@ pub use mesh::{
 };
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
+pub use sets::DisjointSets;

@@ -20,7 +20,7 @@
 
 use std::fmt;
 
-use crate::edit::{Child, Edit, Follower, Source};
+use crate::edit::{Child, Cursor, Edit, Follower, Source};
 use crate::exact::{ExactSum, exponent_above, power_of_two};
 use crate::geometry::area;
 use crate::id::{FaceId, VertexId};
@@ -50,7 +50,7 @@ pub struct Masses {
     store: Store,
     unit: f64,
     opening: ExactSum,
-    next_edit: u64,
+    seen: Cursor,
 }
 
 #[derive(Clone, Debug)]
@@ -203,16 +203,22 @@ impl Masses {
             store,
             unit,
             opening: ExactSum::new(),
-            next_edit: 0,
+            seen: Cursor::START,
         };
         masses.opening = masses.total();
         masses
     }
 
-    /// The same masses, for a log whose next record has this number.
+    /// Takes the masses for those of the mesh at this place in its log.
     #[must_use]
-    pub fn starting_at(self, next_edit: u64) -> Masses {
-        Masses { next_edit, ..self }
+    pub fn starting_at(self, seen: Cursor) -> Masses {
+        Masses { seen, ..self }
+    }
+
+    /// Up to where the masses have seen the log of the mesh.
+    #[must_use]
+    pub fn seen(&self) -> Cursor {
+        self.seen
     }
 
     /// Makes room for this many more vertices, so that as many splits can be replayed without
@@ -365,8 +371,8 @@ fn lattice(
 }
 
 impl Follower for Masses {
-    fn next_edit(&self) -> u64 {
-        self.next_edit
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
@@ -392,7 +398,7 @@ impl Follower for Masses {
                 }
                 vertices.resize(count + insert.points.len(), 0);
                 for family in insert.families() {
-                    divide(family, corners, vertices);
+                    divide(family.children(), corners, vertices);
                 }
             }
             (Edit::Insert(_), Store::Half { .. }) => {
@@ -409,7 +415,6 @@ impl Follower for Masses {
             }
             (Edit::Slide(_), _) => {}
         }
-        self.next_edit = edit.number() + 1;
     }
 }
 

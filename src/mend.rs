@@ -20,6 +20,18 @@ use crate::place::Place;
 
 /// Merges two vertices of one root: the one with the lower id gets the corners of the other.
 ///
+/// ```text
+///   o-----o-----o            o-----o-----o
+///   | \   |   / |            | \   |   / |
+///   |   \ | /   |            |   \ | /   |
+///   p----gone---q            p---kept----q    Ghost pairs whose ends agree again are pairs.
+///                      ->    |   / | \   |    The last vertex of the mesh takes the id of the one
+///   p----kept---q            | /   |   \ |    that is gone.
+///   |   / | \   |            o-----o-----o
+///   | /   |   \ |
+///   o-----o-----o
+/// ```
+///
 /// Positions that moved apart, velocities and the like are joined at the mean with these
 /// weights, which belong to `one` and `other` and are masses as a rule. Where both weights are
 /// zero they count as equal.

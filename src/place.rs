@@ -5,8 +5,9 @@
 
 use std::fmt;
 
-use crate::edit::{Edit, Follower, Location};
-use crate::geometry::{Point, between, check_point};
+use crate::attribute::Blend;
+use crate::edit::{Cursor, Edit, Follower};
+use crate::geometry::{Point, check_point};
 use crate::id::VertexId;
 
 /// Where vertices are: read-only, whatever the storage.
@@ -49,7 +50,7 @@ impl Place for [[f64; 3]] {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Positions {
     points: Vec<Point>,
-    next_edit: u64,
+    seen: Cursor,
 }
 
 impl Positions {
@@ -75,19 +76,23 @@ impl Positions {
             .filter_map(|(v, point)| Some((v?, point)))
             .collect();
         if unusable.is_empty() {
-            Ok(Positions {
-                points,
-                next_edit: 0,
-            })
+            let seen = Cursor::START;
+            Ok(Positions { points, seen })
         } else {
             Err(PositionError { unusable })
         }
     }
 
-    /// The same positions, for a log whose next record has this number.
+    /// Takes the positions for those of the mesh at this place in its log.
     #[must_use]
-    pub fn starting_at(self, next_edit: u64) -> Positions {
-        Positions { next_edit, ..self }
+    pub fn starting_at(self, seen: Cursor) -> Positions {
+        Positions { seen, ..self }
+    }
+
+    /// Up to where the positions have seen the log of the mesh.
+    #[must_use]
+    pub fn seen(&self) -> Cursor {
+        self.seen
     }
 
     /// Makes room for this many more vertices, so that as many splits can be replayed without
@@ -125,18 +130,6 @@ impl Positions {
         &self.points
     }
 
-    /// Where a point that is inserted comes to lie. Weights of sum one, and so also of points
-    /// on an edge, leave a coordinate as small as those they are given.
-    fn inserted(&self, at: &Location) -> Point {
-        match *at {
-            Location::Edge { ends: [a, b], t } => between(self.at(a), self.at(b), t),
-            Location::Face { vertices, weights } => {
-                let [a, b, c] = vertices.map(|v| self.at(v).coords);
-                Point::from(a * weights[0] + b * weights[1] + c * weights[2])
-            }
-        }
-    }
-
     /// The positions from vertex number `start` on, rounded to `f32`: what a vertex
     /// buffer lacks after splits and insertions. `start = 0` gives all of it.
     ///
@@ -158,43 +151,17 @@ impl Place for Positions {
     }
 }
 
+/// Weights of sum one leave a coordinate as small as those they are given, so a position stays
+/// usable.
 impl Follower for Positions {
-    fn next_edit(&self) -> u64 {
-        self.next_edit
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        match edit {
-            Edit::Split(split) => {
-                assert_eq!(
-                    split.new.index(),
-                    self.len(),
-                    "positions are in step with the mesh"
-                );
-                self.points.push(self.at(split.old));
-            }
-            Edit::Insert(insert) => {
-                for point in insert.points {
-                    assert_eq!(
-                        point.vertex.index(),
-                        self.len(),
-                        "positions are in step with the mesh"
-                    );
-                    self.points.push(self.inserted(&point.at));
-                }
-            }
-            Edit::Merge(merge) => {
-                let gone = self.points.swap_remove(merge.gone.index());
-                let kept = &mut self.points[merge.kept.index()];
-                *kept = between(*kept, gone, 1.0 - merge.share);
-            }
-            Edit::Slide(slide) => {
-                let toward = self.at(slide.toward);
-                let point = &mut self.points[slide.vertex.index()];
-                *point = between(*point, toward, slide.t);
-            }
+        for op in edit.vertex_ops() {
+            op.apply(&mut self.points, Blend::blend);
         }
-        self.next_edit = edit.number() + 1;
     }
 }
 

@@ -21,7 +21,7 @@ use std::fmt;
 pub use measure::CutReport;
 pub use partition::Tips;
 
-use crate::edit::{Edits, Follower};
+use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Ray, max_abs};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
@@ -293,7 +293,7 @@ impl Scissor {
             Ready::Partition | Ready::Paper(_) => None,
         };
         let survey = Survey::new(strip, mesh, positions, &offsets, expected);
-        let first_edit = edits.next_number();
+        let first_edit = edits.cursor();
         let outcome = self.make(ready, mesh, positions, &offsets, true, edits);
         Ok(survey.report(strip, mesh, positions, outcome, edits, first_edit))
     }
@@ -382,9 +382,11 @@ enum Ready {
 
 /// Whether positions have seen every edit, and are those of this mesh.
 fn in_step(mesh: &Mesh, positions: &Positions, edits: &Edits) -> Result<(), CutError> {
-    if positions.next_edit() != edits.next_number() {
-        let (seen, made) = (positions.next_edit(), edits.next_number());
-        return Err(CutError::Unreplayed { seen, made });
+    if positions.seen() != edits.cursor() {
+        return Err(CutError::Unreplayed {
+            seen: positions.seen(),
+            made: edits.cursor(),
+        });
     }
     if positions.len() != mesh.vertex_count() {
         let (vertices, positions) = (mesh.vertex_count(), positions.len());
@@ -425,10 +427,10 @@ pub enum CutError {
     },
     /// The positions have not seen all edits.
     Unreplayed {
-        /// The first edit that they have not seen.
-        seen: u64,
-        /// The number that the next edit will have.
-        made: u64,
+        /// Up to where they have seen a log.
+        seen: Cursor,
+        /// The end of this one.
+        made: Cursor,
     },
 }
 
@@ -442,10 +444,18 @@ impl fmt::Display for CutError {
                 write!(f, "{positions} positions for a mesh of {vertices} vertices")
             }
             CutError::Unreplayed { seen, made } => {
-                write!(
-                    f,
-                    "the positions are at edit {seen}, the log is at {made}: replay first"
-                )
+                let (seen, made) = (seen.number(), made.number());
+                if seen == made {
+                    write!(
+                        f,
+                        "the positions have followed another log, of {seen} edits too"
+                    )
+                } else {
+                    write!(
+                        f,
+                        "the positions have seen {seen} edits, and the log has {made}: replay first"
+                    )
+                }
             }
         }
     }

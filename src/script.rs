@@ -46,14 +46,14 @@
 //! ```
 //! use tearmesh::script::Script;
 //! use std::collections::BTreeSet;
-//! use tearmesh::{Edit, Follower, HalfEdgeId, Source};
+//! use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Source};
 //!
 //! /// How many faces each vertex has: what you keep beside the mesh.
-//! struct Valences { of: Vec<usize>, next: u64, divided: BTreeSet<HalfEdgeId> }
+//! struct Valences { of: Vec<usize>, seen: Cursor, divided: BTreeSet<HalfEdgeId> }
 //!
 //! impl Follower for Valences {
-//!     fn next_edit(&self) -> u64 {
-//!         self.next
+//!     fn cursor(&mut self) -> &mut Cursor {
+//!         &mut self.seen
 //!     }
 //!     fn follow(&mut self, edit: &Edit<'_>) {
 //!         match edit {
@@ -81,7 +81,6 @@
 //!             }
 //!             Edit::Slide(_) => {} // It moves a vertex, and no corner.
 //!         }
-//!         self.next = edit.number() + 1;
 //!     }
 //! }
 //!
@@ -93,7 +92,7 @@
 //!         let truth: Vec<usize> = world.mesh.vertices().map(count).collect();
 //!         let valences = valences.get_or_insert_with(|| Valences {
 //!             of: truth.clone(),
-//!             next: 0,
+//!             seen: Cursor::START,
 //!             divided: BTreeSet::new(),
 //!         });
 //!         world.edits.replay(valences);

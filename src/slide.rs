@@ -15,6 +15,16 @@ use crate::mesh::Mesh;
 
 /// Slides a vertex towards a neighbour by the part `t` of the way.
 ///
+/// ```text
+///   o-----o-----o            o-----o-----o
+///   | \   |   / |            |\    |   / |
+///   |   \ | /   |            | \  /  /   |    No face and no edge changes: the vertex and what
+///   q-----v-----o     ->     q--v--------o    its corners have lie further along the edge v q.
+///   |   / | \   |            | /  \  \   |
+///   | /   |   \ |            |/    |   \ |
+///   o-----o-----o            o-----o-----o
+/// ```
+///
 /// # Errors
 ///
 /// [`Refusal`]; then nothing has changed.

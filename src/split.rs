@@ -24,7 +24,19 @@ use crate::place::Place;
 
 /// Splits a vertex: these of its faces move to a new vertex at the same place.
 ///
-/// The new vertex is the last one of the mesh; the old one keeps the other faces.
+/// The new vertex is the last one of the mesh; the old one keeps the other faces. Here those above move:
+///
+/// ```text
+///   o-----o-----o            o-----o-----o
+///   | \   |   / |            | \   |   / |
+///   |   \ | /   |            |   \ | /   |
+///   p-----v-----q            p----new----q    p and q are drawn twice, and are one vertex each.
+///   |   / | \   |     ->                      The pairs along p v and v q are ghost pairs now:
+///   | /   |   \ |            p-----v-----q    a walk round v or the new vertex goes on through
+///   o-----o-----o            |   / | \   |    them, and so finds all faces of either.
+///                            | /   |   \ |
+///                            o-----o-----o
+/// ```
 ///
 /// # Errors
 ///
@@ -104,6 +116,20 @@ pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &m
 /// Splits a vertex by a plane: its faces whose centres are strictly behind the plane move
 /// to a new vertex (Souza et al. 2014 §IV). `None` if all are on one side: then
 /// nothing has changed.
+///
+/// ```text
+///          front                 front
+///   o-----o-----o            o-----o-----o
+///   | \   |   / |            | \   |   / |
+///   |   \ | /   |            |   \ | /   |    A face goes to the side on which its centre lies.
+///  -p-----v-----q- plane     p-----v-----q
+///   |   / | \   |     ->
+///   | /   |   \ |            p----new----q
+///   o-----o-----o            |   / | \   |
+///           back             | /   |   \ |
+///                            o-----o-----o
+///                                back
+/// ```
 ///
 /// In the paper the plane passes through the vertex; any plane will do. A centre
 /// on the plane is in front of it (see [`classify::face`]).

@@ -12,32 +12,19 @@
 //! particles and constraints, is for the simulation to say. Below is a whole one, of one's own:
 //!
 //! ```
-//! use tearmesh::{shapes, tear, Edit, Edits, Follower, Vector, VertexId};
-//!
-//! /// Particles and nothing else: a follower that copies the particle of a vertex that is split.
-//! struct Particles { x: Vec<[f64; 3]>, m: Vec<f64>, seen: u64 }
-//!
-//! impl Follower for Particles {
-//!     fn next_edit(&self) -> u64 {
-//!         self.seen
-//!     }
-//!     fn follow(&mut self, edit: &Edit<'_>) {
-//!         if let Edit::Split(split) = edit {
-//!             self.m[split.old.index()] /= 2.0;
-//!             self.m.push(self.m[split.old.index()]);
-//!             self.x.push(self.x[split.old.index()]);
-//!         }
-//!         self.seen = edit.number() + 1;
-//!     }
-//! }
+//! use tearmesh::{shapes, tear, Blend, Cursor, Edits, Masses, Vector, VertexId};
 //!
 //! let (mut mesh, positions) = shapes::grid(4, 4);
-//! let x: Vec<[f64; 3]> = positions.as_slice().iter().map(|&p| p.into()).collect();
 //! let rest = |a: VertexId, b: VertexId| (positions.at(b) - positions.at(a)).norm();
-//! let mut cloth = Particles { m: vec![1.0 / 64.0; x.len()], x, seen: 0 };
 //! let mut edits = Edits::new();
 //!
-//! cloth.x[12][2] = 1.0; // Something pulls at the middle.
+//! // Particles: where they are, and how heavy. Masses are shared out by a split, not copied, so
+//! // they follow by a rule of their own.
+//! let mut x: Vec<[f64; 3]> = positions.as_slice().iter().map(|&p| p.into()).collect();
+//! let mut seen = Cursor::START;
+//! let mut masses = Masses::area(&mesh, &positions, 1.0)?;
+//!
+//! x[12][2] = 1.0; // Something pulls at the middle.
 //! let length = |x: &[[f64; 3]], [a, b]: [VertexId; 2]| {
 //!     (Vector::from(x[b.index()]) - Vector::from(x[a.index()])).norm()
 //! };
@@ -45,15 +32,17 @@
 //!     .edges()
 //!     .filter(|&h| {
 //!         let ends = [mesh.origin(h), mesh.target(h)];
-//!         length(&cloth.x, ends) > 1.5 * rest(ends[0], ends[1])
+//!         length(&x, ends) > 1.5 * rest(ends[0], ends[1])
 //!     })
 //!     .collect();
 //! for edge in overstretched {
-//!     tear::edge(&mut mesh, edge, &cloth.x[..], |v| Some(cloth.m[v.index()]), &mut edits);
-//!     edits.replay(&mut cloth);
+//!     tear::edge(&mut mesh, edge, &x[..], |v| Some(masses.at(v)), &mut edits);
+//!     edits.replay_vertices(&mut seen, &mut x, Blend::blend);
+//!     edits.replay(&mut masses);
 //! }
-//! assert!(cloth.x.len() > 25 && cloth.x.len() == mesh.vertex_count());
-//! assert_eq!(cloth.m.iter().sum::<f64>(), 25.0 / 64.0);
+//! assert!(x.len() > 25 && x.len() == mesh.vertex_count());
+//! assert!(masses.ledger().is_balanced());
+//! # Ok::<(), tearmesh::MassError>(())
 //! ```
 
 use crate::classify;

@@ -6,7 +6,7 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Edits, FaceId, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector,
+    Cursor, Edits, FaceId, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector,
     VertexId, mend,
 };
 
@@ -190,7 +190,7 @@ impl World {
                 };
                 let Ok(scissor) = scissor else { return };
                 let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
-                let first = self.edits.next_number();
+                let first = self.edits.cursor();
                 let before = self.positions.clone();
                 let torn_before: Vec<VertexId> = self.mesh.vertices().collect();
                 let report = scissor
@@ -225,7 +225,7 @@ impl World {
     }
 
     /// Counts what the edits from `first` on inserted.
-    fn count(&mut self, first: u64) {
+    fn count(&mut self, first: Cursor) {
         for edit in self.edits.since(first) {
             if let tearmesh::Edit::Insert(insert) = edit {
                 self.done.inserted += insert.points.len();

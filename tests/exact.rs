@@ -546,7 +546,7 @@ fn copies_of_a_vertex_decide_together() {
             let level = [[-1.0, part()], [2.0, part()]].map(crate::straight::down);
             cutting.cut(&scissor(upright).through(true).snap(0.2));
             let before = cutting.mesh.clone();
-            let first = cutting.edits.next_number();
+            let first = cutting.edits.cursor();
             cutting.cut(&scissor(level).through(true).snap(0.2));
             let mut split: Vec<_> = Vec::new();
             for edit in cutting.edits.since(first) {

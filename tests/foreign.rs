@@ -159,14 +159,14 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
         plan.on_edge(corner, 0.5);
         plan.on_edge(h, t);
         plan.apply(&mut w.mesh, &mut w.edits)
-            .map(|insert| insert.number)
+            .map(|insert| insert.before)
     });
     with!(f, "insert in a face", |w| {
         let mut plan = Plan::new();
         plan.in_face(corner.face(), [0.0; 3]);
         plan.in_face(f, [1.0; 3]);
         plan.apply(&mut w.mesh, &mut w.edits)
-            .map(|insert| insert.number)
+            .map(|insert| insert.before)
     });
     with!(f, "a chord across a face", |w| {
         let mut plan = Plan::new();
@@ -174,14 +174,14 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
         let end = ChordEnd::Corner(corner.prev());
         plan.chord(f, [ChordEnd::Point(point), end]);
         plan.apply(&mut w.mesh, &mut w.edits)
-            .map(|insert| insert.number)
+            .map(|insert| insert.before)
     });
     with!(h, "a chord to a corner", |w| {
         let mut plan = Plan::new();
         let point = plan.on_edge(corner, 0.5);
         plan.chord(corner.face(), [ChordEnd::Point(point), ChordEnd::Corner(h)]);
         plan.apply(&mut w.mesh, &mut w.edits)
-            .map(|insert| insert.number)
+            .map(|insert| insert.before)
     });
     with!(f, "the side of a face", |w| classify::face(
         &w.mesh,

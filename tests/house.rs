@@ -150,10 +150,11 @@ fn what_is_no_circle_is_not_called_one() {
 
 /// The floor of each module of the kernel; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 17] = [
+const FLOORS: [(&str, u32); 18] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
+    ("sets", 0),
     ("mesh", 1),
     ("edit", 1),
     ("split", 2),

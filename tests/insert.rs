@@ -306,7 +306,7 @@ fn sewing_lists_every_stitch_that_it_refuses_and_changes_nothing() {
         .map(|(one, other)| Stitch::new(v(one), v(other)).expect("two vertices"))
         .to_vec();
     let weight = |of: VertexId| if of == v(5) { f64::NAN } else { 1.0 };
-    let before = (mesh.clone(), edits.next_number());
+    let before = (mesh.clone(), edits.cursor());
     let error = mend::sew(&mut mesh, &place[..], &stitches, weight, 5.9, &mut edits)
         .expect_err("all of these");
     let reasons: Vec<StitchError> = error.refused().iter().map(|(_, why)| *why).collect();
@@ -323,7 +323,7 @@ fn sewing_lists_every_stitch_that_it_refuses_and_changes_nothing() {
         error.to_string(),
         "v3 and v9 cannot be sewn: they are 6 apart (and 3 more)"
     );
-    assert_eq!((mesh.clone(), edits.next_number()), before);
+    assert_eq!((mesh.clone(), edits.cursor()), before);
     // A vertex in several stitches, a stitch twice, and a chain from the lowest to the highest.
     let (mut mesh, positions) = shapes::fan(6, true);
     let uncut = mesh.clone();

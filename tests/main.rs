@@ -7,6 +7,7 @@ mod cut_mend;
 mod exact;
 mod exhaustive;
 mod figures;
+mod followers;
 mod foreign;
 mod fuzz;
 mod geometry;

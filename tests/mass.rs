@@ -1,7 +1,7 @@
 //! Masses: what is refused, what they start from, and what is conserved; and the sums that tell.
 
 use tearmesh::{
-    Edits, ExactSum, Follower, Ledger, MassError, Masses, Mesh, VertexId, mend, shapes, split,
+    Cursor, Edits, ExactSum, Ledger, MassError, Masses, Mesh, VertexId, mend, shapes, split,
 };
 
 const USUAL: &str = "nothing unusual";
@@ -83,7 +83,7 @@ fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
     edits.replay(&mut positions);
     edits.clear();
     let halves = Masses::half(&mesh, &positions, 1.0).expect(USUAL);
-    let mut masses = halves.starting_at(edits.next_number());
+    let mut masses = halves.starting_at(edits.cursor());
     let [of_hub, of_first] = [hub, first].map(|v| masses.at(v));
     let second = split(&mut mesh, &mut edits);
     mend::merge(&mut mesh, first, second, [1.0; 2], &mut edits).expect(USUAL);
@@ -118,10 +118,11 @@ fn masses_know_how_many_and_which_edit_comes_next() {
     ] {
         let masses = masses.expect(USUAL);
         assert_eq!(
-            (masses.len(), masses.is_empty(), masses.next_edit()),
-            (3, false, 0)
+            (masses.len(), masses.is_empty(), masses.seen()),
+            (3, false, Cursor::START)
         );
-        assert_eq!(masses.starting_at(7).next_edit(), 7);
+        let seen = Cursor::from_bytes([7; 16]);
+        assert_eq!(masses.starting_at(seen).seen(), seen);
     }
 }
 #[test]

@@ -7,8 +7,8 @@ use std::ops::Neg as _;
 
 use tearmesh::script::Script;
 use tearmesh::{
-    COORDINATE_MAX, CutError, CutReport, Edits, Masses, Mesh, Method, Point, Positions, Ray,
-    Scissor, ScissorError, Tips, Vector,
+    COORDINATE_MAX, Cursor, CutError, CutReport, Edits, Masses, Mesh, Method, Point, Positions,
+    Ray, Scissor, ScissorError, Tips, Vector,
 };
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -245,7 +245,7 @@ fn length(v: Vector) -> f64 {
 fn a_refused_cut_changes_nothing(scissor: &Scissor, mesh: &Mesh, positions: &Positions) {
     let (mut mesh_after, mut edits) = (mesh.clone(), Edits::new());
     for refused in [
-        positions.clone().starting_at(1),
+        positions.clone().starting_at(Cursor::from_bytes([1; 16])),
         Positions::new(positions.as_slice()[1..].iter().copied()).expect("they were usable"),
     ] {
         let mut after = refused.clone();
@@ -255,7 +255,7 @@ fn a_refused_cut_changes_nothing(scissor: &Scissor, mesh: &Mesh, positions: &Pos
             Err(CutError::Unreplayed { .. } | CutError::Positions { .. })
         ));
         assert_eq!((&mesh_after, &after), (mesh, &refused));
-        assert!(edits.is_empty() && edits.next_number() == 0);
+        assert!(edits.is_empty() && edits.cursor() == Cursor::START);
     }
 }
 

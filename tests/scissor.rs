@@ -5,8 +5,8 @@
 
 use proptest::prelude::*;
 use tearmesh::{
-    CutError, CutReport, Edits, Follower, Mesh, Method, Point, Positions, Ray, Scissor,
-    ScissorError, Tips, Vector, shapes,
+    Cursor, CutError, CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, ScissorError,
+    Tips, Vector, shapes,
 };
 
 use crate::pieces::pieces_by_vertices;
@@ -26,7 +26,7 @@ fn between(a: [f64; 2], b: [f64; 2]) -> Scissor {
 }
 
 fn cut(scissor: &Scissor, mesh: &mut Mesh, positions: &mut Positions) -> CutReport {
-    *positions = positions.clone().starting_at(0);
+    *positions = positions.clone().starting_at(Cursor::START);
     let report = scissor.cut(Method::Partition, mesh, positions, &mut Edits::new());
     assert_eq!(mesh.check(), []);
     report.expect("positions are in step")
@@ -280,9 +280,18 @@ fn what_is_wrong_is_said_in_words() {
         .to_string(),
         "16 positions for a mesh of 9 vertices"
     );
+    let at = |number: u64| Cursor::from_bytes((u128::from(number) << 64).to_be_bytes());
+    let unreplayed = |seen, made| CutError::Unreplayed {
+        seen: at(seen),
+        made: at(made),
+    };
     assert_eq!(
-        CutError::Unreplayed { seen: 1, made: 3 }.to_string(),
-        "the positions are at edit 1, the log is at 3: replay first"
+        unreplayed(1, 3).to_string(),
+        "the positions have seen 1 edits, and the log has 3: replay first"
+    );
+    assert_eq!(
+        unreplayed(3, 3).to_string(),
+        "the positions have followed another log, of 3 edits too"
     );
 }
 
@@ -413,7 +422,7 @@ fn later_cuts_cross_earlier_ones() {
         assert_eq!(mesh.check(), []);
     }
     assert_eq!(pieces, [2, 4]);
-    assert_eq!(positions.next_edit(), edits.next_number());
+    assert_eq!(positions.seen(), edits.cursor());
     assert_eq!(positions.len(), mesh.vertex_count());
 }
 
@@ -435,7 +444,10 @@ fn positions_of_another_mesh_are_refused() {
         .expect("in step");
     assert_eq!(
         slit.cut(Method::Partition, &mut mesh, &mut late, &mut edits),
-        Err(CutError::Unreplayed { seen: 0, made: 3 })
+        Err(CutError::Unreplayed {
+            seen: Cursor::START,
+            made: edits.cursor()
+        })
     );
 }
 

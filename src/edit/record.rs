@@ -1,5 +1,6 @@
 //! The records of the log: what a split, an insertion and a merge did.
 
+use super::cursor::{Cursor, RunningHash};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// One change of a mesh.
@@ -16,23 +17,97 @@ pub enum Edit<'e> {
 }
 
 impl Edit<'_> {
-    /// The number of the record.
+    /// The number of the record. Records are numbered from 0.
     #[must_use]
     pub fn number(&self) -> u64 {
+        self.before().number()
+    }
+
+    /// The place in the log before this record.
+    #[must_use]
+    pub fn before(&self) -> Cursor {
         match self {
-            Edit::Split(split) => split.number,
-            Edit::Insert(insert) => insert.number,
-            Edit::Merge(merge) => merge.number,
-            Edit::Slide(slide) => slide.number,
+            Edit::Split(split) => split.before,
+            Edit::Insert(insert) => insert.before,
+            Edit::Merge(merge) => merge.before,
+            Edit::Slide(slide) => slide.before,
         }
     }
+
+    /// The place in the log after this record. Linear in the record.
+    #[must_use]
+    pub fn after(&self) -> Cursor {
+        let before = self.before();
+        let mut hash = RunningHash::after(before);
+        match self {
+            Edit::Split(split) => split.add_to(&mut hash),
+            Edit::Insert(insert) => insert.add_to(&mut hash),
+            Edit::Merge(merge) => merge.add_to(&mut hash),
+            Edit::Slide(slide) => slide.add_to(&mut hash),
+        }
+        Cursor::new(before.number() + 1, hash.get())
+    }
+}
+
+// What records add to the hash of a log: what cannot be told from the rest, each list with its
+// length.
+
+impl Split<'_> {
+    fn add_to(&self, hash: &mut RunningHash) {
+        hash.add_pair([self.old.into(), self.new.into()]);
+        add_corners(hash, self.corners);
+    }
+}
+
+impl Insert<'_> {
+    fn add_to(&self, hash: &mut RunningHash) {
+        hash.add_pair([self.points.len() as u32, self.children.len() as u32]);
+        for point in self.points {
+            match point.at {
+                Location::Edge { ends, t } => {
+                    hash.add_pair(ends.map(u32::from));
+                    hash.add(t.to_bits());
+                }
+                Location::Face { vertices, weights } => {
+                    hash.add_pair([vertices[0].into(), vertices[1].into()]);
+                    hash.add(weights[0].to_bits());
+                    hash.add(weights[1].to_bits());
+                }
+            }
+        }
+        for child in self.children {
+            let [a, b, c] = child.vertices.map(u32::from);
+            hash.add_pair([child.parent.into(), a]);
+            hash.add_pair([b, c]);
+        }
+    }
+}
+
+impl Merge<'_> {
+    fn add_to(&self, hash: &mut RunningHash) {
+        hash.add_pair([self.kept.into(), self.gone.into()]);
+        hash.add(self.share.to_bits());
+        add_corners(hash, self.corners);
+    }
+}
+
+impl Slide<'_> {
+    fn add_to(&self, hash: &mut RunningHash) {
+        hash.add_pair([self.vertex.into(), self.toward.into()]);
+        hash.add(self.t.to_bits());
+    }
+}
+
+fn add_corners(hash: &mut RunningHash, corners: &[HalfEdgeId]) {
+    hash.add(corners.len() as u64);
+    corners.iter().for_each(|&h| hash.add(u32::from(h).into()));
 }
 
 /// A vertex was split: some of its corners now belong to a new vertex at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Split<'e> {
-    /// The number of the record.
-    pub number: u64,
+    /// The place in the log before this record.
+    pub before: Cursor,
     /// The vertex that was split. It keeps at least one face.
     pub old: VertexId,
     /// The new vertex, the last one of the mesh.
@@ -61,22 +136,13 @@ pub struct TornLink {
 /// should have. Weights refer to what was there before the insertion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Insert<'e> {
-    /// The number of the record.
-    pub number: u64,
+    /// The place in the log before this record.
+    pub before: Cursor,
     /// The new vertices, ascending: the last ones of the mesh, without a gap. On a torn edge
     /// there are two for each point, one after the other.
     pub points: &'e [InsertedPoint],
     /// The faces that took the place of others, those of one parent together.
     pub children: &'e [Child],
-}
-
-impl<'e> Insert<'e> {
-    /// The children of each divided face in turn. The first of them has the id of its
-    /// parent; all others are new faces, ascending without a gap.
-    pub fn families(&self) -> impl Iterator<Item = &'e [Child]> + use<'e> {
-        self.children
-            .chunk_by(|one, next| one.parent == next.parent)
-    }
 }
 
 /// A new vertex and where it is.
@@ -147,8 +213,8 @@ pub enum Source {
 /// Two vertices of one root became one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Merge<'e> {
-    /// The number of the record.
-    pub number: u64,
+    /// The place in the log before this record.
+    pub before: Cursor,
     /// The vertex that has all corners now: the one with the lower id.
     pub kept: VertexId,
     /// The vertex that is no more.
@@ -179,8 +245,8 @@ pub struct Renumbered<'e> {
 /// A vertex slid along an edge of the surface, and what it carries with it. The mesh is as it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slide<'e> {
-    /// The number of the record.
-    pub number: u64,
+    /// The place in the log before this record.
+    pub before: Cursor,
     /// The vertex.
     pub vertex: VertexId,
     /// The vertex towards which it slid, which stays where it is.

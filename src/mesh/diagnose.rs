@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use super::Mesh;
 use super::defect::{BuildError, Found};
 use crate::id::{FaceId, VertexId};
+use crate::sets::DisjointSets;
 
 /// Every defect; `None` for an oriented 2-manifold.
 pub(super) fn diagnose(vertices: usize, triangles: &[[u32; 3]]) -> Option<BuildError> {
@@ -241,75 +242,50 @@ fn in_batches(
     }
 }
 
-/// The link of a vertex: which neighbours faces join. A union-find forest.
+/// The link of a vertex: which neighbours faces join.
 #[derive(Default)]
 struct Links {
     nodes: BTreeMap<u32, u32>,
-    parent: Vec<u32>,
-    /// The number of the part that a leader leads.
+    parts: DisjointSets,
+    /// The number of the part of each node.
     part: Vec<u32>,
 }
 
 impl Links {
     fn clear(&mut self) {
         self.nodes.clear();
-        self.parent.clear();
+        self.parts.reset(0);
         self.part.clear();
     }
 
     fn join(&mut self, a: u32, b: u32) {
-        let [a, b] = [a, b].map(|v| {
-            let next = self.parent.len() as u32;
-            let node = *self.nodes.entry(v).or_insert(next);
-            if node == next {
-                self.parent.push(node);
-            }
-            self.leader(node)
-        });
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
-
-    /// The representative of a part, with path halving.
-    fn leader(&mut self, mut node: u32) -> u32 {
-        while self.parent[node as usize] != node {
-            let above = self.parent[node as usize];
-            self.parent[node as usize] = self.parent[above as usize];
-            node = self.parent[node as usize];
-        }
-        node
+        let [a, b] = [a, b].map(|v| *self.nodes.entry(v).or_insert_with(|| self.parts.push()));
+        self.parts.join(a, b);
     }
 
     /// Numbers the parts in the order in which they are met; how many there are.
     fn number_parts(&mut self, neighbours: impl Iterator<Item = u32>) -> u32 {
         const UNKNOWN: u32 = u32::MAX;
-        let alone = self
-            .parent
-            .iter()
-            .zip(0..)
-            .filter(|&(&parent, node)| parent == node);
-        if alone.count() == 1 {
+        if self.parts.count() == 1 {
             return 1;
         }
-        self.part.resize(self.parent.len(), UNKNOWN);
+        self.part.resize(self.parts.len(), UNKNOWN);
         let mut count = 0;
         for v in neighbours {
-            let leader = self.leader(self.nodes[&v]) as usize;
+            let leader = self.parts.leader(self.nodes[&v]) as usize;
             if self.part[leader] == UNKNOWN {
                 self.part[leader] = count;
                 count += 1;
             }
         }
-        // Each leader is the smallest of its part: one pass makes every path a step.
-        for node in 0..self.parent.len() {
-            let leader = self.leader(node as u32);
-            self.parent[node] = leader;
+        for (node, &leader) in self.parts.leaders().iter().enumerate() {
+            self.part[node] = self.part[leader as usize];
         }
         count
     }
 
     /// The number of the part of a neighbour, once parts are numbered.
     fn part(&self, neighbour: u32) -> u32 {
-        let node = self.nodes[&neighbour];
-        self.part[self.parent[node as usize] as usize]
+        self.part[self.nodes[&neighbour] as usize]
     }
 }

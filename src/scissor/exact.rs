@@ -35,7 +35,7 @@ use super::offsets::Offsets;
 use super::outcome::{Ends, Outcome};
 use super::strip::Strip;
 use super::{pieces, unshare};
-use crate::edit::{Edit, Edits};
+use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::insert::{Plan, Refusal};
@@ -162,7 +162,7 @@ pub(super) fn cut(
         Some(offsets) => labels(strip, mesh, positions, offsets, &trace, &slit),
         None => Vec::new(),
     };
-    let before = edits.next_number();
+    let before = edits.cursor();
     let mut is_cut = vec![false; mesh.half_edge_count()];
     for h in slit.half_edges(mesh) {
         is_cut[h.index()] = true;
@@ -289,7 +289,7 @@ impl Slit {
 }
 
 /// Vertices of the slit, and those that they were split into by the edits from `first` on.
-fn with_copies(mut vertices: Vec<VertexId>, edits: &Edits, first: u64) -> Vec<VertexId> {
+fn with_copies(mut vertices: Vec<VertexId>, edits: &Edits, first: Cursor) -> Vec<VertexId> {
     for edit in edits.since(first) {
         if let Edit::Split(split) = edit
             && vertices.contains(&split.old)

@@ -10,7 +10,7 @@ use super::offsets::Offsets;
 use super::outcome::{Ends, Outcome};
 use super::pieces;
 use super::strip::Strip;
-use crate::edit::{Edit, Edits};
+use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, altitude, angle, cross, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -222,7 +222,7 @@ impl<'o> Survey<'o> {
         positions: &Positions,
         outcome: Outcome,
         edits: &Edits,
-        first_edit: u64,
+        first_edit: Cursor,
     ) -> CutReport {
         let mut in_slit = self.in_slit.clone();
         let mut tips = Tips::default();

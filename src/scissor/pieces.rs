@@ -11,6 +11,7 @@
 use crate::geometry::Side;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
+use crate::sets::DisjointSets;
 
 /// Counts the pieces. `sign` is zero for a vertex on the plane; `is_slit` says of a face with
 /// vertices on both sides whether the slit crosses it from node to node, `is_slit_along` of an edge
@@ -57,43 +58,29 @@ pub(super) fn expected(
     parts.count(|f, side| is_crossed(f) || side == lone_side(f))
 }
 
-/// A union-find forest over the two parts of each face.
-struct Parts {
-    parent: Vec<u32>,
-}
+/// The two parts of each face, in sets.
+struct Parts(DisjointSets);
 
 impl Parts {
     fn new(faces: usize) -> Parts {
-        Parts {
-            parent: (0..2 * faces as u32).collect(),
-        }
+        Parts(DisjointSets::new(2 * faces as u32))
     }
 
     fn node((f, side): (FaceId, Side)) -> u32 {
         2 * f.index() as u32 + u32::from(side == Side::Back)
     }
 
-    fn leader(&mut self, mut node: u32) -> u32 {
-        while self.parent[node as usize] != node {
-            self.parent[node as usize] = self.parent[self.parent[node as usize] as usize];
-            node = self.parent[node as usize];
-        }
-        node
-    }
-
     fn join(&mut self, a: (FaceId, Side), b: (FaceId, Side)) {
-        let (a, b) = (self.leader(Self::node(a)), self.leader(Self::node(b)));
-        self.parent[a.max(b) as usize] = a.min(b);
+        self.0.join(Self::node(a), Self::node(b));
     }
 
     /// The number of sets with a part that exists.
     fn count(&mut self, exists: impl Fn(FaceId, Side) -> bool) -> usize {
-        let mut seen = vec![false; self.parent.len()];
-        for f in (0..self.parent.len() as u32 / 2).map(FaceId::from_u32) {
+        let mut seen = vec![false; self.0.len()];
+        for f in (0..self.0.len() as u32 / 2).map(FaceId::from_u32) {
             for side in [Side::Front, Side::Back] {
                 if exists(f, side) {
-                    let leader = self.leader(Self::node((f, side)));
-                    seen[leader as usize] = true;
+                    seen[self.0.leader(Self::node((f, side))) as usize] = true;
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{Fault, Operation, Script, Shape, Spot, Triangles};
 use crate::attribute::PerCorner;
-use crate::edit::Edits;
+use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Point, Ray, Vector};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::insert::{self, ChordEnd, Plan, PointId};
@@ -64,7 +64,7 @@ pub enum AskedEnd {
     Point(usize),
 }
 
-/// What was done to a [`World`]. Edits are named by their numbers.
+/// What was done to a [`World`]. Edits are named by the place in the log before them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Step<'s> {
@@ -77,7 +77,7 @@ pub enum Step<'s> {
         /// The faces that were to move.
         faces: &'s [FaceId],
         /// The edit, or why there was none.
-        outcome: Result<u64, Refusal>,
+        outcome: Result<Cursor, Refusal>,
     },
     /// A split by a plane through the vertex was tried.
     Plane {
@@ -86,12 +86,12 @@ pub enum Step<'s> {
         /// The normal of the plane.
         normal: [f64; 3],
         /// The edit, if there was one.
-        outcome: Option<u64>,
+        outcome: Option<Cursor>,
     },
     /// A cut was made.
     Cut {
         /// The first edit of the cut; those from there on are the cut's.
-        first: u64,
+        first: Cursor,
         /// What the cut reported.
         report: &'s CutReport,
     },
@@ -102,7 +102,7 @@ pub enum Step<'s> {
         /// The chord that was demanded, and across which face.
         chord: Option<(FaceId, [AskedEnd; 2])>,
         /// The edit, or why there was none.
-        outcome: Result<u64, insert::Refusal>,
+        outcome: Result<Cursor, insert::Refusal>,
     },
     /// A merge was tried.
     Merge {
@@ -113,12 +113,12 @@ pub enum Step<'s> {
         /// The weights of both.
         weights: [f64; 2],
         /// The edit, or why there was none.
-        outcome: Result<u64, mend::Refusal>,
+        outcome: Result<Cursor, mend::Refusal>,
     },
     /// Copies were sewn together.
     Sewn {
         /// The first edit; those from there on are merges.
-        first: u64,
+        first: Cursor,
         /// What was to be sewn.
         stitches: &'s [Stitch],
         /// The number of merges.
@@ -272,7 +272,7 @@ impl World {
         mut observe: impl FnMut(&World, &Step<'_>),
     ) {
         let outcome = split::vertex(&mut self.mesh, vertex, faces, &mut self.edits);
-        let outcome = outcome.map(|split| split.number);
+        let outcome = outcome.map(|split| split.before);
         self.replay();
         let step = Step::Split {
             vertex,
@@ -298,7 +298,7 @@ impl World {
             &self.positions,
             &mut self.edits,
         );
-        let outcome = split.map(|split| split.number);
+        let outcome = split.map(|split| split.before);
         self.replay();
         let step = Step::Plane {
             vertex,
@@ -325,7 +325,7 @@ impl World {
         let Ok(scissor) = Scissor::new(&a, &b) else {
             return observe(self, &Step::Nothing);
         };
-        let first = self.edits.next_number();
+        let first = self.edits.cursor();
         let report = scissor
             .through(through)
             .tips(tips)
@@ -417,7 +417,7 @@ impl World {
             plan.chord(face, ends.map(end));
         }
         let outcome = plan.apply(&mut self.mesh, &mut self.edits);
-        let outcome = outcome.map(|insert| insert.number);
+        let outcome = outcome.map(|insert| insert.before);
         if outcome.is_ok() {
             self.half = None;
         }
@@ -439,7 +439,7 @@ impl World {
         mut observe: impl FnMut(&World, &Step<'_>),
     ) {
         let merge = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
-        let outcome = merge.map(|merge| merge.number);
+        let outcome = merge.map(|merge| merge.before);
         self.replay();
         let step = Step::Merge {
             one,
@@ -453,7 +453,7 @@ impl World {
     fn sew_chosen(&mut self, mask: u16, observe: &mut impl FnMut(&World, &Step<'_>)) {
         let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
         let stitches = mend::stitches(&self.mesh, chosen);
-        let first = self.edits.next_number();
+        let first = self.edits.cursor();
         let merges = mend::sew(
             &mut self.mesh,
             &self.positions,

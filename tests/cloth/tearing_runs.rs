@@ -288,7 +288,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
     let mut grabbed: Option<usize> = None;
     for step in 0..steps {
         let mut below = |n: usize| ((random.next() * n as f64) as usize).min(n - 1);
-        let before = edits.next_number();
+        let before = edits.cursor();
         match below(24) {
             0 | 1 => {
                 if let Some(v) = grabbed.take() {
@@ -338,8 +338,8 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
             }
             _ => {}
         }
-        let foreign = edits.next_number() - before;
-        if foreign > 0 && below(2) == 0 {
+        let is_edited = edits.cursor() != before;
+        if is_edited && below(2) == 0 {
             edits.replay(&mut (&mut cloth, &mut tear));
         }
         let report = tear.apply(&mut mesh, &mut cloth, &mut edits, 0.005);

@@ -1,7 +1,7 @@
 //! What is kept beside a mesh: positions, masses, data of vertices and corners.
 
 use tearmesh::{
-    Child, Edit, Follower, HalfEdgeId, Location, Masses, Mesh, PerCorner, PerVertex, Point,
+    Child, Cursor, Edit, HalfEdgeId, Location, Masses, Mesh, PerCorner, PerVertex, Point,
     Positions, Source, VertexId,
 };
 
@@ -80,11 +80,11 @@ fn scattered(i: usize) -> f64 {
     ((i * 7919 + 13) % 1009) as f64 / 16.0
 }
 
-fn scattered_points(mesh: &Mesh, next_edit: u64) -> Positions {
+fn scattered_points(mesh: &Mesh, seen: Cursor) -> Positions {
     let point = |v: VertexId| [0, 1, 2].map(|i| scattered(3 * v.index() + i));
     Positions::new(mesh.vertices().map(point))
         .expect("small numbers")
-        .starting_at(next_edit)
+        .starting_at(seen)
 }
 
 fn coordinates(point: Point) -> [f64; 3] {
@@ -97,16 +97,16 @@ pub(super) fn new_values_come_from_the_right_places(mesh: &Mesh, edit: &Edit<'_>
     let Edit::Insert(insert) = edit else {
         panic!("not an insertion: {edit:?}");
     };
-    let mut positions = scattered_points(mesh, edit.number());
+    let mut positions = scattered_points(mesh, edit.before());
     let speed = |v: VertexId| scattered(v.index());
     let mut speeds = PerVertex::new(mesh.vertices().map(speed).collect());
-    speeds = speeds.starting_at(edit.number());
+    speeds = speeds.starting_at(edit.before());
     let mut values = PerCorner::new(mesh.half_edges().map(|h| scattered(h.index())).collect());
-    values = values.starting_at(edit.number());
+    values = values.starting_at(edit.before());
     let old = positions.clone();
-    positions.follow(edit);
-    speeds.follow(edit);
-    values.follow(edit);
+    edit.pass_on(&mut positions);
+    edit.pass_on(&mut speeds);
+    edit.pass_on(&mut values);
 
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} is not {b} after {edit:?}");
     for v in mesh.vertices() {
@@ -164,13 +164,13 @@ pub(super) fn merged_values_are_joined_by_weight(mesh: &Mesh, edit: &Edit<'_>) {
     let Edit::Merge(merge) = edit else {
         panic!("not a merge: {edit:?}");
     };
-    let mut positions = scattered_points(mesh, edit.number());
+    let mut positions = scattered_points(mesh, edit.before());
     let speed = |v: VertexId| scattered(v.index());
     let mut speeds = PerVertex::new(mesh.vertices().map(speed).collect());
-    speeds = speeds.starting_at(edit.number());
+    speeds = speeds.starting_at(edit.before());
     let old = positions.clone();
-    positions.follow(edit);
-    speeds.follow(edit);
+    edit.pass_on(&mut positions);
+    edit.pass_on(&mut speeds);
     let last = mesh.vertices().next_back().expect("a vertex");
     assert_eq!(positions.len(), last.index());
     for v in mesh.vertices().take(last.index()) {

@@ -2,7 +2,7 @@
 
 use tearmesh::insert::Refusal;
 use tearmesh::script::{Asked, AskedEnd};
-use tearmesh::{Edit, FaceId, HalfEdgeId, Insert, Location, Mesh};
+use tearmesh::{Cursor, Edit, FaceId, HalfEdgeId, Insert, Location, Mesh};
 
 use super::beside::weights_in_parent;
 use super::mesh::euler;
@@ -50,7 +50,7 @@ impl Request {
         }
     }
 
-    pub(super) fn is_refused_where_it_should(&self, soup: &Soup, outcome: Result<u64, Refusal>) {
+    pub(super) fn is_refused_where_it_should(&self, soup: &Soup, outcome: Result<Cursor, Refusal>) {
         let unfit = soup.unfit(&self.spots, self.chord);
         let refused = outcome.err().map(|refusal| match refusal {
             Refusal::Parameter { .. } => Unfit::Parameter,
@@ -122,7 +122,7 @@ pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, insert: &Insert<
         "faces"
     );
     for f in before.faces() {
-        if insert.families().all(|family| family[0].parent != f) {
+        if insert.families().all(|family| family.parent() != f) {
             assert_eq!(
                 after.face_vertices(f),
                 before.face_vertices(f),

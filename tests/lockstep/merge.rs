@@ -1,7 +1,7 @@
 //! What a merge must do, and what it must leave as it was.
 
 use tearmesh::mend::{self, Refusal, Stitch};
-use tearmesh::{Edit, Edits, HalfEdgeId, Merge, Mesh, Split, VertexId};
+use tearmesh::{Cursor, Edit, Edits, HalfEdgeId, Merge, Mesh, Split, VertexId};
 
 use super::history::Told;
 use super::mesh::euler;
@@ -25,7 +25,7 @@ pub(super) fn is_refused_where_it_should(
     one: VertexId,
     other: VertexId,
     weights: [f64; 2],
-    outcome: Result<u64, Refusal>,
+    outcome: Result<Cursor, Refusal>,
 ) {
     let expected = soup.clone().merge(one.index(), other.index());
     match outcome {

@@ -12,7 +12,7 @@ mod split;
 
 use tearmesh::script::{Script, Step, World};
 use tearmesh::split as split_op;
-use tearmesh::{Edit, Edits, FaceId, Mesh, Positions, Split, VertexId};
+use tearmesh::{Cursor, Edit, Edits, FaceId, Mesh, Positions, Split, VertexId};
 
 use crate::oracle::{Soup, is_strict, lump};
 pub(crate) use history::{Told, told};
@@ -143,7 +143,7 @@ impl Model {
                 stitches,
                 merges,
             } => {
-                assert_eq!(first, edits as u64, "edits are numbered from 0");
+                assert_eq!(first.number(), edits as u64, "edits are numbered from 0");
                 let mut mesh = self.before.mesh.clone();
                 for edit in world.edits.since(first) {
                     let [kept, gone] = merge::vertices(&edit);
@@ -175,7 +175,7 @@ impl Model {
             }
             Step::Cleared => {
                 assert!(world.edits.is_empty(), "the log was cleared");
-                assert_eq!(world.edits.next_number(), self.before.edits.next_number());
+                assert_eq!(world.edits.cursor(), self.before.edits.cursor());
                 assert_eq!(
                     world.late_triangles, world.triangles,
                     "a late follower sees all edits at once"
@@ -187,7 +187,7 @@ impl Model {
             ref other => panic!("the mesh is built once, and this is {other:?}"),
         }
         assert_eq!(
-            world.edits.next_number(),
+            world.edits.cursor().number(),
             self.history.len() as u64,
             "edits are numbered from 0"
         );
@@ -197,21 +197,21 @@ impl Model {
         }
     }
 
-    /// One edit was made, with this number: the last one. Or none, and nothing has changed.
-    fn one_edit(&mut self, world: &World, number: Option<u64>) {
-        let Some(number) = number else {
+    /// One edit was made, from this place on: the last one. Or none, and nothing has changed.
+    fn one_edit(&mut self, world: &World, before: Option<Cursor>) {
+        let Some(place) = before else {
             self.done.refused += 1;
             return nothing_changed(&self.before, world);
         };
         assert_eq!(
-            number,
+            place.number(),
             self.history.len() as u64,
             "edits are numbered from 0"
         );
-        let mut edits = world.edits.since(number);
+        let mut edits = world.edits.since(place);
         let edit = edits.next().expect("what was done is in the log");
         assert!(edits.next().is_none(), "one operation is one edit");
-        assert_eq!(edit.number(), number);
+        assert_eq!((edit.before(), edit.after()), (place, world.edits.cursor()));
         let [before, after] = [&self.before, world];
         match edit {
             Edit::Split(split) => {
@@ -244,9 +244,9 @@ impl Model {
     }
 
     /// The same splits, one by one, make the same mesh.
-    fn a_cut_is_made_of_splits(&mut self, world: &World, first: u64) {
+    fn a_cut_is_made_of_splits(&mut self, world: &World, first: Cursor) {
         assert_eq!(
-            first,
+            first.number(),
             self.history.len() as u64,
             "edits are numbered from 0"
         );
@@ -315,8 +315,8 @@ pub(crate) fn nothing_changed(before: &World, after: &World) {
     assert_eq!(after.triangles, before.triangles, "the followers");
     assert_eq!(after.corners, before.corners, "the followers");
     assert_eq!(
-        after.edits.next_number(),
-        before.edits.next_number(),
+        after.edits.cursor(),
+        before.edits.cursor(),
         "the numbering of edits"
     );
     assert_eq!(told(&after.edits), told(&before.edits), "the log");

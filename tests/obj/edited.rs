@@ -308,7 +308,7 @@ impl Work<'_> {
         self.edit(|mesh, positions, edits| {
             let done = scissor.cut(Method::Exact, mesh, positions, edits);
             done.expect("positions are in step");
-            let slides = edits.since(0).filter_map(|edit| match edit {
+            let slides = edits.iter().filter_map(|edit| match edit {
                 Edit::Slide(slide) => Some(slide.vertex.index()),
                 _ => None,
             });

@@ -3,7 +3,7 @@
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
 use tearmesh::insert::Plan;
-use tearmesh::{Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, split};
+use tearmesh::{Cursor, Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, split};
 use tearmesh_obj::{Document, TornDocument};
 
 /// A file, and behind a zero byte (which no OBJ file has) what is split. Whether it is a mesh.
@@ -49,7 +49,7 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
     let again = Document::read(&written[..]).expect("what was written can be read");
     corners_are_the_same(&document, &mesh, &positions, &again);
     attributes_are_the_same(&document, &again);
-    if edits.next_number() == 0 {
+    if edits.cursor() == Cursor::START {
         assert_eq!(again.triangles(), document.triangles());
         let vertices = |document: &Document| {
             let points = document.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
@@ -109,8 +109,8 @@ fn divide_and_mend(
     }
     // Points at one place are refused, and nothing has happened then.
     let _ = plan.apply(&mut mesh, &mut edits);
-    let mut torn = torn.starting_at(0);
-    let mut moving = positions.clone().starting_at(0);
+    let mut torn = torn.starting_at(Cursor::START);
+    let mut moving = positions.clone().starting_at(Cursor::START);
     edits.replay(&mut (&mut moving, &mut torn));
     positions = moving;
     let written = write_torn(&torn, &mesh, &positions);
@@ -123,7 +123,11 @@ fn divide_and_mend(
     assert!(twice == written, "writing again gives the same bytes");
 
     let later = mended(TornDocument::new(&again), same, points);
-    let mended = mended(torn.starting_at(0), mesh, positions.starting_at(0));
+    let mended = mended(
+        torn.starting_at(Cursor::START),
+        mesh,
+        positions.starting_at(Cursor::START),
+    );
     let uncut = document.mesh().expect("it was one before");
     let points = Positions::new(document.positions().iter().copied());
     let points = points.expect("the reader refuses other coordinates");

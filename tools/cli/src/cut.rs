@@ -7,7 +7,7 @@ pub(crate) mod words;
 use std::ffi::OsString;
 use std::path::Path;
 
-use tearmesh::{CutReport, Edit, Edits, Masses, Positions, Ray, Scissor};
+use tearmesh::{Cursor, CutReport, Edit, Edits, Masses, Positions, Ray, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
 use self::nothing::Obstacle;
@@ -88,7 +88,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let broken = if slid { None } else { moved() };
     session.verify(&mesh, &ledger, broken)?;
     session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
-    if edits.next_number() == 0 && !args.allow_miss {
+    if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);

@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tearmesh::Scissor;
+use tearmesh::{Cursor, Scissor};
 use tearmesh_cloth::scene::{CutMade, Frame, Run, Scene, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::TornDocument;
@@ -179,7 +179,7 @@ impl Play<'_> {
                 session.exit = Exit::Simulation;
                 let fault = words::failure(&error, &run, self.is_step_chosen);
                 session.faults.push(fault);
-                if tally.steps == 0 && run.edits().next_number() == 0 {
+                if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                     session.words.clear();
                     return self.show(frames, &run, &torn, session);
                 }

@@ -6,7 +6,9 @@ mod room;
 pub(crate) use room::Room;
 
 use tearmesh::geometry::between;
-use tearmesh::{Child, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Source, Split, VertexId};
+use tearmesh::{
+    Child, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Source, Split, VertexId,
+};
 
 use self::room::Piece;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
@@ -15,8 +17,8 @@ use crate::sheet::{Cloth, Effect, NO_BEND, weight};
 use crate::system::Family;
 
 impl Follower for Cloth {
-    fn next_edit(&self) -> u64 {
-        self.next_edit
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
@@ -50,7 +52,6 @@ impl Follower for Cloth {
             bound_before_rad_per_s,
             bound_after_rad_per_s: self.system.bound_within_reach(),
         });
-        self.next_edit = edit.number() + 1;
     }
 }
 
@@ -65,8 +66,8 @@ impl Cloth {
         );
         let (x, v) = (system.positions[old], system.velocities[old]);
         system.push_particle(x, v, Some(old));
-        self.masses.follow(edit);
-        self.rest.follow(edit);
+        edit.pass_on(&mut self.masses);
+        edit.pass_on(&mut self.rest);
         self.reweigh(old);
         self.reweigh(new);
         let mut gained = 0.0;
@@ -165,8 +166,8 @@ impl Cloth {
         }
         // Copies that slid apart have different places at rest, and meet between.
         let apart = self.rest.at(merge.kept) != self.rest.at(merge.gone);
-        self.masses.follow(edit);
-        self.rest.follow(edit);
+        edit.pass_on(&mut self.masses);
+        edit.pass_on(&mut self.rest);
         self.reweigh(kept);
         if apart {
             self.measure_again(kept);
@@ -180,8 +181,8 @@ impl Cloth {
         let elastic = self.system.elastic_at_j(particle);
         let x = &mut self.system.positions;
         x[particle] = between(x[particle], x[toward], slide.t);
-        self.masses.follow(edit);
-        self.rest.follow(edit);
+        edit.pass_on(&mut self.masses);
+        edit.pass_on(&mut self.rest);
         self.measure_again(particle);
         self.ledger.slide_elastic_j += self.system.elastic_at_j(particle) - elastic;
     }
@@ -239,8 +240,8 @@ impl Cloth {
             let (x, v) = self.system.inserted(&point.at);
             self.system.push_particle(x, v, None);
         }
-        self.masses.follow(edit);
-        self.rest.follow(edit);
+        edit.pass_on(&mut self.masses);
+        edit.pass_on(&mut self.rest);
         for &v in &room.vertices {
             self.reweigh(v);
         }

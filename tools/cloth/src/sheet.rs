@@ -5,7 +5,7 @@ mod error;
 pub use error::ClothError;
 
 use tearmesh::geometry::{Point, Vector, length};
-use tearmesh::{HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
+use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
@@ -128,7 +128,7 @@ pub struct Cloth {
     pub(super) ledger: EnergyLedger,
     pub(super) effects: Vec<Effect>,
     pub(super) room: Room,
-    pub(super) next_edit: u64,
+    pub(super) seen: Cursor,
 }
 
 /// Across a boundary or a tear.
@@ -187,11 +187,11 @@ impl Cloth {
         let points = positions.as_slice().iter().copied();
         let mut system = System::with_massless(points, weights);
         system.model.faces = mesh.indices().to_vec();
-        let next_edit = tearmesh::Follower::next_edit(positions);
+        let seen = positions.seen();
         let half_edges = mesh.half_edge_count();
         let mut cloth = Cloth {
             system,
-            masses: masses.starting_at(next_edit),
+            masses: masses.starting_at(seen),
             rest: positions.clone(),
             fabric,
             warps,
@@ -202,7 +202,7 @@ impl Cloth {
             ledger: EnergyLedger::default(),
             effects: Vec::new(),
             room: Room::default(),
-            next_edit,
+            seen,
         };
         for h in mesh.edges() {
             let halved = fabric.copies == Copies::Halved && mesh.ghost_pair(h).is_some();
@@ -256,13 +256,19 @@ impl Cloth {
         }
     }
 
-    /// The same cloth, for a log whose next record has this number.
+    /// Takes the cloth for that of the mesh at this place in its log.
     #[must_use]
-    pub fn starting_at(mut self, next_edit: u64) -> Cloth {
-        self.masses = self.masses.starting_at(next_edit);
-        self.rest = self.rest.starting_at(next_edit);
-        self.next_edit = next_edit;
+    pub fn starting_at(mut self, seen: Cursor) -> Cloth {
+        self.masses = self.masses.starting_at(seen);
+        self.rest = self.rest.starting_at(seen);
+        self.seen = seen;
         self
+    }
+
+    /// Up to where the cloth has seen the log of the mesh.
+    #[must_use]
+    pub fn seen(&self) -> Cursor {
+        self.seen
     }
 
     /// Advances by `dt_s` seconds, and forgets the [`Cloth::effects`] so far.

@@ -94,8 +94,8 @@ impl Cloth {
         }
         let mut gained = 0.0;
         for family in insert.families() {
-            gained -= self.triangle_energy(family[0].parent.index());
-            for child in family {
+            gained -= self.triangle_energy(family.parent().index());
+            for child in family.children() {
                 let triangle = self.woven(child.face);
                 let triangles = &mut self.system.model.triangles;
                 if child.face == child.parent {

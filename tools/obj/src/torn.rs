@@ -16,7 +16,7 @@ pub(crate) use self::removal::Removal;
 pub(crate) use self::slots::Slots;
 
 use tearmesh::{
-    Blend, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
+    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
     VertexId, mend::Stitch,
 };
 
@@ -75,7 +75,7 @@ use crate::store::Rows;
 #[derive(Clone, Debug)]
 pub struct TornDocument<'d> {
     document: &'d Document,
-    next_edit: u64,
+    seen: Cursor,
     /// The number of the cut whose edits are being followed.
     cut: u32,
     /// Whether anything was split or inserted since that number was given.
@@ -100,7 +100,7 @@ impl<'d> TornDocument<'d> {
         let has_extras = document.extras.len() > 0;
         TornDocument {
             document,
-            next_edit: 0,
+            seen: Cursor::START,
             cut: record.map_or(0, Record::last_cut) + 1,
             cut_is_used: false,
             ancestry: Ancestry::new(count, record.map_or(&[], |record| &record.splits)),
@@ -123,10 +123,10 @@ impl<'d> TornDocument<'d> {
         torn
     }
 
-    /// The same, for a log whose next record has this number.
+    /// Takes the document for that of the mesh at this place in its log.
     #[must_use]
-    pub fn starting_at(self, next_edit: u64) -> TornDocument<'d> {
-        TornDocument { next_edit, ..self }
+    pub fn starting_at(self, seen: Cursor) -> TornDocument<'d> {
+        TornDocument { seen, ..self }
     }
 
     /// The document.
@@ -373,8 +373,8 @@ impl<'d> TornDocument<'d> {
 }
 
 impl Follower for TornDocument<'_> {
-    fn next_edit(&self) -> u64 {
-        self.next_edit
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
@@ -396,7 +396,6 @@ impl Follower for TornDocument<'_> {
             }
             Edit::Slide(slide) => self.slide(slide),
         }
-        self.next_edit = edit.number() + 1;
     }
 }
 

@@ -312,7 +312,7 @@ impl Run {
     fn places(&self) -> Result<Positions, StepError> {
         let points = self.cloth.positions().iter().copied();
         match Positions::new(points) {
-            Ok(positions) => Ok(positions.starting_at(self.edits.next_number())),
+            Ok(positions) => Ok(positions.starting_at(self.edits.cursor())),
             Err(error) => Err(StepError::BlowUp {
                 elapsed_s: self.elapsed_s(),
                 at: Culprit::Particle(error.unusable()[0].0.index()),

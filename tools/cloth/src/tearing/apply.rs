@@ -1,7 +1,7 @@
 //! The state of a cloth that tears, and one step of it.
 
 use tearmesh::geometry::{Plane, Vector, dot, length};
-use tearmesh::{Edits, Follower, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
+use tearmesh::{Cursor, Edits, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
 
 use super::{Tearing, TearingError};
 use crate::sheet::Cloth;
@@ -22,6 +22,7 @@ pub struct Tear {
     /// [`BELOW`].
     pub(super) clocks: Vec<f64>,
     due: Vec<Due>,
+    pub(super) seen: Cursor,
     /// The far ends of the links that a split tore.
     ahead: Vec<VertexId>,
     /// By vertex: whether it was split in this step.
@@ -76,11 +77,12 @@ impl Tear {
     /// [`TearingError`]: a number cannot be used.
     pub fn new(cloth: &Cloth, tearing: Tearing) -> Result<Tear, TearingError> {
         tearing.check()?;
-        let (count, next) = (cloth.positions().len(), cloth.next_edit());
+        let (count, seen) = (cloth.positions().len(), cloth.seen());
         Ok(Tear {
             tearing,
-            strengths: PerVertex::new(vec![1.0; count]).starting_at(next),
-            tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(next),
+            strengths: PerVertex::new(vec![1.0; count]).starting_at(seen),
+            tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(seen),
+            seen,
             clocks: vec![BELOW; cloth.indices().len()],
             due: Vec::new(),
             ahead: Vec::new(),
@@ -106,9 +108,8 @@ impl Tear {
             let given = strengths[vertex];
             return Err(TearingError::Strength { vertex, given });
         }
-        let next_edit = self.next_edit();
         Ok(Tear {
-            strengths: PerVertex::new(strengths).starting_at(next_edit),
+            strengths: PerVertex::new(strengths).starting_at(self.seen),
             ..self
         })
     }

@@ -2,19 +2,19 @@
 //! and its own splits.
 
 use tearmesh::geometry::Vector;
-use tearmesh::{Edit, Follower, Insert, Merge};
+use tearmesh::{Cursor, Edit, Follower, Insert, Merge};
 
 use super::apply::{BELOW, Tear};
 use crate::follow::lies_on;
 
 impl Follower for Tear {
-    fn next_edit(&self) -> u64 {
-        self.strengths.next_edit()
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        self.strengths.follow(edit);
-        self.tips.follow(edit);
+        edit.pass_on(&mut self.strengths);
+        edit.pass_on(&mut self.tips);
         match edit {
             // Both halves of a torn link go on with the clock of its edge. The tear has gone
             // through the vertex, which is a tip no more.
@@ -33,9 +33,9 @@ impl Tear {
     /// The parts of a divided edge go on with its clock; new edges in a face begin.
     fn insert(&mut self, insert: &Insert<'_>) {
         for family in insert.families() {
-            let parent = family[0].parent.half_edges();
+            let parent = family.parent().half_edges();
             let before = parent.map(|h| self.clocks[h.index()]);
-            for child in family {
+            for child in family.children() {
                 let start = 3 * child.face.index();
                 let end = self.clocks.len().max(start + 3);
                 self.clocks.resize(end, BELOW);

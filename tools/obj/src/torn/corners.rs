@@ -79,13 +79,14 @@ impl<'d> Corners<'d> {
     pub(super) fn insert(&mut self, insert: &Insert<'_>, class: impl Fn(VertexId) -> u32) {
         let mut made = [BTreeMap::new(), BTreeMap::new()];
         for family in insert.families() {
-            let parent = family[0].parent.index();
+            let parent = family.parent().index();
             let slot = self.slots[parent];
             if !self.is_part_of_recorded(slot) && !self.divided.contains_key(&slot) {
-                self.divided.insert(slot, original(family, &class));
+                self.divided
+                    .insert(slot, original(family.children(), &class));
             }
             let before = [0, 1, 2].map(|corner| self.corners[3 * parent + corner]);
-            for child in family {
+            for child in family.children() {
                 let face = child.face.index();
                 if face >= self.slots.len() {
                     assert_eq!(face, self.slots.len(), "new faces come without a gap");

@@ -1,0 +1,421 @@
+//! The normal form of records, for whoever keeps *values* beside a mesh.
+//!
+//! There are four kinds of [`Edit`], and each says why something changed. Someone who keeps one
+//! value for each vertex, corner or face need not know why: a value is pushed, set, or taken out,
+//! and a new one comes from up to three others. That is what [`VertexOp`], [`CornerOp`] and
+//! [`Family`] say. They are derived from a record without allocation, and a new kind of edit would
+//! be made of the same operations.
+//!
+//! | edit | vertices | corners | faces |
+//! |---|---|---|---|
+//! | split | push a copy of the old vertex | some become the new vertex's | |
+//! | insertion | push each point between its sources | divide each family | divide each family |
+//! | merge | set the one kept between both; take out the other, whose place the last one takes | those of both become others' | |
+//! | slide | set the vertex between itself and its neighbour | carry them along | |
+//!
+//! What is *shared out* rather than copied, such as mass, is not a value in this sense: the halves
+//! of a split vertex do not weigh what the whole did. [`Masses`](crate::Masses) reads the records.
+
+use super::record::{Child, Edit, Insert, Location, Source};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+
+/// Where a value comes from: one, two or three others.
+///
+/// These are three cases and not one with three weights, because a copy must be exact to the bit,
+/// and a value between two equal ones must be that value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mix<I> {
+    /// The value of this one.
+    Copy(I),
+    /// The value at `ends[0] + t (ends[1] − ends[0])`.
+    Between {
+        /// The two that it lies between.
+        ends: [I; 2],
+        /// The parameter, from 0 to 1.
+        t: f64,
+    },
+    /// The weighted sum of three.
+    Weighted {
+        /// The three.
+        of: [I; 3],
+        /// Their weights: positive, of sum one up to rounding.
+        weights: [f64; 3],
+    },
+}
+
+impl<I> Mix<I> {
+    /// The mix of other things in the same parts: of the values for ids, say.
+    #[must_use]
+    pub fn map<J>(self, f: impl FnMut(I) -> J) -> Mix<J> {
+        let mut f = f;
+        match self {
+            Mix::Copy(one) => Mix::Copy(f(one)),
+            Mix::Between { ends, t } => Mix::Between {
+                ends: ends.map(f),
+                t,
+            },
+            Mix::Weighted { of, weights } => Mix::Weighted {
+                of: of.map(f),
+                weights,
+            },
+        }
+    }
+
+    /// The one with the largest part, and of equal ones the first: for what has no value in
+    /// between, such as the number of a bone or a material.
+    ///
+    /// ```
+    /// use tearmesh::Mix;
+    ///
+    /// assert_eq!(Mix::Between { ends: ["hip", "knee"], t: 0.75 }.nearest(), "knee");
+    /// assert_eq!(Mix::Weighted { of: [7, 8, 9], weights: [0.25, 0.5, 0.25] }.nearest(), 8);
+    /// ```
+    #[must_use]
+    pub fn nearest(self) -> I {
+        match self {
+            Mix::Copy(one) => one,
+            Mix::Between { ends: [a, b], t } => {
+                if t > 0.5 {
+                    b
+                } else {
+                    a
+                }
+            }
+            Mix::Weighted {
+                of: [a, b, c],
+                weights: [wa, wb, wc],
+            } => {
+                if wa >= wb && wa >= wc {
+                    a
+                } else if wb >= wc {
+                    b
+                } else {
+                    c
+                }
+            }
+        }
+    }
+}
+
+impl From<Location> for Mix<VertexId> {
+    fn from(at: Location) -> Mix<VertexId> {
+        match at {
+            Location::Edge { ends, t } => Mix::Between { ends, t },
+            Location::Face { vertices, weights } => Mix::Weighted {
+                of: vertices,
+                weights,
+            },
+        }
+    }
+}
+
+/// What an edit does to a list of values, one for each vertex. Those of an edit come in an order in
+/// which they can be carried out one after the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum VertexOp {
+    /// A value is pushed.
+    Push {
+        /// The vertex that it is for: the next one.
+        new: VertexId,
+        /// Where it comes from.
+        from: Mix<VertexId>,
+    },
+    /// A value is replaced.
+    Set {
+        /// The vertex that it is for.
+        at: VertexId,
+        /// Where the new value comes from, perhaps from the old one too.
+        from: Mix<VertexId>,
+    },
+    /// A value is taken out, and the last one takes its place, as in [`Vec::swap_remove`].
+    SwapRemove {
+        /// The vertex that is no more.
+        gone: VertexId,
+    },
+}
+
+impl VertexOp {
+    /// Does this to a list of values. `mix` makes a value of those that it comes from.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one value for each vertex.
+    #[inline]
+    pub fn apply<T>(self, values: &mut Vec<T>, mut mix: impl FnMut(Mix<&T>) -> T) {
+        match self {
+            VertexOp::Push { new, from } => {
+                assert_eq!(
+                    new.index(),
+                    values.len(),
+                    "values are in step with the mesh"
+                );
+                let value = mix(from.map(|v| v.of(values)));
+                values.push(value);
+            }
+            VertexOp::Set { at, from } => {
+                let value = mix(from.map(|v| v.of(values)));
+                values[at.index()] = value;
+            }
+            VertexOp::SwapRemove { gone } => {
+                values.swap_remove(gone.index());
+            }
+        }
+    }
+}
+
+/// A face that was divided, and its children.
+///
+/// The first child has the id of its parent; all others are new faces, in the order in which they
+/// are to be pushed. So what the parent had is to be read before anything is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Family<'e> {
+    children: &'e [Child],
+}
+
+impl<'e> Family<'e> {
+    /// The face that was divided.
+    #[must_use]
+    pub fn parent(&self) -> FaceId {
+        self.children[0].parent
+    }
+
+    /// The faces that took its place: at least two.
+    #[must_use]
+    pub fn children(&self) -> &'e [Child] {
+        self.children
+    }
+
+    /// Gives each child a copy of the value of the parent.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one value for each face.
+    pub fn apply_to_faces<T: Clone>(&self, values: &mut Vec<T>) {
+        for child in self.children {
+            if child.face != child.parent {
+                let value = child.parent.of(values).clone();
+                push_at(child.face.index(), values, value);
+            }
+        }
+    }
+
+    /// Gives each corner of each child a value made of those that the corners of the parent had.
+    fn apply_to_corners<T>(&self, values: &mut Vec<T>, mix: &mut impl FnMut(Mix<&T>) -> T) {
+        let parent = self.parent().half_edges();
+        let before = parent.map(|h| mix(Mix::Copy(h.of(values))));
+        for child in self.children {
+            for (corner, source) in child.face.half_edges().into_iter().zip(child.sources) {
+                let value = mix(source.in_parent(parent).map(|h| &before[h.corner()]));
+                if child.face == child.parent {
+                    values[corner.index()] = value;
+                } else {
+                    push_at(corner.index(), values, value);
+                }
+            }
+        }
+    }
+}
+
+fn push_at<T>(place: usize, values: &mut Vec<T>, value: T) {
+    assert_eq!(place, values.len(), "values are in step with the mesh");
+    values.push(value);
+}
+
+impl Source {
+    /// The corners of the parent that a corner of a child lies between.
+    fn in_parent(self, parent: [HalfEdgeId; 3]) -> Mix<HalfEdgeId> {
+        match self {
+            Source::Corner(h) => Mix::Copy(h),
+            Source::Edge { ends, t } => Mix::Between { ends, t },
+            Source::Face { weights } => Mix::Weighted {
+                of: parent,
+                weights,
+            },
+        }
+    }
+}
+
+impl Child {
+    /// The corners of the parent, as they were before, that each corner of this child lies between.
+    #[must_use]
+    pub fn corner_mixes(&self) -> [Mix<HalfEdgeId>; 3] {
+        let parent = self.parent.half_edges();
+        self.sources.map(|source| source.in_parent(parent))
+    }
+}
+
+/// What an edit does to corners: to the vertices that they are of, and to a list of values, one for
+/// each. Those of an edit are to be carried out one after the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CornerOp<'e> {
+    /// Corners become those of another vertex, and keep their values.
+    Relabel {
+        /// The corners.
+        corners: &'e [HalfEdgeId],
+        /// The vertex that they are of now.
+        to: VertexId,
+    },
+    /// A face is divided. See [`Child::corner_mixes`].
+    Divide(Family<'e>),
+    /// A vertex slides, and takes with it the values of its corners.
+    Carry {
+        /// For each face of the edge along which it slides, up to two, its corner at the vertex and
+        /// that at the other end. The first gets the value at the part `t` of the way to the second.
+        along: [Option<[HalfEdgeId; 2]>; 2],
+        /// How far: strictly between 0 and 1.
+        t: f64,
+        /// All corners of the vertex. Another one with the same value as one of those along the
+        /// edge had goes with it: equal values round a vertex are taken for one.
+        corners: &'e [HalfEdgeId],
+    },
+}
+
+impl CornerOp<'_> {
+    /// Does this to a list of values. `mix` makes a value of those that it comes from.
+    ///
+    /// # Panics
+    ///
+    /// If there are not three values for each face.
+    pub fn apply<T: PartialEq>(self, values: &mut Vec<T>, mut mix: impl FnMut(Mix<&T>) -> T) {
+        match self {
+            CornerOp::Relabel { .. } => {}
+            CornerOp::Divide(family) => family.apply_to_corners(values, &mut mix),
+            CornerOp::Carry { along, t, corners } => carry(along, t, corners, values, mix),
+        }
+    }
+
+    /// Keeps an index buffer up to date: the vertex of each corner.
+    ///
+    /// # Panics
+    ///
+    /// If there are not three indices for each face.
+    pub fn apply_to_indices(self, indices: &mut Vec<u32>) {
+        match self {
+            CornerOp::Relabel { corners, to } => {
+                for h in corners {
+                    indices[h.index()] = to.into();
+                }
+            }
+            CornerOp::Divide(family) => {
+                for child in family.children() {
+                    let start = 3 * child.face.index();
+                    if child.face == child.parent {
+                        indices[start..start + 3].copy_from_slice(&child.vertices.map(u32::from));
+                    } else {
+                        assert_eq!(start, indices.len(), "indices are in step with the mesh");
+                        indices.extend(child.vertices.map(u32::from));
+                    }
+                }
+            }
+            CornerOp::Carry { .. } => {}
+        }
+    }
+}
+
+/// Moves the values of corners along an edge.
+fn carry<T: PartialEq>(
+    along: [Option<[HalfEdgeId; 2]>; 2],
+    t: f64,
+    corners: &[HalfEdgeId],
+    values: &mut [T],
+    mut mix: impl FnMut(Mix<&T>) -> T,
+) {
+    let changes = along.map(|ends| {
+        let [corner, toward] = ends?;
+        let before = mix(Mix::Copy(corner.of(values)));
+        let ends = [corner.of(values), toward.of(values)];
+        let after = mix(Mix::Between { ends, t });
+        Some((corner, before, after))
+    });
+    let all = || changes.iter().flatten();
+    for &h in corners {
+        // Where values differ round the vertex there is a seam, and the edge is none of the other
+        // side's.
+        let value = &mut values[h.index()];
+        let own = all().find(|(corner, ..)| *corner == h);
+        let equal = || all().find(|(_, before, _)| before == value);
+        if let Some((.., after)) = own.or_else(equal) {
+            *value = mix(Mix::Copy(after));
+        }
+    }
+}
+
+impl<'e> Edit<'e> {
+    /// What this edit does to values of vertices, in order.
+    pub fn vertex_ops(&self) -> impl Iterator<Item = VertexOp> + use<'e> {
+        let (mut points, mut changes) = (&[][..], [None; 2]);
+        match self {
+            Edit::Split(split) => {
+                let (new, from) = (split.new, Mix::Copy(split.old));
+                changes[0] = Some(VertexOp::Push { new, from });
+            }
+            Edit::Insert(insert) => points = insert.points,
+            Edit::Merge(merge) => {
+                let (at, gone) = (merge.kept, merge.gone);
+                let (ends, t) = ([at, gone], 1.0 - merge.share);
+                let from = Mix::Between { ends, t };
+                changes = [
+                    Some(VertexOp::Set { at, from }),
+                    Some(VertexOp::SwapRemove { gone }),
+                ];
+            }
+            Edit::Slide(slide) => {
+                let (at, t) = (slide.vertex, slide.t);
+                let ends = [at, slide.toward];
+                let from = Mix::Between { ends, t };
+                changes[0] = Some(VertexOp::Set { at, from });
+            }
+        }
+        let pushes = points.iter().map(|point| VertexOp::Push {
+            new: point.vertex,
+            from: point.at.into(),
+        });
+        pushes.chain(changes.into_iter().flatten())
+    }
+
+    /// What this edit does to corners, in order.
+    pub fn corner_ops(&self) -> impl Iterator<Item = CornerOp<'e>> + use<'e> {
+        let mut changes = [None; 2];
+        match *self {
+            Edit::Split(split) => {
+                let (corners, to) = (split.corners, split.new);
+                changes[0] = Some(CornerOp::Relabel { corners, to });
+            }
+            Edit::Insert(_) => {}
+            Edit::Merge(merge) => {
+                let (corners, to) = (merge.corners, merge.kept);
+                changes[0] = Some(CornerOp::Relabel { corners, to });
+                changes[1] = merge.renumbered.map(|renumbered| CornerOp::Relabel {
+                    corners: renumbered.corners,
+                    to: renumbered.to,
+                });
+            }
+            Edit::Slide(slide) => {
+                let (along, t, corners) = (slide.along, slide.t, slide.corners);
+                changes[0] = Some(CornerOp::Carry { along, t, corners });
+            }
+        }
+        let divisions = self.families().map(CornerOp::Divide);
+        divisions.chain(changes.into_iter().flatten())
+    }
+
+    /// The faces that this edit divides, and their children; none but of an insertion.
+    pub fn families(&self) -> impl Iterator<Item = Family<'e>> + use<'e> {
+        families(match self {
+            Edit::Insert(insert) => insert.children,
+            Edit::Split(_) | Edit::Merge(_) | Edit::Slide(_) => &[],
+        })
+    }
+}
+
+impl<'e> Insert<'e> {
+    /// The divided faces and their children.
+    pub fn families(&self) -> impl Iterator<Item = Family<'e>> + use<'e> {
+        families(self.children)
+    }
+}
+
+fn families(children: &[Child]) -> impl Iterator<Item = Family<'_>> {
+    let families = children.chunk_by(|one, next| one.parent == next.parent);
+    families.map(|children| Family { children })
+}
