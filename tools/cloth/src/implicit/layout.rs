@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use tearmesh::DisjointSets;
 use tearmesh::geometry::Point;
 
 use crate::element::Element;
@@ -28,6 +29,7 @@ pub struct Layout {
     kinds: [Slots; 3],
     /// The lowest particle of the piece of each particle.
     pieces: Vec<u32>,
+    sets: DisjointSets,
 }
 
 /// The slots of the pairs of one kind, by their numbers: [`NO_SLOT`] for numbers without a pair.
@@ -167,27 +169,14 @@ impl Layout {
         }
     }
 
-    /// Union by the lower id, with halved paths.
     fn find_pieces(&mut self, particles: usize) {
-        fn root(pieces: &mut [u32], mut i: u32) -> u32 {
-            while pieces[i as usize] != i {
-                let above = pieces[pieces[i as usize] as usize];
-                pieces[i as usize] = above;
-                i = above;
-            }
-            i
-        }
-        let mut pieces = std::mem::take(&mut self.pieces);
-        pieces.clear();
-        pieces.extend((0..).take(particles));
+        self.sets.reset(particles as u32);
         for &[i, j] in &self.pairs {
-            let (a, b) = (root(&mut pieces, i), root(&mut pieces, j));
-            pieces[a.max(b) as usize] = a.min(b);
+            self.sets.join(i, j);
         }
-        for i in (0..).take(particles) {
-            pieces[i as usize] = root(&mut pieces, i);
-        }
-        self.pieces = pieces;
+        self.pieces.clear();
+        self.pieces
+            .extend((0..particles as u32).map(|i| self.sets.leader(i)));
     }
 }
 
