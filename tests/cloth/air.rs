@@ -3,11 +3,12 @@
 
 use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::{
-    Cloth, Fabric, Implicit, Loads, Pbd, Provot, Rk4, Solver, StepError, System, Unstable, Verlet,
-    Wind, Xpbd,
+    Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
+    Xpbd,
 };
 
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 const DENSITY_KG_PER_M2: f64 = 0.15;
 

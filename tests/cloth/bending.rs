@@ -5,12 +5,13 @@ use nalgebra::DMatrix;
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Hessian, Layout, Settings, Tolerance};
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Fabric, Implicit, Loads, Pbd, Provot, Rk4, Solver, StepError, System,
+    Bending, Buckling, Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System,
     Verlet, Xpbd,
 };
 
 use crate::answers::{G, near};
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 fn law(buckles_below: f64) -> Buckling {
     Buckling::new(buckles_below).expect("between 0 and 1")

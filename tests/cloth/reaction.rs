@@ -3,12 +3,13 @@
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::{
-    Bending, Cloth, Fabric, Implicit, Loads, Path, Pbd, Provot, Rk4, Solver, System, Threshold,
-    Verlet, Weave, Wind, Xpbd,
+    Bending, Cloth, Fabric, Implicit, Loads, Path, Pbd, Provot, Solver, System, Threshold, Verlet,
+    Weave, Wind, Xpbd,
 };
 
 use crate::answers::{G, chain, gravity, near, row, run};
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 #[test]
 fn a_hand_feels_the_weight_of_a_chain_with_every_method() {

@@ -13,7 +13,7 @@ use tearmesh::{
 use self::room::Piece;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::fabric::{Copies, Unbend};
-use crate::sheet::{Cloth, Effect, NO_BEND, weight};
+use crate::sheet::{Cloth, NO_BEND, weight};
 use crate::system::Family;
 
 impl Follower for Cloth {
@@ -22,36 +22,17 @@ impl Follower for Cloth {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let bound_before_rad_per_s = self.system.bound_within_reach();
         let moves_masses = matches!(edit, Edit::Merge(_) | Edit::Slide(_));
         let before_j = self.system.before_edit_j(moves_masses);
         let made_j = self.ledger.total_j();
-        let vertex = match edit {
-            Edit::Split(split) => {
-                self.split(split, edit);
-                split.old
-            }
-            Edit::Insert(insert) => {
-                self.insert(insert, edit);
-                insert.points[0].vertex
-            }
-            Edit::Merge(merge) => {
-                self.merge(merge, edit);
-                merge.kept
-            }
-            Edit::Slide(slide) => {
-                self.slide(slide, edit);
-                slide.vertex
-            }
-        };
+        match edit {
+            Edit::Split(split) => self.split(split, edit),
+            Edit::Insert(insert) => self.insert(insert, edit),
+            Edit::Merge(merge) => self.merge(merge, edit),
+            Edit::Slide(slide) => self.slide(slide, edit),
+        }
         let made_j = self.ledger.total_j() - made_j;
         self.system.edited(made_j, before_j, moves_masses);
-        self.effects.push(Effect {
-            number: edit.number(),
-            vertex,
-            bound_before_rad_per_s,
-            bound_after_rad_per_s: self.system.bound_within_reach(),
-        });
     }
 }
 

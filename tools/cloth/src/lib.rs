@@ -17,7 +17,6 @@
 //! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
 //! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
 //! | [`Implicit`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
-//! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
@@ -58,7 +57,6 @@ mod pair;
 mod particle;
 mod pbd;
 mod provot;
-mod rk4;
 pub mod scene;
 mod sheet;
 mod solver;
@@ -84,12 +82,11 @@ pub use load::{Collider, Loads, Path, Wind};
 pub use material::warp_of_texture;
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
-pub use rk4::Rk4;
-pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
+pub use sheet::{Cloth, ClothError, EnergyLedger};
 pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;
 pub use system::{Counters, System, SystemError, Unstable};
-pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
+pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;
 pub use verlet::Verlet;
 pub use xpbd::Xpbd;

@@ -137,21 +137,21 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
     }
 }
 
-/// Takes as velocity what was moved, then lets colliders push.
+/// Takes as velocity what was moved.
 pub(crate) fn finish(system: &mut System, dt_s: f64) {
     let per_s = 1.0 / dt_s;
     let moves = system.positions.iter().zip(&system.scratch.before);
     for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
         *v = (x - before) * per_s;
     }
-    system.collide();
 }
 
-/// [`finish`], and [`predict`] of the next substep: in one pass where nobody asks for velocities in
-/// between.
+/// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody
+/// asks for velocities in between.
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
     if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
         finish(system, dt_s);
+        system.collide();
         predict(system, dt_s);
         return;
     }

@@ -9,10 +9,9 @@
 //! A threshold of stretch has to be held against lengths before the limiter, or nothing ever
 //! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`System::force_n`]).
-//! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
 use crate::element::Forces;
-use crate::solver::{Failure, SettingError, Solver, StepError};
+use crate::solver::{Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
 use crate::verlet::accelerate;
@@ -76,7 +75,7 @@ impl Provot {
         }
     }
 
-    /// The springs alone; call [`Provot::limit`] of another one after each step, or never.
+    /// The springs alone.
     #[must_use]
     pub fn unlimited() -> Provot {
         Provot {
@@ -89,20 +88,6 @@ impl Provot {
     #[must_use]
     pub fn report(&self) -> LimiterReport {
         self.report
-    }
-
-    /// Applies the limiter, and rewrites velocities by what it moved in the last `dt_s` seconds.
-    ///
-    /// # Errors
-    ///
-    /// [`StepError::Step`] and [`StepError::Setting`], and nothing has changed.
-    pub fn limit(&mut self, system: &mut System, dt_s: f64) -> Result<LimiterReport, StepError> {
-        if !(dt_s > 0.0 && dt_s.is_finite()) {
-            return Err(StepError::Step { given_s: dt_s });
-        }
-        self.check().map_err(StepError::Setting)?;
-        self.shorten(system, dt_s);
-        Ok(self.report)
     }
 
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
@@ -208,7 +193,6 @@ impl Solver for Provot {
             *x += *v * dt_s;
         }
         self.shorten(system, dt_s);
-        system.collide();
         Ok(())
     }
 }

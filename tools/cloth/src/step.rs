@@ -61,8 +61,11 @@ impl System {
             self.counters.substeps += 1;
             self.drive(substep_s);
             self.note_before();
-            let advanced = solver.advance(self, substep_s);
-            if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
+            let advanced = solver.advance(self, substep_s).and_then(|()| {
+                self.collide();
+                Failure::unless(self.is_finite())
+            });
+            if let Err(failure) = advanced {
                 return Err(self.go_back(failure, began));
             }
             self.note_after(substep_s, at_end);

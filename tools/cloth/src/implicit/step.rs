@@ -350,7 +350,6 @@ impl Solver for Implicit {
         }
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
-        system.collide();
         Ok(())
     }
 }

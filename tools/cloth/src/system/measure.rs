@@ -55,16 +55,17 @@ impl System {
         0.5 * self.model.masses[particle] * dot(v, v)
     }
 
-    /// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation.
-    pub fn accelerations(&mut self, accelerations: &mut Vec<Vector>) {
+    /// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation. False
+    /// where something is stretched beyond all measure ([`System::set_stretch_ratio_max`]).
+    pub fn accelerations(&mut self, accelerations: &mut Vec<Vector>) -> bool {
         accelerations.clear();
         accelerations.resize(self.positions.len(), Vector::zeros());
-        let _ = self.model.accelerate(
+        self.model.accelerate(
             &self.positions,
             &self.velocities,
             accelerations,
             &mut self.counters,
-        );
+        )
     }
 
     /// The root mean square of the strains l/L − 1 of all stretch constraints.
