@@ -25,10 +25,10 @@ impl Style {
     pub(crate) fn of_seed(seed: usize) -> Style {
         Style {
             objects: 1 + seed % 4,
-            heads_first: seed / 4 % 3 == 0,
-            texture: seed / 12 % 2 == 0,
-            comments: seed / 24 % 2 == 0,
-            joined: seed / 48 % 2 == 0,
+            heads_first: (seed / 4).is_multiple_of(3),
+            texture: (seed / 12).is_multiple_of(2),
+            comments: (seed / 24).is_multiple_of(2),
+            joined: (seed / 48).is_multiple_of(2),
         }
     }
 
@@ -92,7 +92,7 @@ impl Style {
 }
 
 /// The lines of a file without its record, all neighbouring faces as one.
-fn skeleton(file: &str) -> Vec<&str> {
+pub(crate) fn skeleton(file: &str) -> Vec<&str> {
     let body = file.split("#tearmesh").next().expect("a body");
     let mut lines: Vec<&str> = Vec::new();
     for line in body.lines() {
@@ -105,7 +105,7 @@ fn skeleton(file: &str) -> Vec<&str> {
 }
 
 /// The lines that were added to those of a file, all of which stay in their order.
-fn added<'l>(was: &[&str], is: &[&'l str]) -> Option<Vec<&'l str>> {
+pub(crate) fn added<'l>(was: &[&str], is: &[&'l str]) -> Option<Vec<&'l str>> {
     let mut was = was.iter().peekable();
     let added = is.iter().filter(|line| was.next_if_eq(line).is_none());
     let added = added.copied().collect();
