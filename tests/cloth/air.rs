@@ -3,11 +3,12 @@
 
 use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::{
-    Cloth, Fabric, ImplicitCloth, Loads, Pbd, Provot, Rk4, Solver, StepError, System, Unstable,
-    Verlet, Wind, Xpbd,
+    Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
+    Xpbd,
 };
 
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 const DENSITY_KG_PER_M2: f64 = 0.15;
 
@@ -24,7 +25,7 @@ const METHODS: [Method; 6] = [
     ("RK4", RK4, || Box::new(Rk4::new())),
     ("PBD", 2.0, || Box::new(Pbd::default())),
     ("XPBD", 20.0, || Box::new(Xpbd::new(10, 1))),
-    ("implicit", 2.0, || Box::new(ImplicitCloth::default())),
+    ("implicit", 2.0, || Box::new(Implicit::default())),
 ];
 
 /// Wind across a sheet.

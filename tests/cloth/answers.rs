@@ -3,7 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Limiter, Loads, Pbd, Provot, Rk4, Solver, System, Unstable, Verlet, Xpbd};
+use tearmesh_cloth::{Limiter, Loads, Pbd, Provot, Solver, System, Unstable, Verlet, Xpbd};
+
+use crate::rk4::Rk4;
 
 pub(crate) const G: f64 = 9.81;
 

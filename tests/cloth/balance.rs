@@ -4,7 +4,7 @@ use tearmesh::{Edits, Masses, Mesh, Plane, Point, Positions, Vector, mend, shape
 use tearmesh_cloth::implicit::{self, Tolerance};
 use tearmesh_cloth::scene::{Axis, Frame, Gain, Method, Run, Scene};
 use tearmesh_cloth::{
-    Cloth, Collider, Copies, EnergyBalance, Fabric, ImplicitCloth, Loads, Path, StepError, System,
+    Cloth, Collider, Copies, EnergyBalance, Fabric, Implicit, Loads, Path, StepError, System,
     Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
 };
 
@@ -121,7 +121,7 @@ fn a_hand_that_shakes_gives_what_the_implicit_method_takes() {
         tolerance: Tolerance::Fixed(1e-12),
         ..implicit::Settings::default()
     };
-    let mut solver = ImplicitCloth::new(settings);
+    let mut solver = Implicit::new(settings);
     let mut method = 0.0;
     for _ in 0..100 {
         let before = (chain.velocities().to_vec(), lengths(&chain));
@@ -409,7 +409,7 @@ fn numerical_damping_is_what_backward_euler_is_known_for() {
         method: implicit::Method::BackwardEuler,
         ..implicit::Settings::default()
     };
-    run(&mut swing, &mut ImplicitCloth::new(settings), 0.01, 5);
+    run(&mut swing, &mut Implicit::new(settings), 0.01, 5);
     let balance = balance(&swing);
     let left = 0.2 * 0.845_154_254_728_517_f64.powi(10);
     near(balance.kinetic_j + balance.elastic_j, left, 1e-9);

@@ -2,11 +2,12 @@
 
 use tearmesh::{Plane, Point, Vector};
 use tearmesh_cloth::{
-    Collider, Constraint, Culprit, Limiter, Loads, Path, Pbd, Provot, Rk4, Solver, StepError,
-    System, SystemError, Unstable, Verlet, Wind, Xpbd,
+    Collider, Constraint, Culprit, Limiter, Loads, Path, Pbd, Provot, Solver, StepError, System,
+    SystemError, Unstable, Verlet, Wind, Xpbd,
 };
 
 use crate::answers::{chain, framed, gravity, near, row, run};
+use crate::rk4::Rk4;
 
 /// What became of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,44 +9,77 @@ mod reports;
 mod rest;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Filter, Spring, Triangle};
+use tearmesh_cloth::implicit::{self, Settings, StepReport, Tolerance};
+use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System};
 
 pub(crate) const G: f64 = 9.81;
 
-pub(crate) fn spring(a: u32, b: u32, rest_length: f64, stiffness: f64) -> Spring {
+/// A spring, or a bend with its stiffness against compression.
+#[derive(Clone, Copy)]
+pub(crate) struct Spring {
+    pub(crate) ends: [usize; 2],
+    pub(crate) rest_length: f64,
+    pub(crate) stiffness: f64,
+}
+
+pub(crate) fn spring(a: usize, b: usize, rest_length: f64, stiffness: f64) -> Spring {
     Spring {
         ends: [a, b],
         rest_length,
         stiffness,
-        tension_only: false,
     }
 }
 
-/// Everything a model borrows.
+/// A triangle with its corners' places in the material.
+#[derive(Clone, Copy)]
+pub(crate) struct Triangle {
+    pub(crate) corners: [usize; 3],
+    pub(crate) material: [[f64; 2]; 3],
+    pub(crate) stiffness: [f64; 3],
+}
+
+/// Everything that a system is made of.
 #[derive(Clone, Default)]
 pub(crate) struct Scene {
     pub(crate) x: Vec<Point>,
     pub(crate) v: Vec<Vector>,
     pub(crate) masses: Vec<f64>,
-    pub(crate) filters: Vec<Filter>,
-    pub(crate) accelerations: Vec<Vector>,
+    pub(crate) held: Vec<bool>,
+    pub(crate) gravity: Vector,
     pub(crate) springs: Vec<Spring>,
     pub(crate) triangles: Vec<Triangle>,
-    pub(crate) bends: Vec<tearmesh_cloth::implicit::Bend>,
+    pub(crate) bends: Vec<Spring>,
+    pub(crate) law: Option<Buckling>,
     pub(crate) drag: f64,
 }
 
 impl Scene {
-    pub(crate) fn model(&self) -> tearmesh_cloth::implicit::Model<'_> {
-        tearmesh_cloth::implicit::Model {
-            masses: &self.masses,
-            filters: &self.filters,
-            accelerations: &self.accelerations,
-            springs: &self.springs,
-            triangles: &self.triangles,
-            bends: &self.bends,
-            drag_per_s: self.drag,
+    pub(crate) fn system(&self) -> System {
+        let points = self.x.iter().copied();
+        let mut system = System::new(points, self.masses.clone()).expect("particles");
+        for s in &self.springs {
+            let added = system.stretch(s.ends, s.rest_length, s.stiffness);
+            added.expect("a spring");
         }
+        for b in &self.bends {
+            let added = system.bend(b.ends, b.rest_length, b.stiffness);
+            added.expect("a bend");
+        }
+        system.set_buckling(self.law);
+        for t in &self.triangles {
+            let added = system.triangle(t.corners, t.material, t.stiffness);
+            added.expect("it has area");
+        }
+        let held = (0..self.held.len()).filter(|&i| self.held[i]);
+        held.for_each(|i| system.hold(i));
+        system.state_mut().1.copy_from_slice(&self.v);
+        let loads = Loads {
+            gravity_m_per_s2: Some(self.gravity),
+            drag_per_s: Some(self.drag),
+            ..Loads::default()
+        };
+        system.set_loads(loads).expect("loads");
+        system
     }
 
     /// Free particles at rest, without gravity.
@@ -57,21 +90,20 @@ impl Scene {
             x,
             v: vec![Vector::zeros(); n],
             masses: vec![mass; n],
-            filters: vec![Filter::Free; n],
-            accelerations: vec![Vector::zeros(); n],
+            held: vec![false; n],
             ..Scene::default()
         }
     }
 
     /// A row of particles along z, downwards, joined by springs; the first is held.
-    pub(crate) fn chain(links: u32, mass: f64, stiffness: f64, rest_length: f64) -> Scene {
-        let points = (0..=links).map(|i| [0.0, 0.0, -rest_length * f64::from(i)]);
+    pub(crate) fn chain(links: usize, mass: f64, stiffness: f64, rest_length: f64) -> Scene {
+        let points = (0..=links).map(|i| [0.0, 0.0, -rest_length * i as f64]);
         let mut scene = Scene::particles(points, mass);
-        scene.filters[0] = Filter::Fixed;
+        scene.held[0] = true;
         scene.springs = (0..links)
             .map(|i| spring(i, i + 1, rest_length, stiffness))
             .collect();
-        scene.accelerations.fill(Vector::new(0.0, 0.0, -G));
+        scene.gravity = Vector::new(0.0, 0.0, -G);
         scene
     }
 
@@ -90,12 +122,14 @@ impl Scene {
             .collect();
         let mut scene = Scene::particles(points.iter().copied(), mass);
         for cell in 0..n * n {
-            let a = cell / n * (n + 1) + cell % n;
-            let (b, c, d) = (a + 1, a + n + 1, a + n + 2);
-            for t in [[a, b, d], [a, d, c]] {
-                let material = t.map(|v| [points[v as usize][0], points[v as usize][1]]);
-                let triangle = Triangle::new(t, material, stiffness);
-                scene.triangles.push(triangle.expect("it has area"));
+            let a = (cell / n * (n + 1) + cell % n) as usize;
+            let (b, c, d) = (a + 1, a + n as usize + 1, a + n as usize + 2);
+            for corners in [[a, b, d], [a, d, c]] {
+                scene.triangles.push(Triangle {
+                    corners,
+                    material: corners.map(|v| [points[v][0], points[v][1]]),
+                    stiffness,
+                });
             }
         }
         scene
@@ -107,6 +141,52 @@ impl Scene {
             .filter(move |i| (i % (n + 1)).is_multiple_of(n) || (i / (n + 1)).is_multiple_of(n))
             .map(|i| i as usize)
     }
+}
+
+/// Takes a step, and says what the method says of it.
+pub(crate) fn step(
+    system: &mut System,
+    solver: &mut Implicit,
+    dt_s: f64,
+) -> Result<StepReport, implicit::StepError> {
+    match system.step(solver, dt_s) {
+        Ok(_) => Ok(solver.report().expect("a step was taken")),
+        Err(StepError::Implicit { error, .. }) => Err(error),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+/// The forces on all particles that are not held, in newtons; without drag.
+pub(crate) fn forces(system: &mut System) -> Vec<Vector> {
+    let mut forces = Vec::new();
+    system.accelerations(&mut forces);
+    let forces = forces.iter().zip(system.masses());
+    forces.map(|(a, m)| a * *m).collect()
+}
+
+/// Brings a system to rest near by, until no force is beyond a tolerance in newtons: steps from a
+/// standstill, the longer the nearer. A very long one is Newton's method for the forces.
+pub(crate) fn rest(system: &mut System, tolerance_n: f64) {
+    let mut dt_s = 0.02;
+    let mass: f64 = system.masses().iter().sum();
+    for _ in 0..400 {
+        let left = forces(system).iter().map(|f| f.amax()).fold(0.0, f64::max);
+        if left <= tolerance_n {
+            return;
+        }
+        system.state_mut().1.fill(Vector::zeros());
+        let mut solver = Implicit::new(Settings {
+            tolerance: Tolerance::Fixed(0.3 * tolerance_n / mass * dt_s),
+            newton_iterations_max: 60,
+            solver_iterations_max: 5000,
+            ..Settings::default()
+        });
+        match step(system, &mut solver, dt_s) {
+            Ok(_) => dt_s = (2.0 * dt_s).min(1e4),
+            Err(_) => dt_s /= 4.0,
+        }
+    }
+    panic!("it does not rest");
 }
 
 /// The 2-norm of all components.

@@ -3,12 +3,13 @@
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::{
-    Bending, Cloth, Fabric, ImplicitCloth, Loads, Path, Pbd, Provot, Rk4, Solver, System,
-    Threshold, Verlet, Weave, Wind, Xpbd,
+    Bending, Cloth, Fabric, Implicit, Loads, Path, Pbd, Provot, Solver, System, Threshold, Verlet,
+    Weave, Wind, Xpbd,
 };
 
 use crate::answers::{G, chain, gravity, near, row, run};
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 #[test]
 fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
@@ -25,7 +26,7 @@ fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
         ("Provot", &mut Provot::default(), 0.008),
         ("PBD", &mut Pbd::new(400), 0.02),
         ("XPBD", &mut Xpbd::new(1, 400), 0.02),
-        ("implicit", &mut ImplicitCloth::new(settings), 0.1),
+        ("implicit", &mut Implicit::new(settings), 0.1),
     ];
     for (name, solver, dt) in methods {
         let mut chain = chain(4.0);

@@ -5,9 +5,7 @@ use std::error::Error as _;
 
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
 use tearmesh_cloth::implicit::{self, Method, Settings, Tolerance};
-use tearmesh_cloth::{
-    Cloth, Culprit, Fabric, ImplicitCloth, Loads, Path, StepError, System, Verlet,
-};
+use tearmesh_cloth::{Cloth, Culprit, Fabric, Implicit, Loads, Path, StepError, System, Verlet};
 
 const G: f64 = 9.81;
 
@@ -18,8 +16,8 @@ fn falling() -> Loads {
     }
 }
 
-fn exact(method: Method) -> ImplicitCloth {
-    ImplicitCloth::new(Settings {
+fn exact(method: Method) -> Implicit {
+    Implicit::new(Settings {
         method,
         tolerance: Tolerance::Fixed(1e-11),
         newton_iterations_max: 30,
@@ -92,7 +90,7 @@ fn a_grabbed_particle_keeps_to_its_path() {
             ..falling()
         })
         .expect("loads");
-    let mut solver = ImplicitCloth::default();
+    let mut solver = Implicit::default();
     for step in 1..=300 {
         system.step(&mut solver, 0.01).expect("a step");
         let x = (f64::from(step) * 0.02).min(2.0);
@@ -150,7 +148,7 @@ fn a_step_that_misses_its_tolerance_is_no_blow_up() {
         newton_iterations_max: 2,
         ..Settings::default()
     };
-    let mut solver = ImplicitCloth::new(settings);
+    let mut solver = Implicit::new(settings);
     system.step(&mut solver, 1e-4).expect("a short step");
     let before = (system.positions().to_vec(), system.velocities().to_vec());
     let elapsed = system.elapsed_s();
@@ -228,7 +226,7 @@ fn a_crumb_that_spins_fast_keeps_its_size_and_is_counted() {
             tolerance: Tolerance::Tied(10.0),
             ..Settings::default()
         };
-        let mut solver = ImplicitCloth::new(tied);
+        let mut solver = Implicit::new(tied);
         let energy = crumb.kinetic_energy_j();
         // What the tangent makes of it, and what its energy does, were it all in one edge.
         let tangent = (1.0 + turn * turn).sqrt();
@@ -287,7 +285,7 @@ fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
             tolerance: Tolerance::Fixed(1e-9),
             ..Settings::default()
         };
-        row.step(&mut ImplicitCloth::new(settings), dt_s)
+        row.step(&mut Implicit::new(settings), dt_s)
             .expect("a step");
         let y = row.positions()[1].y;
         assert!(row.elastic_energy_j() <= before * (1.0 + 1e-12), "{i}: {y}");
@@ -324,7 +322,7 @@ fn stretch_beyond_the_limit_is_a_blow_up() {
     let folded = || {
         let mut bend = row();
         bend.bend([0, 2], 2.0, 10.0).expect("a bend");
-        bend.set_buckling(Some(implicit::Buckling::new(0.95).expect("a law")));
+        bend.set_buckling(Some(tearmesh_cloth::Buckling::new(0.95).expect("a law")));
         bend
     };
     let woven = || {
@@ -339,7 +337,7 @@ fn stretch_beyond_the_limit_is_a_blow_up() {
             let before = (system.positions().to_vec(), system.velocities().to_vec());
             let mut explicit = system.clone();
             let verlet = explicit.step(&mut Verlet::new(), 1e-4).map(|_| ());
-            let mut solver = ImplicitCloth::new(Settings {
+            let mut solver = Implicit::new(Settings {
                 method,
                 ..Settings::default()
             });
@@ -402,7 +400,7 @@ fn the_work_of_a_refused_step_is_counted() {
     for x in cloth.system_mut().state_mut().0 {
         x.coords *= 1.01;
     }
-    let mut solver = ImplicitCloth::new(Settings {
+    let mut solver = Implicit::new(Settings {
         solver_iterations_max: 5,
         tolerance: Tolerance::Fixed(1e-12),
         ..Settings::default()

@@ -3,12 +3,12 @@
 
 use tearmesh::{Masses, Mesh, Plane, Point, Positions, Vector};
 use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh_cloth::{Cloth, Collider, Fabric, ImplicitCloth, Loads, Path, System, Verlet, Weave};
+use tearmesh_cloth::{Cloth, Collider, Fabric, Implicit, Loads, Path, System, Verlet, Weave};
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
 
-fn implicit(method: Method, limit_m_per_s: f64) -> ImplicitCloth {
-    ImplicitCloth::new(Settings {
+fn implicit(method: Method, limit_m_per_s: f64) -> Implicit {
+    Implicit::new(Settings {
         method,
         tolerance: Tolerance::Fixed(limit_m_per_s),
         ..Settings::default()

@@ -4,11 +4,12 @@
 use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::{
-    Cloth, Fabric, Failure, Frequency, ImplicitCloth, Limiter, Loads, Path, Pbd, Provot, Rk4,
-    SettingError, Solver, StepError, System, Verlet, Wind, Xpbd,
+    Cloth, Fabric, Failure, Frequency, Implicit, Limiter, Loads, Path, Pbd, Provot, SettingError,
+    Solver, StepError, System, Verlet, Wind, Xpbd,
 };
 
 use crate::answers::row;
+use crate::rk4::Rk4;
 
 /// Ten springs of 1000 N/m between particles of 10 g: a step of 0.02 s is six times too long.
 fn stiff() -> System {
@@ -178,7 +179,7 @@ fn every() -> [(&'static str, Box<dyn Solver>); 7] {
         ("unlimited", Box::new(Provot::unlimited())),
         ("PBD", Box::new(Pbd::default())),
         ("XPBD", Box::new(Xpbd::default())),
-        ("implicit", Box::new(ImplicitCloth::default())),
+        ("implicit", Box::new(Implicit::default())),
     ]
 }
 
@@ -298,11 +299,7 @@ fn left_behind(cloth: &Cloth) -> String {
     let links: Vec<_> = system.stretches().iter().map(of).collect();
     let state = (system.positions(), system.velocities(), system.elapsed_s());
     let hand = system.reaction_n(0);
-    format!(
-        "{state:?} {links:?} {hand:?} {:?} {:?}",
-        system.energy_balance(),
-        cloth.effects()
-    )
+    format!("{state:?} {links:?} {hand:?} {:?}", system.energy_balance())
 }
 
 #[test]
@@ -384,13 +381,6 @@ fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
         };
         let provot = Provot::new(limiter);
         refused.push((Box::new(provot), "stretch_ratio_max", stretch_ratio_max));
-        let (mut provot, mut system) = (provot, stiff());
-        let before = system.positions().to_vec();
-        assert!(matches!(
-            provot.limit(&mut system, 0.01),
-            Err(StepError::Setting(_))
-        ));
-        assert_eq!(system.positions(), before);
     }
     for tolerance in [Tolerance::Fixed(f64::NAN), Tolerance::Tied(-1.0)] {
         let (Tolerance::Fixed(given) | Tolerance::Tied(given)) = tolerance;
@@ -398,7 +388,7 @@ fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
             tolerance,
             ..Settings::default()
         };
-        refused.push((Box::new(ImplicitCloth::new(settings)), "tolerance", given));
+        refused.push((Box::new(Implicit::new(settings)), "tolerance", given));
     }
     for (mut solver, name, number) in refused {
         let mut system = stiff();
@@ -417,10 +407,6 @@ fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
         error.to_string(),
         "stretch_ratio_max is NaN, and may be any above 0"
     );
-    for dt_s in [0.0, -0.1, f64::NAN] {
-        let error = Provot::default().limit(&mut stiff(), dt_s);
-        assert!(matches!(error, Err(StepError::Step { .. })), "{error:?}");
-    }
 }
 
 #[test]

@@ -4,11 +4,12 @@
 use tearmesh::{Masses, Mesh, Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
 use tearmesh_cloth::{
-    Cloth, Fabric, ImplicitCloth, Loads, Provot, Rk4, Solver, System, Unstable, Verlet, Weave,
+    Cloth, Fabric, Implicit, Loads, Provot, Solver, System, Unstable, Verlet, Weave,
 };
 
 use crate::answers::{G, gravity, near, run};
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 /// A strip two columns wide, whose rows are a chain with these numbers: particles 2 i and 2 i + 1 are
 /// row i. `apart` leads from row to row; held at row 0.
@@ -42,8 +43,8 @@ pub(crate) fn strip(rows: usize, mass: f64, stiffness: f64, rest: f64, apart: Ve
     strip
 }
 
-pub(crate) fn implicit(method: Method, tolerance: f64) -> ImplicitCloth {
-    ImplicitCloth::new(Settings {
+pub(crate) fn implicit(method: Method, tolerance: f64) -> Implicit {
+    Implicit::new(Settings {
         method,
         tolerance: Tolerance::Fixed(tolerance),
         newton_iterations_max: 30,

@@ -1,13 +1,15 @@
 //! Matrices as lists of rows, and naive code for them.
 
-use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Hessian, Layout, Model};
+use tearmesh::Vector;
+use tearmesh_cloth::System;
+use tearmesh_cloth::implicit::{Hessian, Layout};
 
 /// The Hessian as a dense matrix.
-pub(super) fn dense(model: &Model<'_>, x: &[Point], clamp: bool) -> (Vec<Vec<f64>>, u64) {
+pub(super) fn dense(system: &System, clamp: bool) -> (Vec<Vec<f64>>, u64) {
     let (mut layout, mut hessian) = (Layout::default(), Hessian::default());
-    layout.follow(model);
-    let clamped = model.hessian(x, &layout, clamp, &mut hessian);
+    layout.follow(system);
+    let clamped = layout.hessian(system, clamp, &mut hessian);
+    let x = system.positions();
     let n = 3 * x.len();
     let columns = (0..n).map(|c| {
         let mut unit = vec![Vector::zeros(); x.len()];

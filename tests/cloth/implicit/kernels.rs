@@ -1,12 +1,12 @@
 //! Forces are gradients, Jacobians are derivatives, and clamped ones are semidefinite.
 
 use super::dense::{dense, is_definite};
-use super::{Scene, order, spring};
+use super::{Scene, Triangle, forces, order, spring};
 use crate::random::Random;
-use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Bend, Model, Triangle, triangle};
+use tearmesh::Vector;
+use tearmesh_cloth::{Buckling, System};
 
-/// Models of one constraint each, in a general position: name and scene.
+/// Scenes of one constraint each, in a general position: name and scene.
 fn specimens() -> Vec<(&'static str, Scene)> {
     let mut random = Random(5);
     let mut specimens = Vec::new();
@@ -19,16 +19,7 @@ fn specimens() -> Vec<(&'static str, Scene)> {
         let mut scene = Scene::particles(ends, 1.0);
         let length = (scene.x[1] - scene.x[0]).norm();
         scene.springs.push(spring(0, 1, part * length, 3.0));
-        specimens.push((name, scene.clone()));
-        scene.springs[0].tension_only = true;
-        specimens.push((
-            if part < 1.0 {
-                "taut thread"
-            } else {
-                "slack thread"
-            },
-            scene,
-        ));
+        specimens.push((name, scene));
     }
     // d/L well inside the arc, near its ends, in the spring's range, beyond L.
     for (name, part) in [
@@ -41,48 +32,65 @@ fn specimens() -> Vec<(&'static str, Scene)> {
         let ends = points(2, 1.0, &mut random);
         let mut scene = Scene::particles(ends, 1.0);
         let l = (scene.x[1] - scene.x[0]).norm() / part;
-        let bend = Bend::new([0, 1], l, 1.0, 1500.0 / (l * l * l)).expect("stiff enough");
-        scene.bends.push(bend);
+        bend(&mut scene, 0.992, 1.0, l);
         specimens.push((name, scene));
     }
     for (name, size) in [("stretched triangle", 2.0), ("compressed triangle", 0.3)] {
         let mut scene = Scene::particles(points(3, size, &mut random), 1.0);
-        let material = [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]];
-        let triangle = Triangle::new([0, 1, 2], material, [3.0, 2.0, 0.7]);
-        scene.triangles.push(triangle.expect("it has area"));
+        scene.triangles.push(oblique());
         specimens.push((name, scene));
     }
     specimens
 }
 
-/// Internal forces, as one list.
-fn forces(model: &Model<'_>, x: &[Point]) -> Vec<Vector> {
-    let mut out = Vec::new();
-    model.forces(x, &mut out);
-    out
+/// A triangle that no axis runs along.
+fn oblique() -> Triangle {
+    Triangle {
+        corners: [0, 1, 2],
+        material: [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]],
+        stiffness: [3.0, 2.0, 0.7],
+    }
 }
 
-fn moved(x: &[Point], coordinate: usize, by: f64) -> Vec<Point> {
-    let mut x = x.to_vec();
-    x[coordinate / 3][coordinate % 3] += by;
-    x
+/// Adds a bend between the first two particles that buckles below this part of its length l, with
+/// the flexural stiffness k.
+fn bend(scene: &mut Scene, buckles_below: f64, k: f64, l: f64) {
+    let law = Buckling::new(buckles_below).expect("a law");
+    scene.law = Some(law);
+    let stiffness = law.compression_n_per_m(k, l);
+    scene.bends.push(spring(0, 1, l, stiffness));
+}
+
+/// A bend whose ends are d apart along x: its pull, and its energy.
+fn bend_at(buckles_below: f64, k: f64, l: f64, d: f64) -> [f64; 2] {
+    let mut scene = Scene::particles([[0.0; 3], [d, 0.0, 0.0]], 1.0);
+    bend(&mut scene, buckles_below, k, l);
+    let mut system = scene.system();
+    [forces(&mut system)[0].x, system.elastic_energy_j()]
+}
+
+/// The system with one coordinate moved.
+fn moved(system: &System, coordinate: usize, by: f64) -> System {
+    let mut system = system.clone();
+    system.state_mut().0[coordinate / 3][coordinate % 3] += by;
+    system
 }
 
 /// The error of central differences of width h, of the gradient and of its derivative,
 /// relative to the largest force and second derivative.
 fn errors(scene: &Scene, h: f64) -> [f64; 2] {
-    let (model, x) = (scene.model(), &scene.x);
-    let exact = forces(&model, x);
-    let (hessian, _) = dense(&model, x, false);
+    let mut system = scene.system();
+    let exact = forces(&mut system);
+    let (hessian, _) = dense(&system, false);
     let mut errors = [0.0f64; 2];
     let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(1e-300f64, |m, x| m.max(x.abs()));
     let force = largest(&mut exact.iter().flat_map(|v| [v.x, v.y, v.z]));
     let second = largest(&mut hessian.iter().flatten().copied());
     for (c, column) in hessian.iter().enumerate() {
-        let (plus, minus) = (moved(x, c, h), moved(x, c, -h));
-        let gradient = (model.energy(&plus) - model.energy(&minus)) / (2.0 * h);
+        let [mut plus, mut minus] = [h, -h].map(|by| moved(&system, c, by));
+        let gradient = (plus.elastic_energy_j() - minus.elastic_energy_j()) / (2.0 * h);
         errors[0] = errors[0].max((gradient + exact[c / 3][c % 3]).abs() / force);
-        let (plus, minus) = (forces(&model, &plus), forces(&model, &minus));
+        let (plus, minus) = (forces(&mut plus), forces(&mut minus));
         for (r, entry) in column.iter().enumerate() {
             let difference = (minus[r / 3][r % 3] - plus[r / 3][r % 3]) / (2.0 * h);
             errors[1] = errors[1].max((difference - entry).abs() / second);
@@ -111,13 +119,13 @@ fn forces_are_gradients_and_jacobians_their_derivatives_to_order_two() {
             measured += 1;
         }
     }
-    assert!(measured >= 18, "only {measured} orders were measured");
+    assert!(measured >= 16, "only {measured} orders were measured");
 }
 
 #[test]
 fn internal_forces_sum_to_zero() {
     for (name, scene) in specimens() {
-        let forces = forces(&scene.model(), &scene.x);
+        let forces = forces(&mut scene.system());
         let sum: Vector = forces.iter().sum();
         let size = super::norm(&forces);
         assert!(sum.norm() <= 4e-16 * size, "{name}: {sum} of {size}");
@@ -140,7 +148,7 @@ fn clamped_jacobians_are_semidefinite_where_exact_ones_are_not() {
                 *p += Vector::from_fn(|_, _| random.next() - 0.5);
             }
             let shifted = |clamp| {
-                let (mut a, clamped) = dense(&scene.model(), &scene.x, clamp);
+                let (mut a, clamped) = dense(&scene.system(), clamp);
                 let largest = a.iter().flatten().fold(1e-3f64, |m, x| m.max(x.abs()));
                 for (i, row) in a.iter_mut().enumerate() {
                     row[i] += 1e-12 * largest;
@@ -159,7 +167,7 @@ fn clamped_jacobians_are_semidefinite_where_exact_ones_are_not() {
             clamps += clamped;
         }
     }
-    println!("{indefinite} indefinite of 3300, {clamps} terms clamped");
+    println!("{indefinite} indefinite of 2700, {clamps} terms clamped");
     assert!(indefinite > 500);
 }
 
@@ -169,13 +177,11 @@ fn a_triangles_product_is_that_of_its_clamped_matrix() {
     let mut next = || 2.0 * random.next() - 1.0;
     for _ in 0..200 {
         let mut scene = Scene::particles((0..3).map(|_| [next(), next(), next()]), 1.0);
-        let material = [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]];
-        let one = Triangle::new([0, 1, 2], material, [3.0, 2.0, 0.7]).expect("it has area");
-        scene.triangles.push(one);
-        let (matrix, _) = dense(&scene.model(), &scene.x, true);
+        scene.triangles.push(oblique());
+        let mut system = scene.system();
+        let (matrix, _) = dense(&system, true);
         let u = [0; 3].map(|_| Vector::new(next(), next(), next()));
-        let corners = [scene.x[0], scene.x[1], scene.x[2]];
-        let product = triangle::stiffness_times(&one, corners, u);
+        let product = system.stiffness_times(&u);
         let flat: Vec<f64> = u.iter().flat_map(|u| [u.x, u.y, u.z]).collect();
         for (i, row) in matrix.iter().enumerate() {
             let entry: f64 = row.iter().zip(&flat).map(|(a, b)| a * b).sum();
@@ -194,10 +200,8 @@ fn where_nothing_is_compressed_or_sheared_nothing_is_dropped() {
         x.x *= 1.1;
         x.y *= 1.02;
     }
-    let ((exact, _), (clamped, count)) = (
-        dense(&scene.model(), &scene.x, false),
-        dense(&scene.model(), &scene.x, true),
-    );
+    let ((exact, _), (clamped, count)) =
+        (dense(&scene.system(), false), dense(&scene.system(), true));
     let apart = exact.iter().flatten().zip(clamped.iter().flatten());
     let apart = apart.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
     // Shear is rounding here, and its negative half may be dropped.
@@ -208,39 +212,31 @@ fn where_nothing_is_compressed_or_sheared_nothing_is_dropped() {
 fn bending_is_an_arc() {
     // Half a circle of length L has its ends 2L/π apart and κ = π/L.
     let (l, k) = (0.3f64, 0.02f64);
-    let bend = Bend::new([0, 1], l, k, 1e3).expect("stiff enough");
     let pi = std::f64::consts::PI;
-    let mut scene = Scene::particles([[0.0; 3], [2.0 * l / pi, 0.0, 0.0]], 1.0);
-    scene.bends.push(bend);
     let curvature = pi / l;
     // f = k κ² / (cos ½π − sinc ½π), negative: it pushes apart.
     let truth = k * curvature * curvature / (0.0 - 2.0 / pi);
-    let force = forces(&scene.model(), &scene.x)[0].x;
+    let [force, energy] = bend_at(0.99, k, l, 2.0 * l / pi);
     assert!((force / truth - 1.0).abs() < 1e-14, "{force} {truth}");
     // Energy between two distances of the arc: the difference of ½ k κ² L.
-    let energy = scene.model().energy(&scene.x);
-    scene.x[1].x = 0.0;
-    let more = scene.model().energy(&scene.x) - energy;
+    let [_, folded] = bend_at(0.99, k, l, 1e-30);
+    let more = folded - energy;
     let truth = 0.5 * k * l * (4.0 - 1.0) * curvature * curvature;
     assert!((more / truth - 1.0).abs() < 1e-14, "{more} {truth}");
     // It starts to buckle at Euler's load for this arc, 12 k / L², as c → ∞.
-    let start = bend.buckles_below();
-    let load = 1e3 * (l - start);
+    let below = 0.99;
+    let [load, _] = bend_at(below, k, l, below * l);
     let euler = 12.0 * k / (l * l);
-    assert!((load / euler - 1.0).abs() < 0.02, "{load} {euler}");
+    assert!((-load / euler - 1.0).abs() < 0.02, "{load} {euler}");
 }
 
 #[test]
 fn bending_energy_is_the_work_of_its_force_across_the_change_over() {
-    let (l, k, c) = (0.3, 0.02, 60.0);
-    let bend = Bend::new([0, 1], l, k, c).expect("stiff enough");
-    let change = bend.buckles_below();
-    assert!(change > 0.5 * l && change < 0.97 * l, "{change}");
+    let (l, k, below) = (0.3, 0.02, 0.8);
+    let change = below * l;
     let at = |d: f64| {
-        let mut scene = Scene::particles([[0.0; 3], [d, 0.0, 0.0]], 1.0);
-        scene.bends.push(bend);
-        let force = forces(&scene.model(), &scene.x)[0].x;
-        (scene.model().energy(&scene.x), force)
+        let [force, energy] = bend_at(below, k, l, d);
+        (energy, force)
     };
     // Simpson's rule on both sides of the change-over, where the force has a kink.
     let work = |from: f64, to: f64| {
@@ -267,13 +263,10 @@ fn bending_energy_is_the_work_of_its_force_across_the_change_over() {
 #[test]
 fn the_common_polynomial_is_a_fit_of_the_arc_when_multiplied() {
     let (l, k) = (0.25, 0.6);
-    let bend = Bend::new([0, 1], l, k, 1e7).expect("stiff enough");
     let mut worst = 0.0f64;
     for i in 1..1000 {
         let x = f64::from(i) / 1000.0;
-        let mut scene = Scene::particles([[0.0; 3], [x * l, 0.0, 0.0]], 1.0);
-        scene.bends.push(bend);
-        let force = forces(&scene.model(), &scene.x)[0].x;
+        let [force, _] = bend_at(0.9995, k, l, x * l);
         let fit = (((-11.541 * x + 34.193) * x - 39.083) * x + 23.116) * x - 9.713;
         worst = worst.max((force / (4.0 * k / (l * l) * fit) - 1.0).abs());
     }

@@ -34,7 +34,6 @@ pub(crate) use meter::{Meter, Noted};
 use tearmesh::geometry::{Vector, dot};
 
 use self::meter::Sampled;
-use crate::kernel;
 use crate::system::System;
 
 /// How far apart the work of wind is sampled, in seconds of the simulation; a longer substep is one
@@ -268,14 +267,7 @@ impl System {
         };
         gusts.clear();
         gusts.resize(self.positions.len(), Vector::zeros());
-        kernel::wind(
-            &self.model.faces,
-            wind.coefficient,
-            wind.velocity_m_per_s,
-            &self.positions,
-            &self.velocities,
-            gusts,
-        );
+        wind.press(&self.model.faces, &self.positions, &self.velocities, gusts);
         let particles = gusts.iter().zip(&self.velocities);
         let free = particles.zip(&self.model.inverse_masses);
         free.fold(0.0, |sum, ((&f, &v), &w)| {

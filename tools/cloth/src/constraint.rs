@@ -6,12 +6,12 @@
 //! its ends, so an edit costs the valence of its ends and never a rebuild. With valence d no more
 //! than 2d − 1 colours are needed.
 //!
-//! Each particle has a list of its constraints, threaded through them, so that adding one
-//! allocates nothing where room was made.
+//! What is known of each constraint stands here, a column a number, also what a step leaves behind
+//! in it; it stays with the constraint as that comes, goes, or gets another end.
 
 use std::fmt;
 
-use crate::kernel::Batch;
+use crate::incidence::Incidence;
 
 /// A constraint of a family. Written `c7`. Stays the same until the constraint is removed;
 /// later constraints may then get it.
@@ -50,7 +50,7 @@ pub struct Constraint {
     pub stiffness_n_per_m: f64,
 }
 
-/// No constraint, in the lists of particles.
+/// The colour of a free id.
 const NONE: u32 = u32::MAX;
 
 /// A family of constraints over particles 0, 1, 2, …
@@ -60,16 +60,16 @@ pub struct Constraints {
     /// By id: the colour and the index in it; [`NONE`] for a free id.
     slots: Vec<[u32; 2]>,
     free: Vec<u32>,
-    /// By particle: 2 id + side of the first of its list.
-    first: Vec<u32>,
-    /// By id and side: the next of the list.
-    next: Vec<[u32; 2]>,
+    /// By id and side.
+    lists: Incidence<2>,
     /// Room for marking colours.
     taken: Vec<bool>,
 }
 
+/// The columns of a colour, an entry a constraint.
 #[derive(Clone, Debug, Default)]
 struct Colour {
+    ids: Vec<u32>,
     ends: Vec<[u32; 2]>,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
@@ -79,7 +79,23 @@ struct Colour {
     ratios: Vec<f64>,
     /// What both were before the step.
     aside: [Vec<f64>; 2],
-    ids: Vec<u32>,
+}
+
+/// The constraints of one colour, no two of which share a particle: slices of the same length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Batch<'a> {
+    pub(crate) ids: &'a [u32],
+    pub(crate) ends: &'a [[u32; 2]],
+    pub(crate) rest: &'a [f64],
+    pub(crate) stiffness: &'a [f64],
+    pub(crate) compliance: &'a [f64],
+}
+
+/// What a step leaves behind in the constraints of one colour.
+#[derive(Debug)]
+pub(crate) struct Memories<'a> {
+    pub(crate) multipliers: &'a mut [f64],
+    pub(crate) ratios: &'a mut [f64],
 }
 
 /// What a step leaves behind in a constraint.
@@ -94,7 +110,7 @@ pub(crate) struct Memory {
 impl Constraints {
     pub(crate) fn new(particles: usize) -> Constraints {
         Constraints {
-            first: vec![NONE; particles],
+            lists: Incidence::new(particles),
             ..Constraints::default()
         }
     }
@@ -156,12 +172,8 @@ impl Constraints {
     ///
     /// If there is no such particle.
     pub fn of(&self, particle: usize) -> impl Iterator<Item = ConstraintId> + '_ {
-        let mut at = self.first[particle];
-        std::iter::from_fn(move || {
-            let here = (at != NONE).then_some(at)?;
-            at = self.next[(here / 2) as usize][(here % 2) as usize];
-            Some(ConstraintId(here / 2))
-        })
+        let ids = self.lists.of(particle);
+        ids.map(|(id, _)| ConstraintId(id as u32))
     }
 
     /// The constraint between two particles, if there is one; walks the list of the first.
@@ -170,34 +182,14 @@ impl Constraints {
         self.of(a).find(|&id| self.get(id).ends.contains(&b))
     }
 
+    /// The colours, in the order of every sweep.
     pub(crate) fn batches(&self) -> impl Iterator<Item = Batch<'_>> {
         self.colours.iter().map(Colour::batch)
     }
 
-    /// The colours with the multipliers of XPBD, to be changed.
-    pub(crate) fn batches_mut(&mut self) -> impl Iterator<Item = (Batch<'_>, &mut [f64])> {
-        self.colours.iter_mut().map(|colour| {
-            let batch = Batch {
-                ends: &colour.ends,
-                rest: &colour.rest,
-                stiffness: &colour.stiffness,
-                compliance: &colour.compliance,
-            };
-            (batch, &mut colour.multipliers[..])
-        })
-    }
-
-    /// The colours with the ratios before a limiter, to be written.
-    pub(crate) fn ratios_mut(&mut self) -> impl Iterator<Item = (Batch<'_>, &mut [f64])> {
-        self.colours.iter_mut().map(|colour| {
-            let batch = Batch {
-                ends: &colour.ends,
-                rest: &colour.rest,
-                stiffness: &colour.stiffness,
-                compliance: &colour.compliance,
-            };
-            (batch, &mut colour.ratios[..])
-        })
+    /// The same, with what a step leaves behind.
+    pub(crate) fn batches_mut(&mut self) -> impl Iterator<Item = (Batch<'_>, Memories<'_>)> {
+        self.colours.iter_mut().map(Colour::batch_mut)
     }
 
     /// Puts what the last step left behind aside, for a step that writes all of it anew: copies
@@ -237,7 +229,7 @@ impl Constraints {
     pub(crate) fn add(&mut self, constraint: Constraint) -> ConstraintId {
         let id = self.free.pop().unwrap_or_else(|| {
             self.slots.push([NONE; 2]);
-            self.next.push([NONE; 2]);
+            self.lists.push();
             self.slots.len() as u32 - 1
         });
         self.attach(id, constraint, Memory::default());
@@ -276,21 +268,16 @@ impl Constraints {
     }
 
     pub(crate) fn push_particle(&mut self) {
-        self.first.push(NONE);
+        self.lists.push_particle();
     }
 
     /// Forgets a particle without constraints; the last one takes its index.
     pub(crate) fn swap_remove_particle(&mut self, particle: usize) {
-        debug_assert_eq!(self.first[particle], NONE, "a removed particle is free");
-        let last = self.first.len() - 1;
-        let mut at = self.first[last];
-        while at != NONE && last != particle {
-            let (id, side) = ((at / 2) as usize, (at % 2) as usize);
+        for (id, side) in self.lists.of(self.lists.last_particle()) {
             let [colour, i] = self.slots[id];
             self.colours[colour as usize].ends[i as usize][side] = particle as u32;
-            at = self.next[id][side];
         }
-        self.first.swap_remove(particle);
+        self.lists.swap_remove_particle(particle);
     }
 
     fn slot(&self, id: ConstraintId) -> (usize, usize) {
@@ -317,51 +304,22 @@ impl Constraints {
         if chosen == self.colours.len() {
             self.colours.push(Colour::default());
         }
-        let ends = constraint.ends.map(|end| end as u32);
         let colour = &mut self.colours[chosen];
         self.slots[id as usize] = [chosen as u32, colour.ids.len() as u32];
-        colour.ends.push(ends);
-        colour.rest.push(constraint.rest_length_m);
-        colour.stiffness.push(constraint.stiffness_n_per_m);
-        colour.compliance.push(1.0 / constraint.stiffness_n_per_m);
-        colour.multipliers.push(memory.multiplier);
-        colour.ratios.push(memory.ratio);
-        colour.ids.push(id);
+        colour.push(id, constraint, memory);
         for (side, end) in constraint.ends.into_iter().enumerate() {
-            self.next[id as usize][side] = self.first[end];
-            self.first[end] = 2 * id + side as u32;
+            self.lists.attach(id as usize, side, end);
         }
     }
 
     fn detach(&mut self, id: ConstraintId) -> (Constraint, Memory) {
         let constraint = self.get(id);
         for (side, end) in constraint.ends.into_iter().enumerate() {
-            let (gone, after) = (2 * id.0 + side as u32, self.next[id.index()][side]);
-            let mut at = self.first[end];
-            if at == gone {
-                self.first[end] = after;
-                continue;
-            }
-            loop {
-                let next = &mut self.next[(at / 2) as usize][(at % 2) as usize];
-                if *next == gone {
-                    *next = after;
-                    break;
-                }
-                at = *next;
-            }
+            self.lists.detach(id.index(), side, end);
         }
         let (colour, i) = self.slot(id);
         let colour = &mut self.colours[colour];
-        colour.ends.swap_remove(i);
-        colour.rest.swap_remove(i);
-        colour.stiffness.swap_remove(i);
-        colour.compliance.swap_remove(i);
-        colour.ids.swap_remove(i);
-        let memory = Memory {
-            multiplier: colour.multipliers.swap_remove(i),
-            ratio: colour.ratios.swap_remove(i),
-        };
+        let memory = colour.swap_remove(i);
         if let Some(&moved) = colour.ids.get(i) {
             self.slots[moved as usize][1] = i as u32;
         }
@@ -370,6 +328,29 @@ impl Constraints {
 }
 
 impl Colour {
+    fn push(&mut self, id: u32, constraint: Constraint, memory: Memory) {
+        self.ids.push(id);
+        self.ends.push(constraint.ends.map(|end| end as u32));
+        self.rest.push(constraint.rest_length_m);
+        self.stiffness.push(constraint.stiffness_n_per_m);
+        self.compliance.push(1.0 / constraint.stiffness_n_per_m);
+        self.multipliers.push(memory.multiplier);
+        self.ratios.push(memory.ratio);
+    }
+
+    /// Takes a constraint out; the last one takes its place.
+    fn swap_remove(&mut self, i: usize) -> Memory {
+        self.ids.swap_remove(i);
+        self.ends.swap_remove(i);
+        self.rest.swap_remove(i);
+        self.stiffness.swap_remove(i);
+        self.compliance.swap_remove(i);
+        Memory {
+            multiplier: self.multipliers.swap_remove(i),
+            ratio: self.ratios.swap_remove(i),
+        }
+    }
+
     /// Nothing where constraints came or went since.
     fn swap_aside(&mut self) {
         let [multipliers, ratios] = &mut self.aside;
@@ -381,11 +362,27 @@ impl Colour {
 
     fn batch(&self) -> Batch<'_> {
         Batch {
+            ids: &self.ids,
             ends: &self.ends,
             rest: &self.rest,
             stiffness: &self.stiffness,
             compliance: &self.compliance,
         }
+    }
+
+    fn batch_mut(&mut self) -> (Batch<'_>, Memories<'_>) {
+        let batch = Batch {
+            ids: &self.ids,
+            ends: &self.ends,
+            rest: &self.rest,
+            stiffness: &self.stiffness,
+            compliance: &self.compliance,
+        };
+        let memories = Memories {
+            multipliers: &mut self.multipliers,
+            ratios: &mut self.ratios,
+        };
+        (batch, memories)
     }
 }
 
@@ -413,7 +410,7 @@ mod tests {
                 assert_eq!(constraints.of(end).filter(same).count(), 1, "{id} at {end}");
             }
         }
-        let listed: usize = (0..constraints.first.len())
+        let listed: usize = (0..=constraints.lists.last_particle())
             .map(|particle| constraints.of(particle).count())
             .sum();
         assert_eq!(listed, 2 * expected.len());

@@ -3,7 +3,7 @@
 
 use tearmesh::geometry::Vector;
 
-use crate::implicit::Buckling;
+use crate::bend::Buckling;
 use crate::sheet::ClothError;
 
 /// What a cloth is made of, and what becomes of constraints when it tears.
@@ -40,7 +40,7 @@ impl Fabric {
     /// A fabric of triangles alone, without springs along edges and without bending.
     ///
     /// ```
-    /// use tearmesh_cloth::{implicit, Cloth, Fabric, ImplicitCloth, Pbd, StepError, Weave};
+    /// use tearmesh_cloth::{implicit, Cloth, Fabric, Implicit, Pbd, StepError, Weave};
     /// use tearmesh::{shapes, Masses, Vector};
     ///
     /// let weave = Weave {
@@ -52,7 +52,7 @@ impl Fabric {
     /// let (mesh, positions) = shapes::grid(4, 4);
     /// let masses = Masses::area(&mesh, &positions, 0.15)?;
     /// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::woven(weave))?;
-    /// cloth.step(&mut ImplicitCloth::new(implicit::Settings::default()), 1.0 / 60.0)?;
+    /// cloth.step(&mut Implicit::new(implicit::Settings::default()), 1.0 / 60.0)?;
     ///
     /// // What projects springs alone would leave it without force, and is refused.
     /// let error = cloth.step(&mut Pbd::default(), 1.0 / 60.0).unwrap_err();
@@ -121,8 +121,8 @@ impl Weave {
 /// What resists bending, between the two vertices opposite an interior edge.
 ///
 /// ```
-/// use tearmesh_cloth::implicit::{Buckling, Settings};
-/// use tearmesh_cloth::{Bending, Cloth, Fabric, ImplicitCloth, StepError, Xpbd};
+/// use tearmesh_cloth::implicit::Settings;
+/// use tearmesh_cloth::{Bending, Buckling, Cloth, Fabric, Implicit, StepError, Xpbd};
 /// use tearmesh::{shapes, Masses};
 ///
 /// let bend = Bending::Buckling { flexural_n_m2: 1e-6, law: Buckling::new(0.95).unwrap() };
@@ -130,7 +130,7 @@ impl Weave {
 /// let (mesh, positions) = shapes::grid(4, 4);
 /// let masses = Masses::area(&mesh, &positions, 0.15)?;
 /// let mut cloth = Cloth::new(&mesh, &positions, masses, fabric)?;
-/// cloth.step(&mut ImplicitCloth::new(Settings::default()), 1.0 / 60.0)?;
+/// cloth.step(&mut Implicit::new(Settings::default()), 1.0 / 60.0)?;
 ///
 /// // What projects springs would take arcs for such, and is refused.
 /// let error = cloth.step(&mut Xpbd::default(), 1.0 / 60.0).unwrap_err();

@@ -5,7 +5,7 @@ mod room;
 
 pub(crate) use room::Room;
 
-use tearmesh::geometry::{Point, between, length};
+use tearmesh::geometry::between;
 use tearmesh::{
     Child, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Source, Split, VertexId,
 };
@@ -13,7 +13,8 @@ use tearmesh::{
 use self::room::Piece;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::fabric::{Copies, Unbend};
-use crate::sheet::{Cloth, Effect, NO_BEND, weight};
+use crate::sheet::{Cloth, NO_BEND, weight};
+use crate::system::Family;
 
 impl Follower for Cloth {
     fn cursor(&mut self) -> &mut Cursor {
@@ -21,36 +22,17 @@ impl Follower for Cloth {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let bound_before_rad_per_s = self.system.bound_within_reach();
         let moves_masses = matches!(edit, Edit::Merge(_) | Edit::Slide(_));
         let before_j = self.system.before_edit_j(moves_masses);
         let made_j = self.ledger.total_j();
-        let vertex = match edit {
-            Edit::Split(split) => {
-                self.split(split, edit);
-                split.old
-            }
-            Edit::Insert(insert) => {
-                self.insert(insert, edit);
-                insert.points[0].vertex
-            }
-            Edit::Merge(merge) => {
-                self.merge(merge, edit);
-                merge.kept
-            }
-            Edit::Slide(slide) => {
-                self.slide(slide, edit);
-                slide.vertex
-            }
-        };
+        match edit {
+            Edit::Split(split) => self.split(split, edit),
+            Edit::Insert(insert) => self.insert(insert, edit),
+            Edit::Merge(merge) => self.merge(merge, edit),
+            Edit::Slide(slide) => self.slide(slide, edit),
+        }
         let made_j = self.ledger.total_j() - made_j;
         self.system.edited(made_j, before_j, moves_masses);
-        self.effects.push(Effect {
-            number: edit.number(),
-            vertex,
-            bound_before_rad_per_s,
-            bound_after_rad_per_s: self.system.bound_within_reach(),
-        });
     }
 }
 
@@ -74,7 +56,7 @@ impl Cloth {
             let id = self.stretch(link.stayed);
             let mut copy = self.system.model.stretch.get(id);
             let mut memory = self.system.model.stretch.memory(id);
-            let before = energy(&copy, &self.system.positions);
+            let before = self.system.elastic_of(Family::Stretch, &copy);
             if self.fabric.copies == Copies::Halved {
                 copy.stiffness_n_per_m *= 0.5;
                 memory.multiplier *= 0.5;
@@ -82,7 +64,7 @@ impl Cloth {
                 self.system.model.stretch.set_stiffness(id, half);
                 self.system.model.stretch.remember(id, memory);
             }
-            let each = energy(&copy, &self.system.positions);
+            let each = self.system.elastic_of(Family::Stretch, &copy);
             gained += 2.0 * each - before;
             let far = copy.ends[0] + copy.ends[1] - old;
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
@@ -285,7 +267,7 @@ impl Cloth {
         room.ids.dedup();
         for &id in &room.ids {
             let gone = self.system.model.stretch.remove(id);
-            gained -= energy(&gone, &self.system.positions);
+            gained -= self.system.elastic_of(Family::Stretch, &gone);
         }
         room.ids.clear();
         let divided = room
@@ -297,7 +279,7 @@ impl Cloth {
         room.ids.dedup();
         for &id in &room.ids {
             let gone = self.system.model.bend.remove(id);
-            gained -= self.system.bend_energy_of(&gone);
+            gained -= self.system.elastic_of(Family::Bend, &gone);
         }
         for edge in room.pieces.chunk_by(|one, other| one.ends == other.ends) {
             gained += if edge[0].is_kept {
@@ -349,7 +331,7 @@ impl Cloth {
             rest_length_m,
             stiffness_n_per_m: piece.stiffness_by_length / rest_length_m,
         };
-        let mut gained = energy(&constraint, &self.system.positions);
+        let mut gained = self.system.elastic_of(Family::Stretch, &constraint);
         let id = self.system.model.stretch.add(constraint);
         for piece in edge {
             self.join(piece.half_edge, id);
@@ -374,12 +356,12 @@ impl Cloth {
             self.bend_of[h.index()] = NO_BEND;
         }
         let gone = self.system.model.bend.remove(id);
-        self.system.bend_energy_of(&gone)
+        self.system.elastic_of(Family::Bend, &gone)
     }
 
     fn bend_energy(&self, id: ConstraintId) -> f64 {
         let bend = self.system.model.bend.get(id);
-        self.system.bend_energy_of(&bend)
+        self.system.elastic_of(Family::Bend, &bend)
     }
 
     /// The edge of a child that starts at this corner.
@@ -440,10 +422,4 @@ fn repoint(family: &mut Constraints, id: ConstraintId, from: usize, to: usize) {
     if family.get(id).ends.contains(&from) {
         family.repoint(id, from, to);
     }
-}
-
-fn energy(constraint: &Constraint, positions: &[Point]) -> f64 {
-    let [a, b] = constraint.ends;
-    let extension = length(positions[b] - positions[a]) - constraint.rest_length_m;
-    0.5 * constraint.stiffness_n_per_m * extension * extension
 }

@@ -12,17 +12,6 @@ impl System {
         self.spectrum.bound(model, &self.positions, counters)
     }
 
-    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
-    pub(crate) fn bound_within_reach(&mut self) -> f64 {
-        self.spectrum.bound_within_reach(&self.model)
-    }
-
-    /// The bound if it is known: no more than a look.
-    #[must_use]
-    pub fn known_frequency_bound(&self) -> Option<f64> {
-        self.spectrum.known_bound()
-    }
-
     /// The largest frequency in the present configuration, to 1 % of ω², kept until topology,
     /// a mass or a stiffness change, the state is set ([`System::state_mut`]), a step is taken back,
     /// or triangles that shear are stretched by more than then. Steps change the configuration a

@@ -16,8 +16,7 @@
 //! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
 //! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
 //! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
-//! | [`ImplicitCloth`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
-//! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
+//! | [`Implicit`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
@@ -41,51 +40,54 @@ pub use tearmesh;
 
 mod air;
 mod balance;
-mod buckle;
+mod bend;
 mod constraint;
 mod culprit;
 mod digits;
+mod element;
 mod fabric;
 mod follow;
 mod frequency;
 pub mod implicit;
-mod kernel;
+mod incidence;
 mod load;
 mod material;
+mod matrix;
+mod pair;
 mod particle;
 mod pbd;
 mod provot;
-mod rk4;
 pub mod scene;
 mod sheet;
 mod solver;
 mod spectrum;
+mod spring;
 mod step;
-mod stiff;
 mod strain;
 mod system;
 mod tearing;
-mod triangles;
+mod triangle;
 mod verlet;
 mod weave;
 mod xpbd;
 
 pub use air::AirRate;
 pub use balance::EnergyBalance;
+pub use bend::Buckling;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use culprit::Culprit;
 pub use fabric::{Bending, Copies, Fabric, Unbend, Weave};
+pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
 pub use material::warp_of_texture;
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
-pub use rk4::Rk4;
-pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
+pub use sheet::{Cloth, ClothError, EnergyLedger};
 pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;
-pub use stiff::ImplicitCloth;
 pub use system::{Counters, System, SystemError, Unstable};
-pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
+pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
+pub use triangle::Triangle;
 pub use verlet::Verlet;
 pub use xpbd::Xpbd;
 

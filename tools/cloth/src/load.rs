@@ -3,7 +3,7 @@
 //! Each exists only where it is named, and costs nothing otherwise; [`Counters`](crate::Counters)
 //! prove it.
 
-use tearmesh::geometry::{Plane, Point, Vector, check_point, dot, length};
+use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
 /// What acts on the particles. The default is nothing.
 ///
@@ -73,6 +73,28 @@ impl Loads {
             .or_else(drag)
             .or_else(|| self.wind.and_then(wind))
             .or_else(|| self.colliders.iter().find_map(collider))
+    }
+}
+
+impl Wind {
+    /// Adds the force on faces, a third to each corner: pressure c n·(u − v), where v is the mean
+    /// velocity of the corners, along the normal.
+    pub(crate) fn press(&self, faces: &[u32], x: &[Point], v: &[Vector], forces: &mut [Vector]) {
+        for face in faces.chunks_exact(3) {
+            let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
+            // Twice the area along the normal.
+            let normal = cross(x[b] - x[a], x[c] - x[a]);
+            let double_area = dot(normal, normal).sqrt();
+            if double_area > 0.0 {
+                let mean = (v[a] + v[b] + v[c]) / 3.0;
+                let relative = self.velocity_m_per_s - mean;
+                let pressure = self.coefficient * dot(normal, relative) / double_area;
+                let third = normal * (pressure / 6.0);
+                forces[a] += third;
+                forces[b] += third;
+                forces[c] += third;
+            }
+        }
     }
 }
 

@@ -9,9 +9,10 @@
 
 use tearmesh::geometry::{Point, Vector};
 
-use crate::kernel;
+use crate::element::Forces;
 use crate::solver::{Failure, SettingError, Solver};
-use crate::system::{Forces, Model, System};
+use crate::spring;
+use crate::system::{Model, System};
 
 /// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
 /// soft as [`Pbd::stiffness`] says.
@@ -80,11 +81,11 @@ impl Solver for Pbd {
         model.clear_multipliers();
         for _ in 0..self.sweeps.max(1) {
             for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
-                for (batch, multipliers) in family.batches_mut() {
+                for (batch, memories) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
-                    Failure::unless(kernel::project(
+                    Failure::unless(spring::project(
                         batch,
-                        multipliers,
+                        memories.multipliers,
                         &model.inverse_masses,
                         fraction,
                         model.stretch_ratio_max,
@@ -136,21 +137,21 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
     }
 }
 
-/// Takes as velocity what was moved, then lets colliders push.
+/// Takes as velocity what was moved.
 pub(crate) fn finish(system: &mut System, dt_s: f64) {
     let per_s = 1.0 / dt_s;
     let moves = system.positions.iter().zip(&system.scratch.before);
     for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
         *v = (x - before) * per_s;
     }
-    system.collide();
 }
 
-/// [`finish`], and [`predict`] of the next substep: in one pass where nobody asks for velocities in
-/// between.
+/// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody
+/// asks for velocities in between.
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
     if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
         finish(system, dt_s);
+        system.collide();
         predict(system, dt_s);
         return;
     }

@@ -9,11 +9,11 @@
 //! A threshold of stretch has to be held against lengths before the limiter, or nothing ever
 //! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`System::force_n`]).
-//! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
 
-use crate::kernel;
-use crate::solver::{Failure, SettingError, Solver, StepError};
-use crate::system::{Forces, System};
+use crate::element::Forces;
+use crate::solver::{Failure, SettingError, Solver};
+use crate::spring;
+use crate::system::System;
 use crate::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
@@ -75,7 +75,7 @@ impl Provot {
         }
     }
 
-    /// The springs alone; call [`Provot::limit`] of another one after each step, or never.
+    /// The springs alone.
     #[must_use]
     pub fn unlimited() -> Provot {
         Provot {
@@ -88,20 +88,6 @@ impl Provot {
     #[must_use]
     pub fn report(&self) -> LimiterReport {
         self.report
-    }
-
-    /// Applies the limiter, and rewrites velocities by what it moved in the last `dt_s` seconds.
-    ///
-    /// # Errors
-    ///
-    /// [`StepError::Step`] and [`StepError::Setting`], and nothing has changed.
-    pub fn limit(&mut self, system: &mut System, dt_s: f64) -> Result<LimiterReport, StepError> {
-        if !(dt_s > 0.0 && dt_s.is_finite()) {
-            return Err(StepError::Step { given_s: dt_s });
-        }
-        self.check().map_err(StepError::Setting)?;
-        self.shorten(system, dt_s);
-        Ok(self.report)
     }
 
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
@@ -119,8 +105,8 @@ impl Provot {
         } = system;
         scratch.before.clone_from(positions);
         model.set_aside();
-        for (batch, ratios) in model.stretch.ratios_mut() {
-            kernel::ratios(batch, positions, ratios);
+        for (batch, memories) in model.stretch.batches_mut() {
+            spring::ratios(batch, positions, memories.ratios);
         }
         model.is_limited = true;
         model.clear_multipliers();
@@ -130,10 +116,10 @@ impl Provot {
         while report.passes < limiter.passes_max && largest > ratio_max {
             last = largest;
             largest = 0.0;
-            for (batch, multipliers) in model.stretch.batches_mut() {
+            for (batch, memories) in model.stretch.batches_mut() {
                 counters.projections += batch.ends.len() as u64;
                 let masses = &model.inverse_masses;
-                let met = kernel::limit(batch, multipliers, masses, ratio_max, positions);
+                let met = spring::limit(batch, memories.multipliers, masses, ratio_max, positions);
                 largest = largest.max(met);
             }
             if report.passes == 0 {
@@ -207,7 +193,6 @@ impl Solver for Provot {
             *x += *v * dt_s;
         }
         self.shorten(system, dt_s);
-        system.collide();
         Ok(())
     }
 }

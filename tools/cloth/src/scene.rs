@@ -68,7 +68,7 @@ pub enum Method {
     Verlet,
     /// [`Xpbd`].
     Xpbd(Xpbd),
-    /// [`ImplicitCloth`](crate::ImplicitCloth).
+    /// [`Implicit`](crate::Implicit).
     Implicit(Settings),
 }
 

@@ -45,20 +45,6 @@ impl EnergyLedger {
     }
 }
 
-/// What an edit did to the stability limit. Slivers and repeated splits shorten the stable step:
-/// a hundredth of the mass, 6.2 times.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effect {
-    /// The number of the edit.
-    pub number: u64,
-    /// The vertex that was split, inserted first, kept, or slid.
-    pub vertex: VertexId,
-    /// The bound of all frequencies before, in rad/s; see [`System::frequency_bound`].
-    pub bound_before_rad_per_s: f64,
-    /// The same after.
-    pub bound_after_rad_per_s: f64,
-}
-
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
 /// with a [`Weave`](crate::Weave) a triangle for each face.
 ///
@@ -126,7 +112,6 @@ pub struct Cloth {
     /// By bend constraint: the two half-edges that it is across.
     pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
     pub(super) ledger: EnergyLedger,
-    pub(super) effects: Vec<Effect>,
     pub(super) room: Room,
     pub(super) seen: Cursor,
 }
@@ -200,7 +185,6 @@ impl Cloth {
             bend_of: Vec::new(),
             bent_edge: Vec::new(),
             ledger: EnergyLedger::default(),
-            effects: Vec::new(),
             room: Room::default(),
             seen,
         };
@@ -271,7 +255,7 @@ impl Cloth {
         self.seen
     }
 
-    /// Advances by `dt_s` seconds, and forgets the [`Cloth::effects`] so far.
+    /// Advances by `dt_s` seconds.
     ///
     /// # Errors
     ///
@@ -281,9 +265,7 @@ impl Cloth {
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
     ) -> Result<StepReport, StepError> {
-        let report = self.system.step(solver, dt_s)?;
-        self.effects.clear();
-        Ok(report)
+        self.system.step(solver, dt_s)
     }
 
     /// The particles and constraints; vertex v is particle `v.index()`.
@@ -380,12 +362,6 @@ impl Cloth {
     #[must_use]
     pub fn ledger(&self) -> EnergyLedger {
         self.ledger
-    }
-
-    /// What the edits since the last [`Cloth::step`] that was taken did to the stability limit.
-    #[must_use]
-    pub fn effects(&self) -> &[Effect] {
-        &self.effects
     }
 
     pub(super) fn rest_length(&self, [a, b]: [usize; 2]) -> f64 {

@@ -28,7 +28,7 @@ use crate::system::System;
 /// }
 /// ```
 pub trait Solver {
-    /// Advances positions and velocities by this many seconds.
+    /// Advances positions and velocities by this many seconds. Colliders push afterwards.
     ///
     /// # Errors
     ///

@@ -22,20 +22,16 @@
 //! A bend that buckles counts as a spring with the largest stiffness that it has at any length, also
 //! where the frequency is measured: a flat cloth has none to bends, and has it once it folds.
 //!
-//! A triangle counts as two springs with three ends, along warp and along weft. Its shear gets
-//! stiffer as it is stretched, so with shear the bound holds as long as |`w_u`|² + |`w_v`|² +
-//! |`w_u` · `w_v`| of no triangle is beyond a *reach*; where a step finds that one is, the reach is
-//! doubled and the bound made anew.
+//! A triangle's shear gets stiffer as it is stretched, so with shear the bound holds as long as no
+//! triangle is stretched beyond a *reach* ([`triangle`](crate::triangle)); where a step finds that one
+//! is, the reach is doubled and the bound made anew.
 //!
 //! The rows of K itself, which are cheaper, give 0.657 of the true limit or less.
 
 use tearmesh::geometry::{Point, Vector, dot};
 
-use crate::buckle::Slope;
-use crate::constraint::ConstraintId;
-use crate::implicit::{Triangle, triangle};
-use crate::kernel;
-use crate::system::{Counters, Family, Model};
+use crate::element::{Busiest, Slope};
+use crate::system::{Counters, Model};
 
 /// The largest frequency of a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +56,7 @@ pub(crate) struct Spectrum {
     /// A bound of ω²; `None` until it is asked for.
     bound: Option<f64>,
     measured: Option<Frequency>,
-    /// How far triangles may be stretched for the bound to hold; see [`triangle::shear_growth`].
+    /// How far triangles may be stretched for the bound to hold.
     reach: f64,
     /// How far they were when the frequency was measured.
     measured_reach: f64,
@@ -141,35 +137,18 @@ impl Spectrum {
         self.bound_within_reach(model)
     }
 
-    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
-    pub(crate) fn bound_within_reach(&mut self, model: &Model) -> f64 {
+    /// The bound as long as triangles are not stretched beyond the reach.
+    fn bound_within_reach(&mut self, model: &Model) -> f64 {
         if self.bound.is_none() {
             let reach = self.reach;
             let sums: Vec<f64> = (0..model.inverse_masses.len())
                 .map(|particle| model.inverse_masses[particle] * root_sum(model, particle, reach))
                 .collect();
-            let mut bound = 0.0_f64;
-            for family in [Family::Stretch, Family::Bend] {
-                let stiffest = model.stiffest(family);
-                for batch in model.family(family).batches() {
-                    for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
-                        let root = (k * stiffest).sqrt();
-                        bound = bound.max(root * (sums[a as usize] + sums[b as usize]));
-                    }
-                }
-            }
-            for triangle in model.triangles.as_slice() {
-                let sums = triangle.vertices.map(|v| sums[v as usize]);
-                bound = bound.max(triangle_row(triangle, reach, sums));
-            }
+            let rows = model.kinds().map(|kind| kind.largest_row(reach, &sums));
+            let bound = rows.into_iter().fold(0.0, f64::max);
             self.bound = Some(bound);
         }
         self.bound.unwrap_or_default().sqrt()
-    }
-
-    /// The bound if it is known: no more than a look.
-    pub(crate) fn known_bound(&self) -> Option<f64> {
-        self.bound.map(f64::sqrt)
     }
 
     /// The largest frequency in the present configuration, to 1 % of ω², measured where it is not
@@ -317,75 +296,31 @@ impl Spectrum {
     }
 }
 
-/// How much the extensions along warp and along weft, times √(A k), change with each corner: what
-/// √k is of a spring.
-fn triangle_roots(triangle: &Triangle, reach: f64) -> [[f64; 3]; 2] {
-    let [k_u, k_v, k_s] = triangle.stiffness;
-    let [g_u, g_v] = triangle.weights();
-    let along = |k: f64, weights: [f64; 3]| {
-        let root = (triangle.area * (k + k_s * reach)).sqrt();
-        weights.map(|weight| root * weight.abs())
-    };
-    [along(k_u, g_u), along(k_v, g_v)]
-}
-
-/// The larger row of a triangle, with the product of inverse mass and sum of each corner.
-fn triangle_row(triangle: &Triangle, reach: f64, sums: [f64; 3]) -> f64 {
-    let row = |roots: [f64; 3]| -> f64 { roots.into_iter().zip(sums).map(|(r, s)| r * s).sum() };
-    let [along_u, along_v] = triangle_roots(triangle, reach).map(row);
-    along_u.max(along_v)
-}
-
 /// The sum of √k over the springs of a particle, and of the like over its triangles.
 fn root_sum(model: &Model, particle: usize, reach: f64) -> f64 {
-    let of = |family: Family| -> f64 {
-        let (constraints, stiffest) = (model.family(family), model.stiffest(family));
-        let root = |id: ConstraintId| (constraints.get(id).stiffness_n_per_m * stiffest).sqrt();
-        constraints.of(particle).map(root).sum()
-    };
-    let springs = of(Family::Stretch) + of(Family::Bend);
-    let triangles = model.triangles.of(particle).map(|(t, corner)| {
-        let [along_u, along_v] = triangle_roots(&model.triangles.as_slice()[t], reach);
-        along_u[corner] + along_v[corner]
-    });
-    triangles.fold(springs, |sum, roots| sum + roots)
+    let kinds = model.kinds();
+    kinds
+        .iter()
+        .fold(0.0, |sum, kind| kind.roots_at(particle, reach, sum))
 }
 
-/// The largest row among the springs and triangles of the neighbours of a particle and its own: all
-/// rows that its mass and springs have a part in.
+/// The largest row among the constraints of a particle: all rows that its mass and springs have a
+/// part in.
 fn rows_at(model: &Model, particle: usize, reach: f64) -> f64 {
-    let mut largest = 0.0_f64;
     let weighed =
         |particle: usize| model.inverse_masses[particle] * root_sum(model, particle, reach);
     let own = weighed(particle);
-    for family in [Family::Stretch, Family::Bend] {
-        let (constraints, stiffest) = (model.family(family), model.stiffest(family));
-        for id in constraints.of(particle) {
-            let constraint = constraints.get(id);
-            let [a, b] = constraint.ends;
-            let other = a + b - particle;
-            let root = (constraint.stiffness_n_per_m * stiffest).sqrt();
-            largest = largest.max(root * (own + weighed(other)));
-        }
-    }
-    for (t, _) in model.triangles.of(particle) {
-        let triangle = &model.triangles.as_slice()[t];
-        let sums = triangle.vertices.map(|v| weighed(v as usize));
-        largest = largest.max(triangle_row(triangle, reach, sums));
-    }
-    largest
+    let rows = model
+        .kinds()
+        .map(|kind| kind.largest_row_at(particle, reach, own, &weighed));
+    rows.into_iter().fold(0.0, f64::max)
 }
 
 /// How far the triangles that shear are stretched at most; zero without any.
 fn shear_growth(model: &Model, positions: &[Point], counters: &mut Counters) -> f64 {
-    let triangles = model.triangles.as_slice();
-    if triangles.is_empty() {
-        return 0.0;
-    }
-    counters.triangle_evaluations += 1;
-    let sheared = triangles.iter().filter(|t| t.stiffness[2] > 0.0);
-    let growths = sheared.map(|t| triangle::shear_growth(t, triangle::corners(t, positions)));
-    growths.fold(0.0, f64::max)
+    let triangles = &model.triangles;
+    counters.triangle_evaluations += u64::from(!triangles.as_slice().is_empty());
+    triangles.shear_growth(positions)
 }
 
 /// Σ m u · v.
@@ -412,40 +347,9 @@ fn accelerations_by(
 /// The ends of the constraint with the most energy in a vector; of a triangle, those of the edge
 /// that changes most.
 fn busiest(model: &Model, x: &[Point], u: &[Vector]) -> Option<[usize; 2]> {
-    let mut most = None;
-    let mut weigh = |ends: [u32; 2], pull: &dyn Fn(Vector, Vector) -> Vector| {
-        let [a, b] = ends.map(|end| end as usize);
-        let between = u[b] - u[a];
-        let energy = dot(between, pull(x[b] - x[a], between));
-        if most.is_none_or(|(largest, _)| energy > largest) {
-            most = Some((energy, [a, b]));
-        }
-    };
-    for batch in model.springs() {
-        for ((&ends, &rest), &k) in batch.ends.iter().zip(batch.rest).zip(batch.stiffness) {
-            weigh(ends, &|d, between| kernel::pull(d, rest, k, between));
-        }
+    let mut busiest = Busiest::default();
+    for kind in &model.kinds() {
+        kind.find_busiest(x, u, &mut busiest);
     }
-    for bends in model.buckles() {
-        for bend in bends.iter() {
-            weigh(bend.ends(), &|d, between| {
-                bends.pull(&bend, Slope::Steepest, d, between)
-            });
-        }
-    }
-    for t in model.triangles.as_slice() {
-        let corners = t.vertices.map(|v| v as usize);
-        let moved = corners.map(|v| u[v]);
-        let forces = triangle::stiffness_times(t, triangle::corners(t, x), moved);
-        let energy = (0..3).fold(0.0, |sum, i| sum + dot(moved[i], forces[i]));
-        if most.is_none_or(|(largest, _)| energy > largest) {
-            let apart = |i: usize| {
-                let between = moved[(i + 1) % 3] - moved[i];
-                dot(between, between)
-            };
-            let edge = (1..3).fold(0, |most, i| if apart(i) > apart(most) { i } else { most });
-            most = Some((energy, [corners[edge], corners[(edge + 1) % 3]]));
-        }
-    }
-    most.map(|(_, ends)| ends)
+    busiest.ends()
 }

@@ -3,11 +3,13 @@
 //! [`System::step`] is the one way to advance. It asks the stability limit of an explicit method
 //! before, looks for blow-up after, and leaves the last good state where something failed.
 
+use tearmesh::geometry::{Point, Vector, check_point};
+
 use crate::air::AirRate;
 use crate::balance::Noted;
 use crate::culprit::Culprit;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
-use crate::system::{Left, System, Unstable};
+use crate::system::{Left, Model, System, Unstable};
 
 /// What a step that fails goes back to, but for positions and velocities.
 #[derive(Clone, Copy)]
@@ -59,8 +61,11 @@ impl System {
             self.counters.substeps += 1;
             self.drive(substep_s);
             self.note_before();
-            let advanced = solver.advance(self, substep_s);
-            if let Err(failure) = advanced.and_then(|()| Failure::unless(self.is_finite())) {
+            let advanced = solver.advance(self, substep_s).and_then(|()| {
+                self.collide();
+                Failure::unless(self.is_finite())
+            });
+            if let Err(failure) = advanced {
                 return Err(self.go_back(failure, began));
             }
             self.note_after(substep_s, at_end);
@@ -80,7 +85,7 @@ impl System {
         }
         StepError::BlowUp {
             elapsed_s: self.elapsed_s,
-            at: Culprit::of(&self.model, &[(&self.positions, &self.velocities)]),
+            at: culprit(&self.model, &[(&self.positions, &self.velocities)]),
         }
     }
 
@@ -108,7 +113,7 @@ impl System {
     fn given_up(&self) -> Culprit {
         let began = (&self.scratch.positions[..], &self.scratch.velocities[..]);
         let now = (&self.positions[..], &self.velocities[..]);
-        Culprit::of(&self.model, &[began, now])
+        culprit(&self.model, &[began, now])
     }
 
     /// How many substeps a step takes, by the springs of an explicit method, and by air that a
@@ -256,4 +261,33 @@ fn divided(dt_s: f64, limit_s: f64) -> Result<StepReport, StepError> {
         substeps: (substeps as u32).max(1),
         limit_s: Some(limit_s),
     })
+}
+
+/// Positions and velocities.
+type State<'a> = (&'a [Point], &'a [Vector]);
+
+/// What is wrong with a step that was given up, by the states that are known of it, the oldest first:
+/// the first particle that is not finite, or the longest constraint beyond all measure, or the first
+/// particle that is, of the first state that has one.
+fn culprit(model: &Model, states: &[State<'_>]) -> Culprit {
+    let shown = states.iter().find_map(|&state| {
+        let too_long = || model.longest(state.0).beyond(model.stretch_ratio_max);
+        let named = broken(state).or_else(too_long);
+        named.or_else(|| beyond(state))
+    });
+    let last = || model.longest(states.last()?.0).beyond(f64::NEG_INFINITY);
+    shown.or_else(last).unwrap_or(Culprit::Unknown)
+}
+
+fn broken((positions, velocities): State<'_>) -> Option<Culprit> {
+    let mut particles = positions.iter().zip(velocities);
+    let bad = |(p, v): (&Point, &Vector)| !p.iter().chain(v.iter()).all(|x| x.is_finite());
+    particles.position(bad).map(Culprit::Particle)
+}
+
+fn beyond((positions, velocities): State<'_>) -> Option<Culprit> {
+    let mut particles = positions.iter().zip(velocities);
+    let far =
+        |(&p, &v): (&Point, &Vector)| [p, v.into()].map(check_point).iter().any(Result::is_err);
+    particles.position(far).map(Culprit::Beyond)
 }

@@ -13,16 +13,16 @@ mod model;
 
 pub use counters::Counters;
 pub use error::SystemError;
-pub(crate) use model::{Family, Forces, Left, Model};
+pub(crate) use model::{Family, Left, Model};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::balance::Meter;
+use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
-use crate::implicit::{Buckling, Triangle};
 use crate::load::{Loads, Path};
 use crate::spectrum::Spectrum;
-use crate::triangles::Triangles;
+use crate::triangle::{Triangle, Triangles};
 
 /// Particles, constraints and loads.
 ///
@@ -144,13 +144,13 @@ impl System {
                 stretch: Constraints::new(count),
                 bend: Constraints::new(count),
                 buckling: None,
-                triangles: Triangles::default(),
+                triangles: Triangles::new(count),
                 faces: Vec::new(),
                 loads: Loads::default(),
                 paths: Vec::new(),
                 grabbed: Vec::new(),
                 stretch_ratio_max: 100.0,
-                forces: Forces::default(),
+                forces: Default::default(),
                 is_limited: false,
                 is_aside: false,
             },
@@ -204,13 +204,12 @@ impl System {
 
     /// Makes all bend constraints buckle by this law, those that are there and those to come, or
     /// makes them springs again. Below its rest length a bend then has, in the place of a spring's
-    /// force, that of an arc ([`Bend`](crate::implicit::Bend), Choi and Ko 2002 §4.2), and beyond
-    /// it none; its stiffness is the one against compression before it buckles.
+    /// force, that of an arc ([`Buckling`], Choi and Ko 2002 §4.2), and beyond it none; its stiffness
+    /// is the one against compression before it buckles.
     /// [`Pbd`](crate::Pbd) and [`Xpbd`](crate::Xpbd), which project springs, are refused then.
     ///
     /// ```
-    /// use tearmesh_cloth::implicit::Buckling;
-    /// use tearmesh_cloth::System;
+    /// use tearmesh_cloth::{Buckling, System};
     /// use tearmesh::Point;
     ///
     /// let points = [Point::origin(), Point::new(0.06, 0.0, 0.0)];
@@ -276,7 +275,7 @@ impl System {
 
     pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
         let index = self.model.triangles.as_slice().len();
-        self.model.triangles.push(self.positions.len(), triangle);
+        self.model.triangles.push(triangle);
         self.touched(&triangle.vertices.map(|corner| corner as usize));
         index
     }

@@ -61,11 +61,9 @@
 
 mod apply;
 mod follow;
-mod link;
 mod load;
 
 pub use apply::{Tear, TearReport};
-pub use link::CutLink;
 
 use std::fmt;
 

@@ -84,7 +84,6 @@ impl Solver for Verlet {
             }
         }
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
-        system.collide();
         Failure::unless(sane)
     }
 }

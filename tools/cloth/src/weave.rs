@@ -3,7 +3,7 @@
 //! A net of springs has the stiffness of its mesh: one diagonal a cell makes it shear when it is
 //! pulled, and three directions alike give it Poisson's ratio 1/3. Triangles have the moduli that
 //! are asked for, whatever the mesh (Baraff and Witkin 1998 §4; see
-//! [`implicit::triangle`](crate::implicit::triangle) for the energy and where it differs).
+//! [`Triangle`] for the energy and where it differs).
 //!
 //! The triangle of a face is made from the rest positions of its corners and the direction of warp,
 //! and has the number of the face. Edits follow with the cost of what they touch: a split or a
@@ -13,9 +13,9 @@
 
 use tearmesh::{FaceId, HalfEdgeId, Insert, Merge, Split};
 
-use crate::implicit::{Triangle, triangle};
 use crate::material::material;
 use crate::sheet::{Cloth, ClothError};
+use crate::triangle::Triangle;
 
 impl Cloth {
     /// Makes a triangle for each face, if the fabric asks for them.
@@ -92,7 +92,6 @@ impl Cloth {
         if !self.is_woven() {
             return 0.0;
         }
-        let particles = self.positions().len();
         let mut gained = 0.0;
         for family in insert.families() {
             gained -= self.triangle_energy(family.parent().index());
@@ -105,7 +104,7 @@ impl Cloth {
                     let index = triangles.as_slice().len();
                     let face = child.face.index();
                     assert_eq!(index, face, "triangles are in step with faces");
-                    triangles.push(particles, triangle);
+                    triangles.push(triangle);
                 }
                 gained += self.triangle_energy(child.face.index());
             }
@@ -128,7 +127,6 @@ impl Cloth {
     }
 
     fn triangle_energy(&self, t: usize) -> f64 {
-        let triangle = &self.system.triangles()[t];
-        triangle::energy(triangle, triangle::corners(triangle, self.positions()))
+        self.system.model.triangles.energy_of(t, self.positions())
     }
 }

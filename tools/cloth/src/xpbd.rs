@@ -14,10 +14,13 @@
 
 use tearmesh::geometry::{Vector, dot};
 
-use crate::kernel;
+use crate::constraint::Constraint;
+use crate::element::Forces;
+use crate::pair::{Law, Link};
 use crate::pbd::{finish, finish_and_predict, predict};
 use crate::solver::{Failure, Solver};
-use crate::system::{Forces, Model, System};
+use crate::spring::{self, Hooke};
+use crate::system::{Model, System};
 
 /// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
 /// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep
@@ -59,15 +62,15 @@ impl Xpbd {
         let scale = scale(model, dt_s);
         for sweep in 0..self.sweeps.max(1) {
             let project = match sweep {
-                0 => kernel::project_compliant::<true>,
-                _ => kernel::project_compliant::<false>,
+                0 => spring::project_compliant::<true>,
+                _ => spring::project_compliant::<false>,
             };
             for family in [&mut model.stretch, &mut model.bend] {
-                for (batch, multipliers) in family.batches_mut() {
+                for (batch, memories) in family.batches_mut() {
                     counters.projections += batch.ends.len() as u64;
                     let sane = project(
                         batch,
-                        multipliers,
+                        memories.multipliers,
                         &model.inverse_masses,
                         scale,
                         model.stretch_ratio_max,
@@ -95,8 +98,8 @@ impl Xpbd {
                 let d: Vector = system.positions[b] - system.positions[a];
                 let length = dot(d, d).sqrt();
                 if length > 0.0 {
-                    let force = constraint.stiffness_n_per_m * (length - constraint.rest_length_m);
-                    let miss = d * ((force + family.memory(id).multiplier) / length);
+                    let miss =
+                        d * ((force(&constraint, length) + family.memory(id).multiplier) / length);
                     residual[a] += miss;
                     residual[b] -= miss;
                 }
@@ -134,6 +137,14 @@ impl Solver for Xpbd {
         model.forces = Forces::Multipliers;
         Ok(())
     }
+}
+
+/// The force of a spring of this length.
+fn force(constraint: &Constraint, length: f64) -> f64 {
+    let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
+    Hooke
+        .link(rest, stiffness)
+        .map_or(0.0, |spring| spring.force(length))
 }
 
 /// What makes a compliance one of a step, and a multiplier a force.

@@ -1,7 +1,7 @@
 //! What a step costs a constraint, as sheets grow.
 
 use tearmesh_cloth::implicit::Settings;
-use tearmesh_cloth::{Cloth, ImplicitCloth, Pbd, Solver, Verlet, Xpbd};
+use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd};
 
 use super::bullet::{Bullet, Order, Program};
 use super::sheet::{STEP_S, hanging};
@@ -57,7 +57,7 @@ const METHODS: [Method; 4] = [
     },
     Method {
         name: "implicit",
-        solver: || Box::new(ImplicitCloth::new(Settings::default())),
+        solver: || Box::new(Implicit::new(Settings::default())),
         step: Step::Bound(10.0),
         weight: 200,
         note: "backward Euler, ten times the bound",

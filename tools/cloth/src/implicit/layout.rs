@@ -2,14 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::Model;
+use tearmesh::DisjointSets;
+use tearmesh::geometry::Point;
 
-/// The slots of a [`Hessian`](super::Hessian), and which slot each constraint adds to.
+use crate::element::Element;
+use crate::matrix::Hessian;
+use crate::system::{Model, System};
+
+/// The slots of a [`Hessian`], and which slot each constraint adds to.
 ///
 /// [`Layout::follow`] compares it with the constraints as they are now. That is one comparison
 /// a constraint, and O(log n) for each constraint that is new, gone or has other ends: after a
-/// tear only what was torn is touched. Constraints may be pushed, changed in place,
-/// swap-removed; nothing has to be told.
+/// tear only what was torn is touched, and nothing has to be told.
 ///
 /// A slot that nothing uses any more keeps its number, holds a block of zeros, and is given to
 /// the next new pair.
@@ -21,16 +25,24 @@ pub struct Layout {
     uses: Vec<u32>,
     free: Vec<u32>,
     slot_of: BTreeMap<[u32; 2], u32>,
-    springs: Vec<u32>,
-    /// For the edges (0, 1), (1, 2), (2, 0) of each triangle.
-    triangles: Vec<[u32; 3]>,
-    bends: Vec<u32>,
+    /// By kind of constraint.
+    kinds: [Slots; 3],
     /// The lowest particle of the piece of each particle.
     pieces: Vec<u32>,
+    sets: DisjointSets,
+}
+
+/// The slots of the pairs of one kind, by their numbers: [`NO_SLOT`] for numbers without a pair.
+#[derive(Clone, Debug, Default)]
+struct Slots {
+    slots: Vec<u32>,
+    taken: usize,
 }
 
 /// The pair of a slot that nothing uses. Particle 0 twice: harmless, as its block is zero.
 const NONE: [u32; 2] = [0, 0];
+
+const NO_SLOT: u32 = u32::MAX;
 
 impl Layout {
     /// The pairs, by slot. A slot without users has the pair (0, 0).
@@ -39,85 +51,84 @@ impl Layout {
         &self.pairs
     }
 
-    /// The slot of each spring.
-    #[must_use]
-    pub fn springs(&self) -> &[u32] {
-        &self.springs
-    }
-
-    /// The slots of each triangle: of its corners (0, 1), (1, 2), (2, 0).
-    #[must_use]
-    pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-
-    /// The slot of each bend.
-    #[must_use]
-    pub fn bends(&self) -> &[u32] {
-        &self.bends
-    }
-
     /// For each particle the lowest particle that is joined to it by constraints.
     #[must_use]
     pub fn pieces(&self) -> &[u32] {
         &self.pieces
     }
 
-    /// Brings the layout in step with the model, and returns how many slots of constraints
-    /// were taken or left: zero where nothing changed.
+    /// Brings the layout in step with a system, and returns how many slots of constraints were
+    /// taken or left: zero where nothing changed.
     ///
     /// Pieces are found anew when something changed: O(particles + slots).
-    pub fn follow(&mut self, model: &Model<'_>) -> usize {
+    pub fn follow(&mut self, system: &System) -> usize {
+        self.follow_model(&system.model)
+    }
+
+    pub(super) fn follow_model(&mut self, model: &Model) -> usize {
         let mut changed = 0;
-        let mut springs = std::mem::take(&mut self.springs);
-        changed += self.sync(&mut springs, model.springs.len(), |i| model.springs[i].ends);
-        self.springs = springs;
-        let mut bends = std::mem::take(&mut self.bends);
-        changed += self.sync(&mut bends, model.bends.len(), |i| model.bends[i].ends());
-        self.bends = bends;
-        let mut triangles = std::mem::take(&mut self.triangles);
-        // The edges of the triangles, as one list.
-        for edges in triangles.drain(model.triangles.len().min(triangles.len())..) {
-            for slot in edges {
-                self.leave(slot);
-                changed += 1;
-            }
+        for (i, kind) in model.kinds().iter().enumerate() {
+            let mut slots = std::mem::take(&mut self.kinds[i]);
+            changed += self.follow_kind(&mut slots, &**kind);
+            self.kinds[i] = slots;
         }
-        for (edges, triangle) in triangles.iter_mut().zip(model.triangles) {
-            let [a, b, c] = triangle.vertices;
-            for (slot, ends) in edges.iter_mut().zip([[a, b], [b, c], [c, a]]) {
-                changed += self.refit(slot, ends);
-            }
-        }
-        for triangle in &model.triangles[triangles.len()..] {
-            let [a, b, c] = triangle.vertices;
-            triangles.push([[a, b], [b, c], [c, a]].map(|ends| self.take(ends)));
-            changed += 3;
-        }
-        self.triangles = triangles;
         if changed > 0 || self.pieces.len() != model.masses.len() {
             self.find_pieces(model.masses.len());
         }
         changed
     }
 
-    fn sync(
-        &mut self,
-        slots: &mut Vec<u32>,
-        count: usize,
-        ends: impl Fn(usize) -> [u32; 2],
-    ) -> usize {
-        let mut changed = 0;
-        for slot in slots.drain(count.min(slots.len())..) {
-            self.leave(slot);
-            changed += 1;
-        }
-        for (i, slot) in slots.iter_mut().enumerate() {
-            changed += self.refit(slot, ends(i));
-        }
-        for i in slots.len()..count {
-            slots.push(self.take(ends(i)));
-            changed += 1;
+    /// The second derivatives of a system's elastic energy, and how many terms had a part dropped.
+    /// With `clamp` every term is positive semidefinite; without it derivatives are exact.
+    ///
+    /// # Panics
+    ///
+    /// If the layout does not [`follow`](Layout::follow) the system.
+    pub fn hessian(&self, system: &System, clamp: bool, hessian: &mut Hessian) -> u64 {
+        self.hessian_at(&system.model, system.positions(), clamp, hessian)
+    }
+
+    pub(super) fn hessian_at(
+        &self,
+        model: &Model,
+        x: &[Point],
+        clamp: bool,
+        hessian: &mut Hessian,
+    ) -> u64 {
+        hessian.clear(x.len(), self.pairs.len());
+        let kinds = model.kinds();
+        let kinds = kinds.iter().zip(&self.kinds);
+        kinds.fold(0, |clamped, (kind, Slots { slots, .. })| {
+            clamped + kind.hessian(x, clamp, slots, hessian)
+        })
+    }
+
+    fn follow_kind(&mut self, known: &mut Slots, kind: &dyn Element) -> usize {
+        let (mut changed, mut there) = (0, 0);
+        let Slots { slots, taken } = known;
+        kind.each_pair(&mut |number, ends| {
+            there += 1;
+            if number >= slots.len() {
+                slots.resize(number + 1, NO_SLOT);
+            }
+            let slot = &mut slots[number];
+            if *slot == NO_SLOT {
+                *slot = self.take(ends);
+                (*taken, changed) = (*taken + 1, changed + 1);
+            } else {
+                changed += self.refit(slot, ends);
+            }
+        });
+        if *taken > there {
+            let mut is_there = vec![false; slots.len()];
+            kind.each_pair(&mut |number, _| is_there[number] = true);
+            for (slot, is_there) in slots.iter_mut().zip(is_there) {
+                if !is_there && *slot != NO_SLOT {
+                    self.leave(std::mem::replace(slot, NO_SLOT));
+                    changed += 1;
+                }
+            }
+            *taken = there;
         }
         changed
     }
@@ -158,27 +169,14 @@ impl Layout {
         }
     }
 
-    /// Union by the lower id, with halved paths.
     fn find_pieces(&mut self, particles: usize) {
-        fn root(pieces: &mut [u32], mut i: u32) -> u32 {
-            while pieces[i as usize] != i {
-                let above = pieces[pieces[i as usize] as usize];
-                pieces[i as usize] = above;
-                i = above;
-            }
-            i
-        }
-        let mut pieces = std::mem::take(&mut self.pieces);
-        pieces.clear();
-        pieces.extend((0..).take(particles));
+        self.sets.reset(particles as u32);
         for &[i, j] in &self.pairs {
-            let (a, b) = (root(&mut pieces, i), root(&mut pieces, j));
-            pieces[a.max(b) as usize] = a.min(b);
+            self.sets.join(i, j);
         }
-        for i in (0..).take(particles) {
-            pieces[i as usize] = root(&mut pieces, i);
-        }
-        self.pieces = pieces;
+        self.pieces.clear();
+        self.pieces
+            .extend((0..particles as u32).map(|i| self.sets.leader(i)));
     }
 }
 

@@ -1,10 +1,9 @@
-//! Conjugate gradients with held directions: Baraff and Witkin 1998 §5.2–5.3, in the corrected
-//! form of Ascher and Boxerman 2003.
+//! Conjugate gradients where some particles are held: Baraff and Witkin 1998 §5.2–5.3, in the
+//! corrected form of Ascher and Boxerman 2003.
 //!
-//! Solves S (s M + H) S δ = S b for δ = S δ, where S takes away from each particle the
-//! directions in which it is held. The preconditioner is the inverse of each block on the
-//! diagonal, within the free directions. Vectors start and stay in the range of S, so what is
-//! held is held exactly.
+//! Solves S (s M + H) S δ = S b for δ = S δ, where S takes away the particles that are held. The
+//! preconditioner is the inverse of each block on the diagonal. Vectors start and stay in the range
+//! of S, so what is held is held exactly.
 //!
 //! The matrix has to be positive definite. Where it shows that it is not – a block on the
 //! diagonal without a Cholesky factor, or a direction p with pᵀAp ≤ 0 – the solve stops and
@@ -17,8 +16,9 @@
 
 use tearmesh::geometry::{Vector, dot};
 
-use super::matrix::{Block, Hessian};
-use super::{Model, Work};
+use super::Work;
+use super::problem::{Problem, square_per_mass};
+use crate::matrix::{Block, Hessian};
 
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,23 +66,23 @@ impl Pcg {
     /// Solves from the right-hand side in `b`, from δ = 0.
     pub(super) fn solve(
         &mut self,
-        model: &Model<'_>,
+        problem: Problem<'_>,
         hessian: &Hessian,
         pairs: &[[u32; 2]],
         inertia: f64,
         stop: Stop,
         work: &mut Work,
     ) -> Solved {
-        let n = model.masses.len();
+        let n = problem.masses().len();
         self.delta.clear();
         self.delta.resize(n, Vector::zeros());
         for (i, b) in self.b.iter_mut().enumerate() {
-            *b = model.filter(i).apply(*b);
+            *b = problem.filter(i, *b);
         }
-        let start = residual(model, &self.b);
+        let start = problem.residual(&self.b);
         let limit = stop.residual.max(stop.relative * start);
         let ended = |end, residual| Solved { end, residual };
-        if !self.precondition_by(model, hessian, inertia) {
+        if !self.precondition_by(problem, hessian, inertia) {
             return ended(End::Indefinite, start);
         }
         if start <= limit {
@@ -96,7 +96,7 @@ impl Pcg {
             vectors.clear();
             vectors.resize(n, Vector::zeros());
         }
-        let (mut left, mut rz) = self.advance(model, 0.0);
+        let (mut left, mut rz) = self.advance(problem, 0.0);
         self.direction.clone_from(&self.preconditioned);
         for _ in 0..stop.iterations {
             hessian.product(pairs, &self.direction, &mut self.product);
@@ -105,8 +105,8 @@ impl Pcg {
             let mut curvature = 0.0;
             for i in 0..n {
                 let p = self.direction[i];
-                let q = self.product[i] + p * (inertia * model.masses[i]);
-                let q = model.filter(i).apply(q);
+                let q = self.product[i] + p * (inertia * problem.masses()[i]);
+                let q = problem.filter(i, q);
                 self.product[i] = q;
                 curvature += dot(p, q);
             }
@@ -114,7 +114,7 @@ impl Pcg {
                 return ended(End::Indefinite, left);
             }
             let before = rz;
-            (left, rz) = self.advance(model, rz / curvature);
+            (left, rz) = self.advance(problem, rz / curvature);
             if left <= limit {
                 return ended(End::Converged, left);
             }
@@ -128,9 +128,9 @@ impl Pcg {
 
     /// Goes `step` along the direction: new δ and r, and z = P⁻¹ r. Returns the residual as an
     /// acceleration, and r · z.
-    fn advance(&mut self, model: &Model<'_>, step: f64) -> (f64, f64) {
+    fn advance(&mut self, problem: Problem<'_>, step: f64) -> (f64, f64) {
         let (mut size, mut total, mut rz) = (0.0, 0.0, 0.0);
-        for (i, &m) in model.masses.iter().enumerate() {
+        for (i, &m) in problem.masses().iter().enumerate() {
             self.delta[i] += self.direction[i] * step;
             let r = self.b[i] - self.product[i] * step;
             self.b[i] = r;
@@ -144,36 +144,20 @@ impl Pcg {
     }
 
     /// Inverts the blocks on the diagonal; false if one is not definite.
-    fn precondition_by(&mut self, model: &Model<'_>, hessian: &Hessian, inertia: f64) -> bool {
+    fn precondition_by(&mut self, problem: Problem<'_>, hessian: &Hessian, inertia: f64) -> bool {
         self.inverses.clear();
         for (i, block) in hessian.diagonal.iter().enumerate() {
-            let mass = Block::identity_times(inertia * model.masses[i]);
-            let Some(inverse) = model.filter(i).inverse(&block.plus(1.0, &mass)) else {
+            let mass = Block::identity_times(inertia * problem.masses()[i]);
+            let inverse = if problem.is_free(i) {
+                block.plus(1.0, &mass).inverse_if_definite()
+            } else {
+                Some(Block::ZERO)
+            };
+            let Some(inverse) = inverse else {
                 return false;
             };
             self.inverses.push(inverse);
         }
         true
     }
-}
-
-/// A force on each particle as an rms acceleration, √(rᵀ M⁻¹ r / Σm); zero where nothing has a
-/// mass.
-pub(super) fn residual(model: &Model<'_>, r: &[Vector]) -> f64 {
-    let (mut sum, mut total) = (0.0, 0.0);
-    for (&r, &m) in r.iter().zip(model.masses) {
-        sum += square_per_mass(r, m);
-        total += m;
-    }
-    if total > 0.0 {
-        (sum / total).sqrt()
-    } else {
-        0.0
-    }
-}
-
-/// r · r / m. What has no mass is fixed, and leaves no residual.
-#[inline]
-fn square_per_mass(r: Vector, m: f64) -> f64 {
-    if m > 0.0 { dot(r, r) / m } else { 0.0 }
 }

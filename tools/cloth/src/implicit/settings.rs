@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use super::{ModelError, Work};
-
 /// How time is made discrete.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
@@ -11,7 +9,7 @@ pub enum Method {
     #[default]
     BackwardEuler,
     /// Order two, damps little. The first step, and each after
-    /// [`Implicit::forget`](super::Implicit::forget), is backward Euler's.
+    /// [`Implicit::forget`](crate::Implicit::forget), is backward Euler's.
     Bdf2,
 }
 
@@ -93,16 +91,24 @@ pub struct StepReport {
     pub work: Work,
 }
 
+/// What was done, in counts that do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// How often all forces were computed.
+    pub force_evaluations: u64,
+    /// How often all second derivatives were.
+    pub hessian_evaluations: u64,
+    /// How often the energy was, for line searches.
+    pub energy_evaluations: u64,
+    /// Products of the matrix and a vector.
+    pub matrix_products: u64,
+    /// Iterations of conjugate gradients.
+    pub solver_iterations: u64,
+}
+
 /// Why a step was not taken. Positions, velocities and history are as they were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepError {
-    /// The model, a position or a velocity cannot be used.
-    Model(ModelError),
-    /// The time step is not positive and finite.
-    TimeStep {
-        /// As given, in s.
-        given: f64,
-    },
     /// The matrix is indefinite, and [`Jacobian::Exact`] was asked for.
     Indefinite {
         /// The time step, in s: a shorter one helps.
@@ -129,8 +135,6 @@ pub enum StepError {
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            StepError::Model(error) => error.fmt(f),
-            StepError::TimeStep { given } => write!(f, "a step of {given} s cannot be taken"),
             StepError::Indefinite { time_step_s } => {
                 write!(f, "the matrix is indefinite at a step of {time_step_s} s")
             }
@@ -152,9 +156,3 @@ impl fmt::Display for StepError {
 }
 
 impl std::error::Error for StepError {}
-
-impl From<ModelError> for StepError {
-    fn from(error: ModelError) -> StepError {
-        StepError::Model(error)
-    }
-}

@@ -12,8 +12,8 @@
 //! ω²/(1 + 2ω) and 2/3 becomes (1 + ω)/(1 + 2ω). (Written as x₀ plus a difference, so that what
 //! stands still stands still to the last bit.)
 //!
-//! In the directions in which a particle is held its velocity is given, and it goes on by Δt v:
-//! there x* = x₀ + (Δt − h) v and v* = v, whatever it did before. Where x₀ or v₀ is not what the last
+//! Where a particle is held its velocity is given, and it goes on by Δt v: x* = x₀ + (Δt − h) v and
+//! v* = v, whatever it did before. Where x₀ or v₀ is not what the last
 //! step left, because contact or a user changed it, x₋₁ and v₋₁ change with it: what is
 //! remembered is acceleration, so that what lands does not bounce.
 //!
@@ -37,35 +37,321 @@
 //! velocity of the whole piece: momentum is kept to rounding, at any tolerance. Angular
 //! momentum is not kept by these methods.
 
-mod newton;
+use tearmesh::geometry::{Point, Vector, check_point};
 
-use tearmesh::geometry::{Point, Vector, dot};
+use super::equation::{Equation, Stage};
+use super::newton;
+use super::pcg::End;
+use super::problem::Problem;
+use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
+use crate::solver::{Failure, SettingError, Solver};
+use crate::system::System;
 
-use super::model::first_bad;
-use super::pcg::{End, Pcg, Solved, Stop};
-use super::settings::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
-use super::{Filter, Hessian, Layout, Model, ModelError, Part, Work};
-
-/// An implicit solver: the matrix and its layout, the vectors of conjugate gradients, and the
-/// previous step for BDF2. It owns no cloth.
+/// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
+/// are stable at any step; wind is taken in as it is where a step begins, and is stable up to
+/// λ Δt = 2 ([`System::wind_rate`]).
 ///
-/// Nothing is allocated in a step after the first, unless constraints were added.
+/// ```
+/// use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+/// use tearmesh_cloth::{Implicit, Loads, StepError, System};
+/// use tearmesh::{Point, Vector};
+///
+/// let mut spring = System::new([Point::origin(), Point::new(0.0, 0.0, -1.0)], vec![0.1; 2])?;
+/// spring.stretch([0, 1], 1.0, 50.0)?;
+/// spring.hold(0);
+/// let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -9.81));
+/// spring.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
+/// let tolerance = Tolerance::Fixed(1e-10);
+/// let mut solver = Implicit::new(Settings { tolerance, ..Settings::default() });
+/// for _ in 0..200 {
+///     spring.step(&mut solver, 0.5)?; // Far beyond the limit of an explicit method.
+/// }
+/// assert!((spring.positions()[1].z + 1.0 + 0.1 * 9.81 / 50.0).abs() < 1e-8);
+///
+/// // A step that misses its tolerance is not taken, and says by how much it misses.
+/// let (x, _) = spring.state_mut();
+/// x[1] = Point::new(0.3, 0.0, -1.0);
+/// let settings = Settings { tolerance, newton_iterations_max: 2, ..Settings::default() };
+/// let error = spring.step(&mut Implicit::new(settings), 0.5).unwrap_err();
+/// let StepError::Implicit { error, .. } = error else { unreachable!() };
+/// let implicit::StepError::NotConverged { residual, limit, .. } = error else { unreachable!() };
+/// assert!(residual > limit && limit == 1e-10);
+/// assert_eq!(spring.positions()[1], Point::new(0.3, 0.0, -1.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Implicit {
-    pub(super) layout: Layout,
-    pub(super) hessian: Hessian,
-    pub(super) pcg: Pcg,
-    pub(super) forces: Vec<Vector>,
-    pub(super) trial: Vec<Point>,
-    pub(super) work: Work,
+    /// How to take a step.
+    pub settings: Settings,
+    equation: Equation,
+    outside: Vec<Vector>,
     shift: Vec<Vector>,
-    product: Vec<Vector>,
-    start: Vec<Point>,
-    start_velocities: Vec<Vector>,
-    velocities: Vec<Vector>,
-    trial_velocities: Vec<Vector>,
     piece_masses: Vec<f64>,
     history: History,
+    report: Option<StepReport>,
+}
+
+impl Implicit {
+    /// The method with these settings.
+    #[must_use]
+    pub fn new(settings: Settings) -> Implicit {
+        Implicit {
+            settings,
+            ..Implicit::default()
+        }
+    }
+
+    /// What the last step that was taken did and cost.
+    #[must_use]
+    pub fn report(&self) -> Option<StepReport> {
+        self.report
+    }
+
+    /// Forgets the previous step, after particles were renumbered by a merge: BDF2 starts anew with a
+    /// step of order one. Where the number of particles changed that is noticed. Positions and
+    /// velocities may be changed without it; the acceleration of the last step is what BDF2 then goes
+    /// on with.
+    pub fn forget(&mut self) {
+        self.history.time_step_s = 0.0;
+    }
+
+    /// Takes one step, in place. A particle that is held keeps its velocity. Nothing is changed where
+    /// the step fails.
+    ///
+    /// Cost: one evaluation of forces and second derivatives, and a product with the matrix an
+    /// iteration of conjugate gradients; the same again for each of Newton's iterations.
+    fn step(
+        &mut self,
+        problem: Problem<'_>,
+        x: &mut [Point],
+        v: &mut [Vector],
+        time_step_s: f64,
+    ) -> Result<StepReport, StepError> {
+        self.equation.work = Work::default();
+        self.equation.layout.follow_model(problem.model);
+        let stage = self.begin(problem, x, v, time_step_s);
+        let mut report = StepReport {
+            method: stage.method,
+            indefinite: 0,
+            clamped: 0,
+            newton_iterations: 1,
+            overshot: false,
+            halvings: 0,
+            residual: 0.0,
+            limit: stage.velocity_error(stage.residual_max),
+            work: Work::default(),
+        };
+        let settings = self.settings;
+        let mut came_down = false;
+        if settings.newton_iterations_max <= 1 {
+            let level = newton::level(&mut self.equation, problem, x, v, stage);
+            self.linearised(problem, x, v, stage, &mut report)?;
+            let equation = &mut self.equation;
+            equation.place(stage);
+            let reached = equation.potential(problem, stage);
+            // Written so that a NaN counts as above.
+            let is_below = reached.value <= level.value + level.rounding;
+            if !is_below {
+                let start = (&*x, &*v, level);
+                came_down =
+                    newton::come_down(equation, problem, start, stage, &settings, &mut report)?;
+            }
+        } else {
+            newton::iterate(&mut self.equation, problem, stage, &settings, &mut report)?;
+        }
+        report.work = self.equation.work;
+        let is_solved = report.residual <= report.limit;
+        if !is_solved && !came_down {
+            return Err(StepError::NotConverged {
+                residual: report.residual,
+                limit: report.limit,
+                newton_iterations: report.newton_iterations,
+                solver_iterations: report.work.solver_iterations,
+            });
+        }
+        self.keep_momentum(problem, stage);
+        self.equation.place(stage);
+        let reached = (&self.equation.trial[..], &self.equation.velocities[..]);
+        if let Some(particle) = first_bad(reached.0, reached.1) {
+            return Err(StepError::NotFinite { particle });
+        }
+        self.history.note((x, v), reached, time_step_s);
+        x.copy_from_slice(reached.0);
+        v.copy_from_slice(reached.1);
+        Ok(report)
+    }
+
+    /// x*, v*, h; and the velocities now as the first guess.
+    fn begin(
+        &mut self,
+        problem: Problem<'_>,
+        x: &[Point],
+        v: &[Vector],
+        time_step_s: f64,
+    ) -> Stage {
+        let (settings, equation) = (self.settings, &mut self.equation);
+        equation.start.clear();
+        equation.start.extend_from_slice(x);
+        equation.start_velocities.clear();
+        equation.start_velocities.extend_from_slice(v);
+        equation.velocities.clear();
+        equation.velocities.extend_from_slice(v);
+        let history = &self.history;
+        let known = history.time_step_s > 0.0 && history.moved.len() == x.len();
+        let (mut method, mut h) = (Method::BackwardEuler, time_step_s);
+        if settings.method == Method::Bdf2 && known {
+            let ratio = time_step_s / history.time_step_s;
+            let weight = ratio * ratio / (1.0 + 2.0 * ratio);
+            (method, h) = (
+                Method::Bdf2,
+                time_step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio),
+            );
+            for (i, &v) in v.iter().enumerate() {
+                let [moved, sped] = history.of(i, v);
+                if problem.is_free(i) {
+                    equation.start[i] += moved * weight;
+                    equation.start_velocities[i] += sped * weight;
+                } else {
+                    // What is held has no history: it goes on by its velocity, for all of Δt.
+                    equation.start[i] += v * (time_step_s - h);
+                }
+            }
+        }
+        let dragged = 1.0 + h * problem.model.drag_per_s();
+        // The tolerance is that of the method asked for, also where it starts.
+        let limit = match (settings.tolerance, settings.method) {
+            (Tolerance::Fixed(limit), _) => limit,
+            (Tolerance::Tied(t), Method::BackwardEuler) => t * time_step_s * time_step_s,
+            (Tolerance::Tied(t), Method::Bdf2) => t * time_step_s * time_step_s * time_step_s,
+        };
+        Stage {
+            method,
+            time_step_s,
+            h,
+            dragged,
+            inertia: dragged / (h * h),
+            residual_max: limit * dragged / h,
+        }
+    }
+
+    /// One step of Newton's method, with forces linearised at `x`, where the step started.
+    fn linearised(
+        &mut self,
+        problem: Problem<'_>,
+        x: &[Point],
+        v: &[Vector],
+        stage: Stage,
+        report: &mut StepReport,
+    ) -> Result<(), StepError> {
+        let equation = &mut self.equation;
+        equation.pull(problem, x);
+        self.shift.clear();
+        let guess = equation.start.iter().zip(v).map(|(s, v)| s + v * stage.h);
+        self.shift.extend(guess.zip(x).map(|(y, x)| y - x));
+        let shift = Some(&self.shift[..]);
+        let solved = equation.solve(problem, stage, x, shift, &self.settings, report)?;
+        report.residual = stage.velocity_error(solved.residual);
+        if solved.end == End::Converged {
+            // It may have ended at rounding, above what was asked for.
+            report.limit = report.limit.max(report.residual);
+        }
+        for (v, d) in equation.velocities.iter_mut().zip(&equation.pcg.delta) {
+            *v += d / stage.h;
+        }
+        Ok(())
+    }
+
+    /// Gives each piece that nothing holds the momentum that the exact answer has.
+    fn keep_momentum(&mut self, problem: Problem<'_>, stage: Stage) {
+        let Equation {
+            layout,
+            start_velocities,
+            velocities,
+            ..
+        } = &mut self.equation;
+        let pieces = layout.pieces();
+        // By lowest particle: the momentum that is missing; the mass, or NaN where something is
+        // held.
+        let missing = &mut self.shift;
+        missing.clear();
+        missing.resize(pieces.len(), Vector::zeros());
+        self.piece_masses.clear();
+        self.piece_masses.resize(pieces.len(), 0.0);
+        for (i, &piece) in pieces.iter().enumerate() {
+            let (piece, m) = (piece as usize, problem.masses()[i]);
+            let target = start_velocities[i] + problem.outside[i] * stage.h;
+            missing[piece] += (target - velocities[i] * stage.dragged) * m;
+            self.piece_masses[piece] += if problem.is_free(i) { m } else { f64::NAN };
+        }
+        for (v, &piece) in velocities.iter_mut().zip(pieces) {
+            let mass = self.piece_masses[piece as usize];
+            if mass > 0.0 {
+                *v += missing[piece as usize] / (mass * stage.dragged);
+            }
+        }
+    }
+}
+
+impl Solver for Implicit {
+    fn check(&self) -> Result<(), SettingError> {
+        let (Tolerance::Tied(given) | Tolerance::Fixed(given)) = self.settings.tolerance;
+        let holds = given > 0.0 && given.is_finite();
+        SettingError::unless(holds, "tolerance", given, "any above 0")
+    }
+
+    /// That of backward Euler, with which BDF2 begins, and begins anew after an edit.
+    fn air_limit(&self) -> Option<f64> {
+        Some(2.0)
+    }
+
+    fn takes_triangles(&self) -> bool {
+        true
+    }
+
+    fn takes_buckling(&self) -> bool {
+        true
+    }
+
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let System {
+            positions,
+            velocities,
+            model,
+            scratch,
+            counters,
+            ..
+        } = system;
+        scratch.is_fresh = false;
+        // A state that is beyond all measure already is no matter of the method.
+        Failure::unless(first_bad(positions, velocities).is_none())?;
+        let mut outside = std::mem::take(&mut self.outside);
+        outside.clear();
+        outside.resize(positions.len(), Vector::zeros());
+        model.external(positions, velocities, &mut outside, counters);
+        let problem = Problem {
+            model,
+            outside: &outside,
+        };
+        let step = self.step(problem, positions, velocities, dt_s);
+        self.outside = outside;
+        // What a step cost, whether it is taken or not.
+        let work = self.equation.work;
+        counters.force_evaluations += work.force_evaluations;
+        counters.matrix_products += work.matrix_products;
+        if !model.triangles.as_slice().is_empty() {
+            counters.triangle_evaluations +=
+                work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
+        }
+        let report = step.map_err(Failure::Implicit)?;
+        if !model.is_within_limit(positions) {
+            // The system goes back, and history must not tell of a step that was not taken.
+            self.forget();
+            return Err(Failure::BlowUp);
+        }
+        self.report = Some(report);
+        counters.overshoots += u64::from(report.overshot);
+        Ok(())
+    }
 }
 
 /// What the particles did in the last step.
@@ -100,400 +386,9 @@ impl History {
     }
 }
 
-/// The equation of a step: its length h, and the method.
-#[derive(Clone, Copy)]
-struct Stage {
-    method: Method,
-    time_step_s: f64,
-    h: f64,
-    /// 1 + h c.
-    dragged: f64,
-    /// The weight of M in the matrix, (1 + h c)/h².
-    inertia: f64,
-    /// The rms acceleration of the residual that the tolerance allows.
-    residual_max: f64,
-}
-
-impl Stage {
-    /// What an rms acceleration of the residual means for the velocity.
-    fn velocity_error(&self, acceleration: f64) -> f64 {
-        acceleration * self.h / self.dragged
-    }
-}
-
-impl Implicit {
-    /// A solver for this model.
-    ///
-    /// # Errors
-    ///
-    /// Where the model cannot be used: [`Model::check`].
-    pub fn new(model: &Model<'_>) -> Result<Implicit, ModelError> {
-        model.check()?;
-        let mut solver = Implicit::default();
-        solver.layout.follow(model);
-        Ok(solver)
-    }
-
-    /// The layout of the matrix.
-    #[must_use]
-    pub fn layout(&self) -> &Layout {
-        &self.layout
-    }
-
-    /// All work since the solver was made.
-    #[must_use]
-    pub fn work(&self) -> Work {
-        self.work
-    }
-
-    /// Forgets the previous step, after particles were renumbered: BDF2 starts anew with a step of
-    /// order one. Positions and velocities may be changed without it; the acceleration of the last
-    /// step is what BDF2 then goes on with.
-    pub fn forget(&mut self) {
-        self.history.time_step_s = 0.0;
-    }
-
-    /// Says that the last particle was added as a copy of `old`, as a vertex split does: it has
-    /// the history of `old` too, so that BDF2 goes on. To be called once for each split,
-    /// in their order. (Where this is left out BDF2 starts anew.)
-    ///
-    /// Neither is free. History carries the acceleration before the tear: where a tear changes
-    /// that by a, the copy's and the original's velocities are off by a Δt/3 once. A new start
-    /// is off by ½ Δt² times the rate of acceleration once, everywhere. Where tears are
-    /// few and violent, [`Implicit::forget`] is the better choice.
-    ///
-    /// # Panics
-    ///
-    /// If there was a step, but no such particle.
-    pub fn split(&mut self, old: usize) {
-        if self.history.time_step_s > 0.0 {
-            let History {
-                moved,
-                sped,
-                velocities,
-                ..
-            } = &mut self.history;
-            for known in [moved, sped, velocities] {
-                known.push(known[old]);
-            }
-        }
-    }
-
-    /// Brings the layout in step and checks what a solve takes for granted.
-    pub(super) fn prepare(
-        &mut self,
-        model: &Model<'_>,
-        x: &[Point],
-        v: &[Vector],
-    ) -> Result<(), ModelError> {
-        let n = model.masses.len();
-        model.check_lengths(n)?;
-        for (part, given) in [(Part::Position, x.len()), (Part::Velocity, v.len())] {
-            if given != n {
-                return Err(ModelError::Length {
-                    part,
-                    given,
-                    particles: n,
-                });
-            }
-        }
-        if let Some(index) = first_bad(x, &[]) {
-            return Err(ModelError::Unusable {
-                part: Part::Position,
-                index,
-            });
-        }
-        if let Some(index) = first_bad(&[], v) {
-            return Err(ModelError::Unusable {
-                part: Part::Velocity,
-                index,
-            });
-        }
-        model.check()?;
-        self.layout.follow(model);
-        Ok(())
-    }
-
-    /// Takes one step of `time_step_s`, in place.
-    ///
-    /// A particle keeps its velocity in the directions in which it is held: zero for a pin, the
-    /// pin's own for one that is moved.
-    ///
-    /// Cost: one evaluation of forces and second derivatives, and a product with the matrix an
-    /// iteration of conjugate gradients; the same again for each of Newton's iterations.
-    ///
-    /// # Errors
-    ///
-    /// See [`StepError`]. Nothing is changed then.
-    pub fn step(
-        &mut self,
-        model: &Model<'_>,
-        positions: &mut [Point],
-        velocities: &mut [Vector],
-        time_step_s: f64,
-        settings: &Settings,
-    ) -> Result<StepReport, StepError> {
-        if !(time_step_s > 0.0 && time_step_s.is_finite()) {
-            return Err(StepError::TimeStep { given: time_step_s });
-        }
-        self.prepare(model, positions, velocities)?;
-        let before = self.work;
-        let stage = self.begin(model, positions, velocities, time_step_s, settings);
-        let mut report = StepReport {
-            method: stage.method,
-            indefinite: 0,
-            clamped: 0,
-            newton_iterations: 1,
-            overshot: false,
-            halvings: 0,
-            residual: 0.0,
-            limit: stage.velocity_error(stage.residual_max),
-            work: Work::default(),
-        };
-        let mut came_down = false;
-        if settings.newton_iterations_max <= 1 {
-            let level = self.level(model, positions, velocities, stage);
-            self.linearised(model, positions, velocities, stage, settings, &mut report)?;
-            self.place(stage);
-            let reached = self.potential(model, stage);
-            // Written so that a NaN counts as above.
-            let is_below = reached.value <= level.value + level.rounding;
-            if !is_below {
-                self.stay(model, positions, velocities, stage);
-                came_down = self.come_down(model, stage, level, settings, &mut report)?;
-            }
-        } else {
-            self.newton(model, stage, settings, &mut report)?;
-        }
-        let is_solved = report.residual <= report.limit;
-        if !is_solved && !came_down {
-            return Err(StepError::NotConverged {
-                residual: report.residual,
-                limit: report.limit,
-                newton_iterations: report.newton_iterations,
-                solver_iterations: self.work.since(&before).solver_iterations,
-            });
-        }
-        self.keep_momentum(model, stage);
-        self.place(stage);
-        if let Some(particle) = first_bad(&self.trial, &self.velocities) {
-            return Err(StepError::NotFinite { particle });
-        }
-        let reached = (&self.trial[..], &self.velocities[..]);
-        self.history
-            .note((positions, velocities), reached, time_step_s);
-        positions.copy_from_slice(&self.trial);
-        velocities.copy_from_slice(&self.velocities);
-        report.work = self.work.since(&before);
-        Ok(report)
-    }
-
-    /// x*, v*, h; and the velocities now as the first guess.
-    fn begin(
-        &mut self,
-        model: &Model<'_>,
-        x: &[Point],
-        v: &[Vector],
-        time_step_s: f64,
-        settings: &Settings,
-    ) -> Stage {
-        self.start.clear();
-        self.start.extend_from_slice(x);
-        self.start_velocities.clear();
-        self.start_velocities.extend_from_slice(v);
-        self.velocities.clear();
-        self.velocities.extend_from_slice(v);
-        let history = &self.history;
-        let known = history.time_step_s > 0.0 && history.moved.len() == x.len();
-        let (mut method, mut h) = (Method::BackwardEuler, time_step_s);
-        if settings.method == Method::Bdf2 && known {
-            let ratio = time_step_s / history.time_step_s;
-            let weight = ratio * ratio / (1.0 + 2.0 * ratio);
-            (method, h) = (
-                Method::Bdf2,
-                time_step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio),
-            );
-            for (i, &v) in v.iter().enumerate() {
-                let filter = model.filter(i);
-                // What is held has no history: it goes on by its velocity, for all of Δt.
-                let held = v - filter.apply(v);
-                let [moved, sped] = history.of(i, v);
-                self.start[i] += filter.apply(moved) * weight + held * (time_step_s - h);
-                self.start_velocities[i] += filter.apply(sped) * weight;
-            }
-        }
-        let dragged = 1.0 + h * model.drag_per_s;
-        // The tolerance is that of the method asked for, also where it starts.
-        let limit = match (settings.tolerance, settings.method) {
-            (Tolerance::Fixed(limit), _) => limit,
-            (Tolerance::Tied(t), Method::BackwardEuler) => t * time_step_s * time_step_s,
-            (Tolerance::Tied(t), Method::Bdf2) => t * time_step_s * time_step_s * time_step_s,
-        };
-        Stage {
-            method,
-            time_step_s,
-            h,
-            dragged,
-            inertia: dragged / (h * h),
-            residual_max: limit * dragged / h,
-        }
-    }
-
-    /// One step of Newton's method, with forces linearised at `x`, where the step started.
-    fn linearised(
-        &mut self,
-        model: &Model<'_>,
-        x: &[Point],
-        v: &[Vector],
-        stage: Stage,
-        settings: &Settings,
-        report: &mut StepReport,
-    ) -> Result<(), StepError> {
-        model.forces(x, &mut self.forces);
-        self.work.force_evaluations += 1;
-        self.shift.clear();
-        let guess = self.start.iter().zip(v).map(|(s, v)| s + v * stage.h);
-        self.shift.extend(guess.zip(x).map(|(y, x)| y - x));
-        let mut solver = Solver {
-            stage,
-            settings,
-            report,
-        };
-        let solved = solver.solve(model, x, self, |own| {
-            own.hessian
-                .product(own.layout.pairs(), &own.shift, &mut own.product);
-            own.work.matrix_products += 1;
-            own.imbalance(model, stage);
-            for (b, p) in own.pcg.b.iter_mut().zip(&own.product) {
-                *b -= p;
-            }
-        })?;
-        report.residual = stage.velocity_error(solved.residual);
-        if solved.end == End::Converged {
-            // It may have ended at rounding, above what was asked for.
-            report.limit = report.limit.max(report.residual);
-        }
-        for (v, d) in self.velocities.iter_mut().zip(&self.pcg.delta) {
-            *v += d / stage.h;
-        }
-        Ok(())
-    }
-
-    /// f − M ((1 + h c) v − v*)/h for the present velocities and forces, into `pcg.b`.
-    fn imbalance(&mut self, model: &Model<'_>, stage: Stage) {
-        self.pcg.b.clear();
-        for (i, (&f, &v)) in self.forces.iter().zip(&self.velocities).enumerate() {
-            let change = v * stage.dragged - self.start_velocities[i];
-            let b = f - change * (model.masses[i] / stage.h);
-            self.pcg.b.push(model.filter(i).apply(b));
-        }
-    }
-
-    /// Φ at the trial positions.
-    fn potential(&mut self, model: &Model<'_>, stage: Stage) -> Potential {
-        self.work.energy_evaluations += 1;
-        let mut inertia = 0.0;
-        let moving = self.velocities.iter().zip(&self.start_velocities);
-        for ((v, s), m) in moving.zip(model.masses) {
-            let change = v - s / stage.dragged;
-            inertia += 0.5 * stage.dragged * m * dot(change, change);
-        }
-        Potential::of(model, &self.trial, inertia)
-    }
-
-    /// x* + h v, into `trial`.
-    fn place(&mut self, stage: Stage) {
-        self.trial.clear();
-        let ends = self.start.iter().zip(&self.velocities);
-        self.trial.extend(ends.map(|(x, v)| x + v * stage.h));
-    }
-
-    /// Gives each piece that nothing holds the momentum that the exact answer has.
-    fn keep_momentum(&mut self, model: &Model<'_>, stage: Stage) {
-        let pieces = self.layout.pieces();
-        // By lowest particle: the momentum that is missing; the mass, or NaN where something is
-        // held.
-        let missing = &mut self.shift;
-        missing.clear();
-        missing.resize(pieces.len(), Vector::zeros());
-        self.piece_masses.clear();
-        self.piece_masses.resize(pieces.len(), 0.0);
-        for (i, &piece) in pieces.iter().enumerate() {
-            let (piece, m) = (piece as usize, model.masses[i]);
-            let target = self.start_velocities[i] + model.acceleration(i) * stage.h;
-            missing[piece] += (target - self.velocities[i] * stage.dragged) * m;
-            let free = model.filter(i) == Filter::Free;
-            self.piece_masses[piece] += if free { m } else { f64::NAN };
-        }
-        for (v, &piece) in self.velocities.iter_mut().zip(pieces) {
-            let mass = self.piece_masses[piece as usize];
-            if mass > 0.0 {
-                *v += missing[piece as usize] / (mass * stage.dragged);
-            }
-        }
-    }
-}
-
-/// The value of a potential and how much of it is rounding.
-#[derive(Clone, Copy)]
-pub(super) struct Potential {
-    pub(super) value: f64,
-    pub(super) rounding: f64,
-}
-
-impl Potential {
-    pub(super) fn of(model: &Model<'_>, x: &[Point], inertia: f64) -> Potential {
-        let (inside, outside) = (model.energy(x), model.outside_energy(x));
-        Potential {
-            value: inside + outside + inertia,
-            rounding: 64.0 * f64::EPSILON * (inside + outside.abs() + inertia),
-        }
-    }
-}
-
-/// The linear solves of a step, with the fallback where a matrix is indefinite.
-struct Solver<'a> {
-    stage: Stage,
-    settings: &'a Settings,
-    report: &'a mut StepReport,
-}
-
-impl Solver<'_> {
-    /// Solves with second derivatives at `x`; `load` fills the right-hand side.
-    fn solve(
-        &mut self,
-        model: &Model<'_>,
-        x: &[Point],
-        own: &mut Implicit,
-        load: impl Fn(&mut Implicit),
-    ) -> Result<Solved, StepError> {
-        let mut clamp = self.settings.jacobian == Jacobian::Clamped;
-        loop {
-            let clamped = model.hessian(x, &own.layout, clamp, &mut own.hessian);
-            own.work.hessian_evaluations += 1;
-            load(own);
-            let newton = self.settings.newton_iterations_max > 1;
-            let stop = Stop {
-                residual: self.stage.residual_max * if newton { 0.25 } else { 1.0 },
-                // No residual can be smaller than the rounding of the right-hand side.
-                relative: 1e-14,
-                iterations: self.settings.solver_iterations_max,
-            };
-            let pairs = own.layout.pairs();
-            let inertia = self.stage.inertia;
-            let solved = own
-                .pcg
-                .solve(model, &own.hessian, pairs, inertia, stop, &mut own.work);
-            if solved.end != End::Indefinite || clamp {
-                self.report.clamped += clamped;
-                return Ok(solved);
-            }
-            self.report.indefinite += 1;
-            if self.settings.jacobian == Jacobian::Exact {
-                let time_step_s = self.stage.time_step_s;
-                return Err(StepError::Indefinite { time_step_s });
-            }
-            clamp = true;
-        }
-    }
+/// The first particle whose position or velocity is unusable.
+fn first_bad(x: &[Point], v: &[Vector]) -> Option<usize> {
+    let bad = x.iter().position(|&p| check_point(p).is_err());
+    let fast = v.iter().position(|v| check_point(Point::from(*v)).is_err());
+    bad.or(fast)
 }

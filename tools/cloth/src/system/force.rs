@@ -9,12 +9,10 @@
 //! [`Xpbd`]: crate::Xpbd
 //! [`Provot`]: crate::Provot
 
-use tearmesh::geometry::{Vector, dot};
+use tearmesh::geometry::Vector;
 
-use super::{Family, Forces, System};
-use crate::constraint::{Constraint, ConstraintId};
-use crate::implicit::triangle;
-use crate::kernel;
+use super::{Family, System};
+use crate::constraint::ConstraintId;
 
 impl System {
     /// The force in a stretch constraint by its length, k (l − L), in newtons; tension is
@@ -25,7 +23,9 @@ impl System {
     /// If there is no such constraint.
     #[must_use]
     pub fn tension_n(&self, id: ConstraintId) -> f64 {
-        self.spring_n(&self.model.stretch.get(id))
+        let constraint = self.model.stretch.get(id);
+        self.model
+            .axial(Family::Stretch, &constraint, &self.positions)[1]
     }
 
     /// The force in a stretch constraint by the multiplier of the last step of
@@ -50,7 +50,8 @@ impl System {
     /// If there is no such constraint.
     #[must_use]
     pub fn force_n(&self, id: ConstraintId) -> f64 {
-        self.force_of(Family::Stretch, id)
+        let by_multiplier = self.multiplier_n(id);
+        self.model.forces.read(|| self.tension_n(id), by_multiplier)
     }
 
     /// The length of a stretch constraint as a multiple of its rest length, as it was in the last
@@ -106,20 +107,8 @@ impl System {
     pub(crate) fn inner_n(&self, particle: usize) -> Vector {
         let model = &self.model;
         let mut sum = model.gravity() * model.masses[particle];
-        for family in [Family::Stretch, Family::Bend] {
-            let constraints = model.family(family);
-            for id in constraints.of(particle) {
-                let [a, b] = constraints.get(id).ends;
-                let d = self.positions[a + b - particle] - self.positions[particle];
-                let length = dot(d, d).sqrt();
-                if length > 0.0 {
-                    sum += d * (self.force_of(family, id) / length);
-                }
-            }
-        }
-        for (t, corner) in model.triangles.of(particle) {
-            let woven = &model.triangles.as_slice()[t];
-            sum += triangle::forces(woven, triangle::corners(woven, &self.positions))[corner];
+        for kind in &model.kinds() {
+            kind.force_at(&self.positions, particle, model.forces, &mut sum);
         }
         sum
     }
@@ -135,37 +124,13 @@ impl System {
             };
             let corners = [0, 1, 2].map(|i| face[i] as usize);
             let mut sums = [Vector::zeros(); 3];
-            kernel::wind(
-                &[0, 1, 2],
-                wind.coefficient,
-                wind.velocity_m_per_s,
-                &corners.map(|v| self.positions[v]),
-                &corners.map(|v| self.velocities[v]),
-                &mut sums,
+            let (x, v) = (
+                corners.map(|v| self.positions[v]),
+                corners.map(|v| self.velocities[v]),
             );
+            wind.press(&[0, 1, 2], &x, &v, &mut sums);
             sum += sums[corner];
         }
         sum
-    }
-
-    fn spring_n(&self, constraint: &Constraint) -> f64 {
-        constraint.stiffness_n_per_m * (self.length_m(constraint) - constraint.rest_length_m)
-    }
-
-    fn force_of(&self, family: Family, id: ConstraintId) -> f64 {
-        let constraints = self.model.family(family);
-        let constraint = constraints.get(id);
-        let length = || match family {
-            Family::Stretch => self.spring_n(&constraint),
-            Family::Bend => self
-                .model
-                .bend_axial(&constraint, self.length_m(&constraint))[1],
-        };
-        let multiplier = || -constraints.memory(id).multiplier;
-        match self.model.forces {
-            Forces::Lengths => length(),
-            Forces::Multipliers => multiplier(),
-            Forces::Both => length() + multiplier(),
-        }
     }
 }

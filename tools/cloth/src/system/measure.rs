@@ -2,11 +2,10 @@
 
 use tearmesh::geometry::{Vector, dot};
 
-use super::System;
-use crate::buckle::Slope;
+use super::{Family, System};
 use crate::constraint::{Constraint, ConstraintId};
-use crate::implicit::triangle;
-use crate::kernel;
+use crate::element::Slope;
+use crate::pair;
 
 impl System {
     /// The length of a stretch constraint as a multiple of its rest length.
@@ -21,50 +20,24 @@ impl System {
     }
 
     pub(crate) fn length_m(&self, constraint: &Constraint) -> f64 {
-        let [a, b] = constraint.ends.map(|end| self.positions[end]);
-        let d = b - a;
-        dot(d, d).sqrt()
+        pair::length(&self.positions, constraint.ends)
     }
 
     /// The elastic energy of all constraints and triangles, in joules.
     #[must_use]
     pub fn elastic_energy_j(&self) -> f64 {
-        let springs = self.model.springs();
-        let springs: f64 = springs
-            .map(|batch| kernel::energy(batch, &self.positions))
-            .sum();
-        let bends = self.model.buckles();
-        let constraints = bends.fold(springs, |sum, bends| sum + bends.energy(&self.positions));
-        let triangles = self.triangles().iter();
-        triangles.fold(constraints, |sum, t| {
-            sum + triangle::energy(t, triangle::corners(t, &self.positions))
-        })
+        self.model.elastic_j(&self.positions)
     }
 
-    /// The elastic energy of a bend constraint, in joules, whether it is one of this system or
-    /// was.
-    pub(crate) fn bend_energy_of(&self, constraint: &Constraint) -> f64 {
-        self.model.bend_axial(constraint, self.length_m(constraint))[0]
-    }
-
-    /// The elastic energy of a stretch constraint, in joules.
-    pub(crate) fn elastic_of(&self, id: ConstraintId) -> f64 {
-        let constraint = self.model.stretch.get(id);
-        let extension = self.length_m(&constraint) - constraint.rest_length_m;
-        0.5 * constraint.stiffness_n_per_m * extension * extension
+    /// The elastic energy of a constraint of a family, in joules, whether it is one of this system
+    /// or was.
+    pub(crate) fn elastic_of(&self, family: Family, constraint: &Constraint) -> f64 {
+        self.model.axial(family, constraint, &self.positions)[0]
     }
 
     /// The elastic energy of all that a particle has a part in, in joules.
     pub(crate) fn elastic_at_j(&self, particle: usize) -> f64 {
-        let model = &self.model;
-        let stretches = model.stretch.of(particle).map(|id| self.elastic_of(id));
-        let bends = model.bend.of(particle).map(|id| model.bend.get(id));
-        let bends = bends.map(|bend| self.bend_energy_of(&bend));
-        let triangles = model.triangles.of(particle);
-        let triangles = triangles.map(|(t, _)| &model.triangles.as_slice()[t]);
-        let triangles =
-            triangles.map(|t| triangle::energy(t, triangle::corners(t, &self.positions)));
-        stretches.sum::<f64>() + bends.sum::<f64>() + triangles.fold(0.0, |sum, one| sum + one)
+        self.model.elastic_at_j(&self.positions, particle)
     }
 
     /// The kinetic energy of the particles that are not held, in joules.
@@ -82,16 +55,17 @@ impl System {
         0.5 * self.model.masses[particle] * dot(v, v)
     }
 
-    /// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation.
-    pub fn accelerations(&mut self, accelerations: &mut Vec<Vector>) {
+    /// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation. False
+    /// where something is stretched beyond all measure ([`System::set_stretch_ratio_max`]).
+    pub fn accelerations(&mut self, accelerations: &mut Vec<Vector>) -> bool {
         accelerations.clear();
         accelerations.resize(self.positions.len(), Vector::zeros());
-        let _ = self.model.accelerate(
+        self.model.accelerate(
             &self.positions,
             &self.velocities,
             accelerations,
             &mut self.counters,
-        );
+        )
     }
 
     /// The root mean square of the strains l/L − 1 of all stretch constraints.

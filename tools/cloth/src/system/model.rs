@@ -1,14 +1,18 @@
 //! All of a system but its state: what its particles weigh, what joins them, and what acts on them.
 
+use std::ops::Deref;
+
 use tearmesh::geometry::{Point, Vector};
 
 use super::Counters;
-use crate::buckle::{self, Bends, Slope};
+use crate::bend::Buckling;
 use crate::constraint::{Constraint, Constraints};
-use crate::implicit::Buckling;
-use crate::kernel;
+use crate::culprit::{Culprit, Longest};
+use crate::element::{Element, Forces, Slope};
 use crate::load::{Loads, Path};
-use crate::triangles::Triangles;
+use crate::pair::{Law, Link, Pairs, length};
+use crate::spring::Hooke;
+use crate::triangle::Triangles;
 
 /// All but positions and velocities.
 #[derive(Clone, Debug)]
@@ -43,18 +47,6 @@ pub(crate) enum Family {
     Bend,
 }
 
-/// Where the forces of the last step are to be read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Forces {
-    /// In the lengths.
-    #[default]
-    Lengths,
-    /// In the multipliers.
-    Multipliers,
-    /// The sum of both.
-    Both,
-}
-
 /// What says how that is to be read which a step left behind in constraints.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Left {
@@ -63,13 +55,6 @@ pub(crate) struct Left {
 }
 
 impl Model {
-    pub(crate) fn family(&self, family: Family) -> &Constraints {
-        match family {
-            Family::Stretch => &self.stretch,
-            Family::Bend => &self.bend,
-        }
-    }
-
     pub(crate) fn family_mut(&mut self, family: Family) -> &mut Constraints {
         match family {
             Family::Stretch => &mut self.stretch,
@@ -77,40 +62,64 @@ impl Model {
         }
     }
 
-    /// The springs of both families, colour by colour.
-    pub(crate) fn springs(&self) -> impl Iterator<Item = kernel::Batch<'_>> {
-        let bends = self.bend.batches().filter(|_| self.buckling.is_none());
-        self.stretch.batches().chain(bends)
+    /// All kinds of constraints, in the order of every sum.
+    pub(crate) fn kinds(&self) -> [Kind<'_>; 3] {
+        let stretch: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Constraint {
+            ends,
+            stretch_ratio,
+        };
+        let bend: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Bend {
+            ends,
+            stretch_ratio,
+        };
+        [
+            Kind::Springs(Pairs::new(&self.stretch, Hooke, stretch)),
+            match self.buckling {
+                None => Kind::Springs(Pairs::new(&self.bend, Hooke, bend)),
+                Some(law) => Kind::Bends(Pairs::new(&self.bend, law, bend)),
+            },
+            Kind::Triangles(&self.triangles),
+        ]
     }
 
-    /// The bends that buckle, colour by colour.
-    pub(crate) fn buckles(&self) -> impl Iterator<Item = Bends<'_>> {
-        let batches = self.buckling.map(|law| (law, self.bend.batches()));
-        let batches = batches.into_iter();
-        batches.flat_map(|(law, batches)| batches.map(move |batch| Bends { batch, law }))
-    }
-
-    /// The largest stiffness of a constraint in any state, by the one that it has.
-    pub(crate) fn stiffest(&self, family: Family) -> f64 {
+    /// The energy in joules and the pull in newtons of a constraint of a family, whether it is one
+    /// of this model or was.
+    pub(crate) fn axial(&self, family: Family, constraint: &Constraint, x: &[Point]) -> [f64; 2] {
+        let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
+        let length = length(x, constraint.ends);
+        let of = |link: Option<[f64; 2]>| link.unwrap_or_default();
         match (family, self.buckling) {
-            (Family::Bend, Some(law)) => law.stiffest(),
-            _ => 1.0,
+            (Family::Bend, Some(law)) => of(law
+                .link(rest, stiffness)
+                .map(|link| [link.energy(length), link.force(length)])),
+            _ => of(Hooke
+                .link(rest, stiffness)
+                .map(|link| [link.energy(length), link.force(length)])),
         }
     }
 
-    /// The energy in joules and the pull in newtons of a bend of this length.
-    pub(crate) fn bend_axial(&self, constraint: &Constraint, length_m: f64) -> [f64; 2] {
-        let (rest_length_m, k) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
-        match self.buckling {
-            Some(law) => {
-                let axial = buckle::axial(law, rest_length_m, k, length_m);
-                [axial.energy, axial.force]
-            }
-            None => {
-                let extension = length_m - rest_length_m;
-                [0.5 * k * extension * extension, k * extension]
-            }
-        }
+    /// The elastic energy of all constraints, in joules.
+    pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
+        self.kinds()
+            .iter()
+            .fold(0.0, |sum, kind| kind.energy(x, sum))
+    }
+
+    /// That of all constraints that a particle has a part in.
+    pub(crate) fn elastic_at_j(&self, x: &[Point], particle: usize) -> f64 {
+        let kinds = self.kinds();
+        kinds
+            .iter()
+            .fold(0.0, |sum, kind| sum + kind.energy_at(x, particle))
+    }
+
+    /// The constraint that is longest for its rest length.
+    pub(crate) fn longest(&self, x: &[Point]) -> Longest {
+        let mut longest = Longest::default();
+        self.kinds()
+            .iter()
+            .for_each(|kind| kind.find_longest(x, &mut longest));
+        longest
     }
 
     pub(crate) fn drag_per_s(&self) -> f64 {
@@ -148,18 +157,10 @@ impl Model {
     ) -> bool {
         counters.force_evaluations += 1;
         accelerations.fill(Vector::zeros());
+        counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
         let mut sane = true;
-        for batch in self.springs() {
-            sane &= kernel::forces(batch, positions, self.stretch_ratio_max, accelerations);
-        }
-        for bends in self.buckles() {
-            sane &= bends.forces(positions, self.stretch_ratio_max, accelerations);
-        }
-        let triangles = self.triangles.as_slice();
-        if !triangles.is_empty() {
-            counters.triangle_evaluations += 1;
-            let ratio_max = self.stretch_ratio_max;
-            sane &= kernel::triangle_forces(triangles, positions, ratio_max, accelerations);
+        for kind in &self.kinds() {
+            sane &= kind.forces(positions, self.stretch_ratio_max, accelerations);
         }
         self.external(positions, velocities, accelerations, counters);
         sane
@@ -170,13 +171,9 @@ impl Model {
     #[must_use]
     pub(crate) fn is_within_limit(&self, positions: &[Point]) -> bool {
         let ratio_max = self.stretch_ratio_max;
-        let triangles = self.triangles.as_slice();
-        self.springs()
-            .all(|batch| kernel::is_within(batch, positions, ratio_max))
-            && self
-                .buckles()
-                .all(|bends| bends.are_within(positions, ratio_max))
-            && kernel::triangles_are_within(triangles, positions, ratio_max)
+        self.kinds()
+            .iter()
+            .all(|kind| kind.is_within(positions, ratio_max))
     }
 
     /// Adds K u; see [`System::stiffness_times`](super::System::stiffness_times).
@@ -189,16 +186,9 @@ impl Model {
         counters: &mut Counters,
     ) {
         counters.matrix_products += 1;
-        for batch in self.springs() {
-            kernel::stiffness_times(batch, positions, displacements, product);
-        }
-        for bends in self.buckles() {
-            bends.stiffness_times(slope, positions, displacements, product);
-        }
-        let triangles = self.triangles.as_slice();
-        if !triangles.is_empty() {
-            counters.triangle_evaluations += 1;
-            kernel::triangle_stiffness_times(triangles, positions, displacements, product);
+        counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
+        for kind in &self.kinds() {
+            kind.stiffness_times(slope, positions, displacements, product);
         }
     }
 
@@ -212,14 +202,7 @@ impl Model {
     ) {
         if let Some(wind) = self.loads.wind {
             counters.wind_evaluations += 1;
-            kernel::wind(
-                &self.faces,
-                wind.coefficient,
-                wind.velocity_m_per_s,
-                positions,
-                velocities,
-                accelerations,
-            );
+            wind.press(&self.faces, positions, velocities, accelerations);
         }
         let gravity = self.gravity();
         for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
@@ -274,8 +257,8 @@ impl Model {
     pub(crate) fn clear_multipliers(&mut self) {
         self.set_aside();
         for family in [&mut self.stretch, &mut self.bend] {
-            for (_, multipliers) in family.batches_mut() {
-                multipliers.fill(0.0);
+            for (_, memories) in family.batches_mut() {
+                memories.multipliers.fill(0.0);
             }
         }
     }
@@ -283,9 +266,30 @@ impl Model {
     /// Makes forces of multipliers.
     pub(crate) fn scale_multipliers(&mut self, scale: f64) {
         for family in [&mut self.stretch, &mut self.bend] {
-            for (_, multipliers) in family.batches_mut() {
-                multipliers.iter_mut().for_each(|lambda| *lambda *= scale);
+            for (_, memories) in family.batches_mut() {
+                let multipliers = memories.multipliers.iter_mut();
+                multipliers.for_each(|lambda| *lambda *= scale);
             }
+        }
+    }
+}
+
+/// A kind of constraints, as [`Model::kinds`] lists it.
+#[derive(Debug)]
+pub(crate) enum Kind<'a> {
+    Springs(Pairs<'a, Hooke>),
+    Bends(Pairs<'a, Buckling>),
+    Triangles(&'a Triangles),
+}
+
+impl<'a> Deref for Kind<'a> {
+    type Target = dyn Element + 'a;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Kind::Springs(springs) => springs,
+            Kind::Bends(bends) => bends,
+            Kind::Triangles(triangles) => *triangles,
         }
     }
 }

@@ -5,6 +5,7 @@ use tearmesh::{Cursor, Edits, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear
 
 use super::{Tearing, TearingError};
 use crate::sheet::Cloth;
+use crate::system::Family;
 
 /// A cloth that tears: strengths of vertices, clocks of edges.
 ///
@@ -190,8 +191,7 @@ impl Tear {
                 report.cap_hit = true;
                 break;
             }
-            let id = cloth.stretch(due.edge);
-            report.edge_energy_j += cloth.system().elastic_of(id);
+            report.edge_energy_j += energy_j(cloth, due.edge);
             report.tear_length_m += self.split(mesh, cloth, edits, due.edge, candidate);
             report.splits += 1;
         }
@@ -307,6 +307,13 @@ impl Tear {
         }
         length_m
     }
+}
+
+/// The elastic energy of an edge, in joules.
+fn energy_j(cloth: &Cloth, edge: HalfEdgeId) -> f64 {
+    let system = cloth.system();
+    let constraint = system.stretches().get(cloth.stretch(edge));
+    system.elastic_of(Family::Stretch, &constraint)
 }
 
 /// The way from one end of an edge to the other, at rest.

@@ -2,7 +2,7 @@
 
 use super::quality::{Limited, Quality, Solved};
 use crate::scene::Method;
-use crate::{Failure, ImplicitCloth, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd};
+use crate::{Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd};
 
 /// A method with its state.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub(super) enum Engine {
     Pbd(Pbd),
     Verlet(Verlet),
     Xpbd(Xpbd),
-    Implicit(Box<ImplicitCloth>, Solved),
+    Implicit(Box<Implicit>, Solved),
 }
 
 impl Engine {
@@ -23,7 +23,7 @@ impl Engine {
             Method::Verlet => Engine::Verlet(Verlet::new()),
             Method::Xpbd(xpbd) => Engine::Xpbd(xpbd),
             Method::Implicit(settings) => {
-                Engine::Implicit(Box::new(ImplicitCloth::new(settings)), Solved::default())
+                Engine::Implicit(Box::new(Implicit::new(settings)), Solved::default())
             }
         }
     }

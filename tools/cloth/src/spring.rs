@@ -1,156 +1,71 @@
-//! The solvers' inner loops: pure functions over slices, with no mesh and no system in sight.
+//! Springs: energy, force and stiffness, and projection onto the rest length.
 //!
-//! A family of constraints of one colour comes as slices of the same length: the two particles
-//! of each, its rest length in metres, its stiffness in newtons per metre and the inverse of that.
-//! No two of one colour share a particle, so the loops have no chain of writes that wait for each
-//! other, and the result does not depend on the order within a colour.
+//! E = ½ k (l − L)², with k the stiffness, l the length and L that at rest. The force is k (l − L)
+//! along the spring; across it the stiffness is k (1 − L/l), which is negative under compression.
+//!
+//! The methods that project move the ends instead, colour by colour: no two springs of one colour
+//! share a particle, so the loops have no chain of writes that wait for each other, and the result
+//! does not depend on the order within a colour.
 
-use tearmesh::geometry::{Point, Vector, cross, dot};
+use tearmesh::geometry::{Point, Vector, dot};
 
-use crate::implicit::{Triangle, triangle};
+use crate::constraint::Batch;
+use crate::element::Slope;
+use crate::pair::{Law, Link, length};
 
-/// The constraints of one colour.
+/// The law of springs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Batch<'a> {
-    pub(crate) ends: &'a [[u32; 2]],
-    pub(crate) rest: &'a [f64],
-    pub(crate) stiffness: &'a [f64],
-    pub(crate) compliance: &'a [f64],
-}
+pub(crate) struct Hooke;
 
-impl Batch<'_> {
-    fn iter(&self) -> impl Iterator<Item = ([usize; 2], f64, f64)> + '_ {
-        let numbers = self.rest.iter().zip(self.stiffness);
-        self.ends
-            .iter()
-            .zip(numbers)
-            .map(|(&[a, b], (&rest, &stiffness))| ([a as usize, b as usize], rest, stiffness))
+impl Law for Hooke {
+    type Link = Spring;
+
+    #[inline]
+    fn link(self, rest_length_m: f64, stiffness_n_per_m: f64) -> Option<Spring> {
+        Some(Spring {
+            rest: rest_length_m,
+            stiffness: stiffness_n_per_m,
+        })
+    }
+
+    fn stiffest(self) -> f64 {
+        1.0
     }
 }
 
-/// Adds k (l − L) along each spring to the forces of its ends. False where a spring is longer
-/// than `ratio_max` times its rest length, or not a number.
-#[must_use]
-pub(crate) fn forces(
-    batch: Batch<'_>,
-    positions: &[Point],
-    ratio_max: f64,
-    forces: &mut [Vector],
-) -> bool {
-    let mut sane = true;
-    for ([a, b], rest, stiffness) in batch.iter() {
-        let d = positions[b] - positions[a];
-        let length = dot(d, d).sqrt();
-        sane &= length <= ratio_max * rest;
-        if length > 0.0 {
-            let force = d * (stiffness * (length - rest) / length);
-            forces[a] += force;
-            forces[b] -= force;
+/// A spring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spring {
+    rest: f64,
+    stiffness: f64,
+}
+
+impl Link for Spring {
+    #[inline]
+    fn energy(self, length: f64) -> f64 {
+        let extension = length - self.rest;
+        0.5 * self.stiffness * extension * extension
+    }
+
+    #[inline]
+    fn force(self, length: f64) -> f64 {
+        self.stiffness * (length - self.rest)
+    }
+    #[inline]
+    fn stiffness(self, length: f64) -> [f64; 2] {
+        let across = self.stiffness * ((length - self.rest) / length);
+        [self.stiffness, across]
+    }
+
+    #[inline]
+    fn pull(self, _slope: Slope, d: Vector, u: Vector) -> Vector {
+        let square = dot(d, d);
+        if square == 0.0 {
+            return u * self.stiffness;
         }
-    }
-    sane
-}
-
-/// Whether no spring is longer than `ratio_max` times its rest length, or not a number: what
-/// [`forces`] says.
-#[must_use]
-pub(crate) fn is_within(batch: Batch<'_>, positions: &[Point], ratio_max: f64) -> bool {
-    batch.iter().all(|([a, b], rest, _)| {
-        let d = positions[b] - positions[a];
-        dot(d, d).sqrt() <= ratio_max * rest
-    })
-}
-
-/// The elastic energy ½ k (l − L)², summed in order.
-#[must_use]
-pub(crate) fn energy(batch: Batch<'_>, positions: &[Point]) -> f64 {
-    let of = |([a, b], rest, stiffness): ([usize; 2], f64, f64)| {
-        let d = positions[b] - positions[a];
-        let extension = dot(d, d).sqrt() - rest;
-        0.5 * stiffness * extension * extension
-    };
-    batch.iter().map(of).sum()
-}
-
-/// Adds K u: minus the change of forces when the particles move by `u`, to first order. Across
-/// a spring under compression the stiffness is negative; it counts as zero, so that K has no
-/// negative direction.
-pub(crate) fn stiffness_times(
-    batch: Batch<'_>,
-    positions: &[Point],
-    u: &[Vector],
-    product: &mut [Vector],
-) {
-    for ([a, b], rest, stiffness) in batch.iter() {
-        let change = pull(positions[b] - positions[a], rest, stiffness, u[b] - u[a]);
-        product[a] -= change;
-        product[b] += change;
-    }
-}
-
-/// The change of a spring's force when its vector `d` changes by `u`.
-#[must_use]
-pub(crate) fn pull(d: Vector, rest: f64, stiffness: f64, u: Vector) -> Vector {
-    let square = dot(d, d);
-    if square == 0.0 {
-        return u * stiffness;
-    }
-    let across = (1.0 - rest / square.sqrt()).max(0.0);
-    let along = d * (dot(d, u) / square);
-    (along + (u - along) * across) * stiffness
-}
-
-/// Adds the forces of triangles to those of their corners. False where warp or weft of one is
-/// longer than `ratio_max` times its rest length, or not a number.
-#[must_use]
-pub(crate) fn triangle_forces(
-    triangles: &[Triangle],
-    positions: &[Point],
-    ratio_max: f64,
-    forces: &mut [Vector],
-) -> bool {
-    let mut sane = true;
-    for t in triangles {
-        let corners = triangle::corners(t, positions);
-        let [w_u, w_v] = t.derivatives(corners);
-        let square = ratio_max * ratio_max;
-        sane &= dot(w_u, w_u) <= square && dot(w_v, w_v) <= square;
-        let pulls = triangle::forces(t, corners);
-        for (v, pull) in t.vertices.into_iter().zip(pulls) {
-            forces[v as usize] += pull;
-        }
-    }
-    sane
-}
-
-/// Whether neither warp nor weft of a triangle is longer than `ratio_max` times its rest length, or
-/// not a number: what [`triangle_forces`] says.
-#[must_use]
-pub(crate) fn triangles_are_within(
-    triangles: &[Triangle],
-    positions: &[Point],
-    ratio_max: f64,
-) -> bool {
-    let square = ratio_max * ratio_max;
-    triangles.iter().all(|t| {
-        let [w_u, w_v] = t.derivatives(triangle::corners(t, positions));
-        dot(w_u, w_u) <= square && dot(w_v, w_v) <= square
-    })
-}
-
-/// Adds K u of triangles, as [`stiffness_times`] does that of springs.
-pub(crate) fn triangle_stiffness_times(
-    triangles: &[Triangle],
-    positions: &[Point],
-    u: &[Vector],
-    product: &mut [Vector],
-) {
-    for t in triangles {
-        let moved = t.vertices.map(|v| u[v as usize]);
-        let changes = triangle::stiffness_times(t, triangle::corners(t, positions), moved);
-        for (v, change) in t.vertices.into_iter().zip(changes) {
-            product[v as usize] += change;
-        }
+        let across = (1.0 - self.rest / square.sqrt()).max(0.0);
+        let along = d * (dot(d, u) / square);
+        (along + (u - along) * across) * self.stiffness
     }
 }
 
@@ -298,7 +213,9 @@ pub(crate) fn limit(
     positions: &mut [Point],
 ) -> f64 {
     let mut largest = 0.0_f64;
-    for (([a, b], rest, _), multiplier) in batch.iter().zip(multipliers) {
+    let constraints = batch.ends.iter().zip(batch.rest);
+    for ((&ends, &rest), multiplier) in constraints.zip(multipliers) {
+        let [a, b] = ends.map(|end| end as usize);
         let d = positions[b] - positions[a];
         let length = dot(d, d).sqrt();
         largest = largest.max(length / rest);
@@ -316,35 +233,9 @@ pub(crate) fn limit(
 
 /// Writes the length of each constraint as a multiple of its rest length.
 pub(crate) fn ratios(batch: Batch<'_>, positions: &[Point], ratios: &mut [f64]) {
-    for (([a, b], rest, _), ratio) in batch.iter().zip(ratios) {
-        let d = positions[b] - positions[a];
-        *ratio = dot(d, d).sqrt() / rest;
-    }
-}
-
-/// Adds the force of wind on faces: pressure c n·(u − v), where v is the mean velocity of the
-/// corners, along the normal; a third to each corner (Provot 1995, §3).
-pub(crate) fn wind(
-    faces: &[u32],
-    coefficient: f64,
-    air: Vector,
-    positions: &[Point],
-    velocities: &[Vector],
-    forces: &mut [Vector],
-) {
-    for face in faces.chunks_exact(3) {
-        let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
-        // Twice the area along the normal.
-        let normal = cross(positions[b] - positions[a], positions[c] - positions[a]);
-        let double_area = dot(normal, normal).sqrt();
-        if double_area > 0.0 {
-            let mean = (velocities[a] + velocities[b] + velocities[c]) / 3.0;
-            let pressure = coefficient * dot(normal, air - mean) / double_area;
-            let third = normal * (pressure / 6.0);
-            forces[a] += third;
-            forces[b] += third;
-            forces[c] += third;
-        }
+    let constraints = batch.ends.iter().zip(batch.rest);
+    for ((&ends, &rest), ratio) in constraints.zip(ratios) {
+        *ratio = length(positions, ends.map(|end| end as usize)) / rest;
     }
 }
 
@@ -356,6 +247,7 @@ mod tests {
 
     /// Constraints of one colour: some with one end held, one with both, one without length.
     struct Pairs {
+        ids: Vec<u32>,
         ends: Vec<[u32; 2]>,
         rest: Vec<f64>,
         stiffness: Vec<f64>,
@@ -381,6 +273,7 @@ mod tests {
             inverse_masses[10..12].fill(0.0);
             let stiffness: Vec<f64> = (0..COUNT).map(|_| 1.0 + 9.0 * random()).collect();
             Pairs {
+                ids: (0..COUNT as u32).collect(),
                 ends: (0..COUNT as u32).map(|i| [2 * i, 2 * i + 1]).collect(),
                 rest: (0..COUNT).map(|_| 0.1 + random()).collect(),
                 compliance: stiffness.iter().map(|k| 1.0 / k).collect(),
@@ -392,6 +285,7 @@ mod tests {
 
         fn batch(&self) -> Batch<'_> {
             Batch {
+                ids: &self.ids,
                 ends: &self.ends,
                 rest: &self.rest,
                 stiffness: &self.stiffness,

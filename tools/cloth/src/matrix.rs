@@ -12,7 +12,7 @@
 //! Why not compressed rows? A tear would have to move every block behind the one that it
 //! inserts. Here it takes a free slot, or a new one at the end.
 
-use tearmesh::geometry::{Vector, dot};
+use tearmesh::geometry::Vector;
 
 /// A 3 × 3 matrix: three rows of three numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -79,17 +79,6 @@ impl Block {
         Vector::new(column(0), column(1), column(2))
     }
 
-    /// The product of two.
-    #[must_use]
-    pub fn times_block(&self, other: &Block) -> Block {
-        let columns = other.transposed().0;
-        let column = |c: &[f64; 3]| Vector::new(c[0], c[1], c[2]);
-        Block(self.0.map(|row| {
-            let row = Vector::new(row[0], row[1], row[2]);
-            [0, 1, 2].map(|c| dot(row, column(&columns[c])))
-        }))
-    }
-
     /// The inverse of a symmetric positive definite block, by Cholesky's factors; `None` where
     /// a pivot is not positive, which shows that the block is not definite.
     #[must_use]
@@ -133,8 +122,8 @@ impl Block {
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Hessian {
-    pub(super) diagonal: Vec<Block>,
-    pub(super) off: Vec<Block>,
+    pub(crate) diagonal: Vec<Block>,
+    off: Vec<Block>,
 }
 
 impl Hessian {
@@ -204,7 +193,7 @@ impl Hessian {
     }
 
     /// The product with a vector for each particle; `pairs` says what each slot is for, as
-    /// [`Layout::pairs`](super::Layout::pairs) does.
+    /// [`Layout::pairs`](crate::implicit::Layout::pairs) does.
     ///
     /// # Panics
     ///
@@ -231,12 +220,9 @@ mod tests {
     fn an_inverse_times_its_block_is_the_identity() {
         let block = Block([[4.0, 1.0, -2.0], [1.0, 3.0, 0.5], [-2.0, 0.5, 5.0]]);
         let inverse = block.inverse_if_definite().expect("it is definite");
-        let product = block.times_block(&inverse);
-        for (i, row) in product.0.iter().enumerate() {
-            for (j, x) in row.iter().enumerate() {
-                let truth = if i == j { 1.0 } else { 0.0 };
-                assert!((x - truth).abs() < 1e-15, "{i} {j}: {x}");
-            }
+        for axis in [Vector::x(), Vector::y(), Vector::z()] {
+            let apart = block.times(inverse.times(axis)) - axis;
+            assert!(apart.norm() < 2e-15, "{apart}");
         }
         assert_eq!(
             block

@@ -1,0 +1,298 @@
+//! Bending as buckling: Choi and Ko 2002 §4.2, between particles two apart.
+//!
+//! Pushed together from the rest distance L to d, the cloth between buckles into an arc of
+//! length L and curvature κ = (2/L) sinc⁻¹(d/L). With t = κL/2, d = L sin t / t:
+//!
+//! ```text
+//! energy  E(d) = ½ k κ² L = 2 k t² / L
+//! force   f(d) = E′ = k κ² / (cos t − sinc t)          (negative: it pushes apart)
+//! ```
+//!
+//! At d = L that force does not vanish: it is the buckling load 12 k / L². So near L a plain
+//! spring acts instead, f = `max(f_b, c (d − L))`; beyond L nothing does. The energy is continued
+//! across the change-over, so that forces are its exact gradient. For one change-over to exist the
+//! spring has to be stiffer than the arc at d = 0: c > 4π² k / L³. The stiffness of a constraint is
+//! c, and the [`Buckling`] of all says what k is to it.
+//!
+//! All force here is compression, so the stiffness across the line is always negative; Choi and Ko
+//! drop it and keep the slope along the line, which is positive.
+//!
+//! **Correction.** The polynomial of degree four in d/L that is in common use for `f_b`,
+//! −11.541 x⁴ + 34.193 x³ − 39.083 x² + 23.116 x − 9.713, has to be multiplied by 4 k / L². It is
+//! not used here.
+//!
+//! **No sine and no root.** With u = t², sinc t, (sinc t − cos t) / t² and what the slope needs
+//! are power series in u that converge at once for u up to π². So the inverse is found in u by
+//! Newton's method on a convex falling function from its left, where each step is monotone,
+//! and the force is −4 k / (L² p(u)) without cancellation at d = L, where the formula above
+//! divides zero by zero. Only + − × ÷ in a fixed order: the same bits on every machine.
+
+use tearmesh::geometry::{Vector, dot};
+
+use crate::element::Slope;
+use crate::pair::{Law, Link};
+
+/// How bends of all lengths give way when they are pushed together: like a spring at first, and then
+/// as an arc (Choi and Ko 2002 §4.2).
+///
+/// What a bend of rest length L is at d, relative to c L and c L², depends on d/L alone and on the
+/// number c L³ / k, which follows from the d/L at which the arc takes over from the spring.
+///
+/// ```
+/// use tearmesh_cloth::Buckling;
+///
+/// let law = Buckling::new(0.95).unwrap();
+/// // What a strip of 10 cm with a flexural stiffness of 1e-6 N m² resists with until it buckles.
+/// let stiffness_n_per_m = law.compression_n_per_m(1e-6, 0.1);
+/// assert!((stiffness_n_per_m - 0.247).abs() < 1e-3);
+/// assert!(Buckling::new(1.0).is_none() && Buckling::new(0.59).is_none());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Buckling {
+    /// d/L at the change-over.
+    below: f64,
+    /// c L³ / k.
+    number: f64,
+    /// What is added to the energy of the arc, by c L².
+    shift: f64,
+}
+
+impl Buckling {
+    /// The law by which a bend is an arc below this part of its rest length, and above it gives
+    /// way like a spring. The nearer to 1, the stiffer the spring: c L³ / k is
+    /// 4 / (p (1 − d/L)), 247 for 0.95.
+    ///
+    /// `None` unless the part is below 1 and above 0.592, where c L³ / k is 4π²: a spring that is
+    /// softer would act once more where the ends are near each other.
+    #[must_use]
+    pub fn new(buckles_below: f64) -> Option<Buckling> {
+        if !(buckles_below > 0.0 && buckles_below < 1.0) {
+            return None;
+        }
+        let u = inverse_sinc_squared(buckles_below);
+        let gap = 1.0 - buckles_below;
+        let number = 4.0 / (series(u).p * gap);
+        let pi = std::f64::consts::PI;
+        let buckles_once = number > 4.0 * (pi * pi) && number.is_finite();
+        buckles_once.then_some(Buckling {
+            below: buckles_below,
+            number,
+            shift: 0.5 * (gap * gap) - 2.0 * u / number,
+        })
+    }
+
+    /// The part of the rest length below which a bend is an arc.
+    #[must_use]
+    pub fn buckles_below(&self) -> f64 {
+        self.below
+    }
+
+    /// The stiffness c against compression, in N/m, of a bend of this flexural stiffness k and this
+    /// rest length L.
+    #[must_use]
+    pub fn compression_n_per_m(&self, flexural_n_m2: f64, rest_length_m: f64) -> f64 {
+        self.number * flexural_n_m2 / (rest_length_m * rest_length_m * rest_length_m)
+    }
+}
+
+impl Law for Buckling {
+    type Link = Bend;
+
+    /// A bend without stiffness, which is what an edit leaves where rounding left no length, does
+    /// nothing.
+    fn link(self, rest_length_m: f64, stiffness_n_per_m: f64) -> Option<Bend> {
+        (stiffness_n_per_m > 0.0).then_some(Bend {
+            law: self,
+            rest: rest_length_m,
+            compression: stiffness_n_per_m,
+        })
+    }
+
+    /// That of the spring, or that of the arc where both ends meet, 12π² k / L³. The arc's force is
+    /// concave in d, so it is nowhere stiffer.
+    fn stiffest(self) -> f64 {
+        let pi = std::f64::consts::PI;
+        (12.0 * (pi * pi) / self.number).max(1.0)
+    }
+}
+
+/// What resists bending between two particles that are two apart.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bend {
+    law: Buckling,
+    rest: f64,
+    /// c, in N/m.
+    compression: f64,
+}
+
+impl Bend {
+    /// Energy, force and slope with the ends so far apart.
+    fn axial(self, distance: f64) -> Axial {
+        let gap = distance - self.rest;
+        if gap >= 0.0 {
+            return Axial::default();
+        }
+        let c = self.compression;
+        if distance >= self.law.below * self.rest {
+            return Axial {
+                energy: 0.5 * c * (gap * gap),
+                force: c * gap,
+                slope: c,
+            };
+        }
+        let mut arc = self.arc(distance);
+        arc.energy += self.law.shift * (c * (self.rest * self.rest));
+        arc
+    }
+
+    /// The arc at the distance d in 0 … L.
+    fn arc(self, distance: f64) -> Axial {
+        let l = self.rest;
+        let k = self.compression * (l * l * l) / self.law.number;
+        let u = inverse_sinc_squared(distance / l);
+        let Series { p, r, .. } = series(u);
+        Axial {
+            energy: 2.0 * k * u / l,
+            force: -4.0 * k / (l * l * p),
+            slope: 4.0 * k / (l * l * l) * (r / (p * p * p)),
+        }
+    }
+}
+
+impl Link for Bend {
+    fn energy(self, length: f64) -> f64 {
+        self.axial(length).energy
+    }
+
+    fn force(self, length: f64) -> f64 {
+        self.axial(length).force
+    }
+    fn stiffness(self, length: f64) -> [f64; 2] {
+        let axial = self.axial(length);
+        [axial.slope, axial.force / length]
+    }
+
+    fn pull(self, slope: Slope, d: Vector, u: Vector) -> Vector {
+        let square = dot(d, d);
+        let stiffness = match slope {
+            Slope::Now => self.axial(square.sqrt()).slope,
+            Slope::Steepest => self.compression * self.law.stiffest(),
+        };
+        if square == 0.0 {
+            return u * stiffness;
+        }
+        d * (dot(d, u) / square * stiffness)
+    }
+}
+
+/// An energy that depends on a distance, with its first two derivatives.
+#[derive(Clone, Copy, Debug, Default)]
+struct Axial {
+    energy: f64,
+    force: f64,
+    slope: f64,
+}
+
+/// Functions of u = t², for t in 0 … π.
+struct Series {
+    /// sin t / t.
+    sinc: f64,
+    /// (sinc t − cos t) / t², which is −2 times the derivative of sinc by u.
+    p: f64,
+    /// (3 p − sinc) / t².
+    r: f64,
+}
+
+/// The terms of the power series; that of u^k has the divisor (2k + 1)! at least, so that the
+/// first one left out is below 1e-17 for u up to π².
+const TERMS: usize = 16;
+
+/// The coefficients of (−u)^k, weight(k) / (2k + first)!: of sinc for `first` = 1, of p for 3,
+/// of r for 5.
+const fn coefficients(first: usize) -> [f64; TERMS] {
+    let mut list = [0.0; TERMS];
+    let mut factorial = 1.0;
+    let mut i = 1;
+    while i < 2 * TERMS + first {
+        factorial *= i as f64;
+        if i >= first && (i - first).is_multiple_of(2) {
+            let k = (i - first) / 2;
+            if k < TERMS {
+                let even = 2.0 * k as f64;
+                let weight = match first {
+                    1 => 1.0,
+                    3 => even + 2.0,
+                    _ => (even + 4.0) * (even + 2.0),
+                };
+                list[k] = weight / factorial;
+            }
+        }
+        i += 1;
+    }
+    list
+}
+
+const SINC: [f64; TERMS] = coefficients(1);
+const P: [f64; TERMS] = coefficients(3);
+const R: [f64; TERMS] = coefficients(5);
+
+/// By Horner's rule.
+fn series(u: f64) -> Series {
+    let (mut sinc, mut p, mut r) = (0.0, 0.0, 0.0);
+    for k in (0..TERMS).rev() {
+        sinc = SINC[k] - u * sinc;
+        p = P[k] - u * p;
+        r = R[k] - u * r;
+    }
+    Series { sinc, p, r }
+}
+
+/// t² for which sin t / t is `x`, x in 0 … 1.
+fn inverse_sinc_squared(x: f64) -> f64 {
+    let y = 1.0 - x;
+    // The inverse series, cut off: its terms are positive, so this lies to the left.
+    let mut u = y * (6.0 + y * (1.8 + y * (144.0 / 175.0)));
+    // From the worst start, x = 0, five steps reach the last bit; rounding ends the climb.
+    for _ in 0..8 {
+        let Series { sinc, p, .. } = series(u);
+        let next = u + 2.0 * (sinc - x) / p;
+        if next <= u {
+            break;
+        }
+        u = next;
+    }
+    u
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_agree_with_the_system() {
+        for i in 1..=1000 {
+            let t = std::f64::consts::PI * f64::from(i) / 1000.0;
+            let Series { sinc, p, r } = series(t * t);
+            let truth = t.sin() / t;
+            assert!((sinc - truth).abs() < 4e-16, "sinc {t}: {sinc} {truth}");
+            let truth = (truth - t.cos()) / (t * t);
+            // The closed form cancels for small t, and both sides round at last.
+            let rounding = 4e-16 / (t * t) + 1e-16;
+            assert!((p - truth).abs() < rounding, "p {t}: {p} {truth}");
+            let truth = (3.0 * truth - t.sin() / t) / (t * t);
+            assert!((r - truth).abs() < 4.0 * rounding / (t * t), "r {t}: {r}");
+        }
+        let Series { sinc, p, r } = series(0.0);
+        assert_eq!((sinc, p, r), (1.0, 1.0 / 3.0, 1.0 / 15.0));
+    }
+
+    #[test]
+    fn the_inverse_finds_what_sinc_was_given() {
+        for i in 0..=1000 {
+            let t = std::f64::consts::PI * f64::from(i) / 1000.0;
+            let x = if i == 0 { 1.0 } else { t.sin() / t };
+            let u = inverse_sinc_squared(x);
+            assert!((u - t * t).abs() < 2e-14, "{t}: {u}");
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What a kind of constraint has to know of itself, and all that anyone asks it.
+//!
+//! Springs, arcs and triangles each have energy, force and stiffness in a file of their own, and
+//! whoever sums over constraints asks the [`kinds`](crate::model::Model::kinds) of a model, one after
+//! the other: forces, energy, the bound of frequencies, the matrix of an implicit step, the blame
+//! for a blow-up. So a new kind is a file that implements this, a place in that list, and what
+//! becomes of it where the mesh changes.
+//!
+//! Sums go on from kind to kind in that order, and within a kind in the order of its storage.
+
+use tearmesh::geometry::{Point, Vector};
+
+use crate::culprit::Longest;
+use crate::matrix::Hessian;
+
+/// All constraints of one kind.
+pub(crate) trait Element {
+    /// How many there are.
+    fn len(&self) -> usize;
+
+    /// The elastic energy in joules, added to a sum one after the other.
+    fn energy(&self, x: &[Point], sum: f64) -> f64;
+
+    /// That of the constraints of a particle.
+    fn energy_at(&self, x: &[Point], particle: usize) -> f64;
+
+    /// Adds the forces, in newtons, to those of the particles. False where one is longer than
+    /// `ratio_max` times its rest length, or not a number.
+    #[must_use]
+    fn forces(&self, x: &[Point], ratio_max: f64, forces: &mut [Vector]) -> bool;
+
+    /// Adds the forces on one particle, by what the last step left behind where it did.
+    fn force_at(&self, x: &[Point], particle: usize, read: Forces, sum: &mut Vector);
+
+    /// Whether none is longer than `ratio_max` times its rest length, or not a number: what
+    /// [`forces`](Element::forces) says.
+    fn is_within(&self, x: &[Point], ratio_max: f64) -> bool;
+
+    /// Looks for the one that is longest for its rest length.
+    fn find_longest(&self, x: &[Point], longest: &mut Longest);
+
+    /// Adds K u: minus the change of forces, to first order, when the particles move by `u`.
+    /// Negative stiffness counts as zero, so that K has no negative direction.
+    fn stiffness_times(&self, slope: Slope, x: &[Point], u: &[Vector], product: &mut [Vector]);
+
+    /// Looks for the one with the most energy in a vibration.
+    fn find_busiest(&self, x: &[Point], u: &[Vector], busiest: &mut Busiest);
+
+    /// Adds up √k over the constraints of a particle, with k the largest stiffness of each in any
+    /// state within `reach`.
+    fn roots_at(&self, particle: usize, reach: f64, sum: f64) -> f64;
+
+    /// The largest of Gershgorin's rows √k Σ w S, with w S of each particle in `sums`.
+    fn largest_row(&self, reach: f64, sums: &[f64]) -> f64;
+
+    /// The largest row among the constraints of a particle, whose own w S is given; that of others
+    /// is asked for.
+    fn largest_row_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        own: f64,
+        sum: &dyn Fn(usize) -> f64,
+    ) -> f64;
+
+    /// The pairs of particles that act on each other, each with a number that stays that of its
+    /// constraint.
+    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2]));
+
+    /// Adds the second derivatives of the energy, each pair's to its slot by that number. With
+    /// `clamp` every term is positive semidefinite; returns how many had a part dropped for it.
+    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64;
+}
+
+/// Where the forces of the last step are to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Forces {
+    /// In the lengths.
+    #[default]
+    Lengths,
+    /// In the multipliers.
+    Multipliers,
+    /// The sum of both.
+    Both,
+}
+
+impl Forces {
+    /// The force by both ways of reading it.
+    pub(crate) fn read(self, by_length: impl FnOnce() -> f64, by_multiplier: f64) -> f64 {
+        match self {
+            Forces::Lengths => by_length(),
+            Forces::Multipliers => by_multiplier,
+            Forces::Both => by_length() + by_multiplier,
+        }
+    }
+}
+
+/// Which stiffness counts of what is not equally stiff at every length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Slope {
+    /// That at its present length.
+    Now,
+    /// The largest that it has at any. A flat cloth has none to bends that buckle, and gets stiffer
+    /// as it folds; so the stability limit is asked with this.
+    Steepest,
+}
+
+/// The constraint that has the most energy in a vibration, of those that were looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Busiest {
+    most: Option<(f64, [usize; 2])>,
+}
+
+impl Busiest {
+    /// Looks at one, which moves most between these particles.
+    pub(crate) fn weigh(&mut self, energy: f64, ends: impl FnOnce() -> [usize; 2]) {
+        if self.most.is_none_or(|(most, _)| energy > most) {
+            self.most = Some((energy, ends()));
+        }
+    }
+
+    pub(crate) fn ends(self) -> Option<[usize; 2]> {
+        self.most.map(|(_, ends)| ends)
+    }
+}

@@ -1,0 +1,95 @@
+//! What a step is solved for: the one system, and what acts on it from outside.
+
+use tearmesh::geometry::{Point, Vector, dot};
+
+use super::Layout;
+use crate::matrix::Hessian;
+use crate::system::Model;
+
+/// The equation of motion m a = −∇E(x) + m g − c m v: E and c of a model, and the accelerations g of
+/// gravity and wind as they are where the step begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Problem<'a> {
+    pub(super) model: &'a Model,
+    pub(super) outside: &'a [Vector],
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn masses(self) -> &'a [f64] {
+        &self.model.masses
+    }
+
+    pub(super) fn is_free(self, particle: usize) -> bool {
+        self.model.inverse_masses[particle] > 0.0
+    }
+
+    /// A vector of a particle, or nothing where that is held.
+    #[inline]
+    pub(super) fn filter(self, particle: usize, v: Vector) -> Vector {
+        if self.is_free(particle) {
+            v
+        } else {
+            Vector::zeros()
+        }
+    }
+
+    /// The force on each particle, in N, also on those that are held; without drag.
+    pub(super) fn forces(self, x: &[Point], forces: &mut Vec<Vector>) {
+        forces.clear();
+        let weights = self.outside.iter().zip(self.masses());
+        forces.extend(weights.map(|(g, m)| g * *m));
+        for kind in &self.model.kinds() {
+            // What is stretched beyond all measure is found in the state that a step ends in.
+            let _ = kind.forces(x, f64::INFINITY, forces);
+        }
+    }
+
+    /// E − Σ m g · x, and an energy of motion.
+    pub(super) fn potential(self, x: &[Point], inertia: f64) -> Potential {
+        let inside = self.model.elastic_j(x);
+        let particles = self.outside.iter().zip(self.masses()).zip(x);
+        let outside = particles.fold(0.0, |sum, ((g, m), x)| sum - m * dot(*g, x.coords));
+        Potential {
+            value: inside + outside + inertia,
+            rounding: 64.0 * f64::EPSILON * (inside + outside.abs() + inertia),
+        }
+    }
+
+    pub(super) fn hessian(
+        self,
+        x: &[Point],
+        layout: &Layout,
+        clamp: bool,
+        hessian: &mut Hessian,
+    ) -> u64 {
+        layout.hessian_at(self.model, x, clamp, hessian)
+    }
+
+    /// A force on each particle as an rms acceleration, √(rᵀ M⁻¹ r / Σm); zero where nothing has a
+    /// mass.
+    pub(super) fn residual(self, r: &[Vector]) -> f64 {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (&r, &m) in r.iter().zip(self.masses()) {
+            sum += square_per_mass(r, m);
+            total += m;
+        }
+        if total > 0.0 {
+            (sum / total).sqrt()
+        } else {
+            0.0
+        }
+    }
+}
+
+/// r · r / m. What has no mass is held, and leaves no residual.
+#[inline]
+pub(super) fn square_per_mass(r: Vector, m: f64) -> f64 {
+    if m > 0.0 { dot(r, r) / m } else { 0.0 }
+}
+
+/// The value of a potential and how much of it is rounding.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Potential {
+    pub(super) value: f64,
+    pub(super) rounding: f64,
+}

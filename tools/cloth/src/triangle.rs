@@ -1,0 +1,521 @@
+//! Stretch and shear of a triangle: Baraff and Witkin 1998 §4.
+//!
+//! The map from the material plane (u, v) into space has the constant derivatives
+//!
+//! ```text
+//! (w_u  w_v) = (x₁ − x₀   x₂ − x₀) D,     D = inverse of [ u₁−u₀  u₂−u₀ ; v₁−v₀  v₂−v₀ ]
+//! ```
+//!
+//! and the energy, A the area at rest, is
+//!
+//! ```text
+//! E = A [ ½ k_u (|w_u| − 1)² + ½ k_v (|w_v| − 1)² + ½ k_s (w_u · w_v)² ]
+//! ```
+//!
+//! **Where we differ.** The paper scales its conditions by the area, so its energy goes with
+//! A² and the same cloth gets softer as its triangles get smaller. With A the stiffnesses are
+//! moduli in N/m that do not depend on the mesh: `E_u` = `k_u` and `E_v` = `k_v` at any strain,
+//! Poisson's ratio zero, and the shear modulus `k_s` at rest.
+//!
+//! **What is indefinite.** The term (1 − 1/|w|)(I − ŵ ŵᵀ) of a compressed direction, and the term
+//! `k_s` s of the shear s = `w_u` · `w_v`, which has the eigenvalues ±`k_s` |s|. Clamped, the first
+//! is dropped (as the paper does) and of the second the negative half.
+//!
+//! **Frequencies.** A triangle counts as two springs with three ends, along warp and along weft. Its
+//! shear gets stiffer as it is stretched, so the bound of that holds as long as |`w_u`|² + |`w_v`|² +
+//! |`w_u` · `w_v`| is within a *reach*.
+
+use tearmesh::geometry::{Point, Vector, dot, length};
+
+use crate::culprit::{Culprit, Longest};
+use crate::element::{Busiest, Element, Forces, Slope};
+use crate::incidence::Incidence;
+use crate::matrix::{Block, Hessian};
+
+/// A triangle that resists stretch and shear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// The three particles.
+    pub vertices: [u32; 3],
+    /// The inverse of the material matrix: rows by edge (x₁ − x₀, x₂ − x₀), columns u and v;
+    /// in 1/m.
+    pub rest_inverse: [[f64; 2]; 2],
+    /// The area at rest, in m².
+    pub area: f64,
+    /// Stiffness along u, across v, and in shear, in N/m.
+    pub stiffness: [f64; 3],
+}
+
+impl Triangle {
+    /// The triangle whose corners have these places in the material, (u, v) in m.
+    ///
+    /// `None` where they span no area, or a number is not finite.
+    ///
+    /// ```
+    /// use tearmesh_cloth::Triangle;
+    ///
+    /// let triangle = Triangle::new([0, 1, 2], [[0., 0.], [2., 0.], [0., 1.]], [10., 10., 1.]);
+    /// assert_eq!(triangle.unwrap().area, 1.0);
+    /// assert_eq!(Triangle::new([0, 1, 2], [[0., 0.], [1., 1.], [2., 2.]], [1.; 3]), None);
+    /// ```
+    #[must_use]
+    pub fn new(
+        vertices: [u32; 3],
+        material: [[f64; 2]; 3],
+        stiffness: [f64; 3],
+    ) -> Option<Triangle> {
+        let [a, b, c] = material;
+        let (u1, v1) = (b[0] - a[0], b[1] - a[1]);
+        let (u2, v2) = (c[0] - a[0], c[1] - a[1]);
+        let twice = u1 * v2 - u2 * v1;
+        let triangle = Triangle {
+            vertices,
+            rest_inverse: [[v2 / twice, -u2 / twice], [-v1 / twice, u1 / twice]],
+            area: 0.5 * twice.abs(),
+            stiffness,
+        };
+        triangle.fault().is_none().then_some(triangle)
+    }
+
+    /// The first number that makes the triangle unusable.
+    fn fault(&self) -> Option<f64> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let usable = |x: f64| x >= 0.0 && x.is_finite();
+        let inverse = self.rest_inverse.as_flattened();
+        let bad = inverse.iter().find(|x| !x.is_finite());
+        let bad = bad.or_else(|| Some(&self.area).filter(|&&x| !positive(x)));
+        let bad = bad.or_else(|| self.stiffness.iter().find(|&&x| !usable(x)));
+        bad.copied()
+    }
+
+    /// One that resists nothing, in the place of one without area.
+    pub(crate) fn slack(vertices: [u32; 3]) -> Triangle {
+        Triangle {
+            vertices,
+            rest_inverse: [[0.0; 2]; 2],
+            area: f64::MIN_POSITIVE,
+            stiffness: [0.0; 3],
+        }
+    }
+
+    /// How `w_u` and `w_v` change with each corner.
+    fn weights(&self) -> [[f64; 3]; 2] {
+        let d = &self.rest_inverse;
+        [0, 1].map(|c| [-(d[0][c] + d[1][c]), d[0][c], d[1][c]])
+    }
+
+    /// `w_u` and `w_v` with the corners at these points.
+    #[inline]
+    #[must_use]
+    pub fn derivatives(&self, [x0, x1, x2]: [Point; 3]) -> [Vector; 2] {
+        let (a, b) = (x1 - x0, x2 - x0);
+        let d = &self.rest_inverse;
+        [0, 1].map(|c| a * d[0][c] + b * d[1][c])
+    }
+
+    /// The energy, in J, with the corners at these points.
+    #[inline]
+    fn energy(&self, corners: [Point; 3]) -> f64 {
+        let [w_u, w_v] = self.derivatives(corners);
+        let [k_u, k_v, k_s] = self.stiffness;
+        let (e_u, e_v, shear) = (length(w_u) - 1.0, length(w_v) - 1.0, dot(w_u, w_v));
+        self.area * 0.5 * (k_u * (e_u * e_u) + k_v * (e_v * e_v) + k_s * (shear * shear))
+    }
+
+    /// The forces on the corners, in N. The first is made from the other two, so that their sum is
+    /// zero to one rounding.
+    #[inline]
+    fn forces(&self, corners: [Point; 3]) -> [Vector; 3] {
+        let [w_u, w_v] = self.derivatives(corners);
+        let [k_u, k_v, k_s] = self.stiffness;
+        let shear = k_s * dot(w_u, w_v);
+        let p_u = w_u * (k_u * stretch(w_u)) + w_v * shear;
+        let p_v = w_v * (k_v * stretch(w_v)) + w_u * shear;
+        let d = &self.rest_inverse;
+        let [f1, f2] = [0, 1].map(|e| (p_u * d[e][0] + p_v * d[e][1]) * -self.area);
+        [-(f1 + f2), f1, f2]
+    }
+
+    /// The change of the forces on the corners when these move by `u`, negated, to first order: what
+    /// [`Triangle::hessian`] with `clamp` gives, without the matrix.
+    #[inline]
+    fn stiffness_times(&self, corners: [Point; 3], u: [Vector; 3]) -> [Vector; 3] {
+        let [w_u, w_v] = self.derivatives(corners);
+        let [k_u, k_v, k_s] = self.stiffness;
+        let (a, b) = (u[1] - u[0], u[2] - u[0]);
+        let d = &self.rest_inverse;
+        let [d_u, d_v] = [0, 1].map(|c| a * d[0][c] + b * d[1][c]);
+        let along = |w: Vector, k: f64, change: Vector| {
+            let square = dot(w, w);
+            if square == 0.0 {
+                return Vector::zeros();
+            }
+            let across = stretch(w).max(0.0);
+            let part = w * (dot(w, change) / square);
+            (part + (change - part) * across) * k
+        };
+        let shear = dot(w_u, w_v);
+        let sheared = dot(w_v, d_u) + dot(w_u, d_v);
+        let both = d_u * shear.abs() + d_v * shear;
+        let sign = if shear < 0.0 { -1.0 } else { 1.0 };
+        let p_u = along(w_u, k_u, d_u) + (w_v * sheared + both * 0.5) * k_s;
+        let p_v = along(w_v, k_v, d_v) + (w_u * sheared + both * (0.5 * sign)) * k_s;
+        let [f1, f2] = [0, 1].map(|e| (p_u * d[e][0] + p_v * d[e][1]) * self.area);
+        [-(f1 + f2), f1, f2]
+    }
+
+    /// |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|: `k_s` times this bounds the second derivative of the shear
+    /// term by `w_u` and `w_v`. It is 2 at rest.
+    #[inline]
+    fn shear_growth(&self, corners: [Point; 3]) -> f64 {
+        let [w_u, w_v] = self.derivatives(corners);
+        dot(w_u, w_u) + dot(w_v, w_v) + dot(w_u, w_v).abs()
+    }
+    /// The second derivatives of the energy: `[i][j]` is the block of corners i and j, in N/m; and
+    /// how many of the three terms (u, v, shear) had a part dropped.
+    fn hessian(&self, corners: [Point; 3], clamp: bool) -> ([[Block; 3]; 3], u32) {
+        let [w_u, w_v] = self.derivatives(corners);
+        let [k_u, k_v, k_s] = self.stiffness;
+        let shear = dot(w_u, w_v);
+        let mut clamped = 0;
+        let mut along = |w: Vector, k: f64, other: Vector| {
+            let mut across = stretch(w);
+            if clamp && across < 0.0 {
+                across = 0.0;
+                clamped += u32::from(k > 0.0);
+            }
+            let l = length(w);
+            let direction = if l > 0.0 { w / l } else { w };
+            Block::identity_times(k * across)
+                .plus(k * (1.0 - across), &Block::outer(direction, direction))
+                .plus(k_s, &Block::outer(other, other))
+        };
+        let mut uu = along(w_u, k_u, w_v);
+        let mut vv = along(w_v, k_v, w_u);
+        let mut uv = Block::outer(w_v, w_u);
+        // s [0 I; I 0] is half |s| [I ±I; ±I I] less half |s| [I ∓I; ∓I I].
+        if clamp {
+            let half = Block::identity_times(0.5 * k_s * shear.abs());
+            uu = uu.plus(1.0, &half);
+            vv = vv.plus(1.0, &half);
+            uv = uv.plus(0.5 * shear, &Block::identity_times(1.0));
+            clamped += u32::from(k_s * shear != 0.0);
+        } else {
+            uv = uv.plus(shear, &Block::identity_times(1.0));
+        }
+        let uv = Block::ZERO.plus(k_s, &uv);
+        let vu = uv.transposed();
+        let [g_u, g_v] = self.weights();
+        let a = self.area;
+        let block = |i: usize, j: usize| {
+            Block::ZERO
+                .plus(a * (g_u[i] * g_u[j]), &uu)
+                .plus(a * (g_v[i] * g_v[j]), &vv)
+                .plus(a * (g_u[i] * g_v[j]), &uv)
+                .plus(a * (g_v[i] * g_u[j]), &vu)
+        };
+        // Moving the whole triangle changes no force: rows sum to zero, and the first corner's
+        // blocks follow from the others'.
+        let (b11, b12, b22) = (block(1, 1), block(1, 2), block(2, 2));
+        let b21 = b12.transposed();
+        let zero = Block::ZERO;
+        let b10 = zero.plus(-1.0, &b11).plus(-1.0, &b12);
+        let b20 = zero.plus(-1.0, &b21).plus(-1.0, &b22);
+        let b00 = zero.plus(-1.0, &b10).plus(-1.0, &b20);
+        let (b01, b02) = (b10.transposed(), b20.transposed());
+        ([[b00, b01, b02], [b10, b11, b12], [b20, b21, b22]], clamped)
+    }
+
+    /// How much the extensions along warp and along weft, times √(A k), change with each corner: what
+    /// √k is of a spring.
+    fn roots(&self, reach: f64) -> [[f64; 3]; 2] {
+        let [k_u, k_v, k_s] = self.stiffness;
+        let [g_u, g_v] = self.weights();
+        let along = |k: f64, weights: [f64; 3]| {
+            let root = (self.area * (k + k_s * reach)).sqrt();
+            weights.map(|weight| root * weight.abs())
+        };
+        [along(k_u, g_u), along(k_v, g_v)]
+    }
+
+    /// The larger row, with the product of inverse mass and sum of each corner.
+    fn row(&self, reach: f64, sums: [f64; 3]) -> f64 {
+        let row =
+            |roots: [f64; 3]| -> f64 { roots.into_iter().zip(sums).map(|(r, s)| r * s).sum() };
+        let [along_u, along_v] = self.roots(reach).map(row);
+        along_u.max(along_v)
+    }
+
+    /// Whether neither warp nor weft is longer than `ratio_max` times its rest length, or not a number.
+    fn is_within(&self, corners: [Point; 3], ratio_max: f64) -> bool {
+        let [w_u, w_v] = self.derivatives(corners);
+        let square = ratio_max * ratio_max;
+        dot(w_u, w_u) <= square && dot(w_v, w_v) <= square
+    }
+
+    fn corners(&self, x: &[Point]) -> [Point; 3] {
+        self.vertices.map(|v| x[v as usize])
+    }
+}
+
+/// 1 − 1/|w|, which is zero for a w of zero, since that has no direction.
+fn stretch(w: Vector) -> f64 {
+    let l = length(w);
+    if l > 0.0 { (l - 1.0) / l } else { 0.0 }
+}
+
+/// The triangles 0, 1, 2, … of particles, and which particle has which.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Triangles {
+    list: Vec<Triangle>,
+    lists: Incidence<3>,
+}
+
+impl Triangles {
+    pub(crate) fn new(particles: usize) -> Triangles {
+        Triangles {
+            list: Vec::new(),
+            lists: Incidence::new(particles),
+        }
+    }
+
+    pub(crate) fn as_slice(&self) -> &[Triangle] {
+        &self.list
+    }
+
+    /// The triangles of a particle, and which corner of them it is.
+    pub(crate) fn of(&self, particle: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.lists.of(particle)
+    }
+
+    /// The elastic energy of one, in joules.
+    pub(crate) fn energy_of(&self, t: usize, x: &[Point]) -> f64 {
+        self.list[t].energy(self.list[t].corners(x))
+    }
+
+    /// How far those that shear are stretched at most: what a reach is held against. Zero without
+    /// any, 2 at rest.
+    pub(crate) fn shear_growth(&self, x: &[Point]) -> f64 {
+        let sheared = self.list.iter().filter(|t| t.stiffness[2] > 0.0);
+        let growths = sheared.map(|t| t.shear_growth(t.corners(x)));
+        growths.fold(0.0, f64::max)
+    }
+
+    pub(crate) fn push(&mut self, triangle: Triangle) {
+        let t = self.list.len();
+        self.list.push(triangle);
+        self.lists.push();
+        for (corner, v) in triangle.vertices.into_iter().enumerate() {
+            self.lists.attach(t, corner, v as usize);
+        }
+    }
+
+    /// Puts another triangle in the place of one.
+    pub(crate) fn set(&mut self, t: usize, triangle: Triangle) {
+        for (corner, to) in triangle.vertices.into_iter().enumerate() {
+            self.repoint(t, corner, to as usize);
+        }
+        self.list[t] = triangle;
+    }
+
+    /// Gives a corner to another particle.
+    pub(crate) fn repoint(&mut self, t: usize, corner: usize, to: usize) {
+        let from = self.list[t].vertices[corner] as usize;
+        if from != to {
+            self.lists.detach(t, corner, from);
+            self.list[t].vertices[corner] = to as u32;
+            self.lists.attach(t, corner, to);
+        }
+    }
+
+    pub(crate) fn push_particle(&mut self) {
+        self.lists.push_particle();
+    }
+
+    /// Forgets a particle without triangles; the last one takes its index.
+    pub(crate) fn swap_remove_particle(&mut self, particle: usize) {
+        for (t, corner) in self.lists.of(self.lists.last_particle()) {
+            self.list[t].vertices[corner] = particle as u32;
+        }
+        self.lists.swap_remove_particle(particle);
+    }
+}
+
+impl Element for Triangles {
+    fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    fn energy(&self, x: &[Point], sum: f64) -> f64 {
+        let triangles = self.list.iter();
+        triangles.fold(sum, |sum, t| sum + t.energy(t.corners(x)))
+    }
+
+    fn energy_at(&self, x: &[Point], particle: usize) -> f64 {
+        let triangles = self.of(particle);
+        triangles.fold(0.0, |sum, (t, _)| sum + self.energy_of(t, x))
+    }
+
+    fn forces(&self, x: &[Point], ratio_max: f64, forces: &mut [Vector]) -> bool {
+        let mut sane = true;
+        for t in &self.list {
+            let corners = t.corners(x);
+            sane &= t.is_within(corners, ratio_max);
+            for (v, pull) in t.vertices.into_iter().zip(t.forces(corners)) {
+                forces[v as usize] += pull;
+            }
+        }
+        sane
+    }
+
+    fn force_at(&self, x: &[Point], particle: usize, _read: Forces, sum: &mut Vector) {
+        for (t, corner) in self.of(particle) {
+            let t = &self.list[t];
+            *sum += t.forces(t.corners(x))[corner];
+        }
+    }
+
+    fn is_within(&self, x: &[Point], ratio_max: f64) -> bool {
+        let mut triangles = self.list.iter();
+        triangles.all(|t| t.is_within(t.corners(x), ratio_max))
+    }
+
+    fn find_longest(&self, x: &[Point], longest: &mut Longest) {
+        for t in &self.list {
+            let derivatives = t.derivatives(t.corners(x));
+            let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
+            longest.weigh(stretch_ratio, || Culprit::Triangle {
+                corners: t.vertices.map(|v| v as usize),
+                stretch_ratio,
+            });
+        }
+    }
+
+    fn stiffness_times(&self, _slope: Slope, x: &[Point], u: &[Vector], product: &mut [Vector]) {
+        for t in &self.list {
+            let moved = t.vertices.map(|v| u[v as usize]);
+            let changes = t.stiffness_times(t.corners(x), moved);
+            for (v, change) in t.vertices.into_iter().zip(changes) {
+                product[v as usize] += change;
+            }
+        }
+    }
+
+    /// Names the edge that changes most.
+    fn find_busiest(&self, x: &[Point], u: &[Vector], busiest: &mut Busiest) {
+        for t in &self.list {
+            let moved = t.vertices.map(|v| u[v as usize]);
+            let forces = t.stiffness_times(t.corners(x), moved);
+            let energy = (0..3).fold(0.0, |sum, i| sum + dot(moved[i], forces[i]));
+            busiest.weigh(energy, || {
+                let apart = |i: usize| {
+                    let between = moved[(i + 1) % 3] - moved[i];
+                    dot(between, between)
+                };
+                let edge = (1..3).fold(0, |most, i| if apart(i) > apart(most) { i } else { most });
+                [edge, (edge + 1) % 3].map(|i| t.vertices[i] as usize)
+            });
+        }
+    }
+
+    fn roots_at(&self, particle: usize, reach: f64, sum: f64) -> f64 {
+        self.of(particle).fold(sum, |sum, (t, corner)| {
+            let [along_u, along_v] = self.list[t].roots(reach);
+            sum + (along_u[corner] + along_v[corner])
+        })
+    }
+
+    fn largest_row(&self, reach: f64, sums: &[f64]) -> f64 {
+        let rows = self
+            .list
+            .iter()
+            .map(|t| t.row(reach, t.vertices.map(|v| sums[v as usize])));
+        rows.fold(0.0, f64::max)
+    }
+
+    fn largest_row_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        own: f64,
+        sum: &dyn Fn(usize) -> f64,
+    ) -> f64 {
+        let sum = |v: u32| match v as usize {
+            v if v == particle => own,
+            v => sum(v),
+        };
+        let triangles = self.of(particle).map(|(t, _)| &self.list[t]);
+        let rows = triangles.map(|t| t.row(reach, t.vertices.map(sum)));
+        rows.fold(0.0, f64::max)
+    }
+
+    /// The edges of triangle t have the numbers 3 t and on.
+    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2])) {
+        for (t, triangle) in self.list.iter().enumerate() {
+            let [a, b, c] = triangle.vertices;
+            for (i, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
+                visit(3 * t + i, ends);
+            }
+        }
+    }
+
+    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64 {
+        let mut clamped = 0;
+        for (t, slots) in self.list.iter().zip(slots.as_chunks::<3>().0) {
+            let (blocks, dropped) = t.hessian(t.corners(x), clamp);
+            clamped += u64::from(dropped);
+            for (i, &slot) in slots.iter().enumerate() {
+                let j = (i + 1) % 3;
+                let (a, b) = (t.vertices[i], t.vertices[j]);
+                hessian.add(slot, [a, a], &blocks[i][i]);
+                hessian.add(slot, [a, b], &blocks[i][j]);
+            }
+        }
+        clamped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(vertices: [u32; 3]) -> Triangle {
+        let material = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        Triangle::new(vertices, material, [1.0; 3]).expect("it has area")
+    }
+
+    /// The lists hold each corner once, at its particle.
+    fn check(triangles: &Triangles, particles: usize) {
+        let mut listed = 0;
+        for particle in 0..particles {
+            for (t, corner) in triangles.of(particle) {
+                assert_eq!(triangles.list[t].vertices[corner] as usize, particle);
+                listed += 1;
+            }
+        }
+        assert_eq!(listed, 3 * triangles.list.len());
+    }
+
+    #[test]
+    fn corners_come_and_go_and_lists_stay_right() {
+        let mut triangles = Triangles::new(5);
+        for vertices in [[0, 1, 2], [2, 1, 3], [3, 0, 2], [4, 2, 1]] {
+            triangles.push(triangle(vertices));
+            check(&triangles, 5);
+        }
+        assert_eq!(triangles.of(2).count(), 4);
+        triangles.push_particle();
+        triangles.repoint(1, 0, 5);
+        triangles.repoint(3, 1, 5);
+        check(&triangles, 6);
+        triangles.set(2, triangle([1, 3, 5]));
+        check(&triangles, 6);
+        // Particle 0 has one triangle left; it goes to 4, and 5 becomes 0.
+        triangles.repoint(0, 0, 4);
+        check(&triangles, 6);
+        triangles.swap_remove_particle(0);
+        check(&triangles, 5);
+        let vertices: Vec<_> = triangles.list.iter().map(|t| t.vertices).collect();
+        assert_eq!(vertices, [[4, 1, 2], [0, 1, 3], [1, 3, 0], [4, 0, 1]]);
+    }
+}
