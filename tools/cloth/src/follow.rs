@@ -218,7 +218,7 @@ impl Cloth {
                 self.system.positions.len(),
                 "a cloth is in step with its mesh"
             );
-            let (x, v) = self.system.inserted(&point.at);
+            let (x, v) = self.system.inserted(point.at);
             self.system.push_particle(x, v, None);
         }
         edit.pass_on(&mut self.masses);
