@@ -8,6 +8,7 @@ use tearmesh::{
 };
 use tearmesh_cloth::{
     Bending, Cloth, Constraint, Copies, Fabric, Loads, Unbend, Unstable, Verlet, Weave, Xpbd,
+    energy, frequency,
 };
 
 use crate::answers::near;
@@ -181,7 +182,7 @@ pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
 }
 
 fn energy(cloth: &Cloth) -> f64 {
-    cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j()
+    energy::elastic_j(cloth.system()) + energy::kinetic_j(cloth.system())
 }
 
 fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
@@ -330,7 +331,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         let mut edits = Edits::new();
         for _ in 0..40 {
             let (before, ledger) = (energy(&cloth), cloth.ledger());
-            let elastic = cloth.system().elastic_energy_j();
+            let elastic = energy::elastic_j(cloth.system());
             let moving = momentum(&cloth);
             let done = edit(&mut mesh, &cloth, &mut edits, &mut random);
             edits.replay(&mut cloth);
@@ -351,13 +352,13 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                         "{made}"
                     );
                     if triangles_alone {
-                        assert_eq!(cloth.system().elastic_energy_j(), elastic);
+                        assert_eq!(energy::elastic_j(cloth.system()), elastic);
                     }
                 }
                 Done::Insert => {
                     counts[1] += 1;
                     if triangles_alone {
-                        near(cloth.system().elastic_energy_j(), elastic, 1e-11 * elastic);
+                        near(energy::elastic_j(cloth.system()), elastic, 1e-11 * elastic);
                     }
                 }
                 Done::Merge => counts[2] += 1,
@@ -373,8 +374,8 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             near(energy(&cloth) - before, told, 1e-12 * (1.0 + before));
 
             // The bound is that of a cloth made anew, or above it.
-            let known = cloth.system_mut().frequency_bound();
-            let measured = cloth.system().clone().measure_frequency(1e-3, 500);
+            let known = frequency::bound(cloth.system_mut());
+            let measured = frequency::measure(&mut cloth.system().clone(), 1e-3, 500);
             assert!(measured.omega_rad_per_s <= known * (1.0 + 1e-12));
             if random.next() < 0.3 {
                 if fabric.weave.is_some() || cloth.system().buckling().is_some() {
@@ -475,8 +476,8 @@ fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
         let v = VertexId::new(24).expect("the centre");
         let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
         let mut edits = Edits::new();
-        let before = cloth.system().elastic_energy_j();
-        let bound = cloth.system_mut().frequency_bound();
+        let before = energy::elastic_j(cloth.system());
+        let bound = frequency::bound(cloth.system_mut());
         let torn: Vec<_> = {
             let split = split::vertex(&mut mesh, v, &faces, &mut edits).expect("a split");
             split.torn.to_vec()
@@ -509,9 +510,9 @@ fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
         }
         let answer = if copies == Copies::Halved { 0.0 } else { made };
         near(cloth.ledger().split_elastic_j, answer, 1e-15);
-        near(cloth.system().elastic_energy_j() - before, answer, 1e-13);
+        near(energy::elastic_j(cloth.system()) - before, answer, 1e-13);
         // Particles are lighter, and the bound of frequencies knows.
-        assert!(cloth.system_mut().frequency_bound() >= bound);
+        assert!(frequency::bound(cloth.system_mut()) >= bound);
     }
 }
 

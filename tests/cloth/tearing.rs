@@ -7,6 +7,7 @@ use tearmesh::{
 };
 use tearmesh_cloth::{
     Cloth, Copies, Fabric, Provot, Tear, TearReport, Tearing, TearingError, Threshold, Verlet,
+    energy,
 };
 
 use crate::answers::{chain, near};
@@ -323,7 +324,7 @@ fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
 }
 
 fn energy(cloth: &Cloth) -> f64 {
-    cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j()
+    energy::elastic_j(cloth.system()) + energy::kinetic_j(cloth.system())
 }
 
 #[test]

@@ -38,16 +38,19 @@
 
 pub use tearmesh;
 
-mod air;
+pub mod air;
 mod balance;
 mod bend;
 mod constraint;
+mod contact;
 mod culprit;
 mod digits;
 mod element;
+pub mod energy;
 mod fabric;
 mod follow;
-mod frequency;
+pub mod force;
+pub mod frequency;
 pub mod implicit;
 mod incidence;
 mod load;
@@ -62,6 +65,7 @@ mod sheet;
 mod solver;
 mod spectrum;
 mod spring;
+mod stability;
 mod step;
 mod strain;
 mod system;
@@ -72,7 +76,7 @@ mod weave;
 mod xpbd;
 
 pub use air::AirRate;
-pub use balance::EnergyBalance;
+pub use balance::{Balance, EnergyBalance};
 pub use bend::Buckling;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use culprit::Culprit;
@@ -85,6 +89,8 @@ pub use provot::{Limiter, LimiterReport, Provot};
 pub use sheet::{Cloth, ClothError, EnergyLedger};
 pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;
+pub use stability::stable_step_s;
+pub use step::{Observer, Substep};
 pub use system::{Counters, System, SystemError, Unstable};
 pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;

@@ -2,13 +2,14 @@
 //!
 //! Predict, project the constraints so many times, and take as velocity what was moved
 //! (Müller et al. 2007). Its constraints are stable at any step, and so is drag; wind, which is that
-//! of the velocities before, up to λ Δt = 2 ([`System::wind_rate`]). Never sold as accurate: how
+//! of the velocities before, up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)). Never sold as accurate: how
 //! stiff it is depends on the step and on the number of sweeps, and as the step goes to zero there
 //! is no limit. What it converges to with more sweeps is an inextensible net. Judge it by
 //! [`System::strain_rms`].
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::contact;
 use crate::element::Forces;
 use crate::solver::{Failure, SettingError, Solver};
 use crate::spring;
@@ -151,7 +152,7 @@ pub(crate) fn finish(system: &mut System, dt_s: f64) {
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
     if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
         finish(system, dt_s);
-        system.collide();
+        contact::push_out(system);
         predict(system, dt_s);
         return;
     }

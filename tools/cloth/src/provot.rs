@@ -8,7 +8,7 @@
 //!
 //! A threshold of stretch has to be held against lengths before the limiter, or nothing ever
 //! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
-//! with what it did itself the force that each constraint carried ([`System::force_n`]).
+//! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::element::Forces;
 use crate::solver::{Failure, SettingError, Solver};
@@ -104,7 +104,6 @@ impl Provot {
             ..
         } = system;
         scratch.before.clone_from(positions);
-        model.set_aside();
         for (batch, memories) in model.stretch.batches_mut() {
             spring::ratios(batch, positions, memories.ratios);
         }

@@ -10,10 +10,12 @@ use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
 use crate::follow::Room;
+use crate::frequency;
 use crate::solver::{Solver, StepError, StepReport};
+use crate::step::Observer;
 use crate::system::System;
 
-/// The energy that edits have made (or, negative, taken), in joules. Gravity is not in it.
+/// The energy that edits have made (or, negative, taken), in joules.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
     /// Elastic energy by splits: copies by the paper's rule, less what bend constraints held.
@@ -30,10 +32,18 @@ pub struct EnergyLedger {
     pub merge_kinetic_j: f64,
     /// Elastic energy by slides.
     pub slide_elastic_j: f64,
+    /// The potential of gravity by merges and slides, which move weight; in no sum of the others.
+    pub gravity_j: f64,
 }
 
 impl EnergyLedger {
-    /// All of it.
+    /// All that was made, in gravity's potential too.
+    #[must_use]
+    pub fn made_j(&self) -> f64 {
+        self.total_j() + self.gravity_j
+    }
+
+    /// All elastic and kinetic energy that was made.
     #[must_use]
     pub fn total_j(&self) -> f64 {
         self.split_elastic_j
@@ -216,7 +226,7 @@ impl Cloth {
             }
         }
         cloth.weave()?;
-        cloth.system.frequency_bound();
+        frequency::bound(&mut cloth.system);
         Ok(cloth)
     }
 
@@ -266,6 +276,20 @@ impl Cloth {
         dt_s: f64,
     ) -> Result<StepReport, StepError> {
         self.system.step(solver, dt_s)
+    }
+
+    /// Advances by `dt_s` seconds under the eyes of an observer, as [`System::step_observed`] does.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`], and the cloth is as it was before.
+    pub fn step_observed(
+        &mut self,
+        solver: &mut (impl Solver + ?Sized),
+        dt_s: f64,
+        observer: &mut (impl Observer + ?Sized),
+    ) -> Result<StepReport, StepError> {
+        self.system.step_observed(solver, dt_s, observer)
     }
 
     /// The particles and constraints; vertex v is particle `v.index()`.

@@ -42,7 +42,7 @@ pub trait Solver {
 
     /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which
     /// air slows the system that the method takes in by the velocities before a step: that of
-    /// wind ([`System::wind_rate`]), and of drag where it
+    /// wind ([`wind_rate`](crate::air::wind_rate)), and of drag where it
     /// [`takes_drag_explicitly`](Solver::takes_drag_explicitly). `None` where there is none.
     fn air_limit(&self) -> Option<f64> {
         None

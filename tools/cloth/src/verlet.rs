@@ -7,7 +7,7 @@ use crate::system::{Scratch, System};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
-/// Stable up to ω Δt = 2, and of wind alone up to λ Δt = 1 ([`System::wind_rate`]). Its oscillators
+/// Stable up to ω Δt = 2, and of wind alone up to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). Its oscillators
 /// have the frequency ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it runs fast by up to π/2 at the limit.
 /// Drag is taken in by a backward and a forward half step, and wind by a prediction of the
 /// velocities that it blows at: both leave the order. Contact is of first order.

@@ -24,7 +24,7 @@ use crate::system::{Model, System};
 
 /// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
 /// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep
-/// ([`System::wind_rate`]).
+/// ([`wind_rate`](crate::air::wind_rate)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Xpbd {
     /// Substeps a step; at least one.
@@ -121,7 +121,6 @@ impl Solver for Xpbd {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
-        system.model.set_aside();
         predict(system, substep_s);
         let sane = (0..substeps).all(|substep| {
             if substep > 0 {

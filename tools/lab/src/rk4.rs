@@ -1,7 +1,7 @@
 //! The classical Runge–Kutta method: the reference solution.
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Failure, Solver, System};
+use tearmesh_cloth::{Failure, Solver, System, force};
 
 /// The classical Runge–Kutta method of fourth order; four force evaluations a step.
 ///
@@ -68,7 +68,7 @@ impl Solver for Rk4 {
         let mut sane = true;
         // The weight of each slope, and how far along it the next stage lies.
         for (weight, next) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
-            sane &= system.accelerations(accelerations);
+            sane &= force::accelerations(system, accelerations);
             for i in 0..count {
                 let fade = if system.is_held(i) { 0.0 } else { drag };
                 let (x, v) = system.state_mut();

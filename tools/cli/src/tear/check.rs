@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, TimedCut};
-use tearmesh_cloth::{ClothError, TearingError, Threshold};
+use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency};
 use tearmesh_obj::Document;
 
 use super::words::two_digits;
@@ -259,7 +259,7 @@ fn endless(run: &Run, document: &Document) -> Option<Fault> {
     if !is_explicit || run.steps_planned() < STEPS_MANY {
         return None;
     }
-    let frequency = run.cloth().system().clone().frequency();
+    let frequency = frequency::largest(&mut run.cloth().system().clone());
     let at = frequency.ends.map(|[a, b]| {
         let omega = frequency.omega_rad_per_s;
         let [a, b] = [a, b].map(|end| document.number_of_vertex(end));

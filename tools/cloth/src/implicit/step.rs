@@ -49,7 +49,7 @@ use crate::system::System;
 
 /// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
 /// are stable at any step; wind is taken in as it is where a step begins, and is stable up to
-/// λ Δt = 2 ([`System::wind_rate`]).
+/// λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)).
 ///
 /// ```
 /// use tearmesh_cloth::implicit::{self, Settings, Tolerance};

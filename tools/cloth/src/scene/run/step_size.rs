@@ -3,6 +3,7 @@
 use super::engine::Engine;
 use crate::scene::{Method, Scene};
 use crate::sheet::Cloth;
+use crate::stability;
 
 /// Frames of films and screens are whole parts of this, in seconds.
 const FRAME_S: f64 = 1.0 / 60.0;
@@ -12,7 +13,7 @@ const LONGEST_S: f64 = FRAME_S / 2.0;
 
 /// A step in seconds that suits the method, the fabric and the mesh: a whole part of 1/60 s.
 pub(super) fn suggested_s(scene: &Scene, engine: &Engine, cloth: &mut Cloth) -> f64 {
-    let stable_s = cloth.system_mut().whole_step_s(engine);
+    let stable_s = stability::whole_step_s(cloth.system_mut(), engine);
     let stable_s = stable_s.map_or(LONGEST_S, |limit_s| 0.7 * limit_s);
     let limit_s = match scene.solver {
         Method::Provot(_) | Method::Verlet => stable_s,
