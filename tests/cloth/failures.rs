@@ -40,7 +40,10 @@ fn scene(name: &str, stiffness: f64) -> System {
 }
 
 fn class(mut system: System, solver: &mut dyn Solver, part: f64, unstable: Unstable) -> Class {
-    let limit = solver.frequency_limit().expect("an explicit method");
+    let limit = solver
+        .abilities()
+        .frequency_limit
+        .expect("an explicit method");
     let omega = frequency::measure(&mut system, 1e-6, 20_000).omega_rad_per_s;
     let dt = part * limit / omega;
     system.when_unstable(unstable);

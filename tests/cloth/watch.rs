@@ -4,8 +4,8 @@
 use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::{
-    Balance, Cloth, Fabric, Failure, Frequency, Implicit, Limiter, Loads, Path, Pbd, Provot,
-    SettingError, Solver, StepError, System, Verlet, Wind, Xpbd, force, frequency,
+    Abilities, Balance, Cloth, Fabric, Failure, Frequency, Implicit, Limiter, Loads, Path, Pbd,
+    Provot, SettingError, Solver, StepError, System, Verlet, Wind, Xpbd, force, frequency,
 };
 
 use crate::answers::row;
@@ -142,8 +142,11 @@ impl Solver for Outside {
         Ok(())
     }
 
-    fn frequency_limit(&self) -> Option<f64> {
-        Some(2.0)
+    fn abilities(&self) -> Abilities {
+        Abilities {
+            frequency_limit: Some(2.0),
+            ..Abilities::default()
+        }
     }
 }
 

@@ -72,7 +72,7 @@ fn the_blow_up_map_of_triangles() {
                 system.when_unstable(Unstable::Allow);
                 system.state_mut().1[5] = Vector::new(1e-6, 0.3e-6, 0.2e-6);
                 let push = energy::kinetic_j(system);
-                let dt = part * method.frequency_limit().expect("explicit") / omega;
+                let dt = part * method.abilities().frequency_limit.expect("explicit") / omega;
                 let mut most = 0.0_f64;
                 for _ in 0..600 {
                     if system.step(&mut *method, dt).is_err() {

@@ -55,13 +55,13 @@ fn scene(name: &str, stiffness: f64) -> System {
 
 /// A run at this part of the limit of the method, or of Verlet's where it has none.
 fn class(mut system: System, solver: &mut dyn Solver, part: f64) -> Class {
-    let limit = solver.frequency_limit().unwrap_or(2.0);
+    let limit = solver.abilities().frequency_limit.unwrap_or(2.0);
     let omega = frequency::measure(&mut system, 1e-6, 20_000).omega_rad_per_s;
     let dt = part * limit / omega;
     system.when_unstable(Unstable::Allow);
     let (rest, push) = (energy::elastic_j(&system), energy::kinetic_j(&system));
     // What projects shakes a pretensioned net by what it stores; what has forces does not.
-    let shaken = if solver.frequency_limit().is_some() {
+    let shaken = if solver.abilities().frequency_limit.is_some() {
         0.0
     } else {
         rest

@@ -11,10 +11,10 @@
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::element::Forces;
-use crate::solver::{Failure, SettingError, Solver};
+use crate::flight::{accelerate, fly, force_scale};
+use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
-use crate::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
 /// the springs are stable up to ω Δt = 2, and wind alone up to λ Δt = 2.
@@ -132,7 +132,7 @@ impl Provot {
                 *v += (x - before) / dt_s;
             }
         }
-        model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
+        model.scale_multipliers(force_scale(model, dt_s));
         model.forces = Forces::Both;
         if largest > ratio_max {
             let stretches = system.stretches().iter();
@@ -146,6 +146,10 @@ impl Provot {
 }
 
 impl Solver for Provot {
+    fn abilities(&self) -> Abilities {
+        Abilities::of_forces(Some(2.0), 2.0)
+    }
+
     fn check(&self) -> Result<(), SettingError> {
         let Some(limiter) = self.limiter else {
             return Ok(());
@@ -154,43 +158,10 @@ impl Solver for Provot {
         SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "1 or more")
     }
 
-    fn frequency_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    fn air_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    fn takes_triangles(&self) -> bool {
-        true
-    }
-
-    fn takes_buckling(&self) -> bool {
-        true
-    }
-
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         // What blew up is left as it is, for all to see.
-        Failure::unless(accelerate(system))?;
-        let System {
-            positions,
-            velocities,
-            model,
-            scratch,
-            ..
-        } = system;
-        let fade = 1.0 + dt_s * model.drag_per_s();
-        let particles = positions
-            .iter_mut()
-            .zip(velocities)
-            .zip(&scratch.accelerations);
-        for (((x, v), a), &w) in particles.zip(&model.inverse_masses) {
-            if w > 0.0 {
-                *v = (*v + a * dt_s) / fade;
-            }
-            *x += *v * dt_s;
-        }
+        Failure::unless(accelerate(system, false))?;
+        fly(system, dt_s, dt_s);
         self.shorten(system, dt_s);
         Ok(())
     }

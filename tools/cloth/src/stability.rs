@@ -19,7 +19,10 @@ pub(crate) fn admit(
     if system.unstable == Unstable::Allow {
         return Ok(whole);
     }
-    match (solver.frequency_limit(), air_share(system, solver)) {
+    match (
+        solver.abilities().frequency_limit,
+        air_share(system, solver),
+    ) {
         (Some(limit), air) => admit_springs(system, limit, air, dt_s),
         (None, Some(air)) => admit_air(system, air, dt_s),
         (None, None) => Ok(whole),
@@ -70,7 +73,7 @@ fn admit_air(system: &System, air: AirShare, dt_s: f64) -> Result<StepReport, St
 
 /// The largest step in seconds that the watch admits whole in the present configuration, for
 /// a method with this limit of ω Δt: 2 for [`Verlet`](crate::Verlet). Measures the frequency.
-/// Springs alone: what wind takes of it is [`Solver::air_limit`] by [`wind_rate`](air::wind_rate).
+/// Springs alone: what wind takes of it is [`Abilities::air_limit`](crate::Abilities::air_limit) by [`wind_rate`](air::wind_rate).
 pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
     let bound_s = frequency_limit / frequency::bound(system);
     (system.margin * frequency_limit / frequency::largest(system).omega_rad_per_s).max(bound_s)
@@ -79,7 +82,8 @@ pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
 /// The same for this method with the air that blows now; `None` where nothing limits it.
 pub(crate) fn whole_step_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
     let springs_s = solver
-        .frequency_limit()
+        .abilities()
+        .frequency_limit
         .map(|limit| stable_step_s(system, limit));
     match air_share(system, solver) {
         None => springs_s,
@@ -89,8 +93,9 @@ pub(crate) fn whole_step_s(system: &mut System, solver: &impl Solver) -> Option<
 
 /// What the air takes of a step by this method.
 fn air_share(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<AirShare> {
-    let limit = solver.air_limit()?;
-    let drag = match solver.takes_drag_explicitly() {
+    let abilities = solver.abilities();
+    let limit = abilities.air_limit?;
+    let drag = match abilities.takes_drag_explicitly {
         true => air::drag_rate(system),
         false => None,
     };

@@ -78,7 +78,7 @@ impl System {
         self.model.forget();
         let substep = Substep {
             dt_s: dt_s / f64::from(report.substeps),
-            moves_at_end: solver.frequency_limit().is_none(),
+            moves_at_end: solver.abilities().frequency_limit.is_none(),
         };
         let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
@@ -105,12 +105,13 @@ fn check(system: &System, solver: &(impl Solver + ?Sized), dt_s: f64) -> Result<
     let ratio = system.model.stretch_ratio_max;
     SettingError::unless(ratio > 0.0, "stretch_ratio_max", ratio, "any above 0")
         .map_err(StepError::Setting)?;
+    let abilities = solver.abilities();
     let count = system.triangles().len();
-    if count > 0 && !solver.takes_triangles() {
+    if count > 0 && !abilities.takes_triangles {
         return Err(StepError::Triangles { count });
     }
     let count = system.model.bend.len();
-    if count > 0 && system.model.buckling.is_some() && !solver.takes_buckling() {
+    if count > 0 && system.model.buckling.is_some() && !abilities.takes_buckling {
         return Err(StepError::Buckling { count });
     }
     Ok(())

@@ -75,8 +75,8 @@ pub(crate) struct Scratch {
     pub(crate) velocities: Vec<Vector>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
-    /// The velocities that wind blows at, where they are predicted.
-    pub(crate) predicted: Vec<Vector>,
+    /// The velocities that wind blows at, where they are foreseen.
+    pub(crate) foreseen: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
 }

@@ -1,7 +1,7 @@
 //! The classical Runge–Kutta method: the reference solution.
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Failure, Solver, System, force};
+use tearmesh_cloth::{Abilities, Failure, Solver, System, force};
 
 /// The classical Runge–Kutta method of fourth order; four force evaluations a step.
 ///
@@ -29,24 +29,11 @@ impl Rk4 {
 const REAL: f64 = 2.785_293_563_405_28;
 
 impl Solver for Rk4 {
-    fn frequency_limit(&self) -> Option<f64> {
-        Some(2.0 * std::f64::consts::SQRT_2)
-    }
-
-    fn air_limit(&self) -> Option<f64> {
-        Some(REAL)
-    }
-
-    fn takes_drag_explicitly(&self) -> bool {
-        true
-    }
-
-    fn takes_triangles(&self) -> bool {
-        true
-    }
-
-    fn takes_buckling(&self) -> bool {
-        true
+    fn abilities(&self) -> Abilities {
+        Abilities {
+            takes_drag_explicitly: true,
+            ..Abilities::of_forces(Some(2.0 * std::f64::consts::SQRT_2), REAL)
+        }
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {

@@ -93,7 +93,7 @@ fn rounds(mesh: &Mesh, cloth: &Cloth, options: &Options) -> Vec<Vec<Times>> {
 }
 
 fn measured(solver: &mut dyn Solver, mut mesh: Mesh, mut cloth: Cloth) -> Times {
-    let step_s = match solver.frequency_limit() {
+    let step_s = match solver.abilities().frequency_limit {
         // Splits may raise the bound.
         Some(limit) => 0.5 * limit / frequency::bound(cloth.system_mut()),
         None => STEP_S,

@@ -44,7 +44,7 @@ use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
-use crate::solver::{Failure, SettingError, Solver};
+use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
 
 /// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
@@ -293,23 +293,16 @@ impl Implicit {
 }
 
 impl Solver for Implicit {
+    /// The limit of air is that of backward Euler, with which BDF2 begins, and begins anew after an
+    /// edit.
+    fn abilities(&self) -> Abilities {
+        Abilities::of_forces(None, 2.0)
+    }
+
     fn check(&self) -> Result<(), SettingError> {
         let (Tolerance::Tied(given) | Tolerance::Fixed(given)) = self.settings.tolerance;
         let holds = given > 0.0 && given.is_finite();
         SettingError::unless(holds, "tolerance", given, "any above 0")
-    }
-
-    /// That of backward Euler, with which BDF2 begins, and begins anew after an edit.
-    fn air_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    fn takes_triangles(&self) -> bool {
-        true
-    }
-
-    fn takes_buckling(&self) -> bool {
-        true
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {

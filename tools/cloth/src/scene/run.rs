@@ -304,7 +304,7 @@ impl Run {
 
     /// The longest stable step of an explicit method.
     fn stable_step_s(&mut self) -> Option<f64> {
-        self.engine.frequency_limit()?;
+        self.engine.abilities().frequency_limit?;
         stability::whole_step_s(self.cloth.system_mut(), &self.engine)
     }
 

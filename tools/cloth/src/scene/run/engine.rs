@@ -2,7 +2,9 @@
 
 use super::quality::{Limited, Quality, Solved};
 use crate::scene::Method;
-use crate::{Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd};
+use crate::{
+    Abilities, Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd,
+};
 
 /// A method with its state.
 #[derive(Clone, Debug)]
@@ -71,27 +73,11 @@ impl Solver for Engine {
         }
     }
 
-    fn air_limit(&self) -> Option<f64> {
-        self.solver().air_limit()
-    }
-
-    fn takes_drag_explicitly(&self) -> bool {
-        self.solver().takes_drag_explicitly()
+    fn abilities(&self) -> Abilities {
+        self.solver().abilities()
     }
 
     fn check(&self) -> Result<(), SettingError> {
         self.solver().check()
-    }
-
-    fn takes_triangles(&self) -> bool {
-        self.solver().takes_triangles()
-    }
-
-    fn takes_buckling(&self) -> bool {
-        self.solver().takes_buckling()
-    }
-
-    fn frequency_limit(&self) -> Option<f64> {
-        self.solver().frequency_limit()
     }
 }
