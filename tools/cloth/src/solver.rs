@@ -54,6 +54,12 @@ pub trait Solver {
         false
     }
 
+    /// Whether the method has particles that are too light for a step carried by their neighbours,
+    /// so that [`System::suited_step_s`] says how long steps may be, and not the largest frequency.
+    fn carries_light(&self) -> bool {
+        false
+    }
+
     /// Whether the settings of the method can be used. A step asks first.
     ///
     /// # Errors
@@ -91,6 +97,10 @@ impl<S: Solver + ?Sized> Solver for &mut S {
 
     fn takes_drag_explicitly(&self) -> bool {
         (**self).takes_drag_explicitly()
+    }
+
+    fn carries_light(&self) -> bool {
+        (**self).carries_light()
     }
 
     fn check(&self) -> Result<(), SettingError> {

@@ -8,6 +8,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 use crate::air::AirRate;
 use crate::balance::Noted;
 use crate::culprit::Culprit;
+use crate::guard::Guard;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::system::{Left, Model, System, Unstable};
 
@@ -127,6 +128,10 @@ impl System {
         if self.unstable == Unstable::Allow {
             return Ok(whole);
         }
+        if solver.carries_light() {
+            let air = self.air_share(solver);
+            return self.admit_carried(air, dt_s);
+        }
         match (solver.frequency_limit(), self.air_share(solver)) {
             (Some(limit), air) => self.admit_springs(limit, air, dt_s),
             (None, Some(air)) => self.admit_air(air, dt_s),
@@ -157,14 +162,76 @@ impl System {
         if dt_s <= limit_s {
             return divided(dt_s, limit_s);
         }
+        Err(self.refused(dt_s, springs_s, limit_s, air))
+    }
+
+    /// A step that springs and air make too long.
+    fn refused(
+        &mut self,
+        given_s: f64,
+        springs_s: f64,
+        limit_s: f64,
+        air: Option<AirShare>,
+    ) -> StepError {
         match air.filter(|air| air.per_s * springs_s > 1.0) {
-            Some(air) => Err(air.refused(dt_s, limit_s)),
-            None => Err(StepError::Unstable {
-                given_s: dt_s,
+            Some(air) => air.refused(given_s, limit_s),
+            None => StepError::Unstable {
+                given_s,
                 limit_s,
-                frequency,
-            }),
+                frequency: self.recent_frequency(),
+            },
         }
+    }
+
+    /// How many substeps a step takes with light particles carried: none up to twice the one that
+    /// suits, and those that suit beyond; and so many more as it takes where that is not stable.
+    fn admit_carried(&mut self, air: Option<AirShare>, dt_s: f64) -> Result<StepReport, StepError> {
+        let suited_s = self.suited_step_s();
+        let longest_s = Guard::WHOLE * suited_s;
+        let mut limit_s = with_air(longest_s, air);
+        let is_whole = dt_s <= limit_s;
+        if !is_whole && self.unstable == Unstable::Refuse {
+            return Err(self.refused(dt_s, longest_s, limit_s, air));
+        }
+        let suited_s = with_air(suited_s, air);
+        let mut report = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
+        let air_per_s = air.map_or(0.0, |air| air.per_s);
+        self.scratch.air_per_s = air_per_s;
+        while !self.is_sound(dt_s / f64::from(report.substeps)) {
+            limit_s = dt_s / f64::from(2 * report.substeps);
+            report = divided(dt_s, limit_s)?;
+        }
+        if report.substeps > 1 && self.unstable == Unstable::Refuse {
+            return Err(self.refused(dt_s, limit_s, limit_s, air));
+        }
+        Ok(StepReport {
+            limit_s: Some(limit_s),
+            ..report
+        })
+    }
+
+    /// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which no more than a
+    /// tenth of the particles have to be carried by their neighbours. A step of up to twice that is
+    /// admitted whole. Springs alone, with triangles as they are stretched now; infinite where there
+    /// are none. A pass over all constraints where something has changed.
+    pub fn suited_step_s(&mut self) -> f64 {
+        let (model, counters) = (&self.model, &mut self.counters);
+        let reach = self.spectrum.reach(model, &self.positions, counters);
+        self.guard.suited_s(model, reach)
+    }
+
+    /// Weighs particles for steps of this length.
+    pub(crate) fn weigh_for(&mut self, dt_s: f64) {
+        let (reach, air) = (self.spectrum.known_reach(), dt_s * self.scratch.air_per_s);
+        if self.guard.weigh(&self.model, reach, dt_s, air) {
+            self.scratch.is_fresh = false;
+        }
+    }
+
+    /// Whether steps of this length are stable with particles carried for it.
+    fn is_sound(&mut self, dt_s: f64) -> bool {
+        self.weigh_for(dt_s);
+        self.guard.is_sound(&self.model, &mut self.counters)
     }
 
     /// The same by the air alone.
@@ -186,6 +253,10 @@ impl System {
 
     /// The same for this method with the air that blows now; `None` where nothing limits it.
     pub(crate) fn whole_step_s(&mut self, solver: &impl Solver) -> Option<f64> {
+        if solver.carries_light() {
+            let longest_s = Guard::WHOLE * self.suited_step_s();
+            return Some(with_air(longest_s, self.air_share(solver)));
+        }
         let springs_s = solver
             .frequency_limit()
             .map(|limit| self.stable_step_s(limit));

@@ -20,6 +20,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 use crate::balance::Meter;
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::guard::Guard;
 use crate::load::{Loads, Path};
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
@@ -56,6 +57,7 @@ pub struct System {
     pub(crate) model: Model,
     pub(crate) counters: Counters,
     pub(crate) spectrum: Spectrum,
+    pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
@@ -70,6 +72,10 @@ pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
     /// Whether these are the accelerations now.
     pub(crate) is_fresh: bool,
+    /// The step in seconds whose carried and crushed particles are in them; zero without any.
+    pub(crate) guarded_s: f64,
+    /// The part of a step's limit that wind takes in a second, as a step found it.
+    pub(crate) air_per_s: f64,
     /// Where the step began: the last good state.
     pub(crate) positions: Vec<Point>,
     pub(crate) velocities: Vec<Vector>,
@@ -156,6 +162,7 @@ impl System {
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),
+            guard: Guard::default(),
             scratch: Scratch::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
@@ -235,6 +242,7 @@ impl System {
         self.model.buckling = buckling;
         self.scratch.is_fresh = false;
         self.spectrum.forget();
+        self.guard.forget();
     }
 
     /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4): its particles,
@@ -310,6 +318,7 @@ impl System {
     pub(crate) fn touched(&mut self, particles: &[usize]) {
         self.scratch.is_fresh = false;
         self.spectrum.touched(&self.model, particles);
+        self.guard.forget();
         self.note_change();
     }
 

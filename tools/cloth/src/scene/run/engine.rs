@@ -79,6 +79,10 @@ impl Solver for Engine {
         self.solver().takes_drag_explicitly()
     }
 
+    fn carries_light(&self) -> bool {
+        self.solver().carries_light()
+    }
+
     fn check(&self) -> Result<(), SettingError> {
         self.solver().check()
     }
