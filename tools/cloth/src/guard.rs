@@ -43,7 +43,8 @@ pub(crate) struct Guard {
     carry: Carry,
     /// The sum of the stiffness at each particle.
     sums: Vec<f64>,
-    suited_s: f64,
+    /// `None` where it is not known.
+    suited_s: Option<f64>,
     /// The reach of triangles that both are for; `None` where they are not known.
     reach: Option<f64>,
     /// The step, and the wind's part of the limit, that particles were weighed for.
@@ -63,7 +64,7 @@ impl Default for Guard {
         Guard {
             carry: Carry::default(),
             sums: Vec::new(),
-            suited_s: f64::INFINITY,
+            suited_s: None,
             reach: None,
             weighed: None,
             is_sound: false,
@@ -79,8 +80,15 @@ impl Guard {
     /// How many times the suited step is admitted whole.
     pub(crate) const WHOLE: f64 = 2.0;
 
-    /// Masses or stiffness have changed.
+    /// The system is another one.
     pub(crate) fn forget(&mut self) {
+        self.reach = None;
+        self.suited_s = None;
+    }
+
+    /// Masses or stiffness have changed where a mesh was edited. Particles are weighed anew, and the
+    /// step that suits gets no shorter for it: slivers along a cut are to be carried.
+    pub(crate) fn edited(&mut self) {
         self.reach = None;
     }
 
@@ -92,7 +100,7 @@ impl Guard {
     /// The step that suits a model, in seconds; infinite without springs.
     pub(crate) fn suited_s(&mut self, model: &Model, reach: f64) -> f64 {
         self.look(model, reach);
-        self.suited_s
+        self.suited_s.unwrap_or(f64::INFINITY)
     }
 
     /// Sums up stiffness anew where it has changed.
@@ -116,10 +124,10 @@ impl Guard {
         self.rates.extend(rates);
         let last = self.rates.len().saturating_sub(1);
         let place = (PERCENTILE * last as f64).ceil() as usize;
-        self.suited_s = f64::INFINITY;
         if !self.rates.is_empty() {
             let (_, rate, _) = self.rates.select_nth_unstable_by(place, f64::total_cmp);
-            self.suited_s = (2.0 * SHARE / *rate).sqrt();
+            let suited_s = (2.0 * SHARE / *rate).sqrt();
+            self.suited_s = Some(self.suited_s.map_or(suited_s, |known| known.max(suited_s)));
         }
     }
 

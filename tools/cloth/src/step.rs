@@ -213,7 +213,8 @@ impl System {
     /// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which no more than a
     /// tenth of the particles have to be carried by their neighbours. A step of up to twice that is
     /// admitted whole. Springs alone, with triangles as they are stretched now; infinite where there
-    /// are none. A pass over all constraints where something has changed.
+    /// are none. While a mesh is cut and torn it gets no shorter: what is light then is carried. A
+    /// pass over all constraints where something has changed.
     pub fn suited_step_s(&mut self) -> f64 {
         let (model, counters) = (&self.model, &mut self.counters);
         let reach = self.spectrum.reach(model, &self.positions, counters);
@@ -264,6 +265,15 @@ impl System {
             None => springs_s,
             air => Some(with_air(springs_s.unwrap_or(f64::INFINITY), air)),
         }
+    }
+
+    /// The step that suits this method with the air that blows now; `None` where it carries nothing.
+    pub(crate) fn suited_s(&mut self, solver: &impl Solver) -> Option<f64> {
+        if !solver.carries_light() {
+            return None;
+        }
+        let springs_s = self.suited_step_s();
+        Some(with_air(springs_s, self.air_share(solver)))
     }
 
     /// What the air takes of a step by this method.

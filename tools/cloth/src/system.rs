@@ -285,6 +285,7 @@ impl System {
         let index = self.model.triangles.as_slice().len();
         self.model.triangles.push(triangle);
         self.touched(&triangle.vertices.map(|corner| corner as usize));
+        self.guard.forget();
         index
     }
 
@@ -303,6 +304,7 @@ impl System {
         };
         check_constraint(&constraint, self.positions.len())?;
         let id = self.model.family_mut(family).add(constraint);
+        self.guard.forget();
         self.touched(&ends);
         Ok(id)
     }
@@ -318,7 +320,7 @@ impl System {
     pub(crate) fn touched(&mut self, particles: &[usize]) {
         self.scratch.is_fresh = false;
         self.spectrum.touched(&self.model, particles);
-        self.guard.forget();
+        self.guard.edited();
         self.note_change();
     }
 
@@ -342,6 +344,7 @@ impl System {
         };
         check_constraint(&constraint, self.positions.len())?;
         self.model.stretch.set_stiffness(id, stiffness_n_per_m);
+        self.guard.forget();
         self.touched(&constraint.ends);
         Ok(())
     }
@@ -356,6 +359,7 @@ impl System {
     pub fn cut(&mut self, id: ConstraintId) -> Constraint {
         self.is_no_cloth();
         let constraint = self.model.stretch.remove(id);
+        self.guard.forget();
         self.touched(&constraint.ends);
         constraint
     }

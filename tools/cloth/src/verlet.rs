@@ -11,6 +11,41 @@
 //!
 //! Where nothing is carried and nothing is crushed, the guards change no bit.
 //!
+//! What chose it as the default is made by a test (`tests/cloth/defaults/table.rs`): sheets of 10 × 10
+//! cells with diagonals at random that hang by their top edge under 400 m/s², each step with three
+//! orders of storage. How far the largest strain, the 99th percentile and the rms over loaded edges
+//! are off at rest, in per cent, worst of the orders; and the largest energy of the sheet crushed to
+//! half, as a multiple of what it had. Steps are parts of h/c, the time in which a pull travels an
+//! edge; the one that suits is .36 (even), .31 (uneven: vertices moved by up to .45 of a cell) and .36
+//! (sliver: a vertex of a hundredth of its mass). A dash says that it blew up.
+//!
+//! ```text
+//!                       even                  uneven                sliver
+//!                step   largest 99 % rms  E   largest 99 % rms  E   largest 99 % rms   E
+//! XPBD            .25      7   28  12   .91     14   33  14   .85     81   65  33    .90
+//!                 .5      43  101  46   .74     56  117  53   .63    169  152  70    .73
+//!                1       212  346 172   .63    224  401 197   .54    382  476 204    .61
+//!                2       841 1246 622   .69    856 1489 703   .52   1060 1616 687    .69
+//! two sweeps      .25     .2    3  .7   .91     .1    3   1   .85     36   47  20    .89
+//!                 .5       3   27   9   .69      6   34  13   .58    101   79  36    .69
+//!                1        57  137  62   .39     74  163  73   .35    208  197  88    .39
+//!                2       360  561 283   .34    370  669 327   .30    572  773 325    .36
+//! four sweeps     .25     .0   .1  .0   .91     .1   .2  .1   .85      2   30  12    .89
+//!                 .5      .0    2  .7   .69     .2    5   2   .58     65   65  27    .69
+//!                1         4   48  16   .36     11   56  22   .29    123   87  44    .36
+//!                2       124  232 112   .22    141  293 132   .17    303  340 143    .24
+//! Verlet::plain   .25     .0   .0  .0  4.6      .0   .0  .0  10.7     –    –   –    –
+//!                 .5      .0   .0  .0   –       –    –   –    –       –    –   –    –
+//!                1        –    –   –    –       –    –   –    –       –    –   –    –
+//! Verlet::new     .25     .0   .0  .0   .99     .0   .0  .0   .99     .0   .0  .0    .99
+//!                 .5      .0   .0  .0   .90     .0   .0  .0   .83     .0   .0  .0    .90
+//!                1        .0   .0  .0   .78     .0   .0  .0   .73     .0   .0  .0    .77
+//!                2        –    –   –    –       –    –   –    –       –    –   –    –
+//! ```
+//!
+//! The last row is unwatched: a step of more than twice the one that suits is divided. A step costs
+//! .85 of one of XPBD with one sweep where little is carried, and 1.1 where most is.
+//!
 //! By the plain method the middle of three particles between two nails, pushed aside by a thousandth
 //! at nine tenths of the bound, has 150 times its energy, and a sheet crushed to half 2.7 to 5.1
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
@@ -186,6 +221,15 @@ fn predict(system: &mut System, half: f64, fade: f64) {
         if w > 0.0 {
             *v = *v * (1.0 - fade) + a * half;
         }
+    }
+}
+
+impl System {
+    /// How many particles were carried by their neighbours in the last step of [`Verlet`]: those that
+    /// are too light for it.
+    #[must_use]
+    pub fn carried_count(&self) -> usize {
+        self.guard.carry().len()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use tearmesh::{FaceId, Scissor, Vector};
-use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, TimedCut};
+use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, Softness, TimedCut};
 use tearmesh_cloth::{ClothError, TearingError, Threshold};
 
 use super::words::two_digits;
@@ -226,6 +226,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
     }
     warnings.extend(endless(run));
     warnings.extend(late(run));
+    warnings.extend(soft(run));
     if run.scene().tearing.is_none() {
         return warnings;
     }
@@ -300,6 +301,27 @@ fn late(run: &Run) -> Vec<Fault> {
     cuts.chain(holds).collect()
 }
 
+/// XPBD leaves cloth softer than its fabric, and that is said with a number.
+fn soft(run: &Run) -> Option<Fault> {
+    let softness = run.softness()?;
+    if softness.extra <= Softness::TOLERABLE {
+        return None;
+    }
+    let percent = (softness.extra * 100.0).round();
+    let message = format!(
+        "xpbd with a step of {} s leaves the cloth too soft: what hangs is stretched {} % farther \
+         than its fabric would be, and some edges far more",
+        short(run.step_s()),
+        short(percent),
+    );
+    let help = format!(
+        "--dt {} for {} %, or --solver verlet, which is exact at rest",
+        two_digits(softness.step_s),
+        short(Softness::TOLERABLE * 100.0),
+    );
+    Some(Fault::warning("W-SIM-SOFT", message).help(help))
+}
+
 /// Few sweeps or large steps leave a cloth softer than its fabric, and it tears of its own weight.
 fn coarse(run: &Run) -> Option<Fault> {
     let wanted_s = run.step_wanted_s()?;
@@ -319,7 +341,7 @@ fn coarse(run: &Run) -> Option<Fault> {
         count(sweeps as usize, "sweep", "sweeps"),
         short((times * 10.0).round() / 10.0),
     );
-    let help = format!("--dt {}, or --solver implicit", two_digits(wanted_s));
+    let help = format!("--dt {}, or --solver verlet", two_digits(wanted_s));
     Some(Fault::warning("W-SIM-COARSE", message).help(help))
 }
 

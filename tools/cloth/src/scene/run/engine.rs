@@ -1,6 +1,6 @@
 //! The methods of scenes, behind one solver.
 
-use super::quality::{Limited, Quality, Solved};
+use super::quality::{Guarded, Limited, Quality, Solved};
 use crate::scene::Method;
 use crate::{Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd};
 
@@ -38,13 +38,16 @@ impl Engine {
         }
     }
 
-    pub(super) fn quality(&self, system: &System) -> Option<Quality> {
+    pub(super) fn quality(&self, system: &System) -> Quality {
         match self {
-            Engine::Provot(_, limited) => Some(Quality::Limited(*limited)),
-            Engine::Pbd(_) => Some(Quality::Strain(system.strain_rms())),
-            Engine::Verlet(_) => None,
-            Engine::Xpbd(xpbd) => Some(Quality::Residual(xpbd.residual_n(system))),
-            Engine::Implicit(_, solved) => Some(Quality::Solved(*solved)),
+            Engine::Provot(_, limited) => Quality::Limited(*limited),
+            Engine::Pbd(_) => Quality::Strain(system.strain_rms()),
+            Engine::Verlet(verlet) => Quality::Guarded(Guarded {
+                carried: system.carried_count(),
+                damped_j: verlet.damped_j(),
+            }),
+            Engine::Xpbd(xpbd) => Quality::Residual(xpbd.residual_n(system)),
+            Engine::Implicit(_, solved) => Quality::Solved(*solved),
         }
     }
 }
