@@ -410,7 +410,7 @@ fn what_would_be_ignored_is_refused() {
         (
             "[solver]\norder = \"2\"\n",
             "",
-            "error[E-SCENE-CLASH]: `order` goes with implicit, and the method is xpbd at:2:9",
+            "error[E-SCENE-CLASH]: `order` goes with implicit, and the method is verlet at:2:9",
         ),
         ("[solver]\norder = \"2\"\n", "--solver implicit", ""),
         (
@@ -523,9 +523,13 @@ fn faults_of_a_scene_file_have_its_lines() {
 #[test]
 fn the_report_says_what_the_method_made() {
     let folder = Folder::new();
+    // Springs without a guard.
+    folder.write(
+        "springs.toml",
+        "base = \"rip\"\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n[tear]\nthreshold = 2.5\n",
+    );
     let output = folder.run(
-        "tearmesh tear flag.obj --scene rip --solver verlet --dt 0.00031 --threshold 2.5 \
-         --seconds 1.6 --format json",
+        "tearmesh tear flag.obj --scene springs.toml --dt 0.00031 --seconds 1.6 --format json",
     );
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let energy = |name: &str| report["energy_j"][name].as_f64().expect("joules");

@@ -151,6 +151,12 @@ fn bad_inputs(folder: &Folder) {
         ),
         ("pins.toml", "[[hold]]\nvertices = [1057, 1089]\n".to_owned()),
         (
+            "springs.toml",
+            "base = \"rip\"\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n\
+             [tear]\nthreshold = 2.5\n"
+                .to_owned(),
+        ),
+        (
             "bad.toml",
             "seconds = -1\nsolver = 3\n[fabric]\nstrech_n_per_m = 5\n[[hold]]\nnear = [0, \"top\"]\n\
              [[cut]]\nrays = [\"0,1,5:0,0,-1\"]\n[tear]\nthreshold = 1.5\nvertices = 3\n"

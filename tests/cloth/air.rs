@@ -3,11 +3,12 @@
 
 use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::{
-    Cloth, Fabric, Implicit, Loads, Pbd, Provot, Rk4, Solver, StepError, System, Unstable, Verlet,
-    Wind, Xpbd,
+    Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
+    Xpbd, air, frequency,
 };
 
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 const DENSITY_KG_PER_M2: f64 = 0.15;
 
@@ -175,7 +176,7 @@ fn springs_and_air_together_are_stable_at_the_limit_of_the_watch() {
             for drag_per_s in [None, Some(20.0), Some(1e3)] {
                 let mut cloth = sheet(4, 50.0, wind(0.0, 0.0));
                 let system = cloth.system_mut();
-                let coefficient = air * DENSITY_KG_PER_M2 * system.frequency_bound();
+                let coefficient = air * DENSITY_KG_PER_M2 * frequency::bound(system);
                 let loads = Loads {
                     wind: Some(wind(0.0, coefficient)),
                     drag_per_s,
@@ -260,7 +261,7 @@ fn no_mode_is_slowed_faster_than_the_rate_says() {
         if round == 10 {
             system.hold(0);
         }
-        let rate = system.wind_rate().expect("there is wind");
+        let rate = air::wind_rate(system).expect("there is wind");
         let areas = indices.chunks_exact(3).map(|face| {
             let [a, b, c] = [0, 1, 2].map(|i| system.positions()[face[i] as usize]);
             (b - a).cross(&(c - a)).norm() / 2.0

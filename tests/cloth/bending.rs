@@ -5,12 +5,13 @@ use nalgebra::DMatrix;
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Hessian, Layout, Settings, Tolerance};
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Fabric, Implicit, Loads, Pbd, Provot, Rk4, Solver, StepError, System,
-    Verlet, Xpbd,
+    Bending, Buckling, Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System,
+    Verlet, Xpbd, energy, force, frequency, stable_step_s,
 };
 
 use crate::answers::{G, near};
 use crate::random::Random;
+use crate::rk4::Rk4;
 
 fn law(buckles_below: f64) -> Buckling {
     Buckling::new(buckles_below).expect("between 0 and 1")
@@ -91,7 +92,7 @@ fn one_bend_has_the_force_of_an_arc_or_of_the_spring_before_it() {
             if d < l {
                 near(force, arc_force(k, l, d).max(spring), 1e-9);
             }
-            near(-system.reaction_n(0).x, force, 1e-9);
+            near(-force::reaction_n(&system, 0).x, force, 1e-9);
             let energy = if d >= l {
                 0.0
             } else if d < below * l {
@@ -99,7 +100,7 @@ fn one_bend_has_the_force_of_an_arc_or_of_the_spring_before_it() {
             } else {
                 0.5 * c * (d - l).powi(2)
             };
-            near(system.elastic_energy_j(), energy, 1e-12);
+            near(energy::elastic_j(&system), energy, 1e-12);
         }
     }
 }
@@ -110,15 +111,15 @@ fn forces_of_a_crumpled_cloth_are_the_gradient_of_its_energy() {
         let mut cloth = crumpled(arcs(2e-3, 0.9), 0.15, seed);
         let system = cloth.system_mut();
         let mut accelerations = Vec::new();
-        system.accelerations(&mut accelerations);
+        force::accelerations(system, &mut accelerations);
         let mut worst = 0.0_f64;
         for (particle, acceleration) in accelerations.iter().enumerate() {
-            let hand = system.reaction_n(particle);
+            let hand = force::reaction_n(system, particle);
             for axis in 0..3 {
                 let h = 1e-6;
                 let mut energy = |by: f64| {
                     system.state_mut().0[particle][axis] += by;
-                    let energy = system.elastic_energy_j();
+                    let energy = energy::elastic_j(system);
                     system.state_mut().0[particle][axis] -= by;
                     energy
                 };
@@ -147,7 +148,7 @@ fn the_stiffness_is_that_of_the_implicit_solver() {
             let mut unit = vec![Vector::zeros(); n];
             unit[column / 3][column % 3] = 1.0;
             hessian.product(layout.pairs(), &unit, &mut expected);
-            for (have, want) in system.stiffness_times(&unit).iter().zip(&expected) {
+            for (have, want) in force::stiffness_times(system, &unit).iter().zip(&expected) {
                 near((have - want).norm(), 0.0, 1e-9);
             }
         }
@@ -162,7 +163,7 @@ fn square_max(system: &mut System) -> f64 {
     for column in 0..3 * n {
         let mut unit = vec![Vector::zeros(); n];
         unit[column / 3][column % 3] = weights[column / 3];
-        let product = system.stiffness_times(&unit);
+        let product = force::stiffness_times(system, &unit);
         for row in 0..3 * n {
             matrix[(row, column)] = product[row / 3][row % 3] * weights[row / 3];
         }
@@ -176,8 +177,8 @@ fn no_frequency_is_beyond_the_bound_and_a_measure_on_the_flat_holds_when_folded(
     for (flexural, below) in [(1e-3, 0.95), (1e-2, 0.6), (0.3, 0.6), (0.05, 0.9)] {
         let fabric = arcs(flexural, below);
         let mut flat = crumpled(fabric, 0.0, 0);
-        let measured = flat.system_mut().measure_frequency(1e-9, 20_000);
-        let bound = flat.system_mut().frequency_bound();
+        let measured = frequency::measure(flat.system_mut(), 1e-9, 20_000);
+        let bound = frequency::bound(flat.system_mut());
         let mut most = 0.0_f64;
         for seed in 0..12 {
             let by = [0.02, 0.1, 0.3, 1.0][seed as usize % 4];
@@ -207,12 +208,12 @@ fn the_limit_is_known_before_it_folds() {
         let points = [Point::origin(), Point::new(l, 0.0, 0.0)];
         let mut system = System::new(points, vec![m; 2]).expect("two particles");
         system.bend([0, 1], l, c).expect("a bend");
-        let of_springs = system.frequency().omega_rad_per_s;
+        let of_springs = frequency::largest(&mut system).omega_rad_per_s;
         near(of_springs, (2.0 * c / m).sqrt(), 1e-6);
         system.set_buckling(Some(law(below)));
         system.hold(0);
-        let omega = system.frequency().omega_rad_per_s;
-        let bound = system.frequency_bound();
+        let omega = frequency::largest(&mut system).omega_rad_per_s;
+        let bound = frequency::bound(&mut system);
         // By a difference of the paper's force near the place where the ends meet.
         let k = c * (below * l - l) / arc_force(1.0, l, below * l);
         let h = 1e-7 * l;
@@ -309,7 +310,7 @@ fn a_folded_strip_rests_where_the_forces_of_the_paper_balance() {
                 }
             }
         }
-        near(energy, cloth.system().elastic_energy_j(), 1e-12);
+        near(energy, energy::elastic_j(cloth.system()), 1e-12);
         let free = (0..flat.len()).filter(|v| !ends.contains(v));
         let left = free.map(|v| forces[v].norm()).fold(0.0, f64::max);
         let lowest = x.iter().map(|x| x.z).fold(f64::INFINITY, f64::min);
@@ -330,9 +331,9 @@ fn methods_that_project_springs_are_refused_and_those_with_forces_run() {
         assert_eq!(cloth.positions(), before);
         assert!(error.to_string().contains("bends buckle"), "{error}");
     }
-    let dt_s = 0.1 * cloth.system_mut().stable_step_s(2.0);
+    let dt_s = 0.1 * stable_step_s(cloth.system_mut(), 2.0);
     let energy =
-        |cloth: &Cloth| cloth.system().elastic_energy_j() + cloth.system().kinetic_energy_j();
+        |cloth: &Cloth| energy::elastic_j(cloth.system()) + energy::kinetic_j(cloth.system());
     let before = energy(&cloth);
     for solver in [
         &mut Verlet::plain() as &mut dyn Solver,

@@ -2,11 +2,12 @@
 
 use tearmesh::{Plane, Point, Vector};
 use tearmesh_cloth::{
-    Collider, Constraint, Culprit, Limiter, Loads, Path, Pbd, Provot, Rk4, Solver, StepError,
-    System, SystemError, Unstable, Verlet, Wind, Xpbd,
+    Collider, Constraint, Culprit, Limiter, Loads, Path, Pbd, Provot, Solver, StepError, System,
+    SystemError, Unstable, Verlet, Wind, Xpbd, energy, frequency, stable_step_s,
 };
 
 use crate::answers::{chain, framed, gravity, near, row, run};
+use crate::rk4::Rk4;
 
 /// What became of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,13 +40,16 @@ fn scene(name: &str, stiffness: f64) -> System {
 }
 
 fn class(mut system: System, solver: &mut dyn Solver, part: f64, unstable: Unstable) -> Class {
-    let limit = solver.frequency_limit().expect("an explicit method");
-    let omega = system.measure_frequency(1e-6, 20_000).omega_rad_per_s;
+    let limit = solver
+        .abilities()
+        .frequency_limit
+        .expect("an explicit method");
+    let omega = frequency::measure(&mut system, 1e-6, 20_000).omega_rad_per_s;
     let dt = part * limit / omega;
     system.when_unstable(unstable);
-    let energy = |system: &System| system.kinetic_energy_j() + system.elastic_energy_j();
-    let rest = system.elastic_energy_j();
-    let push = system.kinetic_energy_j();
+    let energy = |system: &System| energy::kinetic_j(system) + energy::elastic_j(system);
+    let rest = energy::elastic_j(&system);
+    let push = energy::kinetic_j(&system);
     let mut most = 0.0_f64;
     for _ in 0..600 {
         match system.step(&mut *solver, dt) {
@@ -209,21 +213,24 @@ fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
 fn f4_the_bound_is_cheap_and_holds_and_power_iteration_is_better() {
     for stiffness in [1e2, 1e5] {
         let mut net = framed(12, stiffness, 0.0);
-        let (bound, omega) = (net.frequency_bound(), net.frequency().omega_rad_per_s);
+        let (bound, omega) = (
+            frequency::bound(&mut net),
+            frequency::largest(&mut net).omega_rad_per_s,
+        );
         println!("bound {bound}, measured {omega}, ratio {}", omega / bound);
         assert!(omega < bound && omega > 0.5 * bound);
-        let exact = net.measure_frequency(1e-6, 20_000).omega_rad_per_s;
+        let exact = frequency::measure(&mut net, 1e-6, 20_000).omega_rad_per_s;
         assert!(
             omega <= exact * (1.0 + 1e-12) && omega > 0.97 * exact,
             "{omega} {exact}"
         );
         // Known until something changes.
         let counted = net.counters().matrix_products;
-        net.frequency();
+        frequency::largest(&mut net);
         assert_eq!(net.counters().matrix_products, counted);
         let id = net.stretches().between(84, 85).expect("a spring");
         net.set_stiffness(id, 9.0 * stiffness).expect("a stiffness");
-        let stiffer = net.frequency();
+        let stiffer = frequency::largest(&mut net);
         assert!(stiffer.omega_rad_per_s > 1.2 * omega);
         assert_eq!(
             stiffer
@@ -232,7 +239,7 @@ fn f4_the_bound_is_cheap_and_holds_and_power_iteration_is_better() {
             Some(Some(id))
         );
         assert!(net.counters().matrix_products > counted);
-        assert!(net.frequency_bound() >= stiffer.omega_rad_per_s);
+        assert!(frequency::bound(&mut net) >= stiffer.omega_rad_per_s);
     }
 }
 
@@ -256,14 +263,14 @@ fn f5_the_limiter_needs_the_velocity_rewrite_and_says_what_it_did() {
             ..Limiter::default()
         };
         let mut chain = heavy();
-        let dt = 0.9 * 2.0 / chain.measure_frequency(1e-6, 10_000).omega_rad_per_s;
+        let dt = 0.9 * 2.0 / frequency::measure(&mut chain, 1e-6, 10_000).omega_rad_per_s;
         let mut provot = Provot::new(limiter);
         for _ in 0..2000 {
             if chain.step(&mut provot, dt).is_err() {
                 return f64::INFINITY;
             }
         }
-        chain.kinetic_energy_j()
+        energy::kinetic_j(&chain)
     };
     for passes in [1, 20] {
         let (with, without) = (energy_after(true, passes), energy_after(false, passes));
@@ -344,7 +351,7 @@ fn f8_xpbd_says_that_it_is_wrong_under_pretension() {
 #[test]
 fn f14_a_light_particle_shortens_the_step() {
     let mut chain = row(3, 1.0, 100.0, 1.0, Vector::new(1.0, 0.0, 0.0));
-    let before = chain.stable_step_s(2.0);
+    let before = stable_step_s(&mut chain, 2.0);
     let masses = vec![1.0, 0.01, 1.0, 1.0];
     let points = chain.positions().to_vec();
     let mut light = System::new(points, masses).expect("particles");
@@ -352,13 +359,17 @@ fn f14_a_light_particle_shortens_the_step() {
         light.stretch([i, i + 1], 1.0, 100.0).expect("a spring");
     }
     light.hold(0);
-    let after = light.stable_step_s(2.0);
+    let after = stable_step_s(&mut light, 2.0);
     println!(
         "a hundredth of the mass: the step {} times shorter",
         before / after
     );
     assert!(before / after > 6.0);
-    assert!(light.frequency().ends.is_some_and(|ends| ends.contains(&1)));
+    assert!(
+        frequency::largest(&mut light)
+            .ends
+            .is_some_and(|ends| ends.contains(&1))
+    );
 }
 
 #[test]

@@ -10,7 +10,7 @@ mod rest;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{self, Settings, StepReport, Tolerance};
-use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System};
+use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System, force};
 
 pub(crate) const G: f64 = 9.81;
 
@@ -159,7 +159,7 @@ pub(crate) fn step(
 /// The forces on all particles that are not held, in newtons; without drag.
 pub(crate) fn forces(system: &mut System) -> Vec<Vector> {
     let mut forces = Vec::new();
-    system.accelerations(&mut forces);
+    force::accelerations(system, &mut forces);
     let forces = forces.iter().zip(system.masses());
     forces.map(|(a, m)| a * *m).collect()
 }

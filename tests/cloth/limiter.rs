@@ -13,7 +13,7 @@
 //! So there is no threshold to be quoted as a part of 2/ω: it is the load that decides.
 
 use tearmesh::Vector;
-use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable};
+use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable, energy, frequency};
 
 use crate::answers::{framed, gravity, row};
 use crate::random::Random;
@@ -33,7 +33,7 @@ fn limited(passes_max: u32, rewrites_velocities: bool) -> Provot {
 }
 
 fn omega(system: &mut System) -> f64 {
-    system.measure_frequency(1e-6, 20_000).omega_rad_per_s
+    frequency::measure(system, 1e-6, 20_000).omega_rad_per_s
 }
 
 /// Nets without weight, kicked.
@@ -67,7 +67,7 @@ fn kicked(name: &str, seed: u64) -> System {
 /// Whether energy stays below four times what it was, and in how many steps the limiter worked.
 fn survives(mut system: System, mut provot: Provot, part: f64) -> (bool, u32) {
     let dt = part * 2.0 / omega(&mut system);
-    let energy = |system: &System| system.kinetic_energy_j() + system.elastic_energy_j();
+    let energy = |system: &System| energy::kinetic_j(system) + energy::elastic_j(system);
     let start = energy(&system);
     let mut worked = 0;
     for _ in 0..2000 {
@@ -126,7 +126,7 @@ fn table_of_a_chain_too_heavy_for_the_limit() {
             let mut provot = limited(passes, rewrites);
             let ran = (0..(20.0 / dt) as usize).all(|_| chain.step(&mut provot, dt).is_ok());
             let kinetic = if ran {
-                chain.kinetic_energy_j()
+                energy::kinetic_j(&chain)
             } else {
                 f64::INFINITY
             };

@@ -17,6 +17,9 @@ mod limiter;
 #[allow(dead_code, reason = "shared with the tests of the library")]
 mod random;
 mod reaction;
+#[path = "../../tools/lab/src/rk4.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
+mod rk4;
 mod scenes;
 mod stiff;
 mod stiff_held;

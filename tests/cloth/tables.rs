@@ -12,9 +12,10 @@ mod theory;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{Pbd, Provot, Rk4, Solver, System, Verlet, Xpbd};
+use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd};
 
 use crate::answers::row;
+use crate::rk4::Rk4;
 use crate::weave::{implicit, strip};
 
 /// The methods, in the order of the tables' columns.

@@ -1,9 +1,31 @@
 //! Links of chains that tear, against statics and dynamics that are known.
 
 use tearmesh::Vector;
-use tearmesh_cloth::{Loads, Rk4, Solver, System, Tearing, Threshold, Verlet};
+use tearmesh_cloth::{Constraint, Loads, Solver, System, Tearing, Threshold, Verlet, energy};
 
 use crate::answers::{G, near, row};
+use crate::rk4::Rk4;
+
+/// A link that was cut, and its load: at least 1.
+#[derive(Debug, PartialEq)]
+pub(crate) struct CutLink {
+    constraint: Constraint,
+    load: f64,
+}
+
+/// Cuts the links whose load has reached the threshold, the worst first, up to the cap.
+pub(crate) fn cut_links(tearing: &Tearing, system: &mut System) -> Vec<CutLink> {
+    let load = |id| Some((tearing.threshold.load(system, id)?, id));
+    let loads = system.stretches().iter().filter_map(load);
+    let mut torn: Vec<_> = loads.filter(|&(load, _)| load >= 1.0).collect();
+    torn.sort_by(|(one, a), (other, b)| other.total_cmp(one).then(a.cmp(b)));
+    torn.truncate(tearing.splits_per_step_max.unwrap_or(usize::MAX));
+    let cut = |(load, id)| CutLink {
+        constraint: system.cut(id),
+        load,
+    };
+    torn.into_iter().map(cut).collect()
+}
 
 /// R2's chain at rest under its weight and this force at its end, with these stiffnesses.
 fn loaded(force_n: f64, stiffness: impl Fn(usize) -> f64) -> System {
@@ -31,12 +53,13 @@ fn r7_a_chain_tears_at_the_load_and_in_the_order_of_statics() {
     let force = Tearing::new(Threshold::Force(50.0 * 0.05));
     for tearing in [strain, toughness, force] {
         let mut below = loaded(onset - 1e-9, |_| 50.0);
-        assert_eq!(tearing.cut_links(&mut below), Ok(Vec::new()));
+        assert_eq!(cut_links(&tearing, &mut below), []);
         let mut above = loaded(onset + 1e-9, |_| 50.0);
-        let cut = tearing.cut_links(&mut above).expect("a threshold");
+        let held_j = energy::elastic_j(&above);
+        let cut = cut_links(&tearing, &mut above);
         assert_eq!(cut.len(), 1, "{tearing:?}");
         assert_eq!(cut[0].constraint.ends, [0, 1], "the top");
-        near(cut[0].energy_j, 0.0625, 1e-9);
+        near(held_j - energy::elastic_j(&above), 0.0625, 1e-9);
         near(cut[0].load, 1.0, 1e-8);
         assert_eq!(above.stretches().len(), 9);
         assert_eq!(above.stretches().between(0, 1), None);
@@ -45,9 +68,7 @@ fn r7_a_chain_tears_at_the_load_and_in_the_order_of_statics() {
     let stiffer = |i: usize| 50.0 * (1.0 + 0.1 * i as f64);
     for (count, onset) in [(1, 1.519), (2, 1.8671), (3, 2.2152)] {
         let torn = |force_n: f64| {
-            let cut = strain
-                .cut_links(&mut loaded(force_n, stiffer))
-                .expect("a threshold");
+            let cut = cut_links(&strain, &mut loaded(force_n, stiffer));
             cut.iter()
                 .map(|cut| cut.constraint.ends[0])
                 .collect::<Vec<_>>()
@@ -58,9 +79,7 @@ fn r7_a_chain_tears_at_the_load_and_in_the_order_of_statics() {
             splits_per_step_max: Some(1),
             ..strain
         };
-        let cut = one
-            .cut_links(&mut loaded(onset + 1e-9, stiffer))
-            .expect("a threshold");
+        let cut = cut_links(&one, &mut loaded(onset + 1e-9, stiffer));
         assert_eq!(cut.len(), 1, "the cap");
         assert_eq!(cut[0].constraint.ends, [0, 1], "the worst first");
     }
@@ -76,7 +95,7 @@ fn first_tear(
     let tearing = Tearing::new(Threshold::Stretch(1.5));
     while system.elapsed_s() < end {
         system.step(solver, dt).expect("a stable step");
-        let cut = tearing.cut_links(&mut system).expect("a threshold");
+        let cut = cut_links(&tearing, &mut system);
         if let Some(cut) = cut.first() {
             return Some((system.elapsed_s(), cut.constraint.ends[0]));
         }

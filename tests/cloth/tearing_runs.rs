@@ -8,6 +8,7 @@ use tearmesh::{
 };
 use tearmesh_cloth::{
     Bending, Copies, Fabric, Loads, Path, Tear, Tearing, Threshold, Unbend, Unstable, Verlet, Xpbd,
+    force, frequency, stable_step_s,
 };
 
 use crate::answers::{gravity, near};
@@ -94,7 +95,7 @@ fn pull(rows: usize, tearing: Tearing, speed_m_per_s: f64, finer: f64) -> Pulled
     }
     let mut tear = Tear::new(&cloth, tearing).expect("a tear");
     let mut edits = Edits::new();
-    let dt = 1.0 / (finer * cloth.system_mut().frequency_bound());
+    let dt = 1.0 / (finer * frequency::bound(cloth.system_mut()));
     let (mut smooth, mut sum, mut count, mut apart) = (0.0, 0.0, 0.0, false);
     let mut pulled = Pulled {
         force_max_n: 0.0,
@@ -108,7 +109,7 @@ fn pull(rows: usize, tearing: Tearing, speed_m_per_s: f64, finer: f64) -> Pulled
         cloth.step(&mut Verlet::new(), dt).expect("a step");
         let force: f64 = legs[1]
             .iter()
-            .map(|&v| cloth.system().reaction_n(v).z)
+            .map(|&v| force::reaction_n(cloth.system(), v).z)
             .sum();
         smooth += (force - smooth) * dt / 0.002;
         pulled.force_max_n = pulled.force_max_n.max(smooth);
@@ -210,7 +211,7 @@ fn hangs(cells: u32, seconds: f64) -> f64 {
     system.set_loads(loads).expect("loads");
     let mut tear = Tear::new(&cloth, Tearing::default()).expect("a tear");
     let mut edits = Edits::new();
-    let dt = 0.95 * cloth.system_mut().stable_step_s(2.0);
+    let dt = 0.95 * stable_step_s(cloth.system_mut(), 2.0);
     let mut worst = 0.0_f64;
     for _ in 0..(seconds / dt) as usize {
         cloth.step(&mut Verlet::new(), dt).expect("a step");

@@ -5,7 +5,7 @@ use super::dense::solve;
 use super::{G, Scene, forces, rest, spring, step};
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh_cloth::{Buckling, Implicit, System};
+use tearmesh_cloth::{Buckling, Implicit, System, energy};
 
 type P = [f64; 3];
 
@@ -218,7 +218,7 @@ fn a_hinge_of_springs_and_arcs_comes_to_rest_where_forces_balance() {
     // A minimum, and not a saddle: it is lower than all near it.
     let energy = |system: &System| {
         let weights = system.masses().iter().zip(system.positions());
-        system.elastic_energy_j() + weights.map(|(m, x)| m * G * x.z).sum::<f64>()
+        energy::elastic_j(system) + weights.map(|(m, x)| m * G * x.z).sum::<f64>()
     };
     let lowest = energy(&system);
     for i in 3..24 {

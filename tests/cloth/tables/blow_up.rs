@@ -1,7 +1,7 @@
 //! The blow-up map: every cell of step × stiffness × scene × method has the class it should.
 
 use tearmesh::Vector;
-use tearmesh_cloth::{Loads, Solver, StepError, System, Unstable};
+use tearmesh_cloth::{Loads, Solver, StepError, System, Unstable, energy, frequency};
 
 use super::{Links, METHODS, method};
 use crate::answers::{framed, row};
@@ -55,13 +55,13 @@ fn scene(name: &str, stiffness: f64) -> System {
 
 /// A run at this part of the limit of the method, or of Verlet's where it has none.
 fn class(mut system: System, solver: &mut dyn Solver, part: f64) -> Class {
-    let limit = solver.frequency_limit().unwrap_or(2.0);
-    let omega = system.measure_frequency(1e-6, 20_000).omega_rad_per_s;
+    let limit = solver.abilities().frequency_limit.unwrap_or(2.0);
+    let omega = frequency::measure(&mut system, 1e-6, 20_000).omega_rad_per_s;
     let dt = part * limit / omega;
     system.when_unstable(Unstable::Allow);
-    let (rest, push) = (system.elastic_energy_j(), system.kinetic_energy_j());
+    let (rest, push) = (energy::elastic_j(&system), energy::kinetic_j(&system));
     // What projects shakes a pretensioned net by what it stores; what has forces does not.
-    let shaken = if solver.frequency_limit().is_some() {
+    let shaken = if solver.abilities().frequency_limit.is_some() {
         0.0
     } else {
         rest
@@ -70,7 +70,7 @@ fn class(mut system: System, solver: &mut dyn Solver, part: f64) -> Class {
     for _ in 0..600 {
         match system.step(&mut *solver, dt) {
             Ok(_) => {
-                let energy = system.kinetic_energy_j() + system.elastic_energy_j();
+                let energy = energy::kinetic_j(&system) + energy::elastic_j(&system);
                 most = most.max(energy - rest);
             }
             Err(StepError::BlowUp { .. }) => {

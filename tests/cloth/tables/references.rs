@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use tearmesh::{Masses, Point, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, Solver, Weave};
+use tearmesh_cloth::{Cloth, Fabric, Solver, Weave, energy};
 
 use super::{Links, METHODS, method, theory};
 use crate::answers::{catenary, framed, gravity, modulus, relaxed, run};
@@ -212,7 +212,7 @@ fn r7(links: Links, name: &str) -> Cell {
         (30.0 / dt) as usize,
     );
     let strain = -links.point(&chain, 1).z / 0.1 - 1.0;
-    let energy = chain.elastic_energy_j();
+    let energy = energy::elastic_j(&chain);
     Some(((strain - 0.5).abs().max((energy - 0.0625).abs()), 1e-9))
 }
 
@@ -222,7 +222,7 @@ fn r9(links: Links, name: &str) -> Cell {
     sheet.set_loads(gravity(0.0)).expect("loads");
     run(&mut sheet, &mut *method(name, 3), 1.0 / 60.0, 60);
     let fallen = theory::fall(name, 1.0 / 60.0, 60);
-    let strain = sheet.elastic_energy_j().sqrt();
+    let strain = energy::elastic_j(&sheet).sqrt();
     let off = sheet.positions().iter().map(|p| (p.z + fallen).abs());
     Some((off.fold(strain, f64::max), 1e-12))
 }
@@ -254,7 +254,7 @@ fn r10(links: Links, name: &str) -> Cell {
         dt,
         (0.5_f64 / dt).round() as usize,
     );
-    let energy = pair.elastic_energy_j() + pair.kinetic_energy_j();
+    let energy = energy::elastic_j(&pair) + energy::kinetic_j(&pair);
     let radius = (links.point(&pair, 1) - links.point(&pair, 0)).norm() / 2.0;
     let error = (radius / r - 1.0)
         .abs()

@@ -38,51 +38,49 @@ pub struct AirRate {
     pub particle: usize,
 }
 
-impl System {
-    /// The largest rate at which wind slows the system with its present areas; `None` where there
-    /// is none. A pass over all faces.
-    pub fn wind_rate(&mut self) -> Option<AirRate> {
-        let wind = self.model.loads.wind?;
-        let faces = &self.model.faces;
-        if faces.is_empty() {
-            return None;
-        }
-        self.counters.area_evaluations += 1;
-        let areas = &mut self.scratch.areas;
-        areas.clear();
-        areas.resize(self.positions.len(), 0.0);
-        for face in faces.chunks_exact(3) {
-            let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
-            let x = &self.positions;
-            let normal = cross(x[b] - x[a], x[c] - x[a]);
-            let area = dot(normal, normal).sqrt() / 2.0;
-            for corner in [a, b, c] {
-                areas[corner] += area;
-            }
-        }
-        let rates = areas.iter().zip(&self.model.inverse_masses);
-        let rates = rates.map(|(area, w)| w * wind.coefficient * area / 3.0);
-        let mut most = None;
-        for (particle, rate_per_s) in rates.enumerate() {
-            let largest = most.map_or(0.0, |rate: AirRate| rate.rate_per_s);
-            // A state that is not finite is for the step to find.
-            if rate_per_s > largest && rate_per_s.is_finite() {
-                most = Some(AirRate {
-                    rate_per_s,
-                    particle,
-                });
-            }
-        }
-        most
+/// The largest rate at which wind slows the system with its present areas; `None` where there
+/// is none. A pass over all faces.
+pub fn wind_rate(system: &mut System) -> Option<AirRate> {
+    let wind = system.model.loads.wind?;
+    let faces = &system.model.faces;
+    if faces.is_empty() {
+        return None;
     }
+    system.counters.area_evaluations += 1;
+    let areas = &mut system.scratch.areas;
+    areas.clear();
+    areas.resize(system.positions.len(), 0.0);
+    for face in faces.chunks_exact(3) {
+        let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
+        let x = &system.positions;
+        let normal = cross(x[b] - x[a], x[c] - x[a]);
+        let area = dot(normal, normal).sqrt() / 2.0;
+        for corner in [a, b, c] {
+            areas[corner] += area;
+        }
+    }
+    let rates = areas.iter().zip(&system.model.inverse_masses);
+    let rates = rates.map(|(area, w)| w * wind.coefficient * area / 3.0);
+    let mut most = None;
+    for (particle, rate_per_s) in rates.enumerate() {
+        let largest = most.map_or(0.0, |rate: AirRate| rate.rate_per_s);
+        // A state that is not finite is for the step to find.
+        if rate_per_s > largest && rate_per_s.is_finite() {
+            most = Some(AirRate {
+                rate_per_s,
+                particle,
+            });
+        }
+    }
+    most
+}
 
-    /// The rate of drag, and the first particle that feels it.
-    pub(crate) fn drag_rate(&self) -> Option<AirRate> {
-        let rate_per_s = self.model.loads.drag_per_s.filter(|drag| *drag > 0.0)?;
-        let particle = self.model.inverse_masses.iter().position(|w| *w > 0.0)?;
-        Some(AirRate {
-            rate_per_s,
-            particle,
-        })
-    }
+/// The rate of drag, and the first particle that feels it.
+pub(crate) fn drag_rate(system: &System) -> Option<AirRate> {
+    let rate_per_s = system.model.loads.drag_per_s.filter(|drag| *drag > 0.0)?;
+    let particle = system.model.inverse_masses.iter().position(|w| *w > 0.0)?;
+    Some(AirRate {
+        rate_per_s,
+        particle,
+    })
 }

@@ -6,17 +6,18 @@
 //! shatters what it should tear, and nothing else shows it: lengths stay finite, and each step is
 //! below its stability limit.
 //!
-//! A system keeps a balance from [`System::keep_balance`] on. Each part is exact or nearly so:
+//! A [`Balance`] is kept outside of the system, by whoever wants one, and sees each step before and
+//! after ([`System::step_observed`]). Each part is exact or nearly so:
 //!
 //! | part | how it is known | cost |
 //! |---|---|---|
 //! | kinetic, elastic, gravity | functions of the state | a pass over constraints, when asked |
 //! | drag | −2 c ∫ K dt, trapezoids over substeps | a pass over particles a substep, where there is drag |
 //! | leading | −∫ (f + m g) · dx of each led particle, trapezoids | its valence a substep while it moves |
-//! | holding, letting go | the change of the particle's own energy | its valence |
+//! | holding, letting go | the change of the particle's own energy ([`Balance::handle`]) | its valence |
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
-//! | edits | [`EnergyLedger`](crate::EnergyLedger), and the change of weight's place | nothing; merges and slides: a pass over particles |
+//! | edits | [`EnergyLedger`](crate::EnergyLedger) | nothing |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
@@ -27,35 +28,32 @@
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
 //! are added, cut or made stiffer, count as the method's.
 
-mod meter;
-
-pub(crate) use meter::{Meter, Noted};
-
 use tearmesh::geometry::{Vector, dot};
 
-use self::meter::Sampled;
+use crate::energy;
+use crate::force;
+use crate::step::{Observer, Substep};
 use crate::system::System;
 
 /// How far apart the work of wind is sampled, in seconds of the simulation; a longer substep is one
 /// sample.
 pub(crate) const WIND_S: f64 = 1e-3;
 
-/// Where the energy of a system came from and where it went, in joules, since
-/// [`System::keep_balance`].
+/// Where the energy of a system came from and where it went, in joules, since [`Balance::new`].
 ///
 /// ```
-/// use tearmesh_cloth::{Loads, System, Verlet};
+/// use tearmesh_cloth::{Balance, Loads, System, Verlet};
 /// use tearmesh::{Point, Vector};
 ///
 /// // A kilogram falls for a second.
 /// let mut stone = System::new([Point::origin()], vec![1.0])?;
 /// let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -10.0));
 /// stone.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
-/// stone.keep_balance();
+/// let mut balance = Balance::new(&mut stone);
 /// for _ in 0..100 {
-///     stone.step(&mut Verlet::new(), 0.01)?;
+///     stone.step_observed(&mut Verlet::new(), 0.01, &mut balance)?;
 /// }
-/// let balance = stone.energy_balance().ok_or("it is kept")?;
+/// let balance = balance.now(&stone, 0.0);
 /// assert!((balance.kinetic_j - 50.0).abs() < 1e-9);
 /// assert!((balance.gravity_j - 50.0).abs() < 1e-9);
 /// assert!(balance.method_j().abs() < 1e-9);
@@ -105,260 +103,214 @@ impl EnergyBalance {
     }
 }
 
-impl System {
-    /// Begins to keep a balance of energy, from nothing. Its cost stands above
-    /// [`EnergyBalance`]; a system that keeps none pays nothing.
-    pub fn keep_balance(&mut self) {
-        let mut meter = Box::new(Meter::default());
-        meter.sums.began_j = self.kinetic_energy_j() + self.elastic_energy_j();
-        meter.potential_j = self.potential_j();
-        self.meter = Some(meter);
+/// Keeps a balance of the energy of a system, from nothing; its cost stands above [`EnergyBalance`].
+#[derive(Clone, Debug, Default)]
+pub struct Balance {
+    began_j: f64,
+    contact_began_j: f64,
+    /// The potential of gravity when the sum of its work was taken last.
+    potential_j: f64,
+    /// Up to the last step that was taken, and up to now.
+    taken: Account,
+    account: Account,
+    /// Kinetic energy, and the forces on those who are led, after the last substep; `None` where the
+    /// state was changed since.
+    kinetic_j: Option<f64>,
+    forces: Option<Vec<Vector>>,
+    /// The number of changes of the state that this is of.
+    changes: u64,
+    /// Room for forces.
+    spare: Vec<Vector>,
+    gusts: Vec<Vector>,
+}
+
+/// What was summed up.
+#[derive(Clone, Copy, Debug, Default)]
+struct Account {
+    gravity_j: f64,
+    held_j: f64,
+    wind_j: f64,
+    drag_j: f64,
+    wind: Sampled,
+}
+
+/// The power of wind when it was sampled last, and the seconds since.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sampled {
+    watts: Option<f64>,
+    since_s: f64,
+}
+
+impl Balance {
+    /// A balance from now on. The system sums up what its colliders make from then on, which nobody
+    /// outside can see.
+    #[must_use]
+    pub fn new(system: &mut System) -> Balance {
+        Balance {
+            began_j: energy::kinetic_j(system) + energy::elastic_j(system),
+            contact_began_j: *system.contact_j.get_or_insert(0.0),
+            potential_j: energy::potential_j(system),
+            ..Balance::default()
+        }
     }
 
-    /// The balance of energy until now; `None` unless it is kept. A pass over all constraints.
+    /// The balance until now. What edits made since it began is known to the cloth
+    /// ([`EnergyLedger::made_j`](crate::EnergyLedger::made_j)), and nothing without a mesh. A pass over
+    /// all constraints.
     #[must_use]
-    pub fn energy_balance(&self) -> Option<EnergyBalance> {
-        let meter = self.meter.as_ref()?;
-        let sums = meter.sums;
-        let unsampled_j = meter.wind.watts.unwrap_or(0.0) * meter.wind.since_s;
-        Some(EnergyBalance {
-            began_j: sums.began_j,
-            kinetic_j: self.kinetic_energy_j(),
-            elastic_j: self.elastic_energy_j(),
-            gravity_j: sums.gravity_j + (meter.potential_j - self.potential_j()),
+    pub fn now(&self, system: &System, edits_j: f64) -> EnergyBalance {
+        let sums = self.account;
+        let unsampled_j = sums.wind.watts.unwrap_or(0.0) * sums.wind.since_s;
+        let gravity_j = sums.gravity_j + (self.potential_j - energy::potential_j(system));
+        EnergyBalance {
+            began_j: self.began_j,
+            kinetic_j: energy::kinetic_j(system),
+            elastic_j: energy::elastic_j(system),
+            gravity_j,
             held_j: sums.held_j,
             wind_j: sums.wind_j + unsampled_j,
             drag_j: sums.drag_j,
-            colliders_j: sums.colliders_j,
-            edits_j: sums.edits_j,
-        })
-    }
-
-    /// The potential of gravity of all particles, in joules.
-    fn potential_j(&self) -> f64 {
-        let Some(gravity) = self.model.loads.gravity_m_per_s2 else {
-            return 0.0;
-        };
-        let particles = self.positions.iter().zip(&self.model.masses);
-        -particles.fold(0.0, |sum, (x, m)| sum + m * dot(gravity, x.coords))
-    }
-
-    /// What is known before a step.
-    pub(crate) fn noted(&self) -> Option<Noted> {
-        self.meter.as_ref().map(|meter| Noted {
-            sums: meter.sums,
-            wind: meter.wind,
-            has_forces: meter.forces.is_some(),
-        })
-    }
-
-    /// Goes back to what was known before a step that failed, once the state is that again.
-    pub(crate) fn note_back(&mut self, noted: Option<Noted>) {
-        let (Some(mut meter), Some(noted)) = (self.meter.take(), noted) else {
-            return;
-        };
-        meter.sums = noted.sums;
-        meter.wind = noted.wind;
-        meter.changed();
-        if noted.has_forces {
-            let mut forces = std::mem::take(&mut meter.spare);
-            self.led_forces(&mut forces);
-            meter.forces = Some(forces);
+            colliders_j: system.contact_j.unwrap_or(0.0) - self.contact_began_j,
+            edits_j,
         }
-        self.meter = Some(meter);
     }
 
-    /// Notes the state before a substep, after those who are led got their velocity.
-    pub(crate) fn note_before(&mut self) {
-        let Some(mut meter) = self.meter.take() else {
-            return;
-        };
-        if self.model.drag_per_s() > 0.0 && meter.kinetic_j.is_none() {
-            meter.kinetic_j = Some(self.free_kinetic_j());
-        }
-        if self.is_leading() && meter.forces.is_none() {
-            let mut forces = std::mem::take(&mut meter.spare);
-            self.led_forces(&mut forces);
-            meter.forces = Some(forces);
-        }
-        if self.model.loads.wind.is_none() {
-            meter.wind = Sampled::default();
-        } else if meter.wind.watts.is_none() {
-            meter.wind.watts = Some(self.wind_watts(&mut meter.gusts));
-        }
-        self.meter = Some(meter);
+    /// Does something to one particle on behalf of those who hold it, and notes what that took: by
+    /// [`System::hold`], [`System::grab`] or [`System::release`]. What is done without this counts as
+    /// the method's.
+    pub fn handle(
+        &mut self,
+        system: &mut System,
+        particle: usize,
+        change: impl FnOnce(&mut System),
+    ) {
+        let before_j = energy::at_j(system, particle);
+        change(system);
+        self.account.held_j += energy::at_j(system, particle) - before_j;
+        self.taken = self.account;
     }
 
-    /// Sums up the work of a substep. `at_end` says that the method moved particles by the forces at
-    /// its end, as those do that have no stability limit.
-    pub(crate) fn note_after(&mut self, dt_s: f64, at_end: bool) {
-        let Some(mut meter) = self.meter.take() else {
-            return;
-        };
-        let drag_per_s = self.model.drag_per_s();
+    /// Does something after which gravity may be another, by [`System::set_loads`], and counts its
+    /// work from there.
+    pub fn reload<T>(&mut self, system: &mut System, change: impl FnOnce(&mut System) -> T) -> T {
+        self.account.gravity_j += self.potential_j - energy::potential_j(system);
+        let done = change(system);
+        self.potential_j = energy::potential_j(system);
+        self.taken = self.account;
+        done
+    }
+
+    fn spare_forces(&mut self) {
+        if let Some(forces) = self.forces.take() {
+            self.spare = forces;
+        }
+    }
+}
+
+impl Observer for Balance {
+    fn before(&mut self, system: &System) {
+        if self.changes != system.changes {
+            self.kinetic_j = None;
+            self.spare_forces();
+        }
+        if system.model.drag_per_s() > 0.0 && self.kinetic_j.is_none() {
+            self.kinetic_j = Some(energy::free_kinetic_j(system));
+        }
+        if is_leading(system) && self.forces.is_none() {
+            let mut forces = std::mem::take(&mut self.spare);
+            led_forces(system, &mut forces);
+            self.forces = Some(forces);
+        }
+        let wind = &mut self.account.wind;
+        if system.model.loads.wind.is_none() {
+            *wind = Sampled::default();
+        } else if wind.watts.is_none() {
+            wind.watts = Some(wind_watts(system, &mut self.gusts));
+        }
+    }
+
+    fn after(&mut self, system: &System, substep: Substep) {
+        let dt_s = substep.dt_s;
+        let drag_per_s = system.model.drag_per_s();
         if drag_per_s > 0.0 {
-            let now_j = self.free_kinetic_j();
-            let before_j = meter.kinetic_j.unwrap_or(now_j);
-            meter.sums.drag_j -= drag_per_s * dt_s * (before_j + now_j);
-            meter.kinetic_j = Some(now_j);
+            let now_j = energy::free_kinetic_j(system);
+            let before_j = self.kinetic_j.unwrap_or(now_j);
+            self.account.drag_j -= drag_per_s * dt_s * (before_j + now_j);
+            self.kinetic_j = Some(now_j);
         }
-        if self.is_leading() {
-            let mut forces = std::mem::take(&mut meter.spare);
-            self.led_forces(&mut forces);
-            let earlier = meter.forces.take().unwrap_or_default();
-            let before = if at_end { &forces } else { &earlier };
-            meter.sums.held_j -= self.led_work_j(before, &forces, dt_s);
-            meter.forces = Some(forces);
-            meter.spare = earlier;
-        } else if let Some(forces) = meter.forces.take() {
-            meter.spare = forces;
+        if is_leading(system) {
+            let mut forces = std::mem::take(&mut self.spare);
+            led_forces(system, &mut forces);
+            let earlier = self.forces.take().unwrap_or_default();
+            let before = if substep.moves_at_end {
+                &forces
+            } else {
+                &earlier
+            };
+            self.account.held_j -= led_work_j(system, before, &forces, dt_s);
+            self.forces = Some(forces);
+            self.spare = earlier;
+        } else {
+            self.spare_forces();
         }
-        if let Some(before_w) = meter.wind.watts {
-            meter.wind.since_s += dt_s;
-            if meter.wind.since_s >= WIND_S {
-                let now_w = self.wind_watts(&mut meter.gusts);
-                meter.sums.wind_j += meter.wind.since_s * (before_w + now_w) / 2.0;
-                meter.wind = Sampled {
+        let wind = &mut self.account.wind;
+        if let Some(before_w) = wind.watts {
+            wind.since_s += dt_s;
+            if wind.since_s >= WIND_S {
+                let now_w = wind_watts(system, &mut self.gusts);
+                self.account.wind_j += wind.since_s * (before_w + now_w) / 2.0;
+                *wind = Sampled {
                     watts: Some(now_w),
                     since_s: 0.0,
                 };
             }
         }
-        self.meter = Some(meter);
+        self.changes = system.changes;
     }
 
-    /// [`System::kinetic_energy_j`] in one pass over slices.
-    fn free_kinetic_j(&self) -> f64 {
-        let model = &self.model;
-        let particles = self.velocities.iter().zip(&model.masses);
-        let particles = particles.zip(&model.inverse_masses);
-        let twice = particles.fold(0.0, |sum, ((&v, m), &w)| {
-            sum + if w > 0.0 { m * dot(v, v) } else { 0.0 }
-        });
-        0.5 * twice
-    }
-
-    /// Whether someone is led, and not at rest.
-    fn is_leading(&self) -> bool {
-        let mut led = self.model.grabbed.iter();
-        led.any(|&(particle, _)| self.velocities[particle as usize] != Vector::zeros())
-    }
-
-    /// The forces of constraints and of gravity on those who are led, in the order of the list.
-    fn led_forces(&self, forces: &mut Vec<Vector>) {
-        let led = self.model.grabbed.iter();
-        forces.clear();
-        forces.extend(led.map(|&(particle, _)| self.inner_n(particle as usize)));
-    }
-
-    /// The work of these forces on the way of a substep, before which and after which they are.
-    fn led_work_j(&self, before: &[Vector], after: &[Vector], dt_s: f64) -> f64 {
-        let led = self.model.grabbed.iter().zip(before.iter().zip(after));
-        led.fold(0.0, |sum, (&(particle, _), (&before, &after))| {
-            let mean = (before + after) / 2.0;
-            sum + dot(mean, self.velocities[particle as usize]) * dt_s
-        })
-    }
-
-    /// The power of wind on free particles.
-    fn wind_watts(&self, gusts: &mut Vec<Vector>) -> f64 {
-        let Some(wind) = self.model.loads.wind else {
-            return 0.0;
-        };
-        gusts.clear();
-        gusts.resize(self.positions.len(), Vector::zeros());
-        wind.press(&self.model.faces, &self.positions, &self.velocities, gusts);
-        let particles = gusts.iter().zip(&self.velocities);
-        let free = particles.zip(&self.model.inverse_masses);
-        free.fold(0.0, |sum, ((&f, &v), &w)| {
-            sum + if w > 0.0 { dot(f, v) } else { 0.0 }
-        })
-    }
-
-    /// The energy that a particle has a part in: its motion, what it is joined by, and its weight.
-    pub(crate) fn energy_at_j(&self, particle: usize) -> f64 {
-        let model = &self.model;
-        let weight = model.gravity() * model.masses[particle];
-        let motion_j = self.kinetic_j(particle);
-        self.elastic_at_j(particle) + motion_j - dot(weight, self.positions[particle].coords)
-    }
-
-    /// Does something to one particle on behalf of those who hold it, and notes what that took.
-    pub(crate) fn handle(&mut self, particle: usize, change: impl FnOnce(&mut System)) {
-        if self.meter.is_none() {
-            return change(self);
-        }
-        let before_j = self.energy_at_j(particle);
-        change(self);
-        let made_j = self.energy_at_j(particle) - before_j;
-        if let Some(meter) = &mut self.meter {
-            meter.sums.held_j += made_j;
-            meter.changed();
+    fn ended(&mut self, is_taken: bool) {
+        if is_taken {
+            self.taken = self.account;
+        } else {
+            self.account = self.taken;
         }
     }
+}
 
-    /// Forgets what was known of the state.
-    pub(crate) fn note_change(&mut self) {
-        if let Some(meter) = &mut self.meter {
-            meter.changed();
-        }
-    }
+/// Whether someone is led, and not at rest.
+fn is_leading(system: &System) -> bool {
+    let mut led = system.model.grabbed.iter();
+    led.any(|&(particle, _)| system.velocities[particle as usize] != Vector::zeros())
+}
 
-    /// [`System::collide`], particle by particle.
-    pub(crate) fn collide_and_note(&mut self) {
-        let mut made_j = 0.0;
-        for i in 0..self.model.loads.colliders.len() {
-            self.counters.collider_passes += 1;
-            for particle in 0..self.positions.len() {
-                if self.model.inverse_masses[particle] <= 0.0 {
-                    continue;
-                }
-                let (x, v) = (self.positions[particle], self.velocities[particle]);
-                if let Some((x, v)) = self.model.loads.colliders[i].pushed(x, v) {
-                    made_j -= self.energy_at_j(particle);
-                    self.positions[particle] = x;
-                    self.velocities[particle] = v;
-                    made_j += self.energy_at_j(particle);
-                }
-            }
-        }
-        if let Some(meter) = &mut self.meter {
-            meter.sums.colliders_j += made_j;
-        }
-    }
+/// The forces of constraints and of gravity on those who are led, in the order of the list.
+fn led_forces(system: &System, forces: &mut Vec<Vector>) {
+    let led = system.model.grabbed.iter();
+    forces.clear();
+    forces.extend(led.map(|&(particle, _)| force::inner_n(system, particle as usize)));
+}
 
-    /// What an edit is to be compared with by [`System::edited`]: where it moves masses, the
-    /// potential of gravity.
-    pub(crate) fn before_edit_j(&self, moves_masses: bool) -> f64 {
-        match self.meter {
-            Some(_) if moves_masses => self.potential_j(),
-            _ => 0.0,
-        }
-    }
+/// The work of these forces on the way of a substep, before which and after which they are.
+fn led_work_j(system: &System, before: &[Vector], after: &[Vector], dt_s: f64) -> f64 {
+    let led = system.model.grabbed.iter().zip(before.iter().zip(after));
+    led.fold(0.0, |sum, (&(particle, _), (&before, &after))| {
+        let mean = (before + after) / 2.0;
+        sum + dot(mean, system.velocities[particle as usize]) * dt_s
+    })
+}
 
-    /// Notes what an edit made, in kinetic and elastic energy.
-    pub(crate) fn edited(&mut self, made_j: f64, before_j: f64, moves_masses: bool) {
-        let lifted_j = self.before_edit_j(moves_masses) - before_j;
-        if let Some(meter) = &mut self.meter {
-            meter.sums.edits_j += made_j + lifted_j;
-            meter.changed();
-        }
-    }
-
-    /// Takes the sum of the work of gravity before another gravity sets in.
-    pub(crate) fn settle_gravity(&mut self) {
-        let now_j = self.potential_j();
-        if let Some(meter) = &mut self.meter {
-            meter.sums.gravity_j += meter.potential_j - now_j;
-            meter.changed();
-        }
-    }
-
-    /// Counts potential from here.
-    pub(crate) fn count_potential(&mut self) {
-        let now_j = self.potential_j();
-        if let Some(meter) = &mut self.meter {
-            meter.potential_j = now_j;
-        }
-    }
+/// The power of wind on free particles.
+fn wind_watts(system: &System, gusts: &mut Vec<Vector>) -> f64 {
+    let model = &system.model;
+    let Some(wind) = model.loads.wind else {
+        return 0.0;
+    };
+    gusts.clear();
+    gusts.resize(system.positions.len(), Vector::zeros());
+    wind.press(&model.faces, &system.positions, &system.velocities, gusts);
+    let particles = gusts.iter().zip(&system.velocities);
+    let free = particles.zip(&model.inverse_masses);
+    free.fold(0.0, |sum, ((&f, &v), &w)| {
+        sum + if w > 0.0 { dot(f, v) } else { 0.0 }
+    })
 }

@@ -77,8 +77,6 @@ struct Colour {
     compliance: Vec<f64>,
     multipliers: Vec<f64>,
     ratios: Vec<f64>,
-    /// What both were before the step.
-    aside: [Vec<f64>; 2],
 }
 
 /// The constraints of one colour, no two of which share a particle: slices of the same length.
@@ -190,24 +188,6 @@ impl Constraints {
     /// The same, with what a step leaves behind.
     pub(crate) fn batches_mut(&mut self) -> impl Iterator<Item = (Batch<'_>, Memories<'_>)> {
         self.colours.iter_mut().map(Colour::batch_mut)
-    }
-
-    /// Puts what the last step left behind aside, for a step that writes all of it anew: copies
-    /// nothing.
-    pub(crate) fn set_aside(&mut self) {
-        for colour in &mut self.colours {
-            let count = colour.ids.len();
-            colour
-                .aside
-                .iter_mut()
-                .for_each(|aside| aside.resize(count, 0.0));
-            colour.swap_aside();
-        }
-    }
-
-    /// Takes that back.
-    pub(crate) fn take_back(&mut self) {
-        self.colours.iter_mut().for_each(Colour::swap_aside);
     }
 
     pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
@@ -348,15 +328,6 @@ impl Colour {
         Memory {
             multiplier: self.multipliers.swap_remove(i),
             ratio: self.ratios.swap_remove(i),
-        }
-    }
-
-    /// Nothing where constraints came or went since.
-    fn swap_aside(&mut self) {
-        let [multipliers, ratios] = &mut self.aside;
-        if multipliers.len() == self.ids.len() {
-            std::mem::swap(multipliers, &mut self.multipliers);
-            std::mem::swap(ratios, &mut self.ratios);
         }
     }
 

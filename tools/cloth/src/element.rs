@@ -68,8 +68,15 @@ pub(crate) trait Element {
     /// The largest of Gershgorin's rows √k Σ w S, with w S of each particle in `sums`.
     fn largest_row(&self, reach: f64, sums: &[f64]) -> f64;
 
-    /// The largest row among the constraints of a particle.
-    fn largest_row_at(&self, particle: usize, reach: f64, sum: &dyn Fn(usize) -> f64) -> f64;
+    /// The largest row among the constraints of a particle, whose own w S is given; that of others
+    /// is asked for.
+    fn largest_row_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        own: f64,
+        sum: &dyn Fn(usize) -> f64,
+    ) -> f64;
 
     /// The pairs of particles that act on each other, each with a number that stays that of its
     /// constraint.

@@ -12,8 +12,10 @@ use tearmesh::{
 
 use self::room::Piece;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::energy;
 use crate::fabric::{Copies, Unbend};
-use crate::sheet::{Cloth, Effect, NO_BEND, weight};
+use crate::particle;
+use crate::sheet::{Cloth, NO_BEND, weight};
 use crate::system::Family;
 
 impl Follower for Cloth {
@@ -22,36 +24,12 @@ impl Follower for Cloth {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let bound_before_rad_per_s = self.system.bound_within_reach();
-        let moves_masses = matches!(edit, Edit::Merge(_) | Edit::Slide(_));
-        let before_j = self.system.before_edit_j(moves_masses);
-        let made_j = self.ledger.total_j();
-        let vertex = match edit {
-            Edit::Split(split) => {
-                self.split(split, edit);
-                split.old
-            }
-            Edit::Insert(insert) => {
-                self.insert(insert, edit);
-                insert.points[0].vertex
-            }
-            Edit::Merge(merge) => {
-                self.merge(merge, edit);
-                merge.kept
-            }
-            Edit::Slide(slide) => {
-                self.slide(slide, edit);
-                slide.vertex
-            }
-        };
-        let made_j = self.ledger.total_j() - made_j;
-        self.system.edited(made_j, before_j, moves_masses);
-        self.effects.push(Effect {
-            number: edit.number(),
-            vertex,
-            bound_before_rad_per_s,
-            bound_after_rad_per_s: self.system.bound_within_reach(),
-        });
+        match edit {
+            Edit::Split(split) => self.split(split, edit),
+            Edit::Insert(insert) => self.insert(insert, edit),
+            Edit::Merge(merge) => self.merge(merge, edit),
+            Edit::Slide(slide) => self.slide(slide, edit),
+        }
     }
 }
 
@@ -65,7 +43,7 @@ impl Cloth {
             "a cloth is in step with its mesh"
         );
         let (x, v) = (system.positions[old], system.velocities[old]);
-        system.push_particle(x, v, Some(old));
+        particle::push(system, x, v, Some(old));
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
         self.reweigh(old);
@@ -75,7 +53,7 @@ impl Cloth {
             let id = self.stretch(link.stayed);
             let mut copy = self.system.model.stretch.get(id);
             let mut memory = self.system.model.stretch.memory(id);
-            let before = self.system.elastic_of(Family::Stretch, &copy);
+            let before = energy::elastic_of_j(&self.system, Family::Stretch, &copy);
             if self.fabric.copies == Copies::Halved {
                 copy.stiffness_n_per_m *= 0.5;
                 memory.multiplier *= 0.5;
@@ -83,7 +61,7 @@ impl Cloth {
                 self.system.model.stretch.set_stiffness(id, half);
                 self.system.model.stretch.remember(id, memory);
             }
-            let each = self.system.elastic_of(Family::Stretch, &copy);
+            let each = energy::elastic_of_j(&self.system, Family::Stretch, &copy);
             gained += 2.0 * each - before;
             let far = copy.ends[0] + copy.ends[1] - old;
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
@@ -123,8 +101,11 @@ impl Cloth {
 
     fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
         let (kept, gone) = (merge.kept.index(), merge.gone.index());
-        let elastic = self.system.elastic_at_j(kept) + self.system.elastic_at_j(gone);
-        let kinetic = self.system.kinetic_j(kept) + self.system.kinetic_j(gone);
+        let elastic =
+            energy::elastic_at_j(&self.system, kept) + energy::elastic_at_j(&self.system, gone);
+        let system = &self.system;
+        let kinetic = energy::kinetic_at_j(system, kept) + energy::kinetic_at_j(system, gone);
+        let lifted = energy::potential_at_j(system, kept) + energy::potential_at_j(system, gone);
         for &corner in merge.corners {
             self.system.model.faces[corner.index()] = kept as u32;
         }
@@ -158,7 +139,7 @@ impl Cloth {
                 }
             }
         }
-        self.system.join_particles(kept, gone, merge.share);
+        particle::join(&mut self.system, kept, gone, merge.share);
         if let Some(renumbered) = merge.renumbered {
             for &corner in renumbered.corners {
                 self.system.model.faces[corner.index()] = renumbered.to.index() as u32;
@@ -172,19 +153,22 @@ impl Cloth {
         if apart {
             self.measure_again(kept);
         }
-        self.ledger.merge_elastic_j += self.system.elastic_at_j(kept) + across - elastic;
-        self.ledger.merge_kinetic_j += self.system.kinetic_j(kept) - kinetic;
+        self.ledger.merge_elastic_j += energy::elastic_at_j(&self.system, kept) + across - elastic;
+        self.ledger.gravity_j += energy::potential_at_j(&self.system, kept) - lifted;
+        self.ledger.merge_kinetic_j += energy::kinetic_at_j(&self.system, kept) - kinetic;
     }
 
     fn slide(&mut self, slide: &Slide<'_>, edit: &Edit<'_>) {
         let (particle, toward) = (slide.vertex.index(), slide.toward.index());
-        let elastic = self.system.elastic_at_j(particle);
+        let elastic = energy::elastic_at_j(&self.system, particle);
+        let lifted = energy::potential_at_j(&self.system, particle);
         let x = &mut self.system.positions;
         x[particle] = between(x[particle], x[toward], slide.t);
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
         self.measure_again(particle);
-        self.ledger.slide_elastic_j += self.system.elastic_at_j(particle) - elastic;
+        self.ledger.gravity_j += energy::potential_at_j(&self.system, particle) - lifted;
+        self.ledger.slide_elastic_j += energy::elastic_at_j(&self.system, particle) - elastic;
     }
 
     /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
@@ -228,7 +212,7 @@ impl Cloth {
             .vertices
             .iter()
             .filter(there)
-            .map(|&v| self.system.kinetic_j(v))
+            .map(|&v| energy::kinetic_at_j(&self.system, v))
             .sum();
 
         for point in insert.points {
@@ -237,15 +221,18 @@ impl Cloth {
                 self.system.positions.len(),
                 "a cloth is in step with its mesh"
             );
-            let (x, v) = self.system.inserted(&point.at);
-            self.system.push_particle(x, v, None);
+            let (x, v) = particle::inserted(&self.system, &point.at);
+            particle::push(&mut self.system, x, v, None);
         }
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
         for &v in &room.vertices {
             self.reweigh(v);
         }
-        let now = room.vertices.iter().map(|&v| self.system.kinetic_j(v));
+        let now = room
+            .vertices
+            .iter()
+            .map(|&v| energy::kinetic_at_j(&self.system, v));
         self.ledger.insert_kinetic_j += now.sum::<f64>() - kinetic;
 
         room.pieces.clear();
@@ -286,7 +273,7 @@ impl Cloth {
         room.ids.dedup();
         for &id in &room.ids {
             let gone = self.system.model.stretch.remove(id);
-            gained -= self.system.elastic_of(Family::Stretch, &gone);
+            gained -= energy::elastic_of_j(&self.system, Family::Stretch, &gone);
         }
         room.ids.clear();
         let divided = room
@@ -298,7 +285,7 @@ impl Cloth {
         room.ids.dedup();
         for &id in &room.ids {
             let gone = self.system.model.bend.remove(id);
-            gained -= self.system.elastic_of(Family::Bend, &gone);
+            gained -= energy::elastic_of_j(&self.system, Family::Bend, &gone);
         }
         for edge in room.pieces.chunk_by(|one, other| one.ends == other.ends) {
             gained += if edge[0].is_kept {
@@ -350,7 +337,7 @@ impl Cloth {
             rest_length_m,
             stiffness_n_per_m: piece.stiffness_by_length / rest_length_m,
         };
-        let mut gained = self.system.elastic_of(Family::Stretch, &constraint);
+        let mut gained = energy::elastic_of_j(&self.system, Family::Stretch, &constraint);
         let id = self.system.model.stretch.add(constraint);
         for piece in edge {
             self.join(piece.half_edge, id);
@@ -375,12 +362,12 @@ impl Cloth {
             self.bend_of[h.index()] = NO_BEND;
         }
         let gone = self.system.model.bend.remove(id);
-        self.system.elastic_of(Family::Bend, &gone)
+        energy::elastic_of_j(&self.system, Family::Bend, &gone)
     }
 
     fn bend_energy(&self, id: ConstraintId) -> f64 {
         let bend = self.system.model.bend.get(id);
-        self.system.elastic_of(Family::Bend, &bend)
+        energy::elastic_of_j(&self.system, Family::Bend, &bend)
     }
 
     /// The edge of a child that starts at this corner.

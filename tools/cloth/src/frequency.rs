@@ -1,50 +1,39 @@
-//! The largest frequency of a system, asked of the system itself.
+//! The largest frequency of a system.
 
 use crate::spectrum::Frequency;
 use crate::system::System;
 
-impl System {
-    /// A bound of ω, in rad/s, that holds in every configuration, or with triangles that shear in the
-    /// present one and all that are stretched no more. Linear the first time, then known; with
-    /// triangles their stretch is looked at each time.
-    pub fn frequency_bound(&mut self) -> f64 {
-        let (model, counters) = (&self.model, &mut self.counters);
-        self.spectrum.bound(model, &self.positions, counters)
-    }
+/// A bound of ω, in rad/s, that holds in every configuration, or with triangles that shear in the
+/// present one and all that are stretched no more. Linear the first time, then known; with triangles
+/// their stretch is looked at each time.
+pub fn bound(system: &mut System) -> f64 {
+    let (model, counters) = (&system.model, &mut system.counters);
+    system.spectrum.bound(model, &system.positions, counters)
+}
 
-    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
-    pub(crate) fn bound_within_reach(&mut self) -> f64 {
-        self.spectrum.bound_within_reach(&self.model)
-    }
+/// The largest frequency in the present configuration, to 1 % of ω², kept until topology, a mass or
+/// a stiffness change, the state is set ([`System::state_mut`]), a step is taken back, or triangles
+/// that shear are stretched by more than then. Steps change the configuration a little each:
+/// [`measure`] looks anew.
+pub fn largest(system: &mut System) -> Frequency {
+    let (model, counters) = (&system.model, &mut system.counters);
+    system
+        .spectrum
+        .frequency(model, &system.positions, counters)
+}
 
-    /// The bound if it is known: no more than a look.
-    #[must_use]
-    pub fn known_frequency_bound(&self) -> Option<f64> {
-        self.spectrum.known_bound()
-    }
+/// The largest frequency for a step to be admitted by, not measured anew in each.
+pub(crate) fn recent(system: &mut System) -> Frequency {
+    let (model, counters) = (&system.model, &mut system.counters);
+    let spectrum = &mut system.spectrum;
+    spectrum.recent_frequency(model, &system.positions, counters)
+}
 
-    /// The largest frequency in the present configuration, to 1 % of ω², kept until topology,
-    /// a mass or a stiffness change, the state is set ([`System::state_mut`]), a step is taken back,
-    /// or triangles that shear are stretched by more than then. Steps change the configuration a
-    /// little each: [`System::measure_frequency`] looks anew.
-    pub fn frequency(&mut self) -> Frequency {
-        let (model, counters) = (&self.model, &mut self.counters);
-        self.spectrum.frequency(model, &self.positions, counters)
-    }
-
-    /// The largest frequency for a step to be admitted by, not measured anew in each.
-    pub(crate) fn recent_frequency(&mut self) -> Frequency {
-        let (model, counters) = (&self.model, &mut self.counters);
-        self.spectrum
-            .recent_frequency(model, &self.positions, counters)
-    }
-
-    /// The largest frequency in the present configuration, by power iteration until
-    /// the residual is at most `tolerance`, or so many products. From below: the true one is
-    /// larger by about the residual. In a state that is not finite it is the bound.
-    pub fn measure_frequency(&mut self, tolerance: f64, products: u32) -> Frequency {
-        let (model, counters) = (&self.model, &mut self.counters);
-        let (x, spectrum) = (&self.positions, &mut self.spectrum);
-        spectrum.measure(model, x, counters, tolerance, products)
-    }
+/// The largest frequency in the present configuration, by power iteration until the residual is at
+/// most `tolerance`, or so many products. From below: the true one is larger by about the residual.
+/// In a state that is not finite it is the bound.
+pub fn measure(system: &mut System, tolerance: f64, products: u32) -> Frequency {
+    let (model, counters) = (&system.model, &mut system.counters);
+    let (x, spectrum) = (&system.positions, &mut system.spectrum);
+    spectrum.measure(model, x, counters, tolerance, products)
 }

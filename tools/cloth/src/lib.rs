@@ -17,7 +17,6 @@
 //! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
 //! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
 //! | [`Implicit`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
-//! | [`Rk4`] | references, up to Δt = 2√2/ω | four force evaluations |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
@@ -39,18 +38,22 @@
 
 pub use tearmesh;
 
-mod air;
+pub mod air;
 mod balance;
 mod bend;
 mod carry;
 mod constraint;
+mod contact;
 mod crush;
 mod culprit;
 mod digits;
 mod element;
+pub mod energy;
 mod fabric;
+mod flight;
 mod follow;
-mod frequency;
+pub mod force;
+pub mod frequency;
 mod guard;
 pub mod implicit;
 mod incidence;
@@ -61,12 +64,12 @@ mod pair;
 mod particle;
 mod pbd;
 mod provot;
-mod rk4;
 pub mod scene;
 mod sheet;
 mod solver;
 mod spectrum;
 mod spring;
+mod stability;
 mod step;
 mod strain;
 mod system;
@@ -77,7 +80,7 @@ mod weave;
 mod xpbd;
 
 pub use air::AirRate;
-pub use balance::EnergyBalance;
+pub use balance::{Balance, EnergyBalance};
 pub use bend::Buckling;
 pub use constraint::{Constraint, ConstraintId, Constraints};
 pub use culprit::Culprit;
@@ -87,12 +90,13 @@ pub use load::{Collider, Loads, Path, Wind};
 pub use material::warp_of_texture;
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
-pub use rk4::Rk4;
-pub use sheet::{Cloth, ClothError, Effect, EnergyLedger};
-pub use solver::{Failure, SettingError, Solver, StepError, StepReport};
+pub use sheet::{Cloth, ClothError, EnergyLedger};
+pub use solver::{Abilities, Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;
+pub use stability::{carried_count, stable_step_s, suited_step_s};
+pub use step::{Observer, Substep};
 pub use system::{Counters, System, SystemError, Unstable};
-pub use tearing::{CutLink, Tear, TearReport, Tearing, TearingError, Threshold};
+pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;
 pub use verlet::Verlet;
 pub use xpbd::Xpbd;

@@ -230,8 +230,13 @@ impl<L: Law> Element for Pairs<'_, L> {
         largest
     }
 
-    fn largest_row_at(&self, particle: usize, _reach: f64, sum: &dyn Fn(usize) -> f64) -> f64 {
-        let own = sum(particle);
+    fn largest_row_at(
+        &self,
+        particle: usize,
+        _reach: f64,
+        own: f64,
+        sum: &dyn Fn(usize) -> f64,
+    ) -> f64 {
         let constraints = self.constraints.of(particle);
         let row = |constraint: Constraint| {
             let [a, b] = constraint.ends;

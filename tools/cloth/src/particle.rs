@@ -5,84 +5,82 @@ use tearmesh::{Location, VertexId};
 
 use crate::system::System;
 
-impl System {
-    /// Appends a particle, held and led like another one.
-    pub(super) fn push_particle(&mut self, x: Point, v: Vector, like: Option<usize>) {
-        let new = self.positions.len() as u32;
-        self.positions.push(x);
-        self.velocities.push(v);
-        let model = &mut self.model;
-        model.masses.push(0.0);
-        model.inverse_masses.push(0.0);
-        model
-            .held
-            .push(like.is_some_and(|particle| model.held[particle]));
-        model.stretch.push_particle();
-        model.bend.push_particle();
-        model.triangles.push_particle();
-        let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;
-        if let Some(&(_, path)) = model.grabbed.iter().find(led) {
-            model.grabbed.push((new, path));
-        }
-        self.spectrum.push_particle(like);
+/// Appends a particle, held and led like another one.
+pub(super) fn push(system: &mut System, x: Point, v: Vector, like: Option<usize>) {
+    let new = system.positions.len() as u32;
+    system.positions.push(x);
+    system.velocities.push(v);
+    let model = &mut system.model;
+    model.masses.push(0.0);
+    model.inverse_masses.push(0.0);
+    model
+        .held
+        .push(like.is_some_and(|particle| model.held[particle]));
+    model.stretch.push_particle();
+    model.bend.push_particle();
+    model.triangles.push_particle();
+    let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;
+    if let Some(&(_, path)) = model.grabbed.iter().find(led) {
+        model.grabbed.push((new, path));
     }
+    system.spectrum.push_particle(like);
+}
 
-    /// Makes two particles one, where the held one is if only one is held; `gone` has no
-    /// constraints any more, and the last particle takes its index.
-    pub(super) fn join_particles(&mut self, kept: usize, gone: usize, share: f64) {
-        let model = &mut self.model;
-        let (x, v) = (&mut self.positions, &mut self.velocities);
-        x[kept] = match (model.held[kept], model.held[gone]) {
-            (true, false) => x[kept],
-            (false, true) => x[gone],
-            _ => between(x[kept], x[gone], 1.0 - share),
-        };
-        model.held[kept] |= model.held[gone];
-        let (mass, more) = (model.masses[kept], model.masses[gone]);
-        if model.held[kept] {
-            v[kept] = Vector::zeros();
-        } else if v[kept] != v[gone] {
-            v[kept] = (v[kept] * mass + v[gone] * more) / (mass + more);
-        }
-        x.swap_remove(gone);
-        v.swap_remove(gone);
-        model.masses.swap_remove(gone);
-        model.inverse_masses.swap_remove(gone);
-        model.held.swap_remove(gone);
-        model.stretch.swap_remove_particle(gone);
-        model.bend.swap_remove_particle(gone);
-        model.triangles.swap_remove_particle(gone);
-        let led = |&(led, _): &(u32, u32)| led as usize == kept;
-        if self.model.grabbed.iter().any(led) {
-            self.model.unlead(gone);
-        }
-        let last = self.positions.len() as u32;
-        for (particle, _) in &mut self.model.grabbed {
-            if *particle as usize == gone {
-                *particle = kept as u32;
-            } else if *particle == last {
-                *particle = gone as u32;
-            }
-        }
-        self.spectrum.swap_remove_particle(gone);
+/// Makes two particles one, where the held one is if only one is held; `gone` has no
+/// constraints any more, and the last particle takes its index.
+pub(super) fn join(system: &mut System, kept: usize, gone: usize, share: f64) {
+    let model = &mut system.model;
+    let (x, v) = (&mut system.positions, &mut system.velocities);
+    x[kept] = match (model.held[kept], model.held[gone]) {
+        (true, false) => x[kept],
+        (false, true) => x[gone],
+        _ => between(x[kept], x[gone], 1.0 - share),
+    };
+    model.held[kept] |= model.held[gone];
+    let (mass, more) = (model.masses[kept], model.masses[gone]);
+    if model.held[kept] {
+        v[kept] = Vector::zeros();
+    } else if v[kept] != v[gone] {
+        v[kept] = (v[kept] * mass + v[gone] * more) / (mass + more);
     }
+    x.swap_remove(gone);
+    v.swap_remove(gone);
+    model.masses.swap_remove(gone);
+    model.inverse_masses.swap_remove(gone);
+    model.held.swap_remove(gone);
+    model.stretch.swap_remove_particle(gone);
+    model.bend.swap_remove_particle(gone);
+    model.triangles.swap_remove_particle(gone);
+    let led = |&(led, _): &(u32, u32)| led as usize == kept;
+    if system.model.grabbed.iter().any(led) {
+        system.model.unlead(gone);
+    }
+    let last = system.positions.len() as u32;
+    for (particle, _) in &mut system.model.grabbed {
+        if *particle as usize == gone {
+            *particle = kept as u32;
+        } else if *particle == last {
+            *particle = gone as u32;
+        }
+    }
+    system.spectrum.swap_remove_particle(gone);
+}
 
-    /// Where an inserted point comes to lie, and how fast.
-    pub(super) fn inserted(&self, at: &Location) -> (Point, Vector) {
-        let (x, v) = (&self.positions, &self.velocities);
-        match *at {
-            Location::Edge { ends, t } => {
-                let [a, b] = ends.map(VertexId::index);
-                (between(x[a], x[b], t), v[a] + (v[b] - v[a]) * t)
-            }
-            Location::Face { vertices, weights } => {
-                let [a, b, c] = vertices.map(VertexId::index);
-                let [p, q, r] = weights;
-                (
-                    Point::from(x[a].coords * p + x[b].coords * q + x[c].coords * r),
-                    v[a] * p + v[b] * q + v[c] * r,
-                )
-            }
+/// Where an inserted point comes to lie, and how fast.
+pub(super) fn inserted(system: &System, at: &Location) -> (Point, Vector) {
+    let (x, v) = (&system.positions, &system.velocities);
+    match *at {
+        Location::Edge { ends, t } => {
+            let [a, b] = ends.map(VertexId::index);
+            (between(x[a], x[b], t), v[a] + (v[b] - v[a]) * t)
+        }
+        Location::Face { vertices, weights } => {
+            let [a, b, c] = vertices.map(VertexId::index);
+            let [p, q, r] = weights;
+            (
+                Point::from(x[a].coords * p + x[b].coords * q + x[c].coords * r),
+                v[a] * p + v[b] * q + v[c] * r,
+            )
         }
     }
 }

@@ -2,17 +2,16 @@
 //!
 //! Predict, project the constraints so many times, and take as velocity what was moved
 //! (Müller et al. 2007). Its constraints are stable at any step, and so is drag; wind, which is that
-//! of the velocities before, up to λ Δt = 2 ([`System::wind_rate`]). Never sold as accurate: how
+//! of the velocities before, up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)). Never sold as accurate: how
 //! stiff it is depends on the step and on the number of sweeps, and as the step goes to zero there
 //! is no limit. What it converges to with more sweeps is an inextensible net. Judge it by
 //! [`System::strain_rms`].
 
-use tearmesh::geometry::{Point, Vector};
-
 use crate::element::Forces;
-use crate::solver::{Failure, SettingError, Solver};
+use crate::flight::{finish, force_scale, predict};
+use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
-use crate::system::{Model, System};
+use crate::system::System;
 
 /// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
 /// soft as [`Pbd::stiffness`] says.
@@ -55,6 +54,13 @@ impl Pbd {
 }
 
 impl Solver for Pbd {
+    fn abilities(&self) -> Abilities {
+        Abilities {
+            air_limit: Some(2.0),
+            ..Abilities::default()
+        }
+    }
+
     fn check(&self) -> Result<(), SettingError> {
         for (setting, given) in [
             ("stiffness", self.stiffness),
@@ -63,10 +69,6 @@ impl Solver for Pbd {
             SettingError::unless((0.0..=1.0).contains(&given), setting, given, "0 to 1")?;
         }
         Ok(())
-    }
-
-    fn air_limit(&self) -> Option<f64> {
-        Some(2.0)
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
@@ -94,101 +96,10 @@ impl Solver for Pbd {
                 }
             }
         }
-        model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
+        model.scale_multipliers(force_scale(model, dt_s));
         model.forces = Forces::Multipliers;
         finish(system, dt_s);
         Ok(())
-    }
-}
-
-/// Moves all particles as if there were no constraint, and keeps where they were. Velocities stay
-/// those of before: [`finish`] takes new ones from the positions.
-pub(crate) fn predict(system: &mut System, dt_s: f64) {
-    let System {
-        positions,
-        velocities,
-        model,
-        scratch,
-        counters,
-        ..
-    } = system;
-    scratch.is_fresh = false;
-    scratch.before.resize(positions.len(), Point::origin());
-    let accelerations = &mut scratch.accelerations;
-    if model.loads.wind.is_some() {
-        accelerations.clear();
-        accelerations.resize(positions.len(), Vector::zeros());
-        model.external(positions, velocities, accelerations, counters);
-    }
-    let flight = Flight::new(model, dt_s);
-    let particles = positions.iter_mut().zip(&mut scratch.before);
-    let particles = particles.zip(&*velocities).zip(&model.inverse_masses);
-    if model.loads.wind.is_some() {
-        for ((((x, before), v), &w), &a) in particles.zip(&*accelerations) {
-            *before = *x;
-            *x += flight.moved(*v, a, w);
-        }
-    } else {
-        // Without wind, all accelerations are one.
-        for (((x, before), v), &w) in particles {
-            *before = *x;
-            *x += flight.moved(*v, flight.gravity, w);
-        }
-    }
-}
-
-/// Takes as velocity what was moved, then lets colliders push.
-pub(crate) fn finish(system: &mut System, dt_s: f64) {
-    let per_s = 1.0 / dt_s;
-    let moves = system.positions.iter().zip(&system.scratch.before);
-    for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
-        *v = (x - before) * per_s;
-    }
-    system.collide();
-}
-
-/// [`finish`], and [`predict`] of the next substep: in one pass where nobody asks for velocities in
-/// between.
-pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
-    if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
-        finish(system, dt_s);
-        predict(system, dt_s);
-        return;
-    }
-    let per_s = 1.0 / dt_s;
-    let flight = Flight::new(&system.model, dt_s);
-    let particles = system.positions.iter_mut().zip(&mut system.scratch.before);
-    for ((x, before), &w) in particles.zip(&system.model.inverse_masses) {
-        let v = (*x - *before) * per_s;
-        *before = *x;
-        *x += flight.moved(v, flight.gravity, w);
-    }
-}
-
-/// A substep without constraints.
-struct Flight {
-    gravity: Vector,
-    /// The part of a velocity that drag leaves.
-    keep: f64,
-    dt_s: f64,
-}
-
-impl Flight {
-    fn new(model: &Model, dt_s: f64) -> Flight {
-        Flight {
-            gravity: model.gravity(),
-            keep: 1.0 / (1.0 + dt_s * model.drag_per_s()),
-            dt_s,
-        }
-    }
-
-    /// How far a particle flies.
-    fn moved(&self, v: Vector, acceleration: Vector, inverse_mass: f64) -> Vector {
-        if inverse_mass > 0.0 {
-            (v + acceleration * self.dt_s) * self.keep * self.dt_s
-        } else {
-            v * self.dt_s
-        }
     }
 }
 

@@ -8,14 +8,13 @@
 //!
 //! A threshold of stretch has to be held against lengths before the limiter, or nothing ever
 //! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
-//! with what it did itself the force that each constraint carried ([`System::force_n`]).
-//! ([`Provot::unlimited`], then tearing, then [`Provot::limit`] is the other way.)
+//! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::element::Forces;
-use crate::solver::{Failure, SettingError, Solver, StepError};
+use crate::flight::{accelerate, fly, force_scale};
+use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
-use crate::verlet::accelerate;
 
 /// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
 /// the springs are stable up to ω Δt = 2, and wind alone up to λ Δt = 2.
@@ -76,7 +75,7 @@ impl Provot {
         }
     }
 
-    /// The springs alone; call [`Provot::limit`] of another one after each step, or never.
+    /// The springs alone.
     #[must_use]
     pub fn unlimited() -> Provot {
         Provot {
@@ -89,20 +88,6 @@ impl Provot {
     #[must_use]
     pub fn report(&self) -> LimiterReport {
         self.report
-    }
-
-    /// Applies the limiter, and rewrites velocities by what it moved in the last `dt_s` seconds.
-    ///
-    /// # Errors
-    ///
-    /// [`StepError::Step`] and [`StepError::Setting`], and nothing has changed.
-    pub fn limit(&mut self, system: &mut System, dt_s: f64) -> Result<LimiterReport, StepError> {
-        if !(dt_s > 0.0 && dt_s.is_finite()) {
-            return Err(StepError::Step { given_s: dt_s });
-        }
-        self.check().map_err(StepError::Setting)?;
-        self.shorten(system, dt_s);
-        Ok(self.report)
     }
 
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
@@ -119,7 +104,6 @@ impl Provot {
             ..
         } = system;
         scratch.before.clone_from(positions);
-        model.set_aside();
         for (batch, memories) in model.stretch.batches_mut() {
             spring::ratios(batch, positions, memories.ratios);
         }
@@ -148,7 +132,7 @@ impl Provot {
                 *v += (x - before) / dt_s;
             }
         }
-        model.scale_multipliers((1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s));
+        model.scale_multipliers(force_scale(model, dt_s));
         model.forces = Forces::Both;
         if largest > ratio_max {
             let stretches = system.stretches().iter();
@@ -162,6 +146,10 @@ impl Provot {
 }
 
 impl Solver for Provot {
+    fn abilities(&self) -> Abilities {
+        Abilities::of_forces(Some(2.0), 2.0)
+    }
+
     fn check(&self) -> Result<(), SettingError> {
         let Some(limiter) = self.limiter else {
             return Ok(());
@@ -170,45 +158,11 @@ impl Solver for Provot {
         SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "1 or more")
     }
 
-    fn frequency_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    fn air_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    fn takes_triangles(&self) -> bool {
-        true
-    }
-
-    fn takes_buckling(&self) -> bool {
-        true
-    }
-
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         // What blew up is left as it is, for all to see.
-        Failure::unless(accelerate(system))?;
-        let System {
-            positions,
-            velocities,
-            model,
-            scratch,
-            ..
-        } = system;
-        let fade = 1.0 + dt_s * model.drag_per_s();
-        let particles = positions
-            .iter_mut()
-            .zip(velocities)
-            .zip(&scratch.accelerations);
-        for (((x, v), a), &w) in particles.zip(&model.inverse_masses) {
-            if w > 0.0 {
-                *v = (*v + a * dt_s) / fade;
-            }
-            *x += *v * dt_s;
-        }
+        Failure::unless(accelerate(system, false))?;
+        fly(system, dt_s, dt_s);
         self.shorten(system, dt_s);
-        system.collide();
         Ok(())
     }
 }

@@ -10,10 +10,12 @@ use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
 use crate::follow::Room;
+use crate::frequency;
 use crate::solver::{Solver, StepError, StepReport};
+use crate::step::Observer;
 use crate::system::System;
 
-/// The energy that edits have made (or, negative, taken), in joules. Gravity is not in it.
+/// The energy that edits have made (or, negative, taken), in joules.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
     /// Elastic energy by splits: copies by the paper's rule, less what bend constraints held.
@@ -30,10 +32,18 @@ pub struct EnergyLedger {
     pub merge_kinetic_j: f64,
     /// Elastic energy by slides.
     pub slide_elastic_j: f64,
+    /// The potential of gravity by merges and slides, which move weight; in no sum of the others.
+    pub gravity_j: f64,
 }
 
 impl EnergyLedger {
-    /// All of it.
+    /// All that was made, in gravity's potential too.
+    #[must_use]
+    pub fn made_j(&self) -> f64 {
+        self.total_j() + self.gravity_j
+    }
+
+    /// All elastic and kinetic energy that was made.
     #[must_use]
     pub fn total_j(&self) -> f64 {
         self.split_elastic_j
@@ -43,20 +53,6 @@ impl EnergyLedger {
             + self.merge_kinetic_j
             + self.slide_elastic_j
     }
-}
-
-/// What an edit did to the stability limit. Slivers and repeated splits shorten the stable step:
-/// a hundredth of the mass, 6.2 times.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effect {
-    /// The number of the edit.
-    pub number: u64,
-    /// The vertex that was split, inserted first, kept, or slid.
-    pub vertex: VertexId,
-    /// The bound of all frequencies before, in rad/s; see [`System::frequency_bound`].
-    pub bound_before_rad_per_s: f64,
-    /// The same after.
-    pub bound_after_rad_per_s: f64,
 }
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
@@ -126,7 +122,6 @@ pub struct Cloth {
     /// By bend constraint: the two half-edges that it is across.
     pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
     pub(super) ledger: EnergyLedger,
-    pub(super) effects: Vec<Effect>,
     pub(super) room: Room,
     pub(super) seen: Cursor,
 }
@@ -200,7 +195,6 @@ impl Cloth {
             bend_of: Vec::new(),
             bent_edge: Vec::new(),
             ledger: EnergyLedger::default(),
-            effects: Vec::new(),
             room: Room::default(),
             seen,
         };
@@ -232,7 +226,7 @@ impl Cloth {
             }
         }
         cloth.weave()?;
-        cloth.system.frequency_bound();
+        frequency::bound(&mut cloth.system);
         Ok(cloth)
     }
 
@@ -271,7 +265,7 @@ impl Cloth {
         self.seen
     }
 
-    /// Advances by `dt_s` seconds, and forgets the [`Cloth::effects`] so far.
+    /// Advances by `dt_s` seconds.
     ///
     /// # Errors
     ///
@@ -281,9 +275,21 @@ impl Cloth {
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
     ) -> Result<StepReport, StepError> {
-        let report = self.system.step(solver, dt_s)?;
-        self.effects.clear();
-        Ok(report)
+        self.system.step(solver, dt_s)
+    }
+
+    /// Advances by `dt_s` seconds under the eyes of an observer, as [`System::step_observed`] does.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`], and the cloth is as it was before.
+    pub fn step_observed(
+        &mut self,
+        solver: &mut (impl Solver + ?Sized),
+        dt_s: f64,
+        observer: &mut (impl Observer + ?Sized),
+    ) -> Result<StepReport, StepError> {
+        self.system.step_observed(solver, dt_s, observer)
     }
 
     /// The particles and constraints; vertex v is particle `v.index()`.
@@ -380,12 +386,6 @@ impl Cloth {
     #[must_use]
     pub fn ledger(&self) -> EnergyLedger {
         self.ledger
-    }
-
-    /// What the edits since the last [`Cloth::step`] that was taken did to the stability limit.
-    #[must_use]
-    pub fn effects(&self) -> &[Effect] {
-        &self.effects
     }
 
     pub(super) fn rest_length(&self, [a, b]: [usize; 2]) -> f64 {

@@ -28,36 +28,16 @@ use crate::system::System;
 /// }
 /// ```
 pub trait Solver {
-    /// Advances positions and velocities by this many seconds.
+    /// Advances positions and velocities by this many seconds. Colliders push afterwards.
     ///
     /// # Errors
     ///
     /// [`Failure`]: positions and velocities may be anything then, and [`System::step`] goes back.
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure>;
 
-    /// The largest ω Δt at which the method is stable; `None` where there is none.
-    fn frequency_limit(&self) -> Option<f64> {
-        None
-    }
-
-    /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which
-    /// air slows the system that the method takes in by the velocities before a step: that of
-    /// wind ([`System::wind_rate`]), and of drag where it
-    /// [`takes_drag_explicitly`](Solver::takes_drag_explicitly). `None` where there is none.
-    fn air_limit(&self) -> Option<f64> {
-        None
-    }
-
-    /// Whether the method takes in drag by the velocities before a step, so that its rate counts
-    /// for [`Solver::air_limit`].
-    fn takes_drag_explicitly(&self) -> bool {
-        false
-    }
-
-    /// Whether the method has particles that are too light for a step carried by their neighbours,
-    /// so that [`System::suited_step_s`] says how long steps may be, and not the largest frequency.
-    fn carries_light(&self) -> bool {
-        false
+    /// What the method can, and up to where it is stable.
+    fn abilities(&self) -> Abilities {
+        Abilities::default()
     }
 
     /// Whether the settings of the method can be used. A step asks first.
@@ -68,18 +48,6 @@ pub trait Solver {
     fn check(&self) -> Result<(), SettingError> {
         Ok(())
     }
-
-    /// Whether the method takes in the forces of [`System::triangles`]. One that does not is
-    /// refused where there are any.
-    fn takes_triangles(&self) -> bool {
-        false
-    }
-
-    /// Whether the method takes in the forces of bends that buckle, where
-    /// [`System::set_buckling`] says that they do. One that does not is refused then.
-    fn takes_buckling(&self) -> bool {
-        false
-    }
 }
 
 impl<S: Solver + ?Sized> Solver for &mut S {
@@ -87,32 +55,52 @@ impl<S: Solver + ?Sized> Solver for &mut S {
         (**self).advance(system, dt_s)
     }
 
-    fn frequency_limit(&self) -> Option<f64> {
-        (**self).frequency_limit()
-    }
-
-    fn air_limit(&self) -> Option<f64> {
-        (**self).air_limit()
-    }
-
-    fn takes_drag_explicitly(&self) -> bool {
-        (**self).takes_drag_explicitly()
-    }
-
-    fn carries_light(&self) -> bool {
-        (**self).carries_light()
+    fn abilities(&self) -> Abilities {
+        (**self).abilities()
     }
 
     fn check(&self) -> Result<(), SettingError> {
         (**self).check()
     }
+}
 
-    fn takes_triangles(&self) -> bool {
-        (**self).takes_triangles()
-    }
+/// What a method can, and up to where it is stable. By default it is so at any step, and knows springs
+/// alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Abilities {
+    /// The largest ω Δt at which the method is stable; `None` where there is none.
+    pub frequency_limit: Option<f64>,
+    /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which air
+    /// slows the system that the method takes in by the velocities before a step: that of wind
+    /// ([`wind_rate`](crate::air::wind_rate)), and of drag where it
+    /// [`takes_drag_explicitly`](Abilities::takes_drag_explicitly). `None` where there is none.
+    pub air_limit: Option<f64>,
+    /// Whether the method takes in drag by the velocities before a step, so that its rate counts for
+    /// [`air_limit`](Abilities::air_limit).
+    pub takes_drag_explicitly: bool,
+    /// Whether the method has particles that are too light for a step carried by their neighbours, so
+    /// that [`suited_step_s`](crate::suited_step_s) says how long steps may be, and not the largest
+    /// frequency.
+    pub carries_light: bool,
+    /// Whether the method takes in the forces of [`System::triangles`]. One that does not is refused
+    /// where there are any.
+    pub takes_triangles: bool,
+    /// Whether the method takes in the forces of bends that buckle, where [`System::set_buckling`]
+    /// says that they do. One that does not is refused then.
+    pub takes_buckling: bool,
+}
 
-    fn takes_buckling(&self) -> bool {
-        (**self).takes_buckling()
+impl Abilities {
+    /// Those of a method that takes in all forces, and is stable up to these limits.
+    #[must_use]
+    pub fn of_forces(frequency_limit: Option<f64>, air_limit: f64) -> Abilities {
+        Abilities {
+            frequency_limit,
+            air_limit: Some(air_limit),
+            takes_triangles: true,
+            takes_buckling: true,
+            ..Abilities::default()
+        }
     }
 }
 

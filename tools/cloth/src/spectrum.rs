@@ -153,8 +153,8 @@ impl Spectrum {
         self.reach
     }
 
-    /// The bound as long as triangles are not stretched beyond the reach: what an edit may ask for.
-    pub(crate) fn bound_within_reach(&mut self, model: &Model) -> f64 {
+    /// The bound as long as triangles are not stretched beyond the reach.
+    fn bound_within_reach(&mut self, model: &Model) -> f64 {
         if self.bound.is_none() {
             let reach = self.reach;
             let sums: Vec<f64> = (0..model.inverse_masses.len())
@@ -165,11 +165,6 @@ impl Spectrum {
             self.bound = Some(bound);
         }
         self.bound.unwrap_or_default().sqrt()
-    }
-
-    /// The bound if it is known: no more than a look.
-    pub(crate) fn known_bound(&self) -> Option<f64> {
-        self.bound.map(f64::sqrt)
     }
 
     /// The largest frequency in the present configuration, to 1 % of ω², measured where it is not
@@ -330,9 +325,10 @@ fn root_sum(model: &Model, particle: usize, reach: f64) -> f64 {
 fn rows_at(model: &Model, particle: usize, reach: f64) -> f64 {
     let weighed =
         |particle: usize| model.inverse_masses[particle] * root_sum(model, particle, reach);
+    let own = weighed(particle);
     let rows = model
         .kinds()
-        .map(|kind| kind.largest_row_at(particle, reach, &weighed));
+        .map(|kind| kind.largest_row_at(particle, reach, own, &weighed));
     rows.into_iter().fold(0.0, f64::max)
 }
 

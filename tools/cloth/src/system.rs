@@ -7,21 +7,19 @@
 
 mod counters;
 mod error;
-mod force;
-mod measure;
 mod model;
 
 pub use counters::Counters;
 pub use error::SystemError;
-pub(crate) use model::{Family, Left, Model};
+pub(crate) use model::{Family, Model};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
-use crate::balance::Meter;
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
+use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
 
@@ -62,8 +60,10 @@ pub struct System {
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
     pub(crate) margin: f64,
-    /// The balance of energy, where one is kept.
-    pub(crate) meter: Option<Box<Meter>>,
+    /// What the push of colliders made in all, in joules, where someone keeps a balance of energy.
+    pub(crate) contact_j: Option<f64>,
+    /// How often the state was changed but by a step.
+    pub(crate) changes: u64,
 }
 
 /// Room for a step, so that none allocates.
@@ -81,8 +81,8 @@ pub(crate) struct Scratch {
     pub(crate) velocities: Vec<Vector>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
-    /// The velocities that wind blows at, where they are predicted.
-    pub(crate) predicted: Vec<Vector>,
+    /// The velocities that wind blows at, where they are foreseen.
+    pub(crate) foreseen: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
 }
@@ -158,7 +158,6 @@ impl System {
                 stretch_ratio_max: 100.0,
                 forces: Default::default(),
                 is_limited: false,
-                is_aside: false,
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),
@@ -167,7 +166,8 @@ impl System {
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             margin: 0.95,
-            meter: None,
+            contact_j: None,
+            changes: 0,
         }
     }
 
@@ -216,18 +216,18 @@ impl System {
     /// [`Pbd`](crate::Pbd) and [`Xpbd`](crate::Xpbd), which project springs, are refused then.
     ///
     /// ```
-    /// use tearmesh_cloth::{Buckling, System};
+    /// use tearmesh_cloth::{Buckling, System, energy, force};
     /// use tearmesh::Point;
     ///
     /// let points = [Point::origin(), Point::new(0.06, 0.0, 0.0)];
     /// let mut system = System::new(points, vec![1.0; 2])?;
     /// system.bend([0, 1], 0.1, 2.0)?;
-    /// assert_eq!(system.elastic_energy_j(), 0.5 * 2.0 * (0.1_f64 - 0.06).powi(2));
-    /// let spring = system.reaction_n(0).x;
+    /// assert_eq!(energy::elastic_j(&system), 0.5 * 2.0 * (0.1_f64 - 0.06).powi(2));
+    /// let spring = force::reaction_n(&system, 0).x;
     /// system.set_buckling(Buckling::new(0.95));
     /// // Once it has buckled it pushes less than the spring, and than the load that buckled it.
-    /// assert!(system.reaction_n(0).x > 0.0);
-    /// assert!(system.reaction_n(0).x < 0.3 * spring);
+    /// assert!(force::reaction_n(&system, 0).x > 0.0);
+    /// assert!(force::reaction_n(&system, 0).x < 0.3 * spring);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -321,7 +321,7 @@ impl System {
         self.scratch.is_fresh = false;
         self.spectrum.touched(&self.model, particles);
         self.guard.edited();
-        self.note_change();
+        self.changes += 1;
     }
 
     /// Changes the stiffness of a stretch constraint, in N/m.
@@ -370,11 +370,9 @@ impl System {
     ///
     /// If there is no such particle.
     pub fn hold(&mut self, particle: usize) {
-        self.handle(particle, |system| {
-            system.model.held[particle] = true;
-            system.velocities[particle] = Vector::zeros();
-            system.weigh(particle);
-        });
+        self.model.held[particle] = true;
+        self.velocities[particle] = Vector::zeros();
+        self.weigh(particle);
     }
 
     /// Lets a pinned or grabbed particle go.
@@ -384,10 +382,8 @@ impl System {
     /// If there is no such particle.
     pub fn release(&mut self, particle: usize) {
         self.model.unlead(particle);
-        self.handle(particle, |system| {
-            system.model.held[particle] = false;
-            system.weigh(particle);
-        });
+        self.model.held[particle] = false;
+        self.weigh(particle);
     }
 
     /// Leads a particle along a path, from where the path is now.
@@ -399,7 +395,7 @@ impl System {
         self.release(particle);
         self.hold(particle);
         let from = path.at(self.elapsed_s);
-        self.handle(particle, |system| system.positions[particle] = from);
+        self.positions[particle] = from;
         let number = self.model.paths.len() as u32;
         self.model.paths.push(path);
         self.model.grabbed.push((particle as u32, number));
@@ -422,14 +418,8 @@ impl System {
             return Err(SystemError::Loads { field, given });
         }
         self.scratch.is_fresh = false;
-        let is_same = loads.gravity_m_per_s2 == self.model.loads.gravity_m_per_s2;
-        if is_same {
-            self.model.loads = loads;
-        } else {
-            self.settle_gravity();
-            self.model.loads = loads;
-            self.count_potential();
-        }
+        self.changes += 1;
+        self.model.loads = loads;
         Ok(())
     }
 
@@ -458,14 +448,14 @@ impl System {
     }
 
     /// Positions and velocities, to be set. Those that are not finite are noticed by the next
-    /// step. What the last step left behind in constraints ([`System::force_n`],
+    /// step. What the last step left behind in constraints ([`force_n`](crate::force::force_n),
     /// [`System::unlimited_ratio`]) no longer counts.
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
         self.spectrum.jumped(true);
         self.model.forget();
-        self.note_change();
+        self.changes += 1;
         (&mut self.positions, &mut self.velocities)
     }
 
@@ -533,27 +523,60 @@ impl System {
         self.elapsed_s
     }
 
+    /// The length of a stretch constraint as a multiple of its rest length.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn stretch_ratio(&self, id: ConstraintId) -> f64 {
+        let constraint = self.model.stretch.get(id);
+        pair::length(&self.positions, constraint.ends) / constraint.rest_length_m
+    }
+
+    /// The length of a stretch constraint as a multiple of its rest length, as it was in the last
+    /// step before a limiter shortened it; [`System::stretch_ratio`] where there was none.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn unlimited_ratio(&self, id: ConstraintId) -> f64 {
+        if self.model.is_limited {
+            self.model.stretch.memory(id).ratio
+        } else {
+            self.stretch_ratio(id)
+        }
+    }
+
+    /// The force in a stretch constraint by the multiplier of the last step of
+    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is
+    /// positive. Of [`Provot`](crate::Provot), the share of the limiter. Zero before one.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such constraint.
+    #[must_use]
+    pub fn multiplier_n(&self, id: ConstraintId) -> f64 {
+        -self.model.stretch.memory(id).multiplier
+    }
+
+    /// The root mean square of the strains l/L − 1 of all stretch constraints.
+    #[must_use]
+    pub fn strain_rms(&self) -> f64 {
+        let squares = self.model.stretch.iter().map(|id| {
+            let strain = self.stretch_ratio(id) - 1.0;
+            strain * strain
+        });
+        (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
+    }
+
     /// Gives the grabbed particles the velocity that leads them along their paths.
     pub(crate) fn drive(&mut self, dt_s: f64) {
         for &(particle, path) in &self.model.grabbed {
             let to = self.model.paths[path as usize].at(self.elapsed_s + dt_s);
             let particle = particle as usize;
             self.velocities[particle] = (to - self.positions[particle]) / dt_s;
-        }
-    }
-
-    /// Pushes the particles out of the colliders.
-    pub(crate) fn collide(&mut self) {
-        if self.meter.is_some() {
-            return self.collide_and_note();
-        }
-        for collider in &self.model.loads.colliders {
-            self.counters.collider_passes += 1;
-            collider.push_out(
-                &self.model.inverse_masses,
-                &mut self.positions,
-                &mut self.velocities,
-            );
         }
     }
 }

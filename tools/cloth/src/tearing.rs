@@ -61,11 +61,9 @@
 
 mod apply;
 mod follow;
-mod link;
 mod load;
 
 pub use apply::{Tear, TearReport};
-pub use link::CutLink;
 
 use std::fmt;
 
@@ -97,7 +95,7 @@ pub enum Threshold {
     /// Then ½ E (l − L)² is G h.
     Toughness(f64),
     /// When its force reaches this, in newtons, by the method of the last step
-    /// ([`System::force_n`](crate::System::force_n)). A torn edge's copy of half the
+    /// ([`force_n`](crate::force::force_n)). A torn edge's copy of half the
     /// stiffness bears half of it. For springs: the edges of a [`Weave`](crate::Weave) have no force
     /// but under a method that projects.
     Force(f64),

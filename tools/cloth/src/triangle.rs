@@ -517,9 +517,19 @@ impl Element for Triangles {
         rows.fold(0.0, f64::max)
     }
 
-    fn largest_row_at(&self, particle: usize, reach: f64, sum: &dyn Fn(usize) -> f64) -> f64 {
+    fn largest_row_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        own: f64,
+        sum: &dyn Fn(usize) -> f64,
+    ) -> f64 {
+        let sum = |v: u32| match v as usize {
+            v if v == particle => own,
+            v => sum(v),
+        };
         let triangles = self.of(particle).map(|(t, _)| &self.list[t]);
-        let rows = triangles.map(|t| t.row(reach, t.vertices.map(|v| sum(v as usize))));
+        let rows = triangles.map(|t| t.row(reach, t.vertices.map(sum)));
         rows.fold(0.0, f64::max)
     }
 

@@ -6,7 +6,7 @@
 //!
 //! * One light particle shortens the stable step of all. It is *carried* by its neighbours
 //!   ([`carry`](crate::carry)), and the step that suits most particles serves all
-//!   ([`System::suited_step_s`]).
+//!   ([`suited_step_s`](crate::suited_step_s)).
 //! * Crushed springs make energy below every limit. They are damped ([`crush`](crate::crush)).
 //!
 //! Where nothing is carried and nothing is crushed, the guards change no bit.
@@ -54,19 +54,21 @@
 use tearmesh::geometry::Vector;
 
 use crate::crush::Crush;
-use crate::solver::{Failure, Solver};
+use crate::flight::{accelerate, fly, foresee, kick};
+use crate::solver::{Abilities, Failure, Solver};
+use crate::stability::{carried_count, weigh_for};
 use crate::system::{Scratch, System};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
 /// [`Verlet::new`] is guarded: particles that are too light for the step are carried by their
 /// neighbours, and what is shorter than nine tenths of its rest length is damped. It is stable at
-/// steps of up to twice [`System::suited_step_s`] in every configuration, and at rest it is exact.
+/// steps of up to twice [`suited_step_s`](crate::suited_step_s) in every configuration, and at rest it is exact.
 /// In motion the guards make light particles swing more slowly about their neighbours; at half the
 /// suited step or less next to none is carried.
 ///
 /// [`Verlet::plain`] is the textbook's, stable for small motions up to ω Δt = 2 and of wind alone up
-/// to λ Δt = 1 ([`System::wind_rate`]). Its oscillators have the frequency ω′ with
+/// to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). Its oscillators have the frequency ω′ with
 /// cos ω′Δt = 1 − (ωΔt)²/2, so it runs fast by up to π/2 at the limit.
 ///
 /// Drag is taken in by a backward and a forward half step, and wind by a prediction of the
@@ -74,7 +76,7 @@ use crate::system::{Scratch, System};
 ///
 /// ```
 /// use tearmesh::Point;
-/// use tearmesh_cloth::{System, Verlet};
+/// use tearmesh_cloth::{System, Verlet, energy};
 ///
 /// // A particle between two nails, all but crushed.
 /// let points = [-0.5, 0.0, 0.5].map(|x| Point::new(x, if x == 0.0 { 0.001 } else { 0.0 }, 0.0));
@@ -83,11 +85,11 @@ use crate::system::{Scratch, System};
 ///     system.stretch(ends, 1.0, 100.0)?;
 /// }
 /// [0, 2].map(|end| system.hold(end));
-/// let before = system.elastic_energy_j();
+/// let before = energy::elastic_j(&system);
 /// let mut verlet = Verlet::new();
 /// for _ in 0..1000 {
 ///     system.step(&mut verlet, 0.13)?;
-///     assert!(system.kinetic_energy_j() + system.elastic_energy_j() < 1.05 * before);
+///     assert!(energy::kinetic_j(&system) + energy::elastic_j(&system) < 1.05 * before);
 /// }
 /// assert!(verlet.damped_j() > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -121,133 +123,63 @@ impl Verlet {
         self.damped_j
     }
 
-    /// Brings the accelerations at the beginning of a step up to date, with the guards of a step of
-    /// this length; zero for none. Those at the end of the last step are those of now, unless
-    /// something has changed in between.
-    fn begin(system: &mut System, guarded_s: f64) -> bool {
-        let had_s = system.scratch.guarded_s;
-        let differs = had_s != guarded_s && (had_s > 0.0 || has_carried(system, guarded_s));
-        if system.scratch.is_fresh && !differs {
-            return true;
+    /// Takes the accelerations now, with the guards of a step of this length. Whether they
+    /// are sane, and what damping takes in such a step, in joules.
+    fn accelerate(self, system: &mut System, is_foreseen: bool, dt_s: f64) -> (bool, f64) {
+        if self.is_plain {
+            system.scratch.guarded_s = 0.0;
+            return (accelerate(system, is_foreseen), 0.0);
         }
-        accelerate_by(system, false, guarded_s).0
+        accelerate_guarded(system, is_foreseen, dt_s)
+    }
+
+    /// Whether the last accelerations of the step before are those of now: unless something has changed
+    /// in between, or the guards are those of another step.
+    fn is_fresh(self, system: &System, dt_s: f64) -> bool {
+        let guarded_s = if self.is_plain { 0.0 } else { dt_s };
+        let had_s = system.scratch.guarded_s;
+        let has_carried = guarded_s > 0.0 && carried_count(system) > 0;
+        let differs = had_s != guarded_s && (had_s > 0.0 || has_carried);
+        system.scratch.is_fresh && !differs
     }
 }
 
 impl Solver for Verlet {
-    fn frequency_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    /// By the prediction: z² − (1 − 3μ/2) z − μ/2 has the root −1 at μ = λΔt = 1.
-    fn air_limit(&self) -> Option<f64> {
-        Some(1.0)
-    }
-
-    fn carries_light(&self) -> bool {
-        !self.is_plain
-    }
-
-    fn takes_triangles(&self) -> bool {
-        true
-    }
-
-    fn takes_buckling(&self) -> bool {
-        true
+    /// Air by the prediction: z² − (1 − 3μ/2) z − μ/2 has the root −1 at μ = λΔt = 1.
+    fn abilities(&self) -> Abilities {
+        Abilities {
+            carries_light: !self.is_plain,
+            ..Abilities::of_forces(Some(2.0), 1.0)
+        }
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
-        let half = dt_s / 2.0;
-        let fade = half * system.model.drag_per_s();
-        let guarded_s = if self.is_plain { 0.0 } else { dt_s };
-        if guarded_s > 0.0 {
-            system.weigh_for(dt_s);
+        let half_s = dt_s / 2.0;
+        if !self.is_plain {
+            weigh_for(system, dt_s);
         }
-        let mut sane = Verlet::begin(system, guarded_s);
+        let mut sane = self.is_fresh(system, dt_s) || self.accelerate(system, false, dt_s).0;
+        fly(system, half_s, dt_s);
+        // The velocities at the end of the step, at which wind blows, as far as they are known in its
+        // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
+        // as without wind. (Those of the middle err by O(Δt).)
         let blows = system.model.loads.wind.is_some();
-        let System {
-            positions,
-            velocities,
-            model,
-            scratch,
-            ..
-        } = system;
-        let particles = positions
-            .iter_mut()
-            .zip(velocities)
-            .zip(&scratch.accelerations);
-        for (((x, v), a), &w) in particles.zip(&model.inverse_masses) {
-            if w > 0.0 {
-                *v = (*v + a * half) / (1.0 + fade);
-            }
-            *x += *v * dt_s;
-        }
         if blows {
-            predict(system, half, fade);
+            foresee(system, half_s);
         }
-        let (is_sane, damped_j) = accelerate_by(system, blows, guarded_s);
+        let (is_sane, damped_j) = self.accelerate(system, blows, dt_s);
         sane &= is_sane;
-        let System {
-            velocities,
-            model,
-            scratch,
-            ..
-        } = system;
-        for ((v, a), &w) in velocities
-            .iter_mut()
-            .zip(&scratch.accelerations)
-            .zip(&model.inverse_masses)
-        {
-            if w > 0.0 {
-                *v = *v * (1.0 - fade) + a * half;
-            }
-        }
+        kick(system, half_s);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
-        system.collide();
         Failure::unless(sane)?;
         self.damped_j += damped_j;
         Ok(())
     }
 }
 
-/// The velocities at the end of a step, as far as they are known in its middle: by the accelerations
-/// at its beginning. They err by O(Δt²), and so the step by O(Δt³), as without wind. (Those of the
-/// middle err by O(Δt).)
-fn predict(system: &mut System, half: f64, fade: f64) {
-    let (model, scratch) = (&system.model, &mut system.scratch);
-    scratch.predicted.clone_from(&system.velocities);
-    let particles = scratch.predicted.iter_mut().zip(&scratch.accelerations);
-    for ((v, a), &w) in particles.zip(&model.inverse_masses) {
-        if w > 0.0 {
-            *v = *v * (1.0 - fade) + a * half;
-        }
-    }
-}
-
-impl System {
-    /// How many particles were carried by their neighbours in the last step of [`Verlet`]: those that
-    /// are too light for it.
-    #[must_use]
-    pub fn carried_count(&self) -> usize {
-        self.guard.carry().len()
-    }
-}
-
-/// Whether something is carried in a step of this length.
-fn has_carried(system: &System, guarded_s: f64) -> bool {
-    guarded_s > 0.0 && system.guard.carry().len() > 0
-}
-
-/// The accelerations now, into the scratch room.
-pub(crate) fn accelerate(system: &mut System) -> bool {
-    accelerate_by(system, false, 0.0).0
-}
-
-/// Accelerations with wind at the velocities as they are or as they were predicted, and with the
-/// guards of a step of this length; zero for none. Whether they are sane, and what damping takes in
-/// that step, in joules.
-fn accelerate_by(system: &mut System, predicted: bool, guarded_s: f64) -> (bool, f64) {
-    let has_carried = has_carried(system, guarded_s);
+/// [`accelerate`] with what is crushed damped, and what is light carried: whether it is sane, and what
+/// damping takes in a step of this length, in joules.
+fn accelerate_guarded(system: &mut System, is_foreseen: bool, dt_s: f64) -> (bool, f64) {
     let System {
         positions,
         velocities,
@@ -258,29 +190,18 @@ fn accelerate_by(system: &mut System, predicted: bool, guarded_s: f64) -> (bool,
         ..
     } = system;
     scratch.is_fresh = false;
-    scratch
-        .accelerations
-        .resize(positions.len(), Vector::zeros());
     let Scratch {
         accelerations,
-        predicted: velocities_ahead,
-        guarded_s: had_s,
+        foreseen,
+        guarded_s,
         ..
     } = scratch;
-    let mut crush = Crush::new(&*velocities, guarded_s);
-    let velocities: &[Vector] = if predicted {
-        velocities_ahead
-    } else {
-        velocities
-    };
-    if guarded_s == 0.0 {
-        *had_s = 0.0;
-        let sane = model.accelerate(positions, velocities, accelerations, counters);
-        return (sane, 0.0);
-    }
+    accelerations.resize(positions.len(), Vector::zeros());
+    let mut crush = Crush::new(&*velocities, dt_s);
+    let velocities: &[Vector] = if is_foreseen { foreseen } else { velocities };
     let guards = (&mut crush, guard.carry());
     let sane = model.accelerate_guarded(positions, velocities, guards, accelerations, counters);
-    let is_other = has_carried || crush.lost_j > 0.0;
-    *had_s = if is_other { guarded_s } else { 0.0 };
+    let is_other = guard.carry().len() > 0 || crush.lost_j > 0.0;
+    *guarded_s = if is_other { dt_s } else { 0.0 };
     (sane, crush.lost_j)
 }

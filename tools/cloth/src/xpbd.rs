@@ -16,15 +16,15 @@ use tearmesh::geometry::{Vector, dot};
 
 use crate::constraint::Constraint;
 use crate::element::Forces;
+use crate::flight::{finish, finish_and_predict, force_scale, predict};
 use crate::pair::{Law, Link};
-use crate::pbd::{finish, finish_and_predict, predict};
-use crate::solver::{Failure, Solver};
+use crate::solver::{Abilities, Failure, Solver};
 use crate::spring::{self, Hooke};
-use crate::system::{Model, System};
+use crate::system::System;
 
 /// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
 /// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep
-/// ([`System::wind_rate`]).
+/// ([`wind_rate`](crate::air::wind_rate)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Xpbd {
     /// Substeps a step; at least one.
@@ -59,7 +59,7 @@ impl Xpbd {
             counters,
             ..
         } = system;
-        let scale = scale(model, dt_s);
+        let scale = force_scale(model, dt_s);
         for sweep in 0..self.sweeps.max(1) {
             let project = match sweep {
                 0 => spring::project_compliant::<true>,
@@ -114,14 +114,16 @@ impl Xpbd {
 
 impl Solver for Xpbd {
     /// Each substep has wind of its own.
-    fn air_limit(&self) -> Option<f64> {
-        Some(2.0 * f64::from(self.substeps.max(1)))
+    fn abilities(&self) -> Abilities {
+        Abilities {
+            air_limit: Some(2.0 * f64::from(self.substeps.max(1))),
+            ..Abilities::default()
+        }
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
-        system.model.set_aside();
         predict(system, substep_s);
         let sane = (0..substeps).all(|substep| {
             if substep > 0 {
@@ -133,7 +135,7 @@ impl Solver for Xpbd {
         finish(system, substep_s);
         // Who asks for forces asks for those of the last substep.
         let model = &mut system.model;
-        model.scale_multipliers(scale(model, substep_s));
+        model.scale_multipliers(force_scale(model, substep_s));
         model.forces = Forces::Multipliers;
         Ok(())
     }
@@ -145,9 +147,4 @@ fn force(constraint: &Constraint, length: f64) -> f64 {
     Hooke
         .link(rest, stiffness)
         .map_or(0.0, |spring| spring.force(length))
-}
-
-/// What makes a compliance one of a step, and a multiplier a force.
-fn scale(model: &Model, dt_s: f64) -> f64 {
-    (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s)
 }

@@ -19,7 +19,7 @@ pub use self::svg::svg;
 use serde::Serialize;
 use tearmesh::{Mesh, Point, Positions};
 use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene};
-use tearmesh_cloth::{StepError, Tearing, Threshold};
+use tearmesh_cloth::{StepError, Tearing, Threshold, force};
 
 /// Width and height of the strip, in metres.
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];
@@ -189,7 +189,7 @@ fn test(cells: u32, threshold: Threshold) -> Result<Test, StudyError> {
         let [left, right] = [0, 1].map(|leg| {
             let system = run.cloth().system();
             let held = run.held(leg).iter();
-            held.map(|v| system.reaction_n(v.index()).dot(&depth))
+            held.map(|v| force::reaction_n(system, v.index()).dot(&depth))
                 .sum::<f64>()
         });
         let force = (left - right) / 2.0;

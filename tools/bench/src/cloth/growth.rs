@@ -1,7 +1,7 @@
 //! What a step costs a constraint, as sheets grow.
 
 use tearmesh_cloth::implicit::Settings;
-use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd};
+use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd, frequency};
 
 use super::bullet::{Bullet, Order, Program};
 use super::sheet::{STEP_S, hanging};
@@ -146,7 +146,7 @@ fn nanoseconds(method: &Method, cloth: &Cloth) -> (f64, f64) {
     let (mut cloth, mut solver) = (cloth.clone(), (method.solver)());
     let step_s = match method.step {
         Step::Frame => STEP_S,
-        Step::Bound(times) => times * 2.0 / cloth.system_mut().frequency_bound(),
+        Step::Bound(times) => times * 2.0 / frequency::bound(cloth.system_mut()),
     };
     // The first steps make room.
     for _ in 0..2 {

@@ -44,12 +44,12 @@ use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
-use crate::solver::{Failure, SettingError, Solver};
+use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
 
 /// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
 /// are stable at any step; wind is taken in as it is where a step begins, and is stable up to
-/// λ Δt = 2 ([`System::wind_rate`]).
+/// λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)).
 ///
 /// ```
 /// use tearmesh_cloth::implicit::{self, Settings, Tolerance};
@@ -293,23 +293,16 @@ impl Implicit {
 }
 
 impl Solver for Implicit {
+    /// The limit of air is that of backward Euler, with which BDF2 begins, and begins anew after an
+    /// edit.
+    fn abilities(&self) -> Abilities {
+        Abilities::of_forces(None, 2.0)
+    }
+
     fn check(&self) -> Result<(), SettingError> {
         let (Tolerance::Tied(given) | Tolerance::Fixed(given)) = self.settings.tolerance;
         let holds = given > 0.0 && given.is_finite();
         SettingError::unless(holds, "tolerance", given, "any above 0")
-    }
-
-    /// That of backward Euler, with which BDF2 begins, and begins anew after an edit.
-    fn air_limit(&self) -> Option<f64> {
-        Some(2.0)
-    }
-
-    fn takes_triangles(&self) -> bool {
-        true
-    }
-
-    fn takes_buckling(&self) -> bool {
-        true
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
@@ -350,7 +343,6 @@ impl Solver for Implicit {
         }
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
-        system.collide();
         Ok(())
     }
 }

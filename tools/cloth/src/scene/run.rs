@@ -24,11 +24,13 @@ use self::engine::Engine;
 use self::gain::Watch;
 use self::held::Held;
 use super::{Breeze, Frame, Scene, TimedCut};
-use crate::balance::EnergyBalance;
+use crate::balance::{Balance, EnergyBalance};
 use crate::culprit::Culprit;
+use crate::frequency;
 use crate::load::Loads;
 use crate::sheet::{Cloth, ClothError};
 use crate::solver::{Solver, StepError};
+use crate::stability;
 use crate::system::Unstable;
 use crate::tearing::{Tear, TearReport, Tearing};
 
@@ -62,6 +64,7 @@ pub struct Run {
     step_s: f64,
     steps_planned: u64,
     tally: Tally,
+    balance: Balance,
     watch: Watch,
 }
 
@@ -197,7 +200,7 @@ impl Run {
             // A step of our own choice is not refused because of what tore since.
             cloth.system_mut().when_unstable(Unstable::Substep);
         }
-        cloth.system_mut().keep_balance();
+        let balance = Balance::new(cloth.system_mut());
         Ok(Run {
             engine,
             watch: Watch::new(&scene.solver, cloth.system(), step_s),
@@ -211,6 +214,7 @@ impl Run {
             cuts_made: Vec::new(),
             step_s,
             steps_planned: steps_planned as u64,
+            balance,
             tally: Tally {
                 stretch_ratio_max: 1.0,
                 ..Tally::default()
@@ -254,15 +258,19 @@ impl Run {
     }
 
     fn advance(&mut self, now: u64) -> Result<Step, StepError> {
-        held::take_and_release(&mut self.held, now, self.step_s, self.cloth.system_mut());
+        let hands = (self.cloth.system_mut(), &mut self.balance);
+        held::take_and_release(&mut self.held, now, self.step_s, hands);
         self.cut(now)?;
         self.blow(now);
-        self.cloth.step(&mut self.engine, self.step_s)?;
+        let (engine, balance) = (&mut self.engine, &mut self.balance);
+        self.cloth.step_observed(engine, self.step_s, balance)?;
         self.tally.steps += 1;
         self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
         let tear = self.tear_overstretched();
         let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
-        self.watch.look(steps, elapsed_s, self.cloth.system());
+        if self.watch.is_time(steps) {
+            self.watch.judge(elapsed_s, &self.energy_balance());
+        }
         Ok(Step { tear })
     }
 
@@ -297,17 +305,18 @@ impl Run {
 
     /// The longest stable step of an explicit method.
     fn stable_step_s(&mut self) -> Option<f64> {
-        self.engine
-            .frequency_limit()
-            .filter(|_| !self.engine.carries_light())?;
-        self.cloth.system_mut().whole_step_s(&self.engine)
+        let abilities = self.engine.abilities();
+        abilities
+            .frequency_limit
+            .filter(|_| !abilities.carries_light)?;
+        stability::whole_step_s(self.cloth.system_mut(), &self.engine)
     }
 
     fn shortened(&mut self, before_s: f64) -> Shortened {
         Shortened {
             before_s,
             after_s: self.stable_step_s().unwrap_or(before_s),
-            ends: self.cloth.system_mut().frequency().ends,
+            ends: frequency::largest(self.cloth.system_mut()).ends,
         }
     }
 
@@ -394,7 +403,7 @@ impl Run {
     /// The step in seconds: the scene's, or one that suits it. That is a whole part of 1/60 s.
     ///
     /// * Verlet: the one that suits nine tenths of the vertices, at most
-    ///   ([`System::suited_step_s`](crate::System::suited_step_s)); the others are carried, and so is
+    ///   ([`suited_step_s`](crate::suited_step_s)); the others are carried, and so is
     ///   what gets light where the cloth is torn or cut.
     /// * Provot: at most 0.7 of the stability limit of the cloth at rest. What is torn or cut may ask
     ///   for shorter ones; then each is divided ([`Unstable::Substep`]).
@@ -402,7 +411,7 @@ impl Run {
     ///   that it would have to travel farther; see [`Run::step_wanted_s`].
     /// * Implicit: 1/240 s.
     ///
-    /// And at most 0.7 of what wind allows ([`System::wind_rate`](crate::System::wind_rate)).
+    /// And at most 0.7 of what wind allows ([`wind_rate`](crate::air::wind_rate)).
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.step_s
@@ -444,8 +453,8 @@ impl Run {
     /// Where the energy of the scene came from and where it went. A pass over all constraints.
     #[must_use]
     pub fn energy_balance(&self) -> EnergyBalance {
-        let balance = self.cloth.system().energy_balance();
-        balance.unwrap_or_default() // Kept from the first step on.
+        let edits_j = self.cloth.ledger().made_j();
+        self.balance.now(self.cloth.system(), edits_j)
     }
 
     /// Whether the method made energy out of nothing, beyond a quarter of what was put in: then the

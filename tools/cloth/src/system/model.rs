@@ -39,21 +39,12 @@ pub(crate) struct Model {
     pub(crate) forces: Forces,
     /// Whether a limiter left ratios behind.
     pub(crate) is_limited: bool,
-    /// Whether what the step before left in constraints is put aside.
-    pub(super) is_aside: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
     Stretch,
     Bend,
-}
-
-/// What says how that is to be read which a step left behind in constraints.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Left {
-    forces: Forces,
-    is_limited: bool,
 }
 
 impl Model {
@@ -229,7 +220,7 @@ impl Model {
             .all(|kind| kind.is_within(positions, ratio_max))
     }
 
-    /// Adds K u; see [`System::stiffness_times`](super::System::stiffness_times).
+    /// Adds K u; see [`stiffness_times`](crate::force::stiffness_times).
     pub(crate) fn stiffness_times(
         &self,
         slope: Slope,
@@ -270,42 +261,8 @@ impl Model {
         self.is_limited = false;
     }
 
-    /// Begins a step: forgets what the last one left behind, and returns what it takes to
-    /// [`go back`](Model::back_to).
-    pub(crate) fn begin(&mut self) -> Left {
-        let left = Left {
-            forces: self.forces,
-            is_limited: self.is_limited,
-        };
-        self.forget();
-        self.is_aside = false;
-        left
-    }
-
-    /// For a method that is about to write all multipliers, and maybe all ratios: puts those of the
-    /// last step aside.
-    pub(crate) fn set_aside(&mut self) {
-        if !self.is_aside {
-            self.stretch.set_aside();
-            self.bend.set_aside();
-            self.is_aside = true;
-        }
-    }
-
-    /// Remembers what the step before the one that failed left behind.
-    pub(crate) fn back_to(&mut self, left: Left) {
-        if self.is_aside {
-            self.stretch.take_back();
-            self.bend.take_back();
-            self.is_aside = false;
-        }
-        self.forces = left.forces;
-        self.is_limited = left.is_limited;
-    }
-
     /// Sets all multipliers to zero.
     pub(crate) fn clear_multipliers(&mut self) {
-        self.set_aside();
         for family in [&mut self.stretch, &mut self.bend] {
             for (_, memories) in family.batches_mut() {
                 memories.multipliers.fill(0.0);

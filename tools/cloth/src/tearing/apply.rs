@@ -4,6 +4,7 @@ use tearmesh::geometry::{Plane, Vector, dot, length};
 use tearmesh::{Cursor, Edits, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
 
 use super::{Tearing, TearingError};
+use crate::energy;
 use crate::sheet::Cloth;
 use crate::system::Family;
 
@@ -313,7 +314,7 @@ impl Tear {
 fn energy_j(cloth: &Cloth, edge: HalfEdgeId) -> f64 {
     let system = cloth.system();
     let constraint = system.stretches().get(cloth.stretch(edge));
-    system.elastic_of(Family::Stretch, &constraint)
+    energy::elastic_of_j(system, Family::Stretch, &constraint)
 }
 
 /// The way from one end of an edge to the other, at rest.

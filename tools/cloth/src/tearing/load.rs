@@ -6,6 +6,7 @@ use tearmesh::{HalfEdgeId, Mesh};
 use super::Threshold;
 use crate::constraint::ConstraintId;
 use crate::fabric::Copies;
+use crate::force;
 use crate::sheet::Cloth;
 use crate::system::System;
 
@@ -25,7 +26,7 @@ impl Threshold {
                 let bears = strain_borne(g, link.stiffness_n_per_m, link.rest_length_m);
                 Some(strain(system, id) / bears)
             }
-            Threshold::Force(newtons) => Some(system.force_n(id) / newtons),
+            Threshold::Force(newtons) => Some(force::force_n(system, id) / newtons),
             Threshold::WarpWeft { .. } | Threshold::PrincipalStretch(_) => None,
         }
     }
@@ -49,7 +50,7 @@ impl Threshold {
             Threshold::Force(newtons) => {
                 let halved = cloth.fabric.copies == Copies::Halved && mesh.ghost_pair(h).is_some();
                 let share = if halved { 0.5 } else { 1.0 };
-                Some(system.force_n(id) / (newtons * share))
+                Some(force::force_n(system, id) / (newtons * share))
             }
             Threshold::WarpWeft { warp, weft, axis } => {
                 let ratio = match run(cloth, h, axis)? {

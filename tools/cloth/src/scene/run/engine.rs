@@ -2,7 +2,10 @@
 
 use super::quality::{Guarded, Limited, Quality, Solved};
 use crate::scene::Method;
-use crate::{Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd};
+use crate::stability::carried_count;
+use crate::{
+    Abilities, Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd,
+};
 
 /// A method with its state.
 #[derive(Clone, Debug)]
@@ -43,7 +46,7 @@ impl Engine {
             Engine::Provot(_, limited) => Quality::Limited(*limited),
             Engine::Pbd(_) => Quality::Strain(system.strain_rms()),
             Engine::Verlet(verlet) => Quality::Guarded(Guarded {
-                carried: system.carried_count(),
+                carried: carried_count(system),
                 damped_j: verlet.damped_j(),
             }),
             Engine::Xpbd(xpbd) => Quality::Residual(xpbd.residual_n(system)),
@@ -74,31 +77,11 @@ impl Solver for Engine {
         }
     }
 
-    fn air_limit(&self) -> Option<f64> {
-        self.solver().air_limit()
-    }
-
-    fn takes_drag_explicitly(&self) -> bool {
-        self.solver().takes_drag_explicitly()
-    }
-
-    fn carries_light(&self) -> bool {
-        self.solver().carries_light()
+    fn abilities(&self) -> Abilities {
+        self.solver().abilities()
     }
 
     fn check(&self) -> Result<(), SettingError> {
         self.solver().check()
-    }
-
-    fn takes_triangles(&self) -> bool {
-        self.solver().takes_triangles()
-    }
-
-    fn takes_buckling(&self) -> bool {
-        self.solver().takes_buckling()
-    }
-
-    fn frequency_limit(&self) -> Option<f64> {
-        self.solver().frequency_limit()
     }
 }

@@ -63,17 +63,13 @@ impl Watch {
         }
     }
 
-    /// Looks, where it is time after so many steps.
-    pub(super) fn look(&mut self, steps: u64, elapsed_s: f64, system: &System) {
-        if !steps.is_multiple_of(self.every) {
-            return;
-        }
-        if let Some(balance) = system.energy_balance() {
-            self.judge(elapsed_s, &balance);
-        }
+    /// Whether it is time for a look after so many steps.
+    pub(super) fn is_time(&self, steps: u64) -> bool {
+        steps.is_multiple_of(self.every)
     }
 
-    fn judge(&mut self, elapsed_s: f64, balance: &EnergyBalance) {
+    /// Looks.
+    pub(super) fn judge(&mut self, elapsed_s: f64, balance: &EnergyBalance) {
         let lengths_j = if self.has_lengths {
             0.0
         } else {

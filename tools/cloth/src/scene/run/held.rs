@@ -10,6 +10,7 @@ use tearmesh::geometry::Point;
 use tearmesh::{Edit, Edits, Mesh, VertexId};
 
 use super::{Names, RunError};
+use crate::balance::Balance;
 use crate::load::Path;
 use crate::scene::{Frame, Hold, Region};
 use crate::system::System;
@@ -65,13 +66,17 @@ pub(super) fn vertices_in(
     }
 }
 
+/// A system in whose particles hands have a part, and the balance of what they work.
+type Hands<'a> = (&'a mut System, &'a mut Balance);
+
 /// Takes vertices, and lets vertices go, where that is to happen at the beginning of this step.
-pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, system: &mut System) {
+pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, hands: Hands<'_>) {
+    let (system, balance) = hands;
     for held in all.iter_mut() {
         if held.state == State::Waiting && step_at(held.hold.from_s, step_s) <= now {
             held.state = State::Holding { since: now };
             for &v in &held.vertices {
-                held.take(v, system.positions()[v.index()], system);
+                held.take(v, system.positions()[v.index()], (system, balance));
             }
         }
     }
@@ -81,14 +86,14 @@ pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, system: 
             && all[number].hold.until_s.is_some_and(ends)
         {
             all[number].state = State::Released;
-            release(all, number, since, system);
+            release(all, number, since, (system, balance));
         }
     }
 }
 
 /// Lets the vertices of a hold go, or gives them to those that hold them as well. Linear in the
 /// vertices of all, times the logarithm.
-fn release(all: &[Held], number: usize, since: u64, system: &mut System) {
+fn release(all: &[Held], number: usize, since: u64, (system, balance): Hands<'_>) {
     let mut others = Vec::new();
     for (other, held) in all.iter().enumerate() {
         if let State::Holding { since } = held.state {
@@ -101,8 +106,8 @@ fn release(all: &[Held], number: usize, since: u64, system: &mut System) {
         let last = others.iter().find(|(_, _, vertices)| vertices.contains(&v));
         match last {
             Some(&(taken, ..)) if taken > (since, number) => {} // It leads it already.
-            Some((_, held, _)) => held.take_back(v, system),
-            None => system.release(v.index()),
+            Some((_, held, _)) => held.take_back(v, (system, balance)),
+            None => balance.handle(system, v.index(), |system| system.release(v.index())),
         }
     }
 }
@@ -132,21 +137,21 @@ impl Held {
     }
 
     /// Takes a vertex that was at this place when its way began.
-    fn take(&self, v: VertexId, from: Point, system: &mut System) {
+    fn take(&self, v: VertexId, from: Point, (system, balance): Hands<'_>) {
         match self.path(from) {
-            Some(path) => system.grab(v.index(), path),
-            None => {
+            Some(path) => balance.handle(system, v.index(), |system| system.grab(v.index(), path)),
+            None => balance.handle(system, v.index(), |system| {
                 system.release(v.index()); // Of a path of another hold.
                 system.hold(v.index());
-            }
+            }),
         }
     }
 
     /// Takes a vertex back that another hold has led: it goes on from where it is.
-    fn take_back(&self, v: VertexId, system: &mut System) {
+    fn take_back(&self, v: VertexId, (system, balance): Hands<'_>) {
         let at = system.positions()[v.index()];
         let gone = self.path(at).map(|path| path.at(system.elapsed_s()) - at);
-        self.take(v, gone.map_or(at, |gone| at - gone), system);
+        self.take(v, gone.map_or(at, |gone| at - gone), (system, balance));
     }
 
     /// The way of a vertex that is taken at a place; `None` of one that stays there.

@@ -3,6 +3,7 @@
 use super::engine::Engine;
 use crate::scene::{Method, Scene};
 use crate::sheet::Cloth;
+use crate::stability;
 
 /// Frames of films and screens are whole parts of this, in seconds.
 const FRAME_S: f64 = 1.0 / 60.0;
@@ -13,8 +14,8 @@ const LONGEST_S: f64 = FRAME_S / 2.0;
 /// A step in seconds that suits the method, the fabric and the mesh: a whole part of 1/60 s.
 pub(super) fn suggested_s(scene: &Scene, engine: &Engine, cloth: &mut Cloth) -> f64 {
     let system = cloth.system_mut();
-    let suited_s = system.suited_s(engine);
-    let stable_s = suited_s.or_else(|| Some(0.7 * system.whole_step_s(engine)?));
+    let suited_s = stability::suited_s(system, engine);
+    let stable_s = suited_s.or_else(|| Some(0.7 * stability::whole_step_s(system, engine)?));
     let stable_s = stable_s.unwrap_or(LONGEST_S);
     let limit_s = match scene.solver {
         Method::Provot(_) | Method::Verlet => stable_s,

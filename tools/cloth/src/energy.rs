@@ -1,0 +1,73 @@
+//! Where the energy of a system is: in motion, in strain, and in weight that was lifted.
+
+use tearmesh::geometry::dot;
+
+use crate::constraint::Constraint;
+use crate::system::{Family, System};
+
+/// The elastic energy of all constraints and triangles, in joules.
+#[must_use]
+pub fn elastic_j(system: &System) -> f64 {
+    system.model.elastic_j(&system.positions)
+}
+
+/// The kinetic energy of the particles that are not held, in joules.
+#[must_use]
+pub fn kinetic_j(system: &System) -> f64 {
+    let particles = 0..system.positions.len();
+    particles
+        .map(|particle| kinetic_at_j(system, particle))
+        .sum()
+}
+
+/// The same in one pass over slices.
+pub(crate) fn free_kinetic_j(system: &System) -> f64 {
+    let model = &system.model;
+    let particles = system.velocities.iter().zip(&model.masses);
+    let particles = particles.zip(&model.inverse_masses);
+    let twice = particles.fold(0.0, |sum, ((&v, m), &w)| {
+        sum + if w > 0.0 { m * dot(v, v) } else { 0.0 }
+    });
+    0.5 * twice
+}
+
+/// The potential of gravity of all particles, in joules: zero at the origin.
+pub(crate) fn potential_j(system: &System) -> f64 {
+    let Some(gravity) = system.model.loads.gravity_m_per_s2 else {
+        return 0.0;
+    };
+    let particles = system.positions.iter().zip(&system.model.masses);
+    -particles.fold(0.0, |sum, (x, m)| sum + m * dot(gravity, x.coords))
+}
+
+/// The elastic energy of a constraint of a family, in joules, whether it is one of the system or
+/// was.
+pub(crate) fn elastic_of_j(system: &System, family: Family, constraint: &Constraint) -> f64 {
+    system.model.axial(family, constraint, &system.positions)[0]
+}
+
+/// The elastic energy of all that a particle has a part in, in joules.
+pub(crate) fn elastic_at_j(system: &System, particle: usize) -> f64 {
+    system.model.elastic_at_j(&system.positions, particle)
+}
+
+/// The kinetic energy of a particle, in joules: none of one that is held.
+pub(crate) fn kinetic_at_j(system: &System, particle: usize) -> f64 {
+    if system.model.held[particle] {
+        return 0.0;
+    }
+    let v = system.velocities[particle];
+    0.5 * system.model.masses[particle] * dot(v, v)
+}
+
+/// The potential of gravity of a particle, in joules.
+pub(crate) fn potential_at_j(system: &System, particle: usize) -> f64 {
+    let weight = system.model.gravity() * system.model.masses[particle];
+    -dot(weight, system.positions[particle].coords)
+}
+
+/// The energy that a particle has a part in: its motion, what it is joined by, and its weight.
+pub(crate) fn at_j(system: &System, particle: usize) -> f64 {
+    let motion_j = kinetic_at_j(system, particle);
+    elastic_at_j(system, particle) + motion_j + potential_at_j(system, particle)
+}

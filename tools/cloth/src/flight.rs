@@ -1,0 +1,169 @@
+//! How particles move between the looks at constraints: what explicit methods and those that project
+//! have in common.
+
+use tearmesh::geometry::{Point, Vector};
+
+use crate::contact;
+use crate::system::{Model, Scratch, System};
+
+/// Takes the accelerations now, with wind at the velocities of now or at those that were
+/// [`foreseen`](foresee). False where something is stretched beyond all measure.
+pub(crate) fn accelerate(system: &mut System, is_foreseen: bool) -> bool {
+    let System {
+        positions,
+        velocities,
+        model,
+        scratch,
+        counters,
+        ..
+    } = system;
+    scratch.is_fresh = false;
+    let Scratch {
+        accelerations,
+        foreseen,
+        ..
+    } = scratch;
+    accelerations.resize(positions.len(), Vector::zeros());
+    let velocities = if is_foreseen { foreseen } else { velocities };
+    model.accelerate(positions, velocities, accelerations, counters)
+}
+
+/// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
+/// divides them; then all fly for `dt_s` seconds.
+pub(crate) fn fly(system: &mut System, kick_s: f64, dt_s: f64) {
+    let fade = 1.0 + kick_s * system.model.drag_per_s();
+    let accelerations = &system.scratch.accelerations;
+    let particles = system.positions.iter_mut().zip(&mut system.velocities);
+    let particles = particles.zip(accelerations);
+    for (((x, v), a), &w) in particles.zip(&system.model.inverse_masses) {
+        if w > 0.0 {
+            *v = (*v + a * kick_s) / fade;
+        }
+        *x += *v * dt_s;
+    }
+}
+
+/// Speeds the free particles up for `kick_s` seconds, with drag by the velocities before.
+pub(crate) fn kick(system: &mut System, kick_s: f64) {
+    let (model, scratch) = (&system.model, &system.scratch);
+    speed_up(
+        model,
+        &scratch.accelerations,
+        kick_s,
+        &mut system.velocities,
+    );
+}
+
+/// The velocities that a [`kick`] would lead to, into the scratch room.
+pub(crate) fn foresee(system: &mut System, kick_s: f64) {
+    let scratch = &mut system.scratch;
+    scratch.foreseen.clone_from(&system.velocities);
+    let foreseen = &mut scratch.foreseen;
+    speed_up(&system.model, &scratch.accelerations, kick_s, foreseen);
+}
+
+fn speed_up(model: &Model, accelerations: &[Vector], kick_s: f64, velocities: &mut [Vector]) {
+    let keep = 1.0 - kick_s * model.drag_per_s();
+    let particles = velocities.iter_mut().zip(accelerations);
+    for ((v, a), &w) in particles.zip(&model.inverse_masses) {
+        if w > 0.0 {
+            *v = *v * keep + a * kick_s;
+        }
+    }
+}
+
+/// What makes a compliance one of a step of this length, and a multiplier a force.
+pub(crate) fn force_scale(model: &Model, dt_s: f64) -> f64 {
+    (1.0 + dt_s * model.drag_per_s()) / (dt_s * dt_s)
+}
+
+/// Moves all particles as if there were no constraint, and keeps where they were, for a method that
+/// projects. Velocities stay those of before: [`finish`] takes new ones from the positions.
+pub(crate) fn predict(system: &mut System, dt_s: f64) {
+    let System {
+        positions,
+        velocities,
+        model,
+        scratch,
+        counters,
+        ..
+    } = system;
+    scratch.is_fresh = false;
+    scratch.before.resize(positions.len(), Point::origin());
+    let accelerations = &mut scratch.accelerations;
+    if model.loads.wind.is_some() {
+        accelerations.clear();
+        accelerations.resize(positions.len(), Vector::zeros());
+        model.external(positions, velocities, accelerations, counters);
+    }
+    let flight = Flight::new(model, dt_s);
+    let particles = positions.iter_mut().zip(&mut scratch.before);
+    let particles = particles.zip(&*velocities).zip(&model.inverse_masses);
+    if model.loads.wind.is_some() {
+        for ((((x, before), v), &w), &a) in particles.zip(&*accelerations) {
+            *before = *x;
+            *x += flight.moved(*v, a, w);
+        }
+    } else {
+        // Without wind, all accelerations are one.
+        for (((x, before), v), &w) in particles {
+            *before = *x;
+            *x += flight.moved(*v, flight.gravity, w);
+        }
+    }
+}
+
+/// Takes as velocity what was moved.
+pub(crate) fn finish(system: &mut System, dt_s: f64) {
+    let per_s = 1.0 / dt_s;
+    let moves = system.positions.iter().zip(&system.scratch.before);
+    for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
+        *v = (x - before) * per_s;
+    }
+}
+
+/// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody
+/// asks for velocities in between.
+pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
+    if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
+        finish(system, dt_s);
+        contact::push_out(system);
+        predict(system, dt_s);
+        return;
+    }
+    let per_s = 1.0 / dt_s;
+    let flight = Flight::new(&system.model, dt_s);
+    let particles = system.positions.iter_mut().zip(&mut system.scratch.before);
+    for ((x, before), &w) in particles.zip(&system.model.inverse_masses) {
+        let v = (*x - *before) * per_s;
+        *before = *x;
+        *x += flight.moved(v, flight.gravity, w);
+    }
+}
+
+/// A substep without constraints.
+struct Flight {
+    gravity: Vector,
+    /// The part of a velocity that drag leaves.
+    keep: f64,
+    dt_s: f64,
+}
+
+impl Flight {
+    fn new(model: &Model, dt_s: f64) -> Flight {
+        Flight {
+            gravity: model.gravity(),
+            keep: 1.0 / (1.0 + dt_s * model.drag_per_s()),
+            dt_s,
+        }
+    }
+
+    /// How far a particle flies.
+    fn moved(&self, v: Vector, acceleration: Vector, inverse_mass: f64) -> Vector {
+        if inverse_mass > 0.0 {
+            (v + acceleration * self.dt_s) * self.keep * self.dt_s
+        } else {
+            v * self.dt_s
+        }
+    }
+}

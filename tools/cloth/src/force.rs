@@ -1,0 +1,147 @@
+//! The forces in constraints, and what it takes to hold a particle.
+//!
+//! A method with physical stiffness has the force of a spring in its length. [`Pbd`] and
+//! [`Xpbd`] move particles instead, and their force is what they accumulated as multipliers;
+//! [`Provot`] has both, the spring's and the limiter's. A step leaves behind which it was, so that
+//! tear thresholds in newtons and force probes need not know the method.
+//!
+//! [`Pbd`]: crate::Pbd
+//! [`Xpbd`]: crate::Xpbd
+//! [`Provot`]: crate::Provot
+
+use tearmesh::geometry::Vector;
+
+use crate::constraint::ConstraintId;
+use crate::element::Slope;
+use crate::system::{Family, System};
+
+/// The force in a stretch constraint by its length, k (l − L), in newtons; tension is positive.
+///
+/// # Panics
+///
+/// If there is no such constraint.
+#[must_use]
+pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
+    let constraint = system.model.stretch.get(id);
+    system
+        .model
+        .axial(Family::Stretch, &constraint, &system.positions)[1]
+}
+
+/// The force in a stretch constraint by the method of the last step, in newtons; tension is
+/// positive. By the length for methods with physical stiffness and before any step
+/// ([`tension_n`]), by the multiplier for those that project ([`System::multiplier_n`]), and the sum
+/// of both where a limiter helped the springs.
+///
+/// # Panics
+///
+/// If there is no such constraint.
+#[must_use]
+pub fn force_n(system: &System, id: ConstraintId) -> f64 {
+    let by_multiplier = system.multiplier_n(id);
+    system
+        .model
+        .forces
+        .read(|| tension_n(system, id), by_multiplier)
+}
+
+/// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum of
+/// the constraints' forces ([`force_n`]), those of triangles, gravity, wind and drag.
+/// Of a grabbed particle that is a force probe; for a free one it is minus the force that
+/// accelerates it, which vanishes at rest. Inertia of a path's corners is not in it, nor are
+/// colliders. Costs the valence; linear with wind.
+///
+/// After a step of a projecting method forces are means over the last substep, which is the
+/// more exact the more sweeps there were.
+///
+/// # Panics
+///
+/// If there is no such particle.
+///
+/// ```
+/// use tearmesh_cloth::{Loads, System, force};
+/// use tearmesh::{Point, Vector};
+///
+/// let points = [Point::origin(), Point::new(0.0, 0.0, -1.1)];
+/// let mut spring = System::new(points, vec![0.5; 2])?;
+/// spring.stretch([0, 1], 1.0, 50.0)?;
+/// spring.hold(0);
+/// let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -10.0));
+/// spring.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
+/// let hand = force::reaction_n(&spring, 0);
+/// assert!((hand.z - (50.0 * 0.1 + 0.5 * 10.0)).abs() < 1e-12); // The spring, and its own weight.
+/// assert!(force::reaction_n(&spring, 1).norm() < 1e-12); // At rest.
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn reaction_n(system: &System, particle: usize) -> Vector {
+    let drag = system.velocities[particle] * system.model.drag_per_s();
+    let drag_n = drag * system.model.masses[particle];
+    -(inner_n(system, particle) + wind_n(system, particle) - drag_n)
+}
+
+/// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation. False
+/// where something is stretched beyond all measure ([`System::set_stretch_ratio_max`]).
+pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bool {
+    accelerations.clear();
+    accelerations.resize(system.positions.len(), Vector::zeros());
+    system.model.accelerate(
+        &system.positions,
+        &system.velocities,
+        accelerations,
+        &mut system.counters,
+    )
+}
+
+/// The product K u of the stiffness matrix with displacements in metres, in newtons: minus
+/// the change of forces, to first order. Negative stiffness, which springs under
+/// compression have across, counts as zero (the indefinite terms are dropped); that of bends
+/// which buckle does as well.
+///
+/// # Panics
+///
+/// Unless there is one displacement a particle.
+#[must_use]
+pub fn stiffness_times(system: &mut System, displacements: &[Vector]) -> Vec<Vector> {
+    assert_eq!(
+        displacements.len(),
+        system.positions.len(),
+        "one displacement a particle"
+    );
+    let mut product = vec![Vector::zeros(); displacements.len()];
+    let (model, counters) = (&system.model, &mut system.counters);
+    let x = &system.positions;
+    model.stiffness_times(Slope::Now, x, displacements, &mut product, counters);
+    product
+}
+
+/// The force of constraints, triangles and gravity on a particle, in newtons.
+pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
+    let model = &system.model;
+    let mut sum = model.gravity() * model.masses[particle];
+    for kind in &model.kinds() {
+        kind.force_at(&system.positions, particle, model.forces, &mut sum);
+    }
+    sum
+}
+
+fn wind_n(system: &System, particle: usize) -> Vector {
+    let mut sum = Vector::zeros();
+    let Some(wind) = system.model.loads.wind else {
+        return sum;
+    };
+    for face in system.model.faces.chunks_exact(3) {
+        let Some(corner) = face.iter().position(|&v| v as usize == particle) else {
+            continue;
+        };
+        let corners = [0, 1, 2].map(|i| face[i] as usize);
+        let mut sums = [Vector::zeros(); 3];
+        let (x, v) = (
+            corners.map(|v| system.positions[v]),
+            corners.map(|v| system.velocities[v]),
+        );
+        wind.press(&[0, 1, 2], &x, &v, &mut sums);
+        sum += sums[corner];
+    }
+    sum
+}

@@ -1,0 +1,241 @@
+//! How long a step may be: the watch over explicit methods, by springs and air.
+
+use crate::air::{self, AirRate};
+use crate::frequency;
+use crate::guard::Guard;
+use crate::solver::{Solver, StepError, StepReport};
+use crate::system::{System, Unstable};
+
+/// How many substeps a step takes, by the springs of an explicit method, and by air that a
+/// method takes in by the velocities before.
+pub(crate) fn admit(
+    system: &mut System,
+    solver: &(impl Solver + ?Sized),
+    dt_s: f64,
+) -> Result<StepReport, StepError> {
+    let whole = StepReport {
+        substeps: 1,
+        limit_s: None,
+    };
+    if system.unstable == Unstable::Allow {
+        return Ok(whole);
+    }
+    let abilities = solver.abilities();
+    if abilities.carries_light {
+        let air = air_share(system, solver);
+        return admit_carried(system, air, dt_s);
+    }
+    match (abilities.frequency_limit, air_share(system, solver)) {
+        (Some(limit), air) => admit_springs(system, limit, air, dt_s),
+        (None, Some(air)) => admit_air(system, air, dt_s),
+        (None, None) => Ok(whole),
+    }
+}
+
+/// The same by the springs, the cheap answer first; the share of the air shortens either.
+///
+/// The bound holds wherever the particles go. A measured frequency is that of one
+/// configuration: springs that turn toward each other at a light particle can raise it to the
+/// bound within a few steps. So a step is divided by the bound, and one that is longer than
+/// that and admitted whole is measured again and again.
+fn admit_springs(
+    system: &mut System,
+    limit: f64,
+    air: Option<AirShare>,
+    dt_s: f64,
+) -> Result<StepReport, StepError> {
+    let springs_s = limit / frequency::bound(system);
+    let bound_s = with_air(springs_s, air);
+    if dt_s <= bound_s || system.unstable == Unstable::Substep {
+        return divided(dt_s, bound_s);
+    }
+    let omega_rad_per_s = frequency::recent(system).omega_rad_per_s;
+    let springs_s = (system.margin * limit / omega_rad_per_s).max(springs_s);
+    let limit_s = with_air(springs_s, air);
+    if dt_s <= limit_s {
+        return divided(dt_s, limit_s);
+    }
+    Err(refused(system, [dt_s, limit_s], springs_s, air))
+}
+
+/// A step in seconds beyond a limit, which springs and air make too long.
+fn refused(
+    system: &mut System,
+    [given_s, limit_s]: [f64; 2],
+    springs_s: f64,
+    air: Option<AirShare>,
+) -> StepError {
+    match air.filter(|air| air.per_s * springs_s > 1.0) {
+        Some(air) => air.refused(given_s, limit_s),
+        None => StepError::Unstable {
+            given_s,
+            limit_s,
+            frequency: frequency::recent(system),
+        },
+    }
+}
+
+/// How many substeps a step takes with light particles carried: none up to twice the one that
+/// suits, and those that suit beyond; and so many more as it takes where that is not stable.
+fn admit_carried(
+    system: &mut System,
+    air: Option<AirShare>,
+    dt_s: f64,
+) -> Result<StepReport, StepError> {
+    let suited_s = suited_step_s(system);
+    let longest_s = Guard::WHOLE * suited_s;
+    let mut limit_s = with_air(longest_s, air);
+    let is_whole = dt_s <= limit_s;
+    if !is_whole && system.unstable == Unstable::Refuse {
+        return Err(refused(system, [dt_s, limit_s], longest_s, air));
+    }
+    let suited_s = with_air(suited_s, air);
+    let mut report = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
+    system.scratch.air_per_s = air.map_or(0.0, |air| air.per_s);
+    while !is_sound(system, dt_s / f64::from(report.substeps)) {
+        limit_s = dt_s / f64::from(2 * report.substeps);
+        report = divided(dt_s, limit_s)?;
+    }
+    if report.substeps > 1 && system.unstable == Unstable::Refuse {
+        return Err(refused(system, [dt_s, limit_s], limit_s, air));
+    }
+    Ok(StepReport {
+        limit_s: Some(limit_s),
+        ..report
+    })
+}
+
+/// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which no more than a
+/// tenth of the particles have to be carried by their neighbours. A step of up to twice that is
+/// admitted whole. Springs alone, with triangles as they are stretched now; infinite where there
+/// are none. While a mesh is cut and torn it gets no shorter: what is light then is carried. A
+/// pass over all constraints where something has changed.
+pub fn suited_step_s(system: &mut System) -> f64 {
+    let (model, counters) = (&system.model, &mut system.counters);
+    let reach = system.spectrum.reach(model, &system.positions, counters);
+    system.guard.suited_s(model, reach)
+}
+
+/// How many particles were carried by their neighbours in the last step of
+/// [`Verlet`](crate::Verlet): those that are too light for it.
+#[must_use]
+pub fn carried_count(system: &System) -> usize {
+    system.guard.carry().len()
+}
+
+/// Weighs particles for steps of this length.
+pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
+    let (reach, air) = (
+        system.spectrum.known_reach(),
+        dt_s * system.scratch.air_per_s,
+    );
+    if system.guard.weigh(&system.model, reach, dt_s, air) {
+        system.scratch.is_fresh = false;
+    }
+}
+
+/// Whether steps of this length are stable with particles carried for it.
+fn is_sound(system: &mut System, dt_s: f64) -> bool {
+    weigh_for(system, dt_s);
+    system.guard.is_sound(&system.model, &mut system.counters)
+}
+
+/// The same by the air alone.
+fn admit_air(system: &System, air: AirShare, dt_s: f64) -> Result<StepReport, StepError> {
+    let limit_s = with_air(f64::INFINITY, Some(air));
+    if dt_s <= limit_s || system.unstable == Unstable::Substep {
+        return divided(dt_s, limit_s);
+    }
+    Err(air.refused(dt_s, limit_s))
+}
+
+/// The largest step in seconds that the watch admits whole in the present configuration, for
+/// a method with this limit of ω Δt: 2 for [`Verlet`](crate::Verlet). Measures the frequency.
+/// Springs alone: what wind takes of it is [`Abilities::air_limit`](crate::Abilities::air_limit) by [`wind_rate`](air::wind_rate).
+pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
+    let bound_s = frequency_limit / frequency::bound(system);
+    (system.margin * frequency_limit / frequency::largest(system).omega_rad_per_s).max(bound_s)
+}
+
+/// The same for this method with the air that blows now; `None` where nothing limits it.
+pub(crate) fn whole_step_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
+    let abilities = solver.abilities();
+    if abilities.carries_light {
+        let longest_s = Guard::WHOLE * suited_step_s(system);
+        return Some(with_air(longest_s, air_share(system, solver)));
+    }
+    let springs_s = abilities
+        .frequency_limit
+        .map(|limit| stable_step_s(system, limit));
+    match air_share(system, solver) {
+        None => springs_s,
+        air => Some(with_air(springs_s.unwrap_or(f64::INFINITY), air)),
+    }
+}
+
+/// The step that suits this method with the air that blows now; `None` where it carries nothing.
+pub(crate) fn suited_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
+    if !solver.abilities().carries_light {
+        return None;
+    }
+    let springs_s = suited_step_s(system);
+    Some(with_air(springs_s, air_share(system, solver)))
+}
+
+/// What the air takes of a step by this method.
+fn air_share(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<AirShare> {
+    let abilities = solver.abilities();
+    let limit = abilities.air_limit?;
+    let drag = match abilities.takes_drag_explicitly {
+        true => air::drag_rate(system),
+        false => None,
+    };
+    let rate = match (air::wind_rate(system), drag) {
+        (Some(wind), Some(drag)) => AirRate {
+            rate_per_s: wind.rate_per_s + drag.rate_per_s,
+            ..wind
+        },
+        (wind, drag) => wind.or(drag)?,
+    };
+    let per_s = rate.rate_per_s / limit;
+    Some(AirShare { rate, per_s })
+}
+
+/// What the air takes of a step.
+#[derive(Clone, Copy, Debug)]
+struct AirShare {
+    rate: AirRate,
+    /// One over the longest step in seconds that is stable without springs.
+    per_s: f64,
+}
+
+impl AirShare {
+    /// A step that the air makes too long.
+    fn refused(self, given_s: f64, limit_s: f64) -> StepError {
+        StepError::Air {
+            given_s,
+            limit_s,
+            rate: self.rate,
+        }
+    }
+}
+
+/// The longest stable step of springs and air together, in seconds, by that of the springs.
+fn with_air(springs_s: f64, air: Option<AirShare>) -> f64 {
+    air.map_or(springs_s, |air| 1.0 / (1.0 / springs_s + air.per_s))
+}
+
+/// A step in as many parts as are admitted.
+fn divided(dt_s: f64, limit_s: f64) -> Result<StepReport, StepError> {
+    let substeps = (dt_s / limit_s).ceil();
+    if substeps > f64::from(StepError::SUBSTEPS_MAX) {
+        return Err(StepError::Substeps {
+            given_s: dt_s,
+            limit_s,
+        });
+    }
+    Ok(StepReport {
+        substeps: (substeps as u32).max(1),
+        limit_s: Some(limit_s),
+    })
+}
