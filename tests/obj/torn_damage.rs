@@ -149,7 +149,7 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     let others = "this record is not used, since another program changed the file: ";
     bad(
         "record 1",
-        "record 2",
+        "record 3",
         (11, 18),
         "this record is of a later version, and not used",
     );
@@ -241,6 +241,71 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     warns(&lonely, "W-OBJ-RECORD", (6, 1), message);
 }
 
+/// Copies anywhere, and lists of what was inserted.
+#[test]
+fn what_version_2_adds_is_checked_as_well() {
+    let second = |items: &str, counts: &str| {
+        let record = record(items).replace("record 1", "record 2");
+        format!("{TORN}{}", record.replace("vt 0 0", counts))
+    };
+    let range = "a number of this record is out of its range";
+    for (items, place, message) in [
+        (
+            "#~ split 5 2 1\n#~ fan 5 2\n",
+            (13, 8),
+            "a copy of this record was split off",
+        ),
+        (
+            "#~ fan 5 2\n#~ fan 6 5\n",
+            (13, 10),
+            "a copy of this record is one of a copy",
+        ),
+        ("#~ fan 6 3\n#~ fan 5 2\n", (13, 8), range),
+        ("#~ fan 5 6\n", (12, 10), range),
+        (
+            "#~ fan 5 2\n#~ edge 5 1 3 4 0.5\n",
+            (13, 9),
+            "vertex 5 is a copy",
+        ),
+        (
+            "#~ split 6 5 1\n#~ fan 5 2\n",
+            (11, 1),
+            "this record is not used: it splits a copy",
+        ),
+        ("#~ vt 1 1\n", (12, 7), range),
+        ("#~ vn 1 1\n", (12, 7), range),
+    ] {
+        let file = second(items, "vt 0 0");
+        is_plain(&warns(&file, "W-OBJ-RECORD", place, message));
+    }
+    for (items, place, message) in [
+        ("#~ vt 2 1\n", (12, 9), range),
+        ("#~ vt 1 1\n#~ vt 2 2\n", (13, 7), range),
+        ("#~ vt 3 3\n#~ vt 1 1\n", (13, 7), range),
+        (
+            "#~ vt 1 2\n",
+            (13, 1),
+            "this record has other counts than its lines",
+        ),
+        ("#~ vn 1 1\n#~ vt 1 1\n", (12, 7), range),
+    ] {
+        let file = second(items, "vt 2 3");
+        is_plain(&warns(&file, "W-OBJ-RECORD", place, message));
+    }
+    let first = format!("{TORN}{}", record("#~ vt 1 1\n"));
+    let message = "this record has no line `vt` here";
+    is_plain(&warns(&first, "W-OBJ-RECORD", (12, 4), message));
+    // In this version copies stand anywhere behind their vertex.
+    let file = second("#~ fan 5 2\n#~ fan 6 3\n", "vt 0 0");
+    let document = read(file.as_bytes());
+    assert!(
+        document.diagnostics().is_empty(),
+        "{:?}",
+        document.diagnostics()
+    );
+    assert_eq!(document.triangles(), [[0, 1, 2], [4, 2, 1], [4, 1, 3]]);
+}
+
 #[test]
 fn positions_may_change_and_copies_that_part_are_vertices() {
     // Vertex 1 with two fans, as a finite cut leaves it.
@@ -315,7 +380,7 @@ fn regression_the_lines_of_a_damaged_record_are_said_to_be_left_out() {
     let whole = record(ITEMS);
     for (damaged, lines) in [
         (whole.replace("#~ split 5 2 1", "#~ split 5 6 1"), 6),
-        (whole.replace("record 1", "record 2"), 6),
+        (whole.replace("record 1", "record 3"), 6),
         (whole.replace("#~ edge 7 1 3 4 0.5", "#~ edge 7 1 3 4 x"), 6),
         (whole.replace("v 7 f 3", "v 8 f 3"), 6),
         (

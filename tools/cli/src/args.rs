@@ -199,9 +199,8 @@ pub(crate) struct TearArgs {
     /// A file of lines `vertex strength`.
     ///
     /// A vertex tears at so many times the load of the threshold. Vertices count from 1, as in OBJ;
-    /// those not named have strength 1. `#` begins a comment. In a torn file the last `v`, which its
-    /// comments `#~ fan` name first, are written for another fan of a vertex and do not count: name
-    /// the vertex, the number that stands behind.
+    /// those not named have strength 1. `#` begins a comment. In a torn file a `v` that is written
+    /// for another fan of a vertex (its comments `#~ fan` name it first) is that vertex.
     #[arg(long, value_name = "FILE")]
     pub(crate) strength: Option<PathBuf>,
 
@@ -241,7 +240,8 @@ pub(crate) struct TearArgs {
 
     /// Write frames into this folder, 30 a second.
     ///
-    /// `frame_00000.obj` and so on; vertices keep their order, and new ones are appended.
+    /// `frame_00000.obj` and so on; vertices keep their order, and new ones are appended: what is
+    /// said of a vertex while the scene is played names it by its number there.
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
 

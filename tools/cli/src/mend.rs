@@ -5,7 +5,7 @@ use std::io::Write;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
 use tearmesh::{Edits, Masses, Mesh, Positions};
-use tearmesh_obj::{Simplified, TornDocument};
+use tearmesh_obj::{Document, Simplified, TornDocument};
 
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
@@ -41,7 +41,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let merged = mend::sew(
         &mut mesh, &positions, &stitches, weight, farthest, &mut edits,
     )
-    .map_err(|error| too_far(&error))?;
+    .map_err(|error| too_far(&error, &document))?;
     edits.replay(&mut (&mut positions, &mut masses, &mut torn));
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
@@ -161,8 +161,8 @@ fn check(args: &MendArgs) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Says which vertices are too far apart; vertices are counted from 1, as in files.
-fn too_far(error: &SewError) -> Stop {
+/// Says which vertices are too far apart, by their numbers in the file.
+fn too_far(error: &SewError, document: &Document) -> Stop {
     let mut faults: Vec<Fault> = Vec::new();
     for (stitch, why) in error.refused().iter().take(SHOWN) {
         let StitchError::Distance { distance } = why else {
@@ -170,8 +170,8 @@ fn too_far(error: &SewError) -> Stop {
         };
         let message = format!(
             "the vertices {} and {} are {distance} apart",
-            stitch.kept().index() + 1,
-            stitch.gone().index() + 1
+            document.number_of_vertex(stitch.kept().index()),
+            document.number_of_vertex(stitch.gone().index())
         );
         faults.push(Fault::error("E-MEND-DISTANCE", message));
     }

@@ -112,8 +112,8 @@ pub(crate) struct Cut {
 pub(crate) struct StableStep {
     pub(crate) before: f64,
     pub(crate) after: f64,
-    /// The vertices, counted from 1, of the edge that moves most in the fastest vibration after
-    /// the cut.
+    /// The vertices, counted from 1 as in frames, of the edge that moves most in the fastest
+    /// vibration after the cut.
     pub(crate) edge: Option<[usize; 2]>,
 }
 

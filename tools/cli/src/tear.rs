@@ -12,10 +12,10 @@ use std::io::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tearmesh::{Cursor, Scissor};
-use tearmesh_cloth::scene::{CutMade, Frame, Run, Scene, TimedCut};
+use tearmesh::{Cursor, Scissor, VertexId};
+use tearmesh_cloth::scene::{CutMade, Frame, Region, Run, Scene, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
-use tearmesh_obj::TornDocument;
+use tearmesh_obj::{Document, TornDocument};
 
 use self::frames::Frames;
 use self::points::places;
@@ -48,16 +48,19 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
     let mut scene = source.scene(&frame, args.solver)?;
     settle(args, cuts, &mut scene);
+    name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
     let is_step_chosen = scene.step_s.is_some();
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
     let mut run = run.map_err(|error| check::refused(&error, &opened, &source))?;
     if let Some(path) = &args.strength {
-        let strengths = strength::read(path, run.mesh().vertex_count(), streams)?;
+        let strengths = strength::read(path, &opened.document, streams)?;
         let with = run.with_strengths(strengths);
         run = with.map_err(|error| check::refused(&error, &opened, &source))?;
     }
-    session.faults.extend(check::warnings(&run, &frame));
+    session
+        .faults
+        .extend(check::warnings(&run, &frame, &opened.document));
     session.faults.extend(times::warnings(&run, args));
     session.warn_now(streams);
     let play = Play {
@@ -82,6 +85,21 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
     }
     if !cuts.is_empty() {
         scene.cuts = cuts;
+    }
+}
+
+/// A scene names vertices by their numbers in the file, among which copies for fans may be. A number
+/// that no `v` has stays one that no vertex has.
+fn name_vertices(scene: &mut Scene, document: &Document) {
+    let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
+    let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
+    for region in holds.chain(strengths) {
+        if let Region::Vertices(named) = region {
+            for vertex in named {
+                let known = document.vertex_of_number(vertex.index() + 1);
+                *vertex = known.and_then(VertexId::new).unwrap_or(*vertex);
+            }
+        }
     }
 }
 

@@ -221,7 +221,7 @@ impl Cloth {
                 self.system.positions.len(),
                 "a cloth is in step with its mesh"
             );
-            let (x, v) = particle::inserted(&self.system, &point.at);
+            let (x, v) = particle::inserted(&self.system, point.at);
             particle::push(&mut self.system, x, v, None);
         }
         edit.pass_on(&mut self.masses);

@@ -1,7 +1,7 @@
 //! Particles of a system that come, go and meet while a cloth follows the log.
 
 use tearmesh::geometry::{Point, Vector, between};
-use tearmesh::{Location, VertexId};
+use tearmesh::{Blend, Location, Mix};
 
 use crate::system::System;
 
@@ -67,20 +67,9 @@ pub(super) fn join(system: &mut System, kept: usize, gone: usize, share: f64) {
 }
 
 /// Where an inserted point comes to lie, and how fast.
-pub(super) fn inserted(system: &System, at: &Location) -> (Point, Vector) {
-    let (x, v) = (&system.positions, &system.velocities);
-    match *at {
-        Location::Edge { ends, t } => {
-            let [a, b] = ends.map(VertexId::index);
-            (between(x[a], x[b], t), v[a] + (v[b] - v[a]) * t)
-        }
-        Location::Face { vertices, weights } => {
-            let [a, b, c] = vertices.map(VertexId::index);
-            let [p, q, r] = weights;
-            (
-                Point::from(x[a].coords * p + x[b].coords * q + x[c].coords * r),
-                v[a] * p + v[b] * q + v[c] * r,
-            )
-        }
-    }
+pub(super) fn inserted(system: &System, at: Location) -> (Point, Vector) {
+    let mix = Mix::from(at);
+    let x = Blend::blend(mix.map(|v| &system.positions[v.index()]));
+    let v = Blend::blend(mix.map(|v| &system.velocities[v.index()]));
+    (x, v)
 }

@@ -84,9 +84,9 @@ impl Cloth {
     /// Divides triangles among the children of their faces, and returns the energy gained: zero
     /// to rounding, since children deform as their parents did.
     pub(super) fn insert_triangles(&mut self, insert: &Insert<'_>) -> f64 {
-        for child in insert.children {
-            if child.face != child.parent && !self.warps.is_empty() {
-                self.warps.push(self.warps[child.parent.index()]);
+        if !self.warps.is_empty() {
+            for family in insert.families() {
+                family.apply_to_faces(&mut self.warps);
             }
         }
         if !self.is_woven() {

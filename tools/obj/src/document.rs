@@ -164,6 +164,43 @@ impl Document {
         line.unwrap_or_else(|| panic!("vertex {vertex} is none of this document"))
     }
 
+    /// The number of `v` in the file: the vertices, and the copies of vertices for their fans
+    /// ([the record](crate#the-record)).
+    #[must_use]
+    pub fn vertex_statement_count(&self) -> usize {
+        let copies = self
+            .record
+            .as_deref()
+            .map_or(0, |record| record.copies.len());
+        self.positions.len() + copies
+    }
+
+    /// The number of a vertex in the file, from 1. Where copies of vertices for their fans come
+    /// before it, it is more than the index and 1. Takes the logarithm of the number of copies.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn number_of_vertex(&self, vertex: usize) -> usize {
+        assert!(
+            vertex < self.positions.len(),
+            "vertex {vertex} is none of this document"
+        );
+        let record = self.record.as_deref();
+        record.map_or(vertex, |record| record.number(vertex)) + 1
+    }
+
+    /// The vertex that has a number in the file, from 1, or of which the `v` with that number is a
+    /// copy; `None` if the file has no such `v`.
+    #[must_use]
+    pub fn vertex_of_number(&self, number: usize) -> Option<usize> {
+        let index = number.checked_sub(1)?;
+        let record = self.record.as_deref();
+        let vertex = record.map_or(index, |record| record.vertex(index));
+        (vertex < self.positions.len()).then_some(vertex)
+    }
+
     /// Warnings and notes, in the order in which they should be shown.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {

@@ -43,3 +43,15 @@ pub(crate) fn tokens_before_indices(keyword: &[u8]) -> Option<usize> {
         _ => None,
     }
 }
+
+/// Whether a statement that is kept as text may name vertices, texture coordinates or normals by
+/// their numbers.
+pub(crate) fn may_have_indices(keyword: &[u8]) -> bool {
+    match Class::of(keyword) {
+        Class::Structure => false,
+        Class::Element => true,
+        Class::Uninterpreted => tokens_before_indices(keyword).is_some(),
+        // An empty one is that of a comment.
+        Class::Foreign => !keyword.is_empty() && !is_said_of_vertex(keyword),
+    }
+}

@@ -42,8 +42,12 @@
 //! * Coordinates, texture coordinates, normals and extra numbers (weights, colours) are `f64`, and
 //!   survive a round trip bit for bit. Reading what was written and writing it again gives the
 //!   same bytes.
-//! * Vertices keep their numbers: a split appends. It duplicates a position, never a texture
-//!   coordinate or a normal; each corner keeps those it had.
+//! * No line moves, but where a face came before its vertices. New vertices stand behind those of
+//!   their object, so each object keeps its own; those of the objects behind it count on
+//!   ([`TornDocument::vertices_in_order`]). Where statements are kept that may name a vertex by its
+//!   number, vertices keep their numbers, and the new ones follow the last of the file.
+//! * A split duplicates a position, never a texture coordinate or a normal; each corner keeps
+//!   those it had.
 //! * A torn mesh survives a file: comments at its end say what was one vertex until which cut, and
 //!   what was inserted where ([the record](#the-record)).
 //! * Objects, groups, materials, smoothing groups, comments, and statements nobody has heard of are
@@ -89,21 +93,27 @@
 //!
 //! ```text
 //! record  = header item* end
-//! header  = "#tearmesh record 1 v" V "f" F "vt" BEFORE ALL "vn" BEFORE ALL "faces" HASH
+//! header  = "#tearmesh record" VERSION "v" V "f" F "vt" BEFORE ALL "vn" BEFORE ALL "faces" HASH
 //! item    = "#~ split" VERTEX FROM CUT            VERTEX was one with FROM, which is lower, until CUT
 //!         | "#~ fan" COPY VERTEX                  COPY is VERTEX, written again for another fan
 //!         | "#~ edge" VERTEX CUT A B T            inserted by CUT at A + T (B - A)
 //!         | "#~ face" VERTEX CUT A B C WA WB WC   inserted by CUT at WA A + WB B + WC C
 //!         | "#~ parent" FIRST LAST A B C          the faces FIRST to LAST cover what was A B C
+//!         | "#~ vt" FIRST LAST                    the texture coordinates FIRST to LAST were inserted
+//!         | "#~ vn" FIRST LAST                    the normals FIRST to LAST were inserted
 //! end     = "#tearmesh end" ITEMS HASH
 //! ```
 //!
 //! * Items come in that order (`edge` and `face` together), each kind by its first number,
-//!   ascending. Copies are the last `v` of the file, without a gap.
+//!   ascending. A copy comes behind its vertex.
 //! * A vertex of several copies is named by its root, the lowest of them, in `A`, `B` and `C`;
 //!   `edge` and `face` name the root of what was inserted.
 //! * `V` and `F` count the `v` and `f` of the file. `BEFORE` counts the `vt` or `vn` before any
-//!   was inserted, and `ALL` those of the file.
+//!   was inserted, and `ALL` those of the file. Without items that say which were inserted, these
+//!   are the last.
+//! * `VERSION` is 2 where it has to be: in version 1 there is no `vt` and no `vn`, and the copies are
+//!   the last `v` of the file. Programs that know version 1 alone say of version 2 that it is
+//!   later, and take the file for one without a record.
 //! * A cut has a number from 1; a later one has a higher one. After a merge, a `split` names
 //!   what VERTEX was last one with, not what it was first split from.
 //! * The hash of the header is that of the number of `v` and of the vertices of all faces, that of
@@ -111,9 +121,10 @@
 //!
 //! What another program does to positions, texture or groups leaves the record in force, and
 //! [`TornDocument::simplified`] keeps the vertices that it was done to.
-//! Where it changed faces or the number of vertices, or the record itself, a warning says so, the
-//! file is read as one without a record, and the lines of what was one are left out of what is
-//! written, as the warning says.
+//! Where it changed faces or the number of vertices, or the record itself, or added statements that may
+//! name a vertex by a number which mending would change, a warning says so, the file is read as
+//! one without a record, and the lines of what was one are left out of what is written, as the
+//! warning says.
 //!
 //! # Why not obj-rs
 //!
@@ -144,8 +155,9 @@
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
 //! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
-//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, what can be taken out again, and what was edited since |
+//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, when each vertex is written, what can be taken out again, and what was edited since |
 //! | `record.rs` | what is on record, and the checksum |
+//! | `sections.rs`, `order.rs` | where objects end, and in which order and under which numbers statements are written |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
 //! | `simplify.rs` | a document without what can be taken out again |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
@@ -158,6 +170,7 @@ mod document;
 mod keyword;
 mod mesh;
 mod opening;
+mod order;
 mod polygons;
 #[cfg(feature = "obj-rs")]
 mod raw;
@@ -165,6 +178,7 @@ mod read;
 mod record;
 mod repair;
 mod said;
+mod sections;
 mod simplify;
 mod store;
 mod torn;

@@ -61,6 +61,7 @@ impl Document {
     /// If the defect names a face or vertex that is none of this document.
     #[must_use]
     pub fn describe(&self, defect: Defect<'_>) -> Diagnostic {
+        let number = |vertex: VertexId| self.number_of_vertex(vertex.index());
         let (code, face, message, help) = match defect {
             Defect::CrowdedEdge {
                 ends: [a, b],
@@ -202,11 +203,6 @@ impl Document {
         let more = if fans.len() > SHOWN { " | …" } else { "" };
         format!("{}{more}", shown.join(" | "))
     }
-}
-
-/// The number of a vertex in the file.
-fn number(vertex: VertexId) -> usize {
-    vertex.index() + 1
 }
 
 /// Why the triangles of a document are no mesh.

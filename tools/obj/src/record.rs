@@ -1,10 +1,12 @@
 //! The record: what a torn mesh is beyond its faces, in comments at the end of its file.
 //!
 //! The documentation of the crate has the grammar; `read/record.rs` reads it, and
-//! `write/record.rs` writes it. Roots, splits and parents are all there is to know: texture
+//! `write/record.rs` writes it, both by the numbers of the file. In a document it names vertices
+//! by their index, which copies have not. Roots, splits and parents are all there is to know: texture
 //! coordinates and normals at the corners of a divided face are those that its parts have
 //! there, and the links of the mesh follow from its roots (`Mesh::build_torn`).
 
+use crate::store::push;
 pub(crate) use crate::torn::SplitOff;
 
 /// How the first and the last line of a record begin, and those between.
@@ -12,8 +14,8 @@ pub(crate) const HEADER: &[u8] = b"#tearmesh record";
 pub(crate) const END: &[u8] = b"#tearmesh end";
 pub(crate) const ITEM: &[u8] = b"#~";
 
-/// The version that is written, and the only one that is read.
-pub(crate) const VERSION: i64 = 1;
+/// The latest version. What version 1 can say is written as that.
+pub(crate) const VERSION: i64 = 2;
 
 /// A record that fits its document. Indices count from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,9 +26,40 @@ pub(crate) struct Record {
     pub(crate) inserted: Vec<Inserted>,
     /// Ascending, and apart.
     pub(crate) parents: Vec<Parent>,
-    /// How many texture coordinates and normals there were before any was inserted.
-    pub(crate) texture_before: usize,
-    pub(crate) normals_before: usize,
+    /// Texture coordinates and normals that were inserted: the first of each run, and the one behind
+    /// its last. Ascending, and apart.
+    pub(crate) texture: Vec<[u32; 2]>,
+    pub(crate) normals: Vec<[u32; 2]>,
+    /// The `v` of the file that were copies, by their numbers there, and the vertices that they are;
+    /// ascending.
+    pub(crate) copies: Vec<[u32; 2]>,
+}
+
+/// The runs of ascending numbers.
+pub(crate) fn runs(numbers: impl Iterator<Item = u32>) -> Vec<[u32; 2]> {
+    let mut runs: Vec<[u32; 2]> = Vec::new();
+    for number in numbers {
+        match runs.last_mut() {
+            Some([_, end]) if *end == number => *end += 1,
+            _ => push(&mut runs, [number, number + 1]),
+        }
+    }
+    runs
+}
+
+/// Whether runs are all together the last of so many numbers; none are, too.
+pub(crate) fn are_last(runs: &[[u32; 2]], count: u32) -> bool {
+    match runs {
+        [] => true,
+        [[_, end]] => *end == count,
+        _ => false,
+    }
+}
+
+/// Whether a number is in a run.
+pub(crate) fn is_in(runs: &[[u32; 2]], number: u32) -> bool {
+    let after = runs.partition_point(|&[first, _]| first <= number);
+    after > 0 && number < runs[after - 1][1]
 }
 
 /// A vertex that was inserted: the root of its copies.
@@ -88,6 +121,32 @@ impl Record {
         self.splits.is_empty() && self.inserted.is_empty() && self.parents.is_empty()
     }
 
+    /// The number in the file of a vertex, from 0: copies come between.
+    pub(crate) fn number(&self, vertex: usize) -> usize {
+        // Before a copy there are as many vertices as its number less the copies before it.
+        let (mut before, mut behind) = (0, self.copies.len());
+        while before < behind {
+            let middle = before.midpoint(behind);
+            if self.copies[middle][0] as usize - middle <= vertex {
+                before = middle + 1;
+            } else {
+                behind = middle;
+            }
+        }
+        vertex + before
+    }
+
+    /// The vertex that has a number in the file, from 0, or that a copy is.
+    pub(crate) fn vertex(&self, number: usize) -> usize {
+        let before = self
+            .copies
+            .partition_point(|&[copy, _]| (copy as usize) < number);
+        match self.copies.get(before) {
+            Some(&[copy, of]) if copy as usize == number => of as usize,
+            _ => number - before,
+        }
+    }
+
     /// The root of each of `count` vertices.
     pub(crate) fn roots(&self, count: usize) -> Vec<u32> {
         let mut roots: Vec<u32> = (0..count as u32).collect();
@@ -95,6 +154,20 @@ impl Record {
             roots[split.vertex as usize] = roots[split.from as usize];
         }
         roots
+    }
+
+    /// Renames all vertices, in an order that keeps theirs.
+    pub(crate) fn renumber(&mut self, id: impl Fn(u32) -> u32) {
+        for split in &mut self.splits {
+            [split.vertex, split.from] = [split.vertex, split.from].map(&id);
+        }
+        for inserted in &mut self.inserted {
+            inserted.vertex = id(inserted.vertex);
+            inserted.at = inserted.at.map(&id);
+        }
+        for parent in &mut self.parents {
+            parent.corners = parent.corners.map(&id);
+        }
     }
 
     /// The highest number of a cut; 0 if there is none.

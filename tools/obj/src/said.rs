@@ -14,7 +14,7 @@ use crate::read::{attached_length, statements};
 use crate::store::{Kind, Run};
 
 /// What is said of vertices.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Said {
     /// By vertex, all that is said of those that are copied.
     of: BTreeMap<usize, Vec<u8>>,

@@ -38,8 +38,7 @@ impl TornDocument<'_> {
     /// where it was. [`Simplified::edited`] counts these vertices.
     ///
     /// After a cut is mended altogether and nothing was edited, this gives what was there before it,
-    /// bit for bit; but for the positions of vertices that slid, and in a file that has `v` after
-    /// `f`, for the place of `v` statements that the cut had to move up.
+    /// byte for byte; but for the positions of vertices that slid.
     ///
     /// The document is made by writing and reading: linear, in the memory of a file more.
     ///

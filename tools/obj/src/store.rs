@@ -63,15 +63,6 @@ impl Rows {
         &self.values[start as usize..end as usize]
     }
 
-    /// Drops all rows from this one on.
-    pub(crate) fn truncate(&mut self, rows: usize) {
-        if rows < self.ends.len() {
-            self.ends.truncate(rows);
-            let end = self.ends.last().map_or(0, |&end| end as usize);
-            self.values.truncate(end);
-        }
-    }
-
     /// The number of rows, up to the last that was set.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()
@@ -235,47 +226,56 @@ impl Layout {
         }
     }
 
-    /// Drops the last vertices, and for each text run behind one the statements in it that do
-    /// not pass: what was said of a vertex goes with it.
-    pub(crate) fn drop_last_vertices(
+    /// Drops these vertices, which are ascending, and for each text run behind one the statements in
+    /// it that do not pass: what was said of a vertex goes with it.
+    pub(crate) fn drop_vertices(
         &mut self,
-        count: usize,
+        dropped: &[u32],
         text: &mut Vec<u8>,
         passes: impl Fn(&[u8]) -> Vec<u8>,
     ) {
-        if count == 0 {
+        if dropped.is_empty() {
             return;
         }
-        let vertices = |run: &Run| match run.kind {
-            Kind::Vertex => run.count as usize,
-            _ => 0,
-        };
-        let stay = self.runs.iter().map(vertices).sum::<usize>() - count;
+        let mut dropped = dropped.iter().peekable();
         let (mut seen, mut at) = (0, 0);
+        let mut is_last_gone = false;
         let mut kept = Vec::with_capacity(text.len());
-        for run in &mut self.runs {
+        let mut runs = Vec::with_capacity(self.runs.len());
+        for &run in &self.runs {
             match run.kind {
                 Kind::Vertex => {
-                    let left = stay.saturating_sub(seen).min(run.count as usize);
-                    seen += run.count as usize;
-                    run.count = left as u32;
+                    let mut part = Run { count: 0, ..run };
+                    for line in run.lines() {
+                        is_last_gone = dropped.next_if(|&&vertex| vertex == seen).is_some();
+                        seen += 1;
+                        if is_last_gone {
+                            push_run(&mut runs, part);
+                            part.count = 0;
+                        } else {
+                            part.line = if part.count == 0 { line } else { part.line };
+                            part.count += 1;
+                        }
+                    }
+                    push_run(&mut runs, part);
                 }
                 Kind::Text => {
                     let lines = &text[at..at + run.count as usize];
                     at += lines.len();
                     let before = kept.len();
-                    if seen > stay {
+                    if is_last_gone {
                         kept.extend(passes(lines));
                     } else {
                         kept.extend_from_slice(lines);
                     }
-                    run.count = (kept.len() - before) as u32;
+                    let count = (kept.len() - before) as u32;
+                    push_run(&mut runs, Run { count, ..run });
                 }
-                _ => {}
+                _ => push_run(&mut runs, run),
             }
         }
         *text = kept;
-        self.runs.retain(|run| run.count > 0);
+        self.runs = runs;
     }
 
     pub(crate) fn runs(&self) -> &[Run] {
@@ -308,6 +308,13 @@ impl Layout {
 
     pub(crate) fn shrink(&mut self) {
         self.runs.shrink_to_fit();
+    }
+}
+
+/// Appends a run, if it has anything.
+fn push_run(runs: &mut Vec<Run>, run: Run) {
+    if run.count > 0 {
+        push(runs, run);
     }
 }
 

@@ -10,10 +10,12 @@ mod corners;
 mod edited;
 mod removal;
 mod slots;
+mod turns;
 
 pub(crate) use self::ancestry::SplitOff;
 pub(crate) use self::removal::Removal;
 pub(crate) use self::slots::Slots;
+pub(crate) use self::turns::Turns;
 
 use tearmesh::{
     Blend, Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
@@ -23,7 +25,7 @@ use tearmesh::{
 use self::ancestry::Ancestry;
 use self::corners::Corners;
 use crate::document::Document;
-use crate::record::{At, Inserted, Parent, Record};
+use crate::record::{At, Inserted, Parent, Record, is_in};
 use crate::store::Rows;
 
 /// A document and what became of it: a [`Follower`] of the log of its mesh, that writes it.
@@ -152,7 +154,8 @@ impl<'d> TornDocument<'d> {
     /// The numbers of the cuts that still keep something apart, ascending.
     #[must_use]
     pub fn cuts(&self) -> Vec<u32> {
-        let mut cuts: Vec<u32> = self.split_off().iter().map(|split| split.cut).collect();
+        let split_off = self.split_off(|v| v);
+        let mut cuts: Vec<u32> = split_off.iter().map(|split| split.cut).collect();
         cuts.sort_unstable();
         cuts.dedup();
         cuts
@@ -190,7 +193,7 @@ impl<'d> TornDocument<'d> {
     pub fn stitches_of_last(&self, cuts: usize) -> Vec<Stitch> {
         let all = self.cuts();
         let last = &all[all.len().saturating_sub(cuts)..];
-        let split_off = self.split_off().into_iter();
+        let split_off = self.split_off(|v| v).into_iter();
         let of_last = split_off.filter(|split| last.contains(&split.cut));
         of_last
             .filter_map(|split| {
@@ -216,8 +219,8 @@ impl<'d> TornDocument<'d> {
     }
 
     /// The faces of the mesh in the order in which they are written: a face that was divided,
-    /// then its children by id, stand where the face stood. Vertices are written in the order of
-    /// their ids, so the mesh that is read again is this one but for the numbers of its faces.
+    /// then its children by id, stand where the face stood. The mesh that is read again has the
+    /// first of them as its face 0, and so on.
     #[must_use]
     pub fn faces_in_order(&self) -> Vec<FaceId> {
         let slots = self.slots();
@@ -363,12 +366,13 @@ impl<'d> TornDocument<'d> {
         }
     }
 
-    fn split_off(&self) -> Vec<SplitOff> {
+    /// What was split off, by these numbers of the vertices.
+    pub(crate) fn split_off(&self, number: impl Fn(u32) -> u32) -> Vec<SplitOff> {
         if self.ancestry.is_whole() {
             return Vec::new();
         }
         // Looking up shortens the ways to what was merged, which does not show.
-        self.ancestry.clone().split_off()
+        self.ancestry.clone().split_off(number)
     }
 }
 
@@ -436,17 +440,29 @@ impl TornDocument<'_> {
             .collect()
     }
 
-    /// The lowest vertex of each class; `u32::MAX` where there is none.
-    pub(crate) fn roots_of_classes(&self) -> Vec<u32> {
+    /// The vertex of each class that comes first in an order; `u32::MAX` where there is none.
+    pub(crate) fn roots_of_classes(&self, number: impl Fn(u32) -> u32) -> Vec<u32> {
         let mut roots = vec![u32::MAX; self.ancestry.class_count()];
-        for v in (0..self.ancestry.len()).rev() {
-            roots[self.ancestry.class(v) as usize] = v as u32;
+        for v in 0..self.ancestry.len() as u32 {
+            let root = &mut roots[self.ancestry.class(v as usize) as usize];
+            if *root == u32::MAX || number(v) < number(*root) {
+                *root = v;
+            }
         }
         roots
     }
 
-    pub(crate) fn split_off_vertices(&self) -> Vec<SplitOff> {
-        self.split_off()
+    /// The vertex of the document that a vertex is, or that it was split from, if it was.
+    pub(crate) fn origin(&self, v: usize) -> Option<usize> {
+        let [home, class] = [self.ancestry.home(v), self.ancestry.class(v)];
+        let known = |&statement: &u32| (statement as usize) < self.document.positions.len();
+        let origin = Some(home).filter(known).or(Some(class).filter(known));
+        origin.map(|statement| statement as usize)
+    }
+
+    /// Whether nothing that is written has changed, but for numbers.
+    pub(crate) fn is_untouched(&self) -> bool {
+        self.ancestry.is_whole() && self.corners.is_none()
     }
 
     /// The texture coordinate and the normal of a corner of the mesh.
@@ -472,12 +488,21 @@ impl TornDocument<'_> {
         self.corner(half_edge, polygon)
     }
 
-    /// How many texture coordinates and normals there were before any was inserted.
-    pub(crate) fn counts_before(&self) -> (usize, usize) {
-        match &self.document.record {
-            Some(record) => (record.texture_before, record.normals_before),
-            None => (self.document.texture.len(), self.document.normals.len()),
-        }
+    /// How many texture coordinates and normals there are.
+    pub(crate) fn counts(&self) -> [usize; 2] {
+        let new = self.new_texture().map_or(0, |rows| rows.len());
+        [
+            self.document.texture.len() + new,
+            self.document.normals.len() + self.new_normals().len(),
+        ]
+    }
+
+    /// Whether a texture coordinate (0) or a normal (1) was inserted.
+    pub(crate) fn is_index_inserted(&self, which: usize, index: usize) -> bool {
+        let known = [self.document.texture.len(), self.document.normals.len()];
+        let record = self.document.record.as_deref();
+        let runs = record.map(|record| [&record.texture, &record.normals]);
+        index >= known[which] || runs.is_some_and(|runs| is_in(runs[which], index as u32))
     }
 
     /// Whether faces and corners are those of the document.
@@ -485,7 +510,7 @@ impl TornDocument<'_> {
         self.corners.is_none()
     }
 
-    fn texture_row(&self, index: u32) -> &[f64] {
+    pub(crate) fn texture_row(&self, index: u32) -> &[f64] {
         let count = self.document.texture.len();
         match ((index as usize).checked_sub(count), &self.corners) {
             (Some(new), Some(corners)) => corners.new_texture.row(new),
@@ -493,7 +518,7 @@ impl TornDocument<'_> {
         }
     }
 
-    fn normal(&self, index: u32) -> [f64; 3] {
+    pub(crate) fn normal(&self, index: u32) -> [f64; 3] {
         let count = self.document.normals.len();
         match (index as usize).checked_sub(count) {
             None => self.document.normals[index as usize],

@@ -1,18 +1,24 @@
 //! Writing: a document and the mesh that was cut out of it, to bytes.
 //!
-//! **Order.** Statements come in the order of the document, and polygons as their triangles. The
-//! vertices of the mesh keep their numbers: the document's own come first, then those that splits
-//! added. The new ones follow the last `v` of the document and what is said of it, each with a copy
-//! of what `ARCSim` says of the vertex that it was split from (`said.rs`). Where a face needs a
-//! vertex before that (a file of several objects has `v` after `f`), the statements it needs are
-//! moved up to just before it, each with the foreign statements attached to it. So no face precedes
-//! its vertices, and no number changes. What `ARCSim` says of a vertex is written behind that
-//! vertex, wherever it stood: no `v` comes between them.
+//! **Order.** Statements come in the order of the document, and polygons as their triangles. What the
+//! document has not is added behind the section that it comes from (`sections.rs`): a vertex that was
+//! split off or inserted behind the last `v` of its object and what is said of that, with a
+//! copy of what `ARCSim` says of the vertex that it was split from (`said.rs`); new texture
+//! coordinates and normals likewise. So no line moves, and the numbers behind it count on. Where
+//! a face comes before what it names, the statements that it needs are moved up to just
+//! before it, each with the foreign statements attached to it: no face precedes its vertices. What
+//! `ARCSim` says of a vertex is written behind that vertex, wherever it stood: no `v` comes
+//! between them.
+//!
+//! Why not all new vertices at the end of the file, so that no number ever changes? Other programs drop
+//! a face that comes before its vertices, so the `v` of all later objects would have to be written
+//! before the first torn face: under another `o`, and away from their comments. Only where a
+//! statement that is not understood may name a vertex by its number is that done.
 //!
 //! **Bow-ties.** A split may leave a vertex with several fans (the tip of a finite cut).
 //! Other programs, and our own [`Document::mesh`], would take such a vertex for a
 //! defect, so it is written as several `v`, one a fan: the fan with the smallest half-edge keeps
-//! the number (by the order of the file), the others follow all vertices of the mesh.
+//! the number (by the order of the file), the others come last in its section.
 //!
 //! **The record** (`record.rs`) is the end of the file.
 //!
@@ -111,12 +117,14 @@ impl TornDocument<'_> {
         write(self, &Prepared::new(self, mesh, None), positions, out)
     }
 
-    /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh.
+    /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh,
+    /// in the order of their ids.
     ///
-    /// A vertex keeps its number in whatever is written later, and new ones get numbers that no
-    /// file had before: for pictures of a mesh as it tears. A vertex with several fans is one here,
-    /// which other programs may take for a defect; [`Document::mesh`] knows from the record that it
-    /// was torn.
+    /// A vertex keeps its number in whatever is written so later, and new ones get numbers that no
+    /// file had before: for pictures of a mesh as it tears. To that end all new vertices follow the
+    /// last `v` of the file, and the `v` of objects behind a torn one are moved up before it.
+    /// A vertex with several fans is one here, which other programs may take for a defect;
+    /// [`Document::mesh`] knows from the record that it was torn.
     ///
     /// # Errors
     ///
@@ -143,16 +151,13 @@ pub(crate) fn write(
     positions: &Positions,
     out: &mut impl Write,
 ) -> io::Result<WriteSummary> {
-    let vertices = prepared.vertices.count();
+    let vertices = prepared.orders[0].count();
     let writer = Writer {
         document: torn.document(),
         torn,
         prepared,
         positions,
-        vertices: Stream::new(Kind::Vertex),
-        texture: Stream::new(Kind::Texture),
-        normals: Stream::new(Kind::Normal),
-        added: [false; 3],
+        streams: [Kind::Vertex, Kind::Texture, Kind::Normal].map(Stream::new),
         hash: Hash::of_faces(vertices),
         out: Output::new(out),
     };
@@ -169,27 +174,30 @@ struct Writer<'d, W> {
     torn: &'d TornDocument<'d>,
     prepared: &'d Prepared<'d>,
     positions: &'d Positions,
-    vertices: Stream,
-    texture: Stream,
-    normals: Stream,
-    /// Whether the vertices, texture coordinates and normals that the document has not
-    /// were written.
-    added: [bool; 3],
+    /// Of vertices, texture coordinates and normals.
+    streams: [Stream; 3],
     /// That of the faces written so far.
     hash: Hash,
     out: Output<'d, W>,
 }
 
+const VERTICES: usize = 0;
+const TEXTURE: usize = 1;
+const NORMALS: usize = 2;
+
 /// How far the statements of a kind have been written. They may be ahead of the rest.
 #[derive(Clone, Copy)]
 struct Stream {
     kind: Kind,
-    /// The number of statements written.
-    written: usize,
+    /// The number of statements of the document that had their turn.
+    done: u32,
+    /// How many of those that are added were written, and how many statements in all.
+    added: usize,
+    written: u32,
     /// The run to go on with, how many statements of this kind come before it, and
     /// how many bytes of text.
     run: usize,
-    before: usize,
+    before: u32,
     text_before: usize,
 }
 
@@ -197,6 +205,8 @@ impl Stream {
     fn new(kind: Kind) -> Stream {
         Stream {
             kind,
+            done: 0,
+            added: 0,
             written: 0,
             run: 0,
             before: 0,
@@ -204,19 +214,19 @@ impl Stream {
         }
     }
 
-    /// The next statements to write so that `count` are written, and then the run that they
+    /// The next statements to write so that `count` had their turn, and then the run that they
     /// complete, if they do.
-    fn advance(&mut self, runs: &[Run], count: usize) -> Option<(std::ops::Range<usize>, bool)> {
-        if self.written >= count {
+    fn advance(&mut self, runs: &[Run], count: u32) -> Option<(std::ops::Range<u32>, bool)> {
+        if self.done >= count {
             return None;
         }
         loop {
             let run = runs.get(self.run)?;
-            let end = self.before + run.count as usize;
-            if run.kind == self.kind && self.written < end {
-                let first = self.written;
-                self.written = end.min(count);
-                return Some((first..self.written, self.written == end));
+            let end = self.before + run.count;
+            if run.kind == self.kind && self.done < end {
+                let first = self.done;
+                self.done = end.min(count);
+                return Some((first..self.done, self.done == end));
             }
             match run.kind {
                 Kind::Text => self.text_before += run.count as usize,
@@ -232,30 +242,23 @@ impl<W: Write> Writer<'_, W> {
     fn write(mut self) -> io::Result<()> {
         let document = self.document;
         let runs = document.layout.runs();
-        let (mut vertices, mut texture, mut normals, mut polygons) = (0, 0, 0, 0);
+        let mut counts = [0; 3];
+        let mut polygons = 0;
         let mut text = &document.text[..];
         // They say something of no vertex, and go on doing so.
         self.out.text(self.prepared.said.late(0))?;
         for (i, run) in runs.iter().enumerate() {
             let count = run.count as usize;
-            match run.kind {
-                Kind::Vertex => {
-                    vertices += count;
-                    self.write_vertices(vertices)?;
-                }
-                Kind::Texture => {
-                    texture += count;
-                    self.write_texture(texture)?;
-                }
-                Kind::Normal => {
-                    normals += count;
-                    self.write_normals(normals)?;
-                }
+            let which = match run.kind {
+                Kind::Vertex => VERTICES,
+                Kind::Texture => TEXTURE,
+                Kind::Normal => NORMALS,
                 Kind::Polygon => {
                     for polygon in polygons..polygons + count {
                         self.write_polygon(polygon)?;
                     }
                     polygons += count;
+                    continue;
                 }
                 Kind::Text => {
                     let (lines, rest) = text.split_at(count);
@@ -269,124 +272,99 @@ impl<W: Write> Writer<'_, W> {
                     } else {
                         self.out.text(lines)?;
                     }
+                    continue;
                 }
-            }
+            };
+            counts[which] += run.count;
+            self.write_statements(which, counts[which])?;
         }
         write_record(self.prepared, self.hash, &mut self.out)?;
         self.out.flush()
     }
 
-    /// Writes vertices of the document, with what is attached to them, so that `count`
-    /// are written; after the last one, the vertices that the document has not.
-    fn write_vertices(&mut self, count: usize) -> io::Result<()> {
+    /// Writes statements of a kind, with what is attached to them, so that `count` of the document
+    /// had their turn; and behind each section what is added to it.
+    fn write_statements(&mut self, which: usize, count: u32) -> io::Result<()> {
         let (document, prepared) = (self.document, self.prepared);
-        let runs = document.layout.runs();
-        while let Some((range, completes_run)) = self.vertices.advance(runs, count) {
-            // Of a mended mesh the last vertices of the document are gone.
-            for vertex in range.start..range.end.min(prepared.mesh_vertices) {
-                self.write_vertex(vertex)?;
+        let order = &prepared.orders[which];
+        loop {
+            let stream = &mut self.streams[which];
+            let next = order.added().get(stream.added);
+            if let Some(added) = next.filter(|added| added.behind <= stream.done) {
+                stream.added += 1;
+                self.write_element(which, added.element)?;
+                let vertex = (which == VERTICES).then(|| prepared.vertex(added.element));
+                if let Some(origin) = vertex.and_then(|vertex| self.torn.origin(vertex)) {
+                    self.out.text(prepared.said.of(origin))?;
+                }
+                continue;
+            }
+            let count = next.map_or(count, |added| added.behind.min(count));
+            let Some((range, completes_run)) = stream.advance(document.layout.runs(), count) else {
+                return Ok(());
+            };
+            let end = range.end;
+            for element in range.filter_map(|statement| order.element(statement)) {
+                self.write_element(which, element)?;
             }
             if completes_run {
-                let last = range.end - 1;
-                let is_gone = last >= prepared.mesh_vertices || !prepared.vertices.has(last);
-                self.write_attached(self.vertices, is_gone)?;
-                if !is_gone {
-                    self.out.text(prepared.said.late(range.end))?;
-                }
+                self.write_attached(which, end)?;
             }
         }
-        self.write_added()
     }
 
-    /// Writes the vertices that the document has not, if all that it has are written.
-    fn write_added(&mut self) -> io::Result<()> {
-        let of_document = self.document.positions.len();
-        let prepared = self.prepared;
-        if self.vertices.written < of_document || self.added[0] {
-            return Ok(());
-        }
-        self.added[0] = true;
-        let all = prepared.mesh_vertices + prepared.separated.copies.len();
-        for index in of_document.min(prepared.mesh_vertices)..all {
-            self.write_vertex(index)?;
-            if let Some(origin) = prepared
-                .origin(index)
-                .filter(|_| prepared.vertices.has(index))
-            {
-                self.out.text(prepared.said.of(origin))?;
-            }
+    /// Writes statements of a kind until the one with this number is written.
+    #[inline]
+    fn write_until(&mut self, which: usize, number: u32) -> io::Result<()> {
+        while self.streams[which].written <= number {
+            self.write_statements(which, self.streams[which].done + 1)?;
         }
         Ok(())
     }
 
-    /// The same for texture coordinates.
-    fn write_texture(&mut self, count: usize) -> io::Result<()> {
-        let (document, prepared) = (self.document, self.prepared);
-        while let Some((range, completes_run)) = self.texture.advance(document.layout.runs(), count)
-        {
-            for index in range.filter(|&index| prepared.texture.has(index)) {
-                self.out
-                    .statement(b"vt", document.texture.row(index), &[])?;
+    /// Writes a vertex of the mesh or a copy of one, a texture coordinate or a normal.
+    #[inline]
+    fn write_element(&mut self, which: usize, element: u32) -> io::Result<()> {
+        self.streams[which].written += 1;
+        let torn = self.torn;
+        match which {
+            VERTICES => {
+                let vertex = self.prepared.vertex(element);
+                let at = self.positions.as_slice()[vertex];
+                let extras = torn.extra_numbers(vertex);
+                self.out.statement(b"v", &[at.x, at.y, at.z], extras)
             }
-            if completes_run {
-                self.write_attached(self.texture, prepared.said.has_late())?;
-            }
+            TEXTURE => self.out.statement(b"vt", torn.texture_row(element), &[]),
+            _ => self.out.statement(b"vn", &torn.normal(element), &[]),
         }
-        let of_document = document.texture.len();
-        if self.texture.written == of_document && !self.added[1] {
-            self.added[1] = true;
-            if let Some(rows) = self.torn.new_texture() {
-                for new in (0..rows.len()).filter(|new| prepared.texture.has(of_document + new)) {
-                    self.out.statement(b"vt", rows.row(new), &[])?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The same for normals.
-    fn write_normals(&mut self, count: usize) -> io::Result<()> {
-        let (document, prepared) = (self.document, self.prepared);
-        while let Some((range, completes_run)) = self.normals.advance(document.layout.runs(), count)
-        {
-            for index in range.filter(|&index| prepared.normals.has(index)) {
-                self.out.statement(b"vn", &document.normals[index], &[])?;
-            }
-            if completes_run {
-                self.write_attached(self.normals, prepared.said.has_late())?;
-            }
-        }
-        let of_document = document.normals.len();
-        if self.normals.written == of_document && !self.added[2] {
-            self.added[2] = true;
-            for (new, normal) in self.torn.new_normals().iter().enumerate() {
-                if prepared.normals.has(of_document + new) {
-                    self.out.statement(b"vn", normal, &[])?;
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Writes the foreign statements directly after the run that a stream has completed, and
-    /// perhaps not what they say of a vertex, which is gone or has been told.
-    fn write_attached(&mut self, stream: Stream, without_vertex: bool) -> io::Result<()> {
+    /// those about its last vertex that stand farther on. What says something of a vertex that is
+    /// gone is left out.
+    fn write_attached(&mut self, which: usize, end: u32) -> io::Result<()> {
+        let (prepared, stream) = (self.prepared, self.streams[which]);
+        let is_gone = which == VERTICES && prepared.orders[VERTICES].element(end - 1).is_none();
         let runs = self.document.layout.runs();
-        let Some(&Run {
+        if let Some(&Run {
             kind: Kind::Text,
             count,
             ..
         }) = runs.get(stream.run + 1)
-        else {
-            return Ok(());
-        };
-        let lines = &self.document.text[stream.text_before..][..count as usize];
-        let lines = &lines[..attached_to(runs[stream.run], lines)];
-        if without_vertex {
-            self.out.text(&said::left_without_vertex(lines))
-        } else {
-            self.out.text(lines)
+        {
+            let lines = &self.document.text[stream.text_before..][..count as usize];
+            let lines = &lines[..attached_to(runs[stream.run], lines)];
+            // Between a vertex and what is said of it there may be texture coordinates or normals.
+            if is_gone || which != VERTICES && prepared.said.has_late() {
+                self.out.text(&said::left_without_vertex(lines))?;
+            } else {
+                self.out.text(lines)?;
+            }
         }
+        if which == VERTICES && !is_gone {
+            self.out.text(prepared.said.late(end as usize))?;
+        }
+        Ok(())
     }
 
     fn write_polygon(&mut self, polygon: usize) -> io::Result<()> {
@@ -403,18 +381,9 @@ impl<W: Write> Writer<'_, W> {
                 self.write_indices(torn.corner_of(h as usize))?;
             }
         }
-        let of_document = document.positions.len();
         for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
-            let vertex = prepared.separated.indices[h as usize] as usize;
-            let needed = if vertex < prepared.mesh_vertices {
-                of_document.min(vertex + 1)
-            } else {
-                of_document
-            };
-            self.write_vertices(needed)?;
-            if vertex >= of_document.min(prepared.mesh_vertices) {
-                self.write_added()?;
-            }
+            let vertex = prepared.separated.indices[h as usize];
+            self.write_until(VERTICES, prepared.orders[VERTICES].number(vertex))?;
         }
         for &face in faces {
             self.write_triangle(prepared.half_edges(face), polygon)?;
@@ -423,12 +392,11 @@ impl<W: Write> Writer<'_, W> {
     }
 
     /// Writes texture coordinates and normals as far as a corner needs them.
-    fn write_indices(&mut self, [texture, normal]: [Option<u32>; 2]) -> io::Result<()> {
-        if let Some(texture) = texture {
-            self.write_texture(self.document.texture.len().min(texture as usize + 1))?;
-        }
-        if let Some(normal) = normal {
-            self.write_normals(self.document.normals.len().min(normal as usize + 1))?;
+    fn write_indices(&mut self, indices: [Option<u32>; 2]) -> io::Result<()> {
+        for (which, index) in [TEXTURE, NORMALS].into_iter().zip(indices) {
+            if let Some(index) = index {
+                self.write_until(which, self.prepared.orders[which].number(index))?;
+            }
         }
         Ok(())
     }
@@ -439,7 +407,7 @@ impl<W: Write> Writer<'_, W> {
         out.push(b'f');
         for h in half_edges {
             let vertex = prepared.separated.indices[h as usize];
-            let vertex = prepared.vertices.of(vertex);
+            let vertex = prepared.orders[VERTICES].number(vertex);
             self.hash.add_corner(vertex);
             let [texture, normal] = self.torn.corner(h as usize, polygon);
             out.push(b' ');
@@ -448,26 +416,15 @@ impl<W: Write> Writer<'_, W> {
                 out.push(b'/');
             }
             if let Some(texture) = texture {
-                write_integer(out, u64::from(prepared.texture.of(texture)) + 1);
+                write_integer(out, u64::from(prepared.orders[TEXTURE].number(texture)) + 1);
             }
             if let Some(normal) = normal {
                 out.push(b'/');
-                write_integer(out, u64::from(prepared.normals.of(normal)) + 1);
+                write_integer(out, u64::from(prepared.orders[NORMALS].number(normal)) + 1);
             }
         }
         out.push(b'\n');
         self.out.flush_if_full()
-    }
-
-    /// Writes a vertex of the mesh, or a copy of one, unless it is left out.
-    fn write_vertex(&mut self, index: usize) -> io::Result<()> {
-        if !self.prepared.vertices.has(index) {
-            return Ok(());
-        }
-        let vertex = self.prepared.vertex(index);
-        let at = self.positions.as_slice()[vertex];
-        let extras = self.torn.extra_numbers(vertex);
-        self.out.statement(b"v", &[at.x, at.y, at.z], extras)
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use tearmesh::{FaceId, Scissor, Vector};
+use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, Softness, TimedCut};
 use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency};
+use tearmesh_obj::Document;
 
 use super::words::two_digits;
 use crate::args::TearArgs;
@@ -149,12 +150,13 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
             named_by,
             number,
             vertex,
-            vertices,
+            ..
         } => {
             let message = format!(
-                "{named_by} {} names the vertex {}, and the mesh has the vertices 1 to {vertices}",
+                "{named_by} {} names the vertex {}, and the mesh has the vertices 1 to {}",
                 number + 1,
-                vertex.index() + 1
+                vertex.index() + 1,
+                opened.document.vertex_statement_count()
             );
             let table = named_by.to_string();
             return blame((&table, number, "vertices"), "E-SCENE-RANGE", message, None);
@@ -179,7 +181,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
             Some("the mesh has no faces that a scene could be played with"),
         ),
         RunError::Cloth(ClothError::Length { ends, .. }) => {
-            let [a, b] = ends.map(|v| v.index() + 1);
+            let [a, b] = ends.map(|v| opened.document.number_of_vertex(v.index()));
             let message = format!("the vertices {a} and {b} of an edge are at one place");
             let help = "an edge without length has no strain: take the face out";
             let fault = Fault::error("E-SIM-MESH", message).help(help);
@@ -199,7 +201,8 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
 fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
     let corners = opened.mesh.face_vertices(face);
     let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
-    let name = corners.map(|v| (v.index() + 1).to_string()).join("-");
+    let number = |v: VertexId| opened.document.number_of_vertex(v.index());
+    let name = corners.map(|v| number(v).to_string()).join("-");
     if (b - a).cross(&(c - a)) == Vector::zeros() {
         let message = format!("the face {name} has no area at rest");
         let help = "a triangle without area has no strain: take the face out";
@@ -214,7 +217,7 @@ fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
 }
 
 /// What may tear, or not tear, for reasons that are none of the cloth's.
-pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
+pub(super) fn warnings(run: &Run, frame: &Frame, document: &Document) -> Vec<Fault> {
     let mut warnings = Vec::new();
     let size = frame.size_m();
     if !(0.01..=8.0).contains(&size) {
@@ -224,7 +227,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
         let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
         warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
     }
-    warnings.extend(endless(run));
+    warnings.extend(endless(run, document));
     warnings.extend(late(run));
     warnings.extend(soft(run));
     if run.scene().tearing.is_none() {
@@ -252,7 +255,7 @@ pub(super) fn warnings(run: &Run, frame: &Frame) -> Vec<Fault> {
 
 /// An explicit method takes steps as short as the stiffest edge between the lightest vertices
 /// asks for, and one face without area is enough for years of them.
-fn endless(run: &Run) -> Option<Fault> {
+fn endless(run: &Run, document: &Document) -> Option<Fault> {
     let is_explicit = matches!(run.scene().solver, Method::Verlet | Method::Provot(_));
     if !is_explicit || run.steps_planned() < STEPS_MANY {
         return None;
@@ -260,7 +263,7 @@ fn endless(run: &Run) -> Option<Fault> {
     let frequency = frequency::largest(&mut run.cloth().system().clone());
     let at = frequency.ends.map(|[a, b]| {
         let omega = frequency.omega_rad_per_s;
-        let [a, b] = [a, b].map(|end| end + 1);
+        let [a, b] = [a, b].map(|end| document.number_of_vertex(end));
         format!(
             ": the edge {a}-{b} swings at {omega:.1e} rad/s, as it is stiff and its ends are light"
         )
@@ -346,7 +349,7 @@ fn coarse(run: &Run) -> Option<Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tearmesh::{Mesh, Positions};
+    use tearmesh::Positions;
     use tearmesh_cloth::scene::{Axis, Scene};
 
     #[test]
@@ -372,14 +375,10 @@ mod tests {
     #[test]
     fn steps_without_end_are_warned_of_with_the_edge() {
         // The second face has no area, and a vertex of its own.
-        let points = [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [2.0, -1.0, 0.0],
-        ];
-        let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a strip");
-        let positions = Positions::new(points).expect("numbers");
+        let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 -1 0\nf 1 2 3\nf 3 2 4\n";
+        let document = Document::read(&file[..]).expect("a file");
+        let mesh = document.mesh().expect("a strip");
+        let positions = Positions::new(document.positions().iter().copied()).expect("numbers");
         let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
         let warned = |solver| {
             let scene = Scene {
@@ -387,7 +386,7 @@ mod tests {
                 ..Scene::hang(&frame)
             };
             let run = Run::new(mesh.clone(), &positions, scene, &frame).expect("a scene");
-            endless(&run).map(|fault| fault.message)
+            endless(&run, &document).map(|fault| fault.message)
         };
         let message = warned(Method::Verlet).expect("a warning");
         assert!(message.contains("the edge 2-4 swings at "), "{message}");

@@ -1,29 +1,31 @@
-//! A file of strengths: `vertex strength` a line, vertices counted from 1.
+//! A file of strengths: `vertex strength` a line, vertices counted from 1 as in the OBJ file.
 
 use std::path::Path;
+
+use tearmesh_obj::Document;
 
 use crate::exit::{Exit, Stop};
 use crate::input::Input;
 use crate::say::{Excerpt, Fault};
 use crate::streams::Streams;
 
-/// Reads the strengths of so many vertices; those that are not named have 1.
+/// Reads the strengths of the vertices of a document; those that are not named have 1.
 pub(super) fn read(
     path: &Path,
-    vertices: usize,
+    document: &Document,
     streams: &mut Streams<'_>,
 ) -> Result<Vec<f64>, Stop> {
     let unreadable = |fault| Stop::new(Exit::Input, fault);
     let file = Input::find(path, streams.input).map_err(unreadable)?;
     let text = file.text().map_err(unreadable)?;
-    let mut strengths = vec![1.0; vertices];
+    let mut strengths = vec![1.0; document.positions().len()];
     for (i, line) in text.lines().enumerate() {
         let words = line.split('#').next().unwrap_or_default();
         if words.trim().is_empty() {
             continue;
         }
-        match entry(words, vertices) {
-            Ok((vertex, strength)) => strengths[vertex - 1] = strength,
+        match entry(words, document) {
+            Ok((vertex, strength)) => strengths[vertex] = strength,
             Err(label) => {
                 let fault = Fault {
                     code: "E-STRENGTH",
@@ -46,17 +48,18 @@ pub(super) fn read(
     Ok(strengths)
 }
 
-fn entry(words: &str, vertices: usize) -> Result<(usize, f64), String> {
+fn entry(words: &str, document: &Document) -> Result<(usize, f64), String> {
     let mut words = words.split_whitespace();
     let (Some(vertex), Some(strength), None) = (words.next(), words.next(), words.next()) else {
         return Err("expected two numbers".to_owned());
     };
-    let vertex: usize = vertex
+    let number: usize = vertex
         .parse()
         .map_err(|_| "expected a whole number first".to_owned())?;
-    if !(1..=vertices).contains(&vertex) {
-        return Err(format!("the mesh has the vertices 1 to {vertices}"));
-    }
+    let Some(vertex) = document.vertex_of_number(number) else {
+        let last = document.vertex_statement_count();
+        return Err(format!("the mesh has the vertices 1 to {last}"));
+    };
     let strength = strength.parse().ok();
     match strength.filter(|x: &f64| *x > 0.0 && x.is_finite()) {
         Some(strength) => Ok((vertex, strength)),

@@ -3,13 +3,15 @@
 //! A record that is damaged, of a later version, or of other faces than the file has is left
 //! out with a warning, and the file read as one without.
 
+use super::copies::join;
 use super::fault::{Fault, Parsed};
 use super::line::{Line, locate, quoted};
 use super::scan::Scan;
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 use crate::document::Document;
-use crate::record::{At, END, HEADER, Hash, ITEM, Inserted, Parent, Record, SplitOff, VERSION};
-use crate::said;
+use crate::record::{
+    At, END, HEADER, Hash, ITEM, Inserted, Parent, Record, SplitOff, VERSION, are_last, runs,
+};
 use crate::store::push;
 
 const CODE: &str = "W-OBJ-RECORD";
@@ -23,10 +25,10 @@ pub(super) struct RecordReader {
     hash: Hash,
     /// The place of the last item in the order of kinds.
     kind: usize,
+    /// By the numbers of the file.
     record: Record,
-    /// The vertices that the last vertices of the file are copies of.
-    fans: Vec<u32>,
-    first_copy: Option<u32>,
+    /// Vertices of the file that are copies, each with the one that it is a copy of; ascending.
+    fans: Vec<[u32; 2]>,
     /// Why there is no record.
     warning: Option<Diagnostic>,
 }
@@ -42,6 +44,7 @@ enum State {
 
 #[derive(Debug)]
 struct Header {
+    version: i64,
     vertices: u32,
     faces: u32,
     texture: [u32; 2],
@@ -114,19 +117,7 @@ impl RecordReader {
             let fault = Fault::new(CODE, start..scan.at, message, "begins here");
             return Err(fault.help("files that are joined have to be written anew"));
         }
-        let version = scan.find_token().then_some(scan.at);
-        if let Some(at) = version
-            && scan.integer().is_some_and(|version| version > VERSION)
-            && scan.at_token_end()
-        {
-            let message = "this record is of a later version, and not used";
-            let fault = Fault::new(CODE, at..scan.at, message, format!("expected {VERSION}"));
-            return Err(fault.help("a later tearmesh reads it"));
-        }
-        if let Some(at) = version {
-            scan.at = at;
-        }
-        exactly(scan, "1")?;
+        let version = version(scan)?;
         let largest = i64::from(u32::MAX);
         exactly(scan, "v")?;
         let vertices = whole(scan, 0, largest)?;
@@ -140,6 +131,7 @@ impl RecordReader {
         let hash = hexadecimal(scan)?;
         nothing_more(scan)?;
         self.header = Some(Header {
+            version,
             vertices,
             faces,
             texture,
@@ -162,16 +154,27 @@ impl RecordReader {
             }
         }
         let damaged = |span, message: &str| Err(Fault::new(CODE, span, message, DAMAGED));
-        let copies_end = self.mesh_vertices() as usize + self.fans.len();
-        if self
-            .header
-            .as_ref()
-            .is_none_or(|header| copies_end != header.vertices as usize)
-        {
+        let Some(header) = &self.header else {
+            return damaged(start..scan.at, "this record has no beginning");
+        };
+        let copies = runs(self.fans.iter().map(|&[copy, _]| copy));
+        if header.version == 1 && !are_last(&copies, header.vertices) {
             return damaged(
                 start..scan.at,
                 "the copies of this record are not the last vertices",
             );
+        }
+        for ([before, all], runs) in [
+            (header.texture, &self.record.texture),
+            (header.normals, &self.record.normals),
+        ] {
+            let listed: u32 = runs.iter().map(|[first, end]| end - first).sum();
+            if !runs.is_empty() && before.checked_add(listed) != Some(all) {
+                return damaged(
+                    start..scan.at,
+                    "this record has other counts than its lines",
+                );
+            }
         }
         let largest = i64::from(u32::MAX);
         scan.find_token();
@@ -187,40 +190,59 @@ impl RecordReader {
         nothing_more(scan)
     }
 
-    /// The number of vertices that are no copies, as far as is known.
-    fn mesh_vertices(&self) -> u32 {
-        let vertices = self.header.as_ref().map_or(0, |header| header.vertices);
-        self.first_copy.unwrap_or(vertices)
+    /// The number of vertices of the file.
+    fn vertices(&self) -> i64 {
+        self.header
+            .as_ref()
+            .map_or(0, |header| i64::from(header.vertices))
+    }
+
+    fn is_copy(&self, vertex: u32) -> bool {
+        self.fans
+            .binary_search_by_key(&vertex, |&[copy, _]| copy)
+            .is_ok()
     }
 
     fn item(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        const KINDS: [&[u8]; 5] = [b"split", b"fan", b"edge", b"face", b"parent"];
+        // `edge` and `face` are in one order. The last two are of version 2.
+        const KINDS: [(&[u8], usize); 7] = [
+            (b"split", 0),
+            (b"fan", 1),
+            (b"edge", 2),
+            (b"face", 2),
+            (b"parent", 4),
+            (b"vt", 5),
+            (b"vn", 6),
+        ];
         scan.find_token();
         let (start, word) = (scan.at, scan.token());
         scan.at += word.len();
-        let kind = KINDS.iter().position(|&kind| kind == word);
-        // `edge` and `face` are in one order.
-        match kind.map(|kind| if kind == 3 { 2 } else { kind }) {
-            Some(kind) if kind >= self.kind => self.kind = kind,
+        let is_first = self
+            .header
+            .as_ref()
+            .is_none_or(|header| header.version == 1);
+        let known = KINDS.iter().take(if is_first { 5 } else { KINDS.len() });
+        match known.clone().find(|(kind, _)| *kind == word) {
+            Some(&(_, rank)) if rank >= self.kind => self.kind = rank,
             _ => {
                 let message = format!("this record has no line {} here", quoted(word));
                 return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
             }
         }
-        match kind {
-            Some(0) => self.split(scan)?,
-            Some(1) => self.fan(scan)?,
-            Some(2) => self.edge(scan)?,
-            Some(3) => self.face(scan)?,
-            _ => self.parent(scan)?,
+        match word {
+            b"split" => self.split(scan)?,
+            b"fan" => self.fan(scan)?,
+            b"edge" => self.edge(scan)?,
+            b"face" => self.face(scan)?,
+            b"parent" => self.parent(scan)?,
+            _ => self.inserted_indices(word == b"vt", scan)?,
         }
         nothing_more(scan)
     }
 
     fn split(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let vertices = i64::from(self.mesh_vertices());
         let last = self.record.splits.last().map_or(1, |last| last.vertex + 1);
-        let vertex = whole(scan, i64::from(last) + 1, vertices)? - 1;
+        let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
         let from = whole(scan, 1, i64::from(vertex))? - 1;
         let cut = whole(scan, 1, i64::from(u32::MAX) - 1)?;
         push(&mut self.record.splits, SplitOff { vertex, from, cut });
@@ -228,22 +250,26 @@ impl RecordReader {
     }
 
     fn fan(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let vertices = i64::from(self.header.as_ref().map_or(0, |header| header.vertices));
-        let split = self.record.splits.last().map_or(0, |last| last.vertex + 1);
-        // The first says where the copies begin; they go on from there to the last vertex.
-        let (least, most) = match self.first_copy {
-            None => (i64::from(split) + 1, vertices),
-            Some(first) => (i64::from(first) + 1 + self.fans.len() as i64, vertices),
-        };
-        let most = if self.first_copy.is_some() {
-            least.min(most)
-        } else {
-            most
-        };
-        let copy = whole(scan, least, most)? - 1;
-        let first = *self.first_copy.get_or_insert(copy);
-        let of = whole(scan, 1, i64::from(first))? - 1;
-        push(&mut self.fans, of);
+        let least = self.fans.last().map_or(1, |&[copy, _]| i64::from(copy) + 1);
+        scan.find_token();
+        let start = scan.at;
+        let copy = whole(scan, least + 1, self.vertices())? - 1;
+        let splits = &self.record.splits;
+        if splits
+            .binary_search_by_key(&copy, |split| split.vertex)
+            .is_ok()
+        {
+            let message = "a copy of this record was split off";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        scan.find_token();
+        let start = scan.at;
+        let of = whole(scan, 1, i64::from(copy))? - 1;
+        if self.is_copy(of) {
+            let message = "a copy of this record is one of a copy";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        push(&mut self.fans, [copy, of]);
         Ok(())
     }
 
@@ -299,6 +325,27 @@ impl RecordReader {
         Ok(())
     }
 
+    /// A run of texture coordinates or normals that were inserted.
+    fn inserted_indices(&mut self, is_texture: bool, scan: &mut Scan<'_>) -> Parsed<()> {
+        let header = self.header.as_ref();
+        let (runs, [_, all]) = if is_texture {
+            (
+                &mut self.record.texture,
+                header.map_or([0; 2], |header| header.texture),
+            )
+        } else {
+            (
+                &mut self.record.normals,
+                header.map_or([0; 2], |header| header.normals),
+            )
+        };
+        let least = runs.last().map_or(0, |&[_, end]| i64::from(end) + 1);
+        let first = whole(scan, least + 1, i64::from(all))? - 1;
+        let end = whole(scan, i64::from(first) + 1, i64::from(all))?;
+        push(runs, [first, end]);
+        Ok(())
+    }
+
     /// A vertex that was inserted, and by which cut.
     fn inserted(&self, scan: &mut Scan<'_>) -> Parsed<(u32, u32)> {
         scan.find_token();
@@ -316,7 +363,11 @@ impl RecordReader {
     fn root(&self, scan: &mut Scan<'_>) -> Parsed<u32> {
         scan.find_token();
         let at = scan.at;
-        let vertex = whole(scan, 1, i64::from(self.mesh_vertices()))? - 1;
+        let vertex = whole(scan, 1, self.vertices())? - 1;
+        if self.is_copy(vertex) {
+            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
+            return Err(Fault::new(CODE, at..scan.at, message, "expected a root"));
+        }
         let splits = &self.record.splits;
         let split = splits.binary_search_by_key(&vertex, |split| split.vertex);
         match split {
@@ -356,10 +407,24 @@ impl RecordReader {
             return;
         }
         let mut record = self.record;
-        record.texture_before = before(header.texture, document.texture.len());
-        record.normals_before = before(header.normals, document.normals.len());
+        settle(&mut record.texture, header.texture, document.texture.len());
+        settle(&mut record.normals, header.normals, document.normals.len());
         join(document, &mut record, &self.fans);
         document.record = Some(Box::new(record));
+    }
+
+    /// Whether all that can be taken out again, or is a copy, comes behind all that cannot.
+    fn what_may_go_is_last(&self, header: &Header) -> bool {
+        let record = &self.record;
+        let split = record.splits.iter().map(|split| split.vertex);
+        let inserted = record.inserted.iter().map(|inserted| inserted.vertex);
+        let copies = self.fans.iter().map(|&[copy, _]| copy);
+        let mut may_go: Vec<u32> = split.chain(inserted).chain(copies).collect();
+        may_go.sort_unstable();
+        may_go.dedup();
+        are_last(&runs(may_go.into_iter()), header.vertices)
+            && are_last(&record.texture, header.texture[1])
+            && are_last(&record.normals, header.normals[1])
     }
 
     /// Why the record is not one of this document.
@@ -386,26 +451,35 @@ impl RecordReader {
         if hash.0 != header.hash || !document.polygons.all_triangles() {
             return changed("its faces are others".to_owned());
         }
+        if let Some(keyword) = document.statement_with_indices()
+            && !self.what_may_go_is_last(header)
+        {
+            return changed(format!(
+                "{} may name a vertex by its number, which would be another without the cuts",
+                quoted(keyword)
+            ));
+        }
         // What a record says that was made by no one who knew the faces.
-        let count = self.first_copy.unwrap_or(header.vertices);
-        let roots = self.record.roots(count as usize);
-        let root = |vertex: u32| {
-            let copy = vertex.checked_sub(count);
-            let vertex = copy.map_or(vertex, |copy| self.fans[copy as usize]);
-            roots[vertex as usize]
-        };
-        let mut has_face = vec![false; count as usize];
+        let mut of: Vec<u32> = (0..header.vertices).collect();
+        for &[copy, vertex] in &self.fans {
+            of[copy as usize] = vertex;
+        }
+        let mut has_face = vec![false; vertices];
+        let roots = self.record.roots(vertices);
         for corners in document.triangles() {
-            let [a, b, c] = corners.map(root);
+            let [a, b, c] = corners.map(|v| roots[of[v as usize] as usize]);
             if a == b || b == c || c == a {
                 return Some("this record is not used: it joins corners of a face".to_owned());
             }
-            for vertex in corners.iter().filter(|&&vertex| vertex < count) {
-                has_face[*vertex as usize] = true;
+            for &vertex in corners {
+                has_face[vertex as usize] = true;
             }
         }
-        let split = self.record.splits.iter();
-        let mut split = split.flat_map(|split| [split.vertex, split.from]);
+        let splits = &self.record.splits;
+        if splits.iter().any(|split| self.is_copy(split.from)) {
+            return Some("this record is not used: it splits a copy".to_owned());
+        }
+        let mut split = splits.iter().flat_map(|split| [split.vertex, split.from]);
         if split.any(|vertex| !has_face[vertex as usize]) {
             return Some("this record is not used: it splits vertices without faces".to_owned());
         }
@@ -413,86 +487,13 @@ impl RecordReader {
     }
 }
 
-/// How many elements there were before any was inserted, if the file has as many as it had.
-fn before([before, all]: [u32; 2], count: usize) -> usize {
-    if all as usize == count {
-        count.min(before as usize)
-    } else {
-        count
-    }
-}
-
-/// Makes each vertex and its copies one, but for copies that were moved away: these become
-/// vertices that the last cut split off.
-fn join(document: &mut Document, record: &mut Record, fans: &[u32]) {
-    let count = document.positions.len() - fans.len();
-    let cut = record.last_cut().max(1);
-    let bits = |document: &Document, v: usize| -> Vec<u64> {
-        let at = document.positions[v];
-        let extras = document.extras.row(v).iter().copied();
-        let numbers = [at.x, at.y, at.z].into_iter().chain(extras);
-        numbers.map(f64::to_bits).collect()
-    };
-    let mut moved = Vec::new();
-    let mut vertices = Vec::with_capacity(fans.len());
-    for (copy, &of) in (count..).zip(fans) {
-        if bits(document, copy) == bits(document, of as usize) {
-            vertices.push(of);
-        } else {
-            vertices.push((count + moved.len()) as u32);
-            moved.push((copy, of));
-        }
-    }
-    let line = moved
-        .first()
-        .map(|&(copy, _)| document.line_of_vertex(copy));
-    if !fans.is_empty() {
-        for vertex in &mut document.polygons.vertices {
-            if let Some(copy) = (*vertex as usize).checked_sub(count) {
-                *vertex = vertices[copy];
-            }
-        }
-    }
-    let rows = moved
-        .iter()
-        .map(|&(copy, _)| document.extras.row(copy).to_vec());
-    let rows: Vec<Vec<f64>> = rows.collect();
-    document.extras.truncate(count);
-    for (i, (&(copy, of), row)) in moved.iter().zip(&rows).enumerate() {
-        let vertex = count + i;
-        document.positions[vertex] = document.positions[copy];
-        if !row.is_empty() {
-            document.extras.set(vertex, row);
-        }
-        push(
-            &mut record.splits,
-            SplitOff {
-                vertex: vertex as u32,
-                from: of,
-                cut,
-            },
-        );
-    }
-    document.positions.truncate(count + moved.len());
-    let Document { layout, text, .. } = document;
-    layout.drop_last_vertices(fans.len() - moved.len(), text, said::left_without_vertex);
-    if let (Some(&(copy, of)), Some(line)) = (moved.first(), line) {
-        let more = match moved.len() {
-            1 => String::new(),
-            many => format!(", and {} more such", many - 1),
-        };
-        document.diagnostics.push(Diagnostic {
-            level: Level::Warning,
-            code: "W-OBJ-RECORD-MOVED",
-            location: Some(Location { line, column: 1 }),
-            message: format!(
-                "`v` {} was a copy of {} and is at another place now: it is a vertex of its own{more}",
-                copy + 1,
-                of + 1
-            ),
-            excerpt: None,
-            help: None,
-        });
+/// Where the record does not say which elements were inserted, they are the last ones. If the file
+/// has not as many as it had, nobody knows.
+fn settle(inserted: &mut Vec<[u32; 2]>, [before, all]: [u32; 2], count: usize) {
+    if all as usize != count {
+        inserted.clear();
+    } else if inserted.is_empty() && before < all {
+        push(inserted, [before, all]);
     }
 }
 
@@ -506,6 +507,25 @@ fn without_record() -> String {
 const LEFT_OUT: &str = "the lines of the record are left out of what is written";
 
 const DAMAGED: &str = "the record is damaged";
+
+/// The version of a record, which must be one that is known.
+fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
+    scan.find_token();
+    let start = scan.at;
+    match scan.integer().filter(|_| scan.at_token_end()) {
+        Some(version @ 1..=VERSION) => Ok(version),
+        Some(later) if later > VERSION => {
+            let message = "this record is of a later version, and not used";
+            let expected = format!("expected {VERSION} at most, not {later}");
+            let fault = Fault::new(CODE, start..scan.at, message, expected);
+            Err(fault.help("a later tearmesh reads it"))
+        }
+        _ => {
+            scan.at = start;
+            exactly(scan, "1").map(|()| 1)
+        }
+    }
+}
 
 fn out_of_range(span: std::ops::Range<usize>, least: i64, most: i64) -> Box<Fault> {
     let message = "a number of this record is out of its range";

@@ -6,7 +6,8 @@
 //! with younger links between them. A merge contracts the tree: of the two ways round, the
 //! oldest link is dropped. The tree is no history, then, but all that is needed to undo cuts.
 //!
-//! Ids of vertices change where vertices are merged; nodes of the tree never do.
+//! Ids of vertices change where vertices are merged; nodes of the tree never do. They are numbered
+//! as the `v` of the document, and behind these as vertices were added.
 
 /// Not younger than any cut: vertices that are one are apart since then.
 pub(super) const NEVER: u32 = u32::MAX;
@@ -39,6 +40,8 @@ struct Node {
     class: u32,
     /// The node that this one became when it was merged; itself while it is a vertex.
     merged: u32,
+    /// The first of the nodes that became this one, and this one.
+    home: u32,
 }
 
 impl Ancestry {
@@ -61,6 +64,7 @@ impl Ancestry {
                 cut: split.cut,
                 class: tree[split.from as usize].class,
                 merged: split.vertex,
+                home: split.vertex,
             };
         }
         ancestry
@@ -74,6 +78,7 @@ impl Ancestry {
                 cut: NEVER,
                 class: v,
                 merged: v,
+                home: v,
             };
             self.nodes = (0..self.classes).collect();
             self.tree = (0..self.classes).map(alone).collect();
@@ -102,6 +107,15 @@ impl Ancestry {
         self.tree[self.nodes[v] as usize].class
     }
 
+    /// The `v` of the document that a vertex is; behind these, new vertices come in the order in
+    /// which they were made. Of vertices that became one, the first stands for all.
+    pub(super) fn home(&self, v: usize) -> u32 {
+        if self.is_whole() {
+            return v as u32;
+        }
+        self.tree[self.nodes[v] as usize].home
+    }
+
     /// Above every class.
     pub(super) fn class_count(&self) -> usize {
         self.classes as usize
@@ -121,6 +135,7 @@ impl Ancestry {
             cut,
             class,
             merged: node,
+            home: node,
         });
         self.nodes.push(node);
     }
@@ -203,6 +218,8 @@ impl Ancestry {
                 (kept, gone)
             };
             self.turn(goes, below);
+            let [one, other] = [stays, goes].map(|node| self.tree[node as usize].home);
+            self.tree[stays as usize].home = one.min(other);
             self.tree[goes as usize].merged = stays;
             self.nodes[vertex] = stays;
         }
@@ -224,12 +241,12 @@ impl Ancestry {
         }
     }
 
-    /// The vertices that are not the lowest of their class, ascending, each with the lowest
-    /// vertex of those that it is apart from most recently. What is apart since when says all.
-    pub(super) fn split_off(&mut self) -> Vec<SplitOff> {
-        let mut vertex_of = vec![u32::MAX; self.tree.len()];
-        for (v, &node) in self.nodes.iter().enumerate() {
-            vertex_of[node as usize] = v as u32;
+    /// The vertices by these numbers that are not the lowest of their class, ascending, each with
+    /// the lowest of those that it is apart from most recently. What is apart since when says all.
+    pub(super) fn split_off(&mut self, number: impl Fn(u32) -> u32) -> Vec<SplitOff> {
+        let mut number_of = vec![u32::MAX; self.tree.len()];
+        for (&node, v) in self.nodes.iter().zip(0..) {
+            number_of[node as usize] = number(v);
         }
         // The links between vertices, the youngest first: those of one cut join what is younger
         // all at once, so that no order among them shows.
@@ -237,11 +254,13 @@ impl Ancestry {
         for v in 0..self.nodes.len() {
             let node = self.nodes[v];
             if let Some((above, cut)) = self.above(node) {
-                links.push((cut, v as u32, vertex_of[above as usize]));
+                links.push((cut, number_of[node as usize], number_of[above as usize]));
             }
         }
         links.sort_unstable_by(|a, b| b.cmp(a));
-        let mut lowest: Vec<u32> = (0..self.nodes.len() as u32).collect();
+        let ends = links.iter().flat_map(|&(_, one, other)| [one, other]);
+        let above_all = ends.max().map_or(0, |highest| highest + 1);
+        let mut lowest: Vec<u32> = (0..above_all).collect();
         let mut split_off = Vec::with_capacity(links.len());
         for of_cut in links.chunk_by(|a, b| a.0 == b.0) {
             let cut = of_cut[0].0;
@@ -277,7 +296,7 @@ mod tests {
     use super::*;
 
     fn described(ancestry: &mut Ancestry) -> Vec<[u32; 3]> {
-        let all = ancestry.split_off().into_iter();
+        let all = ancestry.split_off(|v| v).into_iter();
         all.map(|s| [s.vertex, s.from, s.cut]).collect()
     }
 
@@ -316,6 +335,7 @@ mod tests {
         for _ in 0..300 {
             let mut ancestry = Ancestry::new(1, &[]);
             let mut table = vec![vec![NEVER]];
+            let (mut homes, mut born) = (vec![0], 1);
             for step in 0..24 {
                 let count = table.len();
                 if count > 1 && below(3) == 0 {
@@ -334,6 +354,8 @@ mod tests {
                     for row in &mut table {
                         row.swap_remove(gone);
                     }
+                    homes[kept] = homes[kept].min(homes[gone]);
+                    homes.swap_remove(gone);
                 } else {
                     let old = below(count);
                     ancestry.split(old, 1 + step / 5);
@@ -344,8 +366,13 @@ mod tests {
                     }
                     row.push(NEVER);
                     table.push(row);
+                    homes.push(born);
+                    born += 1;
                 }
-                let split_off = ancestry.split_off();
+                for (v, home) in homes.iter().enumerate() {
+                    assert_eq!(ancestry.home(v), *home);
+                }
+                let split_off = ancestry.split_off(|v| v);
                 let mut again = Ancestry::new(table.len(), &split_off);
                 for (one, row) in table.iter().enumerate() {
                     for (other, &since) in row.iter().enumerate() {
@@ -353,7 +380,7 @@ mod tests {
                         assert_eq!(again.apart_since(one, other), since);
                     }
                 }
-                assert_eq!(again.split_off(), split_off, "it has one form");
+                assert_eq!(again.split_off(|v| v), split_off, "it has one form");
                 assert!(split_off.iter().all(|split| split.from < split.vertex));
             }
         }

@@ -25,6 +25,8 @@ pub(super) struct Corners<'d> {
     /// Texture coordinates and normals behind those of the document.
     pub(super) new_texture: Rows,
     pub(super) new_normals: Vec<[f64; 3]>,
+    /// For each of these, the one of the document in whose section it belongs.
+    anchors: [Vec<u32>; 2],
 }
 
 /// What a new corner lies between: the class of its vertex, which tells the edge and how far
@@ -52,7 +54,18 @@ impl<'d> Corners<'d> {
             divided: BTreeMap::new(),
             new_texture: Rows::default(),
             new_normals: Vec::new(),
+            anchors: Default::default(),
         }
+    }
+
+    /// The texture coordinate of the document in whose section a new one belongs.
+    pub(super) fn texture_anchor(&self, new: usize) -> u32 {
+        self.anchors[0][new]
+    }
+
+    /// The normal of the document in whose section a new one belongs.
+    pub(super) fn normal_anchor(&self, new: usize) -> u32 {
+        self.anchors[1][new]
     }
 
     pub(super) fn face_count(&self) -> usize {
@@ -120,8 +133,8 @@ impl<'d> Corners<'d> {
                 let (between, weights) = ([from, to, to], [1.0 - slide.t, slide.t, 0.0]);
                 let index = match made {
                     Some(&(.., index)) => index,
-                    None if which == 0 => self.new_texture_between(between, weights, true),
-                    None => self.new_normal_between(between, weights, true),
+                    // Whoever gets it had the one at the start, and perhaps never that at the end.
+                    None => self.new_between(which, &[from], between, weights, true),
                 };
                 changes.push((corner, ends, index));
             }
@@ -175,13 +188,36 @@ impl<'d> Corners<'d> {
             return index;
         }
         let on_edge = matches!(source, Source::Edge { .. });
-        let index = if which == 0 {
+        let index = self.new_between(which, &between, between, weights, on_edge);
+        made.insert((class, between), index);
+        index
+    }
+
+    /// A new texture coordinate (0) or normal (1) between others, in the section of the last of some.
+    fn new_between(
+        &mut self,
+        which: usize,
+        behind: &[u32],
+        between: [u32; 3],
+        weights: [f64; 3],
+        on_edge: bool,
+    ) -> u32 {
+        let anchors = behind.iter().map(|&index| self.anchor(which, index));
+        let last = anchors.max().expect("it has sources");
+        self.anchors[which].push(last);
+        if which == 0 {
             self.new_texture_between(between, weights, on_edge)
         } else {
             self.new_normal_between(between, weights, on_edge)
-        };
-        made.insert((class, between), index);
-        index
+        }
+    }
+
+    fn anchor(&self, which: usize, index: u32) -> u32 {
+        let known = [self.document.texture.len(), self.document.normals.len()];
+        match (index as usize).checked_sub(known[which]) {
+            None => index,
+            Some(new) => self.anchors[which][new],
+        }
     }
 
     fn new_texture_between(&mut self, between: [u32; 3], weights: [f64; 3], on_edge: bool) -> u32 {

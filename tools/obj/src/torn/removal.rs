@@ -87,11 +87,10 @@ impl TornDocument<'_> {
             restored: going.restored,
         };
         let counts = self.counts();
-        let before = self.counts_before();
-        let before = [before.0, before.1];
         let mut unused = [0, 1].map(|which| {
             let all = 0..counts[which];
-            all.map(|index| index >= before[which]).collect::<Vec<_>>()
+            let inserted = all.map(|index| self.is_index_inserted(which, index));
+            inserted.collect::<Vec<_>>()
         });
         for &face in &removal.slots(slots).faces {
             let own = [
@@ -110,15 +109,6 @@ impl TornDocument<'_> {
         }
         [removal.texture, removal.normals] = unused;
         removal
-    }
-
-    /// How many texture coordinates and normals there are.
-    fn counts(&self) -> [usize; 2] {
-        let new = self.new_texture().map_or(0, |rows| rows.len());
-        [
-            self.document.texture.len() + new,
-            self.document.normals.len() + self.new_normals().len(),
-        ]
     }
 }
 

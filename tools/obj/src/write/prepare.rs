@@ -1,12 +1,14 @@
 //! What is written of a torn document: which faces in which order, under which numbers, and
 //! what goes on record.
 
-use tearmesh::{Mesh, VertexId};
+use tearmesh::Mesh;
 
 use super::separate::Separated;
-use crate::record::{Inserted, Parent, Record};
+use crate::order::Order;
+use crate::record::{Inserted, Parent, Record, runs};
 use crate::said::Said;
-use crate::torn::{Removal, Slots, SplitOff, TornDocument};
+use crate::sections::Of;
+use crate::torn::{Removal, Slots, TornDocument, Turns};
 
 /// What is written, worked out before the first byte.
 #[derive(Debug)]
@@ -15,65 +17,13 @@ pub(crate) struct Prepared<'m> {
     pub(super) separated: Separated<'m>,
     removal: Option<&'m Removal>,
     /// The number of vertices of the mesh.
-    pub(super) mesh_vertices: usize,
-    /// The vertices, texture coordinates and normals of the file, by those before some were left out.
-    pub(super) vertices: Numbers,
-    pub(super) texture: Numbers,
-    pub(super) normals: Numbers,
+    mesh_vertices: usize,
+    /// The vertices of the mesh and behind them the copies for fans; texture coordinates; normals.
+    pub(super) orders: [Order; 3],
     /// `None` where there is nothing to record.
     pub(super) record: Option<Record>,
     /// What is said of vertices, for their copies.
     pub(super) said: Said,
-    /// For each vertex that the document has not, and each copy, the vertex of the document that
-    /// it was split from, if it was.
-    origins: Vec<Option<usize>>,
-    of_document: usize,
-}
-
-/// The indices of a file, from 0, by those before some were left out.
-#[derive(Debug)]
-pub(super) struct Numbers {
-    /// `None` if nothing is left out. [`Numbers::LEFT_OUT`] for what is.
-    map: Option<Vec<u32>>,
-    count: usize,
-}
-
-impl Numbers {
-    const LEFT_OUT: u32 = u32::MAX;
-
-    fn all(count: usize) -> Numbers {
-        Numbers { map: None, count }
-    }
-
-    fn without(left_out: impl Iterator<Item = bool>) -> Numbers {
-        let mut count = 0;
-        let map = left_out.map(|left_out| {
-            if left_out {
-                return Numbers::LEFT_OUT;
-            }
-            count += 1;
-            count - 1
-        });
-        let map = Some(map.collect());
-        let count = count as usize;
-        Numbers { map, count }
-    }
-
-    /// How many there are in the file.
-    pub(super) fn count(&self) -> usize {
-        self.count
-    }
-
-    /// The index in the file.
-    #[inline]
-    pub(super) fn of(&self, index: u32) -> u32 {
-        self.map.as_ref().map_or(index, |map| map[index as usize])
-    }
-
-    pub(super) fn has(&self, index: usize) -> bool {
-        let map = self.map.as_ref();
-        map.is_none_or(|map| map[index] != Numbers::LEFT_OUT)
-    }
 }
 
 impl<'m> Prepared<'m> {
@@ -86,80 +36,61 @@ impl<'m> Prepared<'m> {
         let slots = torn.slots();
         let rank = (!torn.is_undivided()).then(|| ranks(&slots));
         let separated = Separated::new(mesh, rank.as_deref());
-        Prepared::of(torn, mesh, slots, separated, removal)
+        if torn.is_untouched() && separated.copies.is_empty() && removal.is_none() {
+            return Prepared::in_turn(torn, mesh, slots, separated, removal, None);
+        }
+        let turns = Turns::in_sections(torn);
+        Prepared::in_turn(torn, mesh, slots, separated, removal, Some(&turns))
     }
 
-    /// The same, with one vertex for each of the mesh.
+    /// What is written with one vertex for each of the mesh, in the order of their ids.
     pub(crate) fn unseparated(torn: &TornDocument<'_>, mesh: &'m Mesh) -> Prepared<'m> {
-        Prepared::of(torn, mesh, torn.slots(), Separated::none(mesh), None)
+        let turns = Turns::by_id(torn);
+        let separated = Separated::none(mesh);
+        Prepared::in_turn(torn, mesh, torn.slots(), separated, None, Some(&turns))
     }
 
-    fn of(
+    /// What is written in these turns; without any, the statements of the document.
+    fn in_turn(
         torn: &TornDocument<'_>,
         mesh: &'m Mesh,
         slots: Slots,
         separated: Separated<'m>,
         removal: Option<&'m Removal>,
+        turns: Option<&Turns<'_>>,
     ) -> Prepared<'m> {
-        let mesh_vertices = mesh.vertex_count();
-        let count = mesh_vertices + separated.copies.len();
         let document = torn.document();
-        let texture = document.texture.len() + torn.new_texture().map_or(0, |rows| rows.len());
-        let normals = document.normals.len() + torn.new_normals().len();
-        let of_document = document.positions.len();
-        let origin = |v: VertexId| match v.index() {
-            known if known < of_document => Some(known),
-            _ => Some(mesh.root(v).index()).filter(|&root| root < of_document),
-        };
-        let added = mesh.vertices().skip(of_document);
-        let origins = added.chain(separated.copies.iter().copied()).map(origin);
-        let origins: Vec<Option<usize>> = origins.collect();
-        let mut copied: Vec<usize> = origins.iter().flatten().copied().collect();
-        copied.sort_unstable();
-        copied.dedup();
-        let said = Said::in_document(document, &copied);
-        let mut prepared = match removal {
-            None => Prepared {
-                slots,
-                removal,
-                mesh_vertices,
-                vertices: Numbers::all(count),
-                texture: Numbers::all(texture),
-                normals: Numbers::all(normals),
-                separated,
-                record: None,
-                said,
-                origins,
-                of_document,
+        let mut prepared = Prepared {
+            slots: match removal {
+                None => slots,
+                Some(removed) => removed.slots(&slots),
             },
-            Some(removed) => {
-                let copies = separated.copies.iter().map(|v| v.index());
-                let vertices = (0..mesh_vertices).chain(copies);
-                Prepared {
-                    slots: removed.slots(&slots),
-                    removal,
-                    mesh_vertices,
-                    vertices: Numbers::without(vertices.map(|v| removed.vertices[v])),
-                    texture: Numbers::without(removed.texture.iter().copied()),
-                    normals: Numbers::without(removed.normals.iter().copied()),
-                    separated,
-                    record: None,
-                    said,
-                    origins,
-                    of_document,
-                }
-            }
+            removal,
+            mesh_vertices: mesh.vertex_count(),
+            orders: match turns {
+                None => [Of::Vertices, Of::Texture, Of::Normals]
+                    .map(|of| Order::of_document(of.count(document))),
+                Some(turns) => orders(torn, turns, &separated, removal),
+            },
+            separated,
+            record: None,
+            said: Said::default(),
         };
+        prepared.said = Said::in_document(document, &prepared.copied(torn));
         let record = prepared.record_of(torn);
         let says_nothing = record.is_empty() && prepared.fans().next().is_none();
         prepared.record = (!says_nothing).then_some(record);
         prepared
     }
 
-    /// The vertex of the document that a new vertex, or a copy, was split from.
-    pub(super) fn origin(&self, index: usize) -> Option<usize> {
-        let first = self.of_document.min(self.mesh_vertices);
-        self.origins[index - first]
+    /// The vertices of the document of which more are written, ascending.
+    fn copied(&self, torn: &TornDocument<'_>) -> Vec<usize> {
+        let added = self.orders[0].added().iter();
+        let origins = added.filter_map(|added| torn.origin(self.vertex(added.element)));
+        let mut copied: Vec<usize> = origins.collect();
+        copied.sort_unstable();
+        copied.dedup();
+        copied
     }
 
     pub(super) fn removes_nothing(&self) -> bool {
@@ -179,28 +110,21 @@ impl<'m> Prepared<'m> {
         }
     }
 
-    /// The copies that are written for fans, and the vertex that each is, as in the file.
+    /// The copies that are written for fans, and the vertex that each is, as in the file; ascending.
     pub(super) fn fans(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
-        let copies = self.separated.copies.iter().enumerate();
-        let number = |v: usize| self.vertices.of(v as u32);
-        copies
-            .filter(|&(i, _)| self.vertices.has(self.mesh_vertices + i))
-            .map(move |(i, of)| [number(self.mesh_vertices + i), number(of.index())])
+        let added = self.orders[0].added().iter();
+        let copies = added.filter(|added| added.element as usize >= self.mesh_vertices);
+        let number = |v: usize| self.orders[0].number(v as u32);
+        copies.map(move |copy| [copy.element as usize, self.vertex(copy.element)].map(number))
     }
 
     fn record_of(&self, torn: &TornDocument<'_>) -> Record {
-        let roots = torn.roots_of_classes();
-        let number = |v: u32| self.vertices.of(v);
+        let number = |v: u32| self.orders[0].number(v);
+        let roots = torn.roots_of_classes(number);
         let root = |class: u32| number(roots[class as usize]);
-        let splits = torn.split_off_vertices().into_iter();
-        let splits = splits.map(|split| SplitOff {
-            vertex: number(split.vertex),
-            from: number(split.from),
-            ..split
-        });
         let stays = |inserted: &&Inserted| {
             let vertex = roots[inserted.vertex as usize];
-            self.vertices.has(vertex as usize)
+            self.orders[0].has(vertex)
         };
         let inserted = torn.inserted().iter().filter(stays);
         let mut inserted: Vec<Inserted> = inserted
@@ -225,23 +149,70 @@ impl<'m> Prepared<'m> {
                 corners: parent.corners.map(root),
             }
         });
-        let (texture_before, normals_before) = torn.counts_before();
+        let [texture, normals] = [0, 1].map(|which| {
+            let order = &self.orders[1 + which];
+            let all = 0..torn.counts()[which];
+            let inserted = all.filter(|&index| torn.is_index_inserted(which, index));
+            let numbers = inserted.filter(|&index| order.has(index as u32));
+            let mut numbers: Vec<u32> = numbers.map(|index| order.number(index as u32)).collect();
+            numbers.sort_unstable();
+            runs(numbers.into_iter())
+        });
         Record {
-            splits: splits.collect(),
+            splits: torn.split_off(number),
             inserted,
             parents: parents.collect(),
-            texture_before,
-            normals_before,
+            texture,
+            normals,
+            copies: Vec::new(), // They are those of the fans.
         }
     }
 
-    /// The vertex of the mesh of which a vertex of the mesh or a copy is written.
-    pub(super) fn vertex(&self, index: usize) -> usize {
-        match index.checked_sub(self.mesh_vertices) {
-            None => index,
+    /// The vertex of the mesh that is written as a vertex of the mesh or a copy.
+    pub(super) fn vertex(&self, element: u32) -> usize {
+        match (element as usize).checked_sub(self.mesh_vertices) {
+            None => element as usize,
             Some(copy) => self.separated.copies[copy].index(),
         }
     }
+}
+
+/// The orders of vertices, texture coordinates and normals, without what is removed.
+fn orders(
+    torn: &TornDocument<'_>,
+    turns: &Turns<'_>,
+    separated: &Separated<'_>,
+    removal: Option<&Removal>,
+) -> [Order; 3] {
+    let document = torn.document();
+    let is_removed = |all: fn(&Removal) -> &[bool], index: usize| {
+        removal.is_some_and(|removal| all(removal)[index])
+    };
+    let mesh_vertices = torn.vertex_count();
+    let vertices = (0..mesh_vertices).map(|v| (v, turns.vertex(v)));
+    let copies = separated.copies.iter();
+    let copies = copies.map(|v| (v.index(), turns.copy(v.index())));
+    let vertices = vertices.chain(copies);
+    let vertices =
+        vertices.map(|(v, turn)| (!is_removed(|removal| &removal.vertices, v)).then_some(turn));
+    let [textures, normals] = torn.counts();
+    let texture = (0..textures).map(|index| {
+        let stays = !is_removed(|removal| &removal.texture, index);
+        stays.then(|| turns.texture(index))
+    });
+    let normal = (0..normals).map(|index| {
+        let stays = !is_removed(|removal| &removal.normals, index);
+        stays.then(|| turns.normal(index))
+    });
+    [
+        Order::new(
+            document.positions.len(),
+            mesh_vertices + separated.copies.len(),
+            vertices,
+        ),
+        Order::new(document.texture.len(), textures, texture),
+        Order::new(document.normals.len(), normals, normal),
+    ]
 }
 
 /// Where each face stands in the file.

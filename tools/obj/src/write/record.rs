@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use super::number::{write_integer, write_number};
 use super::output::Output;
 use super::prepare::Prepared;
-use crate::record::{At, END, HEADER, Hash, ITEM, Record, VERSION};
+use crate::order::Order;
+use crate::record::{At, END, HEADER, Hash, ITEM, Record, VERSION, are_last, runs};
 
 /// Writes the record, if there is one: everything before it is written, and its faces have this
 /// hash.
@@ -17,17 +18,29 @@ pub(super) fn write_record<W: Write>(
     let Some(record) = &prepared.record else {
         return Ok(());
     };
+    let [vertices, texture, normals] = prepared.orders.each_ref().map(Order::count);
+    let inserted = |runs: &[[u32; 2]]| -> usize {
+        let counts = runs.iter().map(|[first, end]| end - first);
+        counts.sum::<u32>() as usize
+    };
+    let says_where = [(&record.texture, texture), (&record.normals, normals)]
+        .map(|(runs, count)| !are_last(runs, count as u32));
+    let version = if says_where.contains(&true) || !are_last(&copies(prepared), vertices as u32) {
+        VERSION
+    } else {
+        1
+    };
     let counts = [
-        prepared.vertices.count(),
+        vertices,
         prepared.face_count(),
-        record.texture_before,
-        prepared.texture.count(),
-        record.normals_before,
-        prepared.normals.count(),
+        texture - inserted(&record.texture),
+        texture,
+        normals - inserted(&record.normals),
+        normals,
     ];
     let bytes = &mut out.pending;
     bytes.extend_from_slice(HEADER);
-    integer(bytes, VERSION as usize);
+    integer(bytes, version as usize);
     for (word, counts) in [
         ("v", &counts[..1]),
         ("f", &counts[1..2]),
@@ -49,6 +62,14 @@ pub(super) fn write_record<W: Write>(
         hash: Hash::default(),
     };
     items.write(record, prepared.fans())?;
+    for (word, runs, says_where) in [
+        ("vt", &record.texture, says_where[0]),
+        ("vn", &record.normals, says_where[1]),
+    ] {
+        for [first, end] in runs.iter().filter(|_| says_where) {
+            items.item(word, &[first + 1, *end], &[])?;
+        }
+    }
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);
@@ -56,6 +77,11 @@ pub(super) fn write_record<W: Write>(
     hexadecimal(bytes, hash);
     bytes.push(b'\n');
     out.flush_if_full()
+}
+
+/// The numbers of the copies for fans, in runs.
+fn copies(prepared: &Prepared<'_>) -> Vec<[u32; 2]> {
+    runs(prepared.fans().map(|[copy, _]| copy))
 }
 
 struct Items<'o, 'w, W> {

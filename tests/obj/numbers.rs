@@ -1,0 +1,236 @@
+//! Under which numbers vertices are written, and how they are found again.
+
+use tearmesh::{FaceId, VertexId, split};
+use tearmesh_obj::{Document, TornDocument};
+
+use super::objects::{Style, added, skeleton};
+use super::random::Random;
+use super::torn_damage::{hash, hash_of_faces};
+use super::torn_record::Work;
+use super::{positions, read, rewritten, text};
+
+/// Two objects, six faces round a vertex and a triangle.
+const WHEEL: &str = "o wheel\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 0\nv -1 -1 0\nv 0 -1 0\nv 0 0 0\n\
+    f 7 1 2\nf 7 2 3\nf 7 3 4\nf 7 4 5\nf 7 5 6\nf 7 6 1\n\
+    o tile\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 8 9 10\n";
+
+/// Two opposite faces of the wheel get a hub of their own: four fans, and so two copies.
+fn with_bow_ties(document: &Document) -> Work<'_> {
+    let mut work = Work::on(document);
+    let hub = VertexId::new(6).expect("small");
+    let faces = [0, 3].map(|f| FaceId::new(f).expect("small"));
+    work.edit(|mesh, _, edits| {
+        split::vertex(mesh, hub, &faces, edits).expect("a split");
+    });
+    work
+}
+
+#[test]
+fn copies_for_fans_stand_behind_their_object_and_are_counted() {
+    let document = read(WHEEL.as_bytes());
+    let written = text(&with_bow_ties(&document).written());
+    let tile = written.find("o tile").expect("the second object");
+    let of_wheel = written[..tile].matches("\nv ").count();
+    assert_eq!(
+        of_wheel,
+        7 + 1 + 6,
+        "a new hub, and copies of both and of the rim"
+    );
+    assert!(written[tile..].starts_with("o tile\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 15 16 17\n"));
+    assert!(written.contains("#tearmesh record 2 v 17 "), "{written}");
+
+    let again = read(written.as_bytes());
+    assert_eq!(again.vertex_statement_count(), 17);
+    assert_eq!(
+        again.positions().len(),
+        11,
+        "copies are one with their vertices"
+    );
+    let numbers: Vec<usize> = (0..11).map(|v| again.number_of_vertex(v)).collect();
+    assert_eq!(numbers, [1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 17]);
+    for (vertex, &number) in numbers.iter().enumerate() {
+        assert_eq!(again.vertex_of_number(number), Some(vertex));
+        let line = written
+            .lines()
+            .nth(again.line_of_vertex(vertex) - 1)
+            .expect("a line");
+        let [x, y, z] = <[f64; 3]>::from(again.positions()[vertex]);
+        assert_eq!(line, format!("v {x} {y} {z}"));
+    }
+    for item in written
+        .lines()
+        .filter_map(|line| line.strip_prefix("#~ fan "))
+    {
+        let numbers = item
+            .split(' ')
+            .map(|number| number.parse().expect("a number"));
+        let [copy, of] = numbers.collect::<Vec<usize>>()[..] else {
+            panic!("{item} has two numbers")
+        };
+        assert_eq!(again.vertex_of_number(copy), again.vertex_of_number(of));
+    }
+    assert_eq!(
+        [0, 18].map(|number| again.vertex_of_number(number)),
+        [None; 2]
+    );
+    assert_eq!(text(&rewritten(written.as_bytes())), written);
+}
+
+/// A line or an edge of another program names vertices by numbers that we do not change, so these
+/// stay, and the vertices of the second object are moved up before the torn faces.
+#[test]
+fn where_statements_may_name_vertices_these_keep_their_numbers() {
+    for statement in ["l 8 9", "p 8", "surf 0 1 0 1 8 9 10", "e 8 9"] {
+        let file = format!("{WHEEL}{statement}\n");
+        let document = read(file.as_bytes());
+        let work = with_bow_ties(&document);
+        let written = text(&work.written());
+        let vertices: Vec<&str> = written
+            .lines()
+            .filter(|line| line.starts_with("v "))
+            .collect();
+        let own: Vec<&str> = file.lines().filter(|line| line.starts_with("v ")).collect();
+        assert_eq!(vertices[..own.len()], own, "{statement}");
+        assert!(written.contains(&format!("f 8 9 10\n{statement}\n#tearmesh record 1 ")));
+        assert_eq!(text(&rewritten(written.as_bytes())), written, "{statement}");
+        let ids: Vec<usize> = work
+            .torn
+            .vertices_in_order()
+            .iter()
+            .map(|v| v.index())
+            .collect();
+        assert!(ids.is_sorted(), "{statement}");
+    }
+    for statement in ["nl 2", "nv 8 9 10", "g 8 9", "# l 8 9", "vp 8 9"] {
+        let file = format!("{WHEEL}{statement}\n");
+        let document = read(file.as_bytes());
+        let written = text(&with_bow_ties(&document).written());
+        assert!(
+            written.contains("f 15 16 17\n"),
+            "{statement} names no vertex"
+        );
+    }
+}
+
+/// Another program adds a line to a file whose second object counts on from the new vertices of the
+/// first: these numbers have to stay, so nothing is mended, and that is said.
+#[test]
+fn a_line_that_was_added_to_a_torn_file_keeps_what_it_names() {
+    let document = read(WHEEL.as_bytes());
+    let written = text(&with_bow_ties(&document).written());
+    let file = written.replace("f 15 16 17\n", "f 15 16 17\nl 15 16\n");
+    let again = read(file.as_bytes());
+    let messages: Vec<String> = again
+        .diagnostics()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let told = messages.iter().any(|message| {
+        message.contains("this record is not used, since another program changed the file: `l` may")
+    });
+    assert!(told, "{messages:?}");
+    let plain = text(&rewritten(file.as_bytes()));
+    let body = file.split("#tearmesh").next().expect("a body");
+    assert_eq!(plain, body);
+    // Where the new vertices are the last ones anyway, the record stays.
+    let alone = WHEEL.split("o tile").next().expect("the first object");
+    let document = read(alone.as_bytes());
+    let written = text(&with_bow_ties(&document).written());
+    let file = written.replace("#tearmesh record", "l 1 2\n#tearmesh record");
+    assert_eq!(text(&rewritten(file.as_bytes())), file);
+}
+
+/// What version 1 wrote: the second object's vertices before the torn face, new ones behind all.
+#[test]
+fn a_file_of_version_1_is_read_and_mended() {
+    let body = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nv 5 0 0\nv 6 0 0\nv 5 1 0\n\
+        v 1 0 0\nv 0 1 0\nf 9 8 4\no b\nf 5 6 7\n";
+    let items = "#~ split 8 2 1\n#~ split 9 3 1\n";
+    let faces = hash_of_faces(&[9, 0, 1, 2, 8, 7, 3, 4, 5, 6]);
+    let file = format!(
+        "{body}#tearmesh record 1 v 9 f 3 vt 0 0 vn 0 0 faces {faces:016x}\n{items}\
+         #tearmesh end 2 {:016x}\n",
+        hash(items.as_bytes())
+    );
+    let document = read(file.as_bytes());
+    assert!(
+        document.diagnostics().is_empty(),
+        "{:?}",
+        document.diagnostics()
+    );
+    assert_eq!(text(&rewritten(file.as_bytes())), file);
+    let mut work = Work::on(&document);
+    work.sew(&work.torn.stitches_of_last(1));
+    assert_eq!(
+        text(&work.written()),
+        "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nv 5 0 0\nv 6 0 0\nv 5 1 0\n\
+         f 3 2 4\no b\nf 5 6 7\n"
+    );
+}
+
+/// The last cut is undone in another session, and the file is the one before it, to the byte; or a part
+/// of a cut is undone, and all lines of the file that was never cut are still in their places.
+#[test]
+fn mending_a_part_moves_no_line() {
+    let (mut parts, mut whole) = (0, 0);
+    for seed in 0..400 {
+        let mut random = Random(77_000 + seed as u64);
+        let file = text(&rewritten(Style::of_seed(seed).file().as_bytes()));
+        let document = read(file.as_bytes());
+        let mut work = Work::on(&document);
+        work.tear(&mut random, 3, false);
+        let before = text(&work.written());
+        work.torn.next_cut();
+        for _ in 0..4 {
+            work.split(&mut random);
+        }
+        let torn = text(&work.written());
+        let again = read(torn.as_bytes());
+        let mut later = Work::on(&again);
+        let stitches = later.torn.stitches_of_last(1);
+        if later.torn.cuts().contains(&2) {
+            later.sew(&stitches);
+            assert_eq!(text(&later.written()), before, "seed {seed}");
+            whole += 1;
+        }
+
+        let mut later = Work::on(&again);
+        let some: Vec<_> = stitches.iter().step_by(2).copied().collect();
+        later.sew(&some);
+        let mended = text(&later.written());
+        let [was, is] = [&file, &mended].map(|text| skeleton(text));
+        let added = added(&was, &is);
+        let added = added.unwrap_or_else(|| panic!("seed {seed}:\n{torn}\n->\n{mended}"));
+        let is_new = |line: &&str| {
+            ["v ", "vt ", "vn "]
+                .iter()
+                .any(|start| line.starts_with(start))
+        };
+        assert!(added.iter().all(is_new), "seed {seed}: {added:?}");
+        parts += usize::from(mended.len() < torn.len());
+    }
+    println!("400 files: the last cut of {whole} undone, a part of it in {parts}");
+    assert!(parts > 200 && whole > 300, "{parts} {whole}");
+}
+
+/// Frames number vertices by their ids, in whatever file of several objects.
+#[test]
+fn frames_number_vertices_by_id() {
+    let document = read(WHEEL.as_bytes());
+    let work = with_bow_ties(&document);
+    let mut frame = Vec::new();
+    let done = work
+        .torn
+        .write_unseparated(&work.mesh, &work.positions, &mut frame);
+    assert_eq!(done.expect("memory").vertices, 11);
+    let again = read(&frame);
+    assert_eq!(again.triangles(), work.mesh.indices().as_chunks::<3>().0);
+    assert_eq!(again.positions(), work.positions.as_slice());
+    // Written once more, they stand with their objects.
+    let torn = TornDocument::new(&again);
+    let mut file = Vec::new();
+    let mesh = again.mesh().expect("a torn mesh");
+    torn.write(&mesh, &positions(&again), &mut file)
+        .expect("memory");
+    assert_eq!(text(&rewritten(&file)), text(&file));
+}

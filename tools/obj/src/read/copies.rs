@@ -1,0 +1,102 @@
+//! Vertices that were written several times, once a fan, and are one again.
+
+use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::document::Document;
+use crate::record::{Record, SplitOff};
+use crate::said;
+use crate::store::Rows;
+
+/// Makes each vertex and its copies one, but for copies that were moved away: these become
+/// vertices that the last cut split off. From then on a record is in terms of the document.
+pub(super) fn join(document: &mut Document, record: &mut Record, fans: &[[u32; 2]]) {
+    if fans.is_empty() {
+        return;
+    }
+    let cut = record.last_cut().max(1);
+    let bits = |v: u32| {
+        let at = document.positions[v as usize];
+        let extras = document.extras.row(v as usize).iter().copied();
+        [at.x, at.y, at.z]
+            .into_iter()
+            .chain(extras)
+            .map(f64::to_bits)
+    };
+    let is_moved = |&&[copy, of]: &&[u32; 2]| !bits(copy).eq(bits(of));
+    let moved: Vec<[u32; 2]> = fans.iter().filter(is_moved).copied().collect();
+    let copies = fans.iter().filter(|fan| !is_moved(fan));
+    let copies: Vec<[u32; 2]> = copies.copied().collect();
+    tell_moved(document, &moved);
+    document.drop_vertices(&copies.iter().map(|&[copy, _]| copy).collect::<Vec<_>>());
+    let mut ids = Vec::with_capacity(document.positions.len() + copies.len());
+    let mut gone = copies.iter().peekable();
+    let mut next = 0;
+    for v in 0..(document.positions.len() + copies.len()) as u32 {
+        match gone.next_if(|[copy, _]| *copy == v) {
+            Some(&[_, of]) => ids.push(ids[of as usize]),
+            None => {
+                ids.push(next);
+                next += 1;
+            }
+        }
+    }
+    let id = |v: u32| ids[v as usize];
+    for vertex in &mut document.polygons.vertices {
+        *vertex = id(*vertex);
+    }
+    let moved = moved
+        .iter()
+        .map(|&[vertex, from]| SplitOff { vertex, from, cut });
+    record.splits.extend(moved);
+    record.splits.sort_unstable_by_key(|split| split.vertex);
+    record.renumber(id);
+    record.copies = copies.iter().map(|&[copy, of]| [copy, id(of)]).collect();
+}
+
+/// Says that copies are vertices of their own.
+fn tell_moved(document: &mut Document, moved: &[[u32; 2]]) {
+    let Some(&[copy, of]) = moved.first() else {
+        return;
+    };
+    let more = match moved.len() {
+        1 => String::new(),
+        many => format!(", and {} more such", many - 1),
+    };
+    let line = document.line_of_vertex(copy as usize);
+    document.diagnostics.push(Diagnostic {
+        level: Level::Warning,
+        code: "W-OBJ-RECORD-MOVED",
+        location: Some(Location { line, column: 1 }),
+        message: format!(
+            "`v` {} was a copy of {} and is at another place now: it is a vertex of its own{more}",
+            copy + 1,
+            of + 1
+        ),
+        excerpt: None,
+        help: None,
+    });
+}
+
+impl Document {
+    /// Drops these vertices, which are ascending and no face names any more, with what is said
+    /// of them.
+    fn drop_vertices(&mut self, dropped: &[u32]) {
+        let mut kept = 0;
+        let mut gone = dropped.iter().peekable();
+        let mut extras = Rows::default();
+        for v in 0..self.positions.len() {
+            if gone.next_if(|&&vertex| vertex as usize == v).is_some() {
+                continue;
+            }
+            self.positions[kept] = self.positions[v];
+            let row = self.extras.row(v);
+            if !row.is_empty() {
+                extras.set(kept, row);
+            }
+            kept += 1;
+        }
+        self.positions.truncate(kept);
+        self.extras = extras;
+        let Document { layout, text, .. } = self;
+        layout.drop_vertices(dropped, text, said::left_without_vertex);
+    }
+}

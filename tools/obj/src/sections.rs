@@ -1,0 +1,133 @@
+//! Where the vertices of a document are divided into those of one object and those of the next.
+//!
+//! What a cut adds is written behind the statements of its kind in the section that it comes from, so
+//! that every object keeps its vertices. A section of vertices ends where a face is written, or
+//! an `o`; so does one of texture coordinates, and one of normals. A face that comes before what it
+//! names has that moved up before it, as in all that is written (`write.rs`).
+//!
+//! Numbers behind a section change when something is added to it. Faces follow. Statements that
+//! are kept without being understood do not, and so where there are some that may name a
+//! vertex by its number, the whole file is one section.
+
+use crate::document::Document;
+use crate::keyword::may_have_indices;
+use crate::read::statements;
+use crate::store::Kind;
+
+/// Where the sections of vertices, of texture coordinates and of normals end.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sections {
+    /// By [`Of`]: how many statements there are up to the end of each section but the last,
+    /// ascending.
+    ends: [Vec<u32>; 3],
+    counts: [u32; 3],
+}
+
+/// What is in a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Of {
+    Vertices,
+    Texture,
+    Normals,
+}
+
+impl Of {
+    /// How many statements of the kind a document has.
+    pub(crate) fn count(self, document: &Document) -> usize {
+        match self {
+            Of::Vertices => document.positions.len(),
+            Of::Texture => document.texture.len(),
+            Of::Normals => document.normals.len(),
+        }
+    }
+}
+
+impl Sections {
+    /// The whole file as one section.
+    pub(crate) fn one(document: &Document) -> Sections {
+        let all = [Of::Vertices, Of::Texture, Of::Normals];
+        Sections {
+            ends: Default::default(),
+            counts: all.map(|of| of.count(document) as u32),
+        }
+    }
+
+    /// Linear in the document.
+    pub(crate) fn of(document: &Document) -> Sections {
+        let mut sections = Sections::one(document);
+        if document.statement_with_indices().is_some() {
+            return sections;
+        }
+        // How many are written so far, some perhaps before their turn; and how many had theirs.
+        let (mut written, mut had) = ([0; 3], [0; 3]);
+        let (mut polygons, mut text) = (0, &document.text[..]);
+        for run in document.layout.runs() {
+            let count = run.count as usize;
+            let which = match run.kind {
+                Kind::Vertex => 0,
+                Kind::Texture => 1,
+                Kind::Normal => 2,
+                Kind::Polygon => {
+                    for polygon in polygons..polygons + count {
+                        document.raise_to_needs(polygon, &mut written);
+                        sections.end_at(written);
+                    }
+                    polygons += count;
+                    continue;
+                }
+                Kind::Text => {
+                    let (lines, rest) = text.split_at(count);
+                    text = rest;
+                    if statements(lines).any(|(keyword, _)| keyword == b"o") {
+                        sections.end_at(written);
+                    }
+                    continue;
+                }
+            };
+            had[which] += run.count;
+            written[which] = written[which].max(had[which]);
+        }
+        sections
+    }
+
+    fn end_at(&mut self, written: [u32; 3]) {
+        for ((ends, end), count) in self.ends.iter_mut().zip(written).zip(self.counts) {
+            if end > 0 && end < count && ends.last() != Some(&end) {
+                ends.push(end);
+            }
+        }
+    }
+
+    /// How many statements there are up to the end of the section that one of them is in.
+    pub(crate) fn end(&self, of: Of, statement: u32) -> u32 {
+        let ends = &self.ends[of as usize];
+        let next = ends.partition_point(|&end| end <= statement);
+        ends.get(next).copied().unwrap_or(self.counts[of as usize])
+    }
+}
+
+impl Document {
+    /// The keyword of the first statement that is kept as text and may name a vertex, a texture
+    /// coordinate or a normal by its number.
+    pub(crate) fn statement_with_indices(&self) -> Option<&[u8]> {
+        let runs = self.layout.runs().iter();
+        let mut text = &self.text[..];
+        let lines = runs.filter(|run| run.kind == Kind::Text).map(|run| {
+            let (lines, rest) = text.split_at(run.count as usize);
+            text = rest;
+            lines
+        });
+        let mut keywords = lines.flat_map(statements).map(|(keyword, _)| keyword);
+        keywords.find(|keyword| may_have_indices(keyword))
+    }
+
+    /// Raises how many statements are written to what a polygon needs.
+    fn raise_to_needs(&self, polygon: usize, written: &mut [u32; 3]) {
+        for corner in self.polygon(polygon) {
+            let indices = [Some(corner.vertex), corner.texture, corner.normal];
+            for (written, index) in written.iter_mut().zip(indices) {
+                *written = (*written).max(index.map_or(0, |index| index + 1));
+            }
+        }
+    }
+}
