@@ -14,8 +14,8 @@
 //! |---|---|---|
 //! | [`Provot`] | the mass-spring model of the paper: a baseline | one force evaluation, and passes of the limiter |
 //! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
-//! | [`Verlet`] | accuracy, up to Δt = 2/ω | one force evaluation |
-//! | [`Xpbd`] | stiff scenes that have to look right | substeps of one sweep |
+//! | [`Verlet`] | the default: exact at rest at every step, with guards for light and crushed cloth | one force evaluation |
+//! | [`Xpbd`] | stiff scenes that have to look right; too soft at long steps | substeps of one sweep |
 //! | [`Implicit`] | stiff and accurate at once, one sliver among good faces | conjugate gradients |
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
