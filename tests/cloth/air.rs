@@ -19,8 +19,9 @@ type Method = (&'static str, f64, fn() -> Box<dyn Solver>);
 /// z⁴/24.
 const RK4: f64 = 2.785_293_563_405_28;
 
-const METHODS: [Method; 6] = [
-    ("Verlet", 1.0, || Box::new(Verlet::new())),
+const METHODS: [Method; 7] = [
+    ("guarded Verlet", 1.0, || Box::new(Verlet::new())),
+    ("Verlet", 1.0, || Box::new(Verlet::plain())),
     ("Provot", 2.0, || Box::new(Provot::default())),
     ("RK4", RK4, || Box::new(Rk4::new())),
     ("PBD", 2.0, || Box::new(Pbd::default())),
@@ -170,7 +171,7 @@ fn drag_limits_the_method_that_takes_it_explicitly_and_no_other() {
 /// part in it.
 #[test]
 fn springs_and_air_together_are_stable_at_the_limit_of_the_watch() {
-    for (name, limit, make) in &METHODS[..3] {
+    for (name, limit, make) in &METHODS[..4] {
         for air in [1e-3, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0] {
             for drag_per_s in [None, Some(20.0), Some(1e3)] {
                 let mut cloth = sheet(4, 50.0, wind(0.0, 0.0));
@@ -192,7 +193,7 @@ fn springs_and_air_together_are_stable_at_the_limit_of_the_watch() {
                 let report = system.step(&mut *solver, 1e-9).expect("a short step");
                 let mut dt_s = report.limit_s.expect("there are springs");
                 if let Err(StepError::Unstable { limit_s, .. }) = system.step(&mut *solver, 1.0) {
-                    assert!(limit_s >= dt_s);
+                    assert!(limit_s >= dt_s * (1.0 - 1e-9), "areas have hardly changed");
                     dt_s = limit_s;
                 }
                 for _ in 0..2000 {

@@ -181,7 +181,7 @@ fn r3_modes_of_a_chain() {
         let z = mode(j) * dt;
         let turn = (1.0 - z * z / 2.0).acos();
         for step in 1..=100 {
-            run(&mut system, Verlet::new(), dt, 1);
+            run(&mut system, Verlet::plain(), dt, 1);
             let x = system.positions()[7].x - 0.21;
             near(x, shape(7) * (turn * f64::from(step)).cos(), 1e-12);
         }

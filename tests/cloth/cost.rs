@@ -93,22 +93,30 @@ fn an_edit_costs_no_matrix_product_and_a_step_measures_only_what_the_bound_leave
     }
     let bound = frequency::bound(cloth.system_mut());
     assert!(bound >= omega);
-    cloth.step(&mut Verlet::new(), 1.9 / bound).expect("a step");
+    cloth
+        .step(&mut Verlet::plain(), 1.9 / bound)
+        .expect("a step");
     assert_eq!(cloth.system().counters().matrix_products, 0);
     cloth.system_mut().when_unstable(Unstable::Substep);
-    let report = cloth.step(&mut Verlet::new(), 2.1 / bound);
+    let report = cloth.step(&mut Verlet::plain(), 2.1 / bound);
     assert_eq!(report.expect("a step").substeps, 2);
     assert_eq!(cloth.system().counters().matrix_products, 0);
     cloth.system_mut().when_unstable(Unstable::Refuse);
-    cloth.step(&mut Verlet::new(), 2.1 / bound).expect("a step");
+    cloth
+        .step(&mut Verlet::plain(), 2.1 / bound)
+        .expect("a step");
     let products = cloth.system().counters().matrix_products;
     assert!(products > 0);
     // It is measured again after so many steps, and not before.
     for _ in 1..64 {
-        cloth.step(&mut Verlet::new(), 2.1 / bound).expect("a step");
+        cloth
+            .step(&mut Verlet::plain(), 2.1 / bound)
+            .expect("a step");
         assert_eq!(cloth.system().counters().matrix_products, products);
     }
-    cloth.step(&mut Verlet::new(), 2.1 / bound).expect("a step");
+    cloth
+        .step(&mut Verlet::plain(), 2.1 / bound)
+        .expect("a step");
     assert!(cloth.system().counters().matrix_products > products);
 }
 

@@ -8,6 +8,7 @@ mod answers;
 mod balance;
 mod bending;
 mod cost;
+mod defaults;
 mod failures;
 mod follow;
 mod implicit;

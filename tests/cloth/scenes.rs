@@ -170,21 +170,31 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
 /// The slivers of a cut have few springs, which turn to pull side by side: a regression.
 #[test]
 fn a_flag_that_is_cut_goes_on_waving_by_an_explicit_method() {
-    let mut run = run(32, |frame| Scene {
-        solver: Method::Verlet,
-        duration_s: 1.7,
-        ..Scene::flag(frame)
-    });
-    let mut stability = None;
-    while !run.is_over() {
-        run.step().expect("a step");
-        stability = stability.or(run.cuts_made().first().map(|cut| cut.stability));
+    for solver in [Method::Verlet, Method::Provot(Limiter::default())] {
+        let carries = matches!(solver, Method::Verlet);
+        let mut run = run(32, |frame| Scene {
+            solver: solver.clone(),
+            duration_s: 1.7,
+            ..Scene::flag(frame)
+        });
+        let mut stability = None;
+        while !run.is_over() {
+            run.step().expect("a step");
+            stability = stability.or(run.cuts_made().first().map(|cut| cut.stability));
+        }
+        match stability.expect("a cut") {
+            None => assert!(carries),
+            Some(stability) => {
+                assert!(!carries && stability.after_s < 0.5 * stability.before_s);
+                assert!(stability.ends.is_some());
+            }
+        }
+        // The slivers are carried: no step is divided for them.
+        let substeps = run.cloth().system().counters().substeps;
+        assert_eq!(substeps == run.tally().steps, carries);
+        assert!(run.tally().stretch_ratio_max < 1.2);
+        check_ledgers(&run);
     }
-    let stability = stability.expect("a cut").expect("an explicit method");
-    assert!(stability.after_s < 0.5 * stability.before_s);
-    assert!(stability.ends.is_some());
-    assert!(run.tally().stretch_ratio_max < 1.2);
-    check_ledgers(&run);
 }
 
 /// A step that is too long for the slivers of a cut fails, but the cut has been made.
@@ -195,7 +205,7 @@ fn a_cut_is_told_of_though_its_step_fails() {
         ray.expect("a ray")
     };
     let mut run = run(16, |frame| Scene {
-        solver: Method::Verlet,
+        solver: Method::Provot(Limiter::default()),
         step_s: Some(0.0004),
         holds: vec![Hold::still(Region::Patch {
             across: [0.0, 1.0],
@@ -526,7 +536,7 @@ fn methods_say_where_their_steps_fall_short() {
         let system = run.cloth().system();
         let substeps = system.counters().substeps;
         match (name, run.quality()) {
-            ("provot", Some(Quality::Limited(limited))) => {
+            ("provot", Quality::Limited(limited)) => {
                 // From a tenth of a second on each row is 1.1 times as long or longer.
                 let short = limited.steps_short;
                 assert!(
@@ -538,7 +548,7 @@ fn methods_say_where_their_steps_fall_short() {
                 assert!((0.39..2.0).contains(&limited.excess_max), "{limited:?}");
                 assert!(limited.passes >= 20 * short && limited.passes <= 20 * substeps);
             }
-            ("pbd", Some(Quality::Strain(rms))) => {
+            ("pbd", Quality::Strain(rms)) => {
                 let squares = run.mesh().edges().map(|h| {
                     let at = |v: VertexId| run.cloth().positions()[v.index()];
                     let rest = |v: VertexId| run.cloth().rest_positions().at(v);
@@ -548,16 +558,24 @@ fn methods_say_where_their_steps_fall_short() {
                 let mean = squares.clone().sum::<f64>() / squares.count() as f64;
                 assert!((rms - mean.sqrt()).abs() < 1e-12 && rms > 0.2, "{rms}");
             }
-            ("xpbd", Some(Quality::Residual(newtons))) => {
+            ("xpbd", Quality::Residual(newtons)) => {
                 assert!(newtons > 1.0, "one sweep does not converge: {newtons}");
                 assert_eq!(newtons, Xpbd::new(1, 1).residual_n(system));
             }
-            ("implicit", Some(Quality::Solved(solved))) => {
+            ("implicit", Quality::Solved(solved)) => {
                 assert_eq!(solved.newton_iterations, run.tally().steps);
                 assert_eq!(solved.halvings, 0);
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
-            ("verlet", None) => {}
+            ("verlet", Quality::Guarded(guarded)) => {
+                let free = system.inverse_masses().iter().filter(|w| **w > 0.0).count();
+                assert!(10 * guarded.carried <= free, "{guarded:?} of {free}");
+                let lost = -run.energy_balance().method_j();
+                assert!(
+                    (0.0..1.5 * lost).contains(&guarded.damped_j),
+                    "{guarded:?} {lost}"
+                );
+            }
             (name, other) => panic!("{name}: {other:?}"),
         }
     }

@@ -26,7 +26,7 @@ pub(crate) const METHODS: [&str; 7] = ["Provot", "Verlet", "RK4", "Euler", "BDF2
 pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
     match name {
         "Provot" => Box::new(Provot::unlimited()),
-        "Verlet" => Box::new(Verlet::new()),
+        "Verlet" => Box::new(Verlet::plain()),
         "RK4" => Box::new(Rk4::new()),
         "Euler" => Box::new(implicit(Method::BackwardEuler, 1e-11)),
         "BDF2" => Box::new(implicit(Method::Bdf2, 1e-11)),

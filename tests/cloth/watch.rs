@@ -19,7 +19,7 @@ fn stiff() -> System {
 const TOO_LONG_S: f64 = 0.02;
 
 fn refused(system: &mut System, dt_s: f64) -> StepError {
-    let taken = system.step(&mut Verlet::new(), dt_s);
+    let taken = system.step(&mut Verlet::plain(), dt_s);
     taken.expect_err("a step that is refused")
 }
 
@@ -98,10 +98,12 @@ fn a_frequency_is_measured_anew_where_the_state_was_set() {
         assert!(matches!(expected, StepError::Unstable { .. }), "{expected}");
 
         let mut system = cornered();
-        system.step(&mut Verlet::new(), BETWEEN_S).expect("a step");
+        system
+            .step(&mut Verlet::plain(), BETWEEN_S)
+            .expect("a step");
         let before = frequency::largest(&mut system).omega_rad_per_s;
         way(&mut system);
-        let taken = system.step(&mut Verlet::new(), BETWEEN_S);
+        let taken = system.step(&mut Verlet::plain(), BETWEEN_S);
         assert!(
             matches!(taken, Err(StepError::Unstable { .. })),
             "{taken:?}"
@@ -120,10 +122,12 @@ fn a_frequency_is_measured_anew_where_a_step_blew_up() {
     // Steps themselves turn the springs: the measure is of the right angle until it blows up.
     let mut system = cornered();
     system.set_stretch_ratio_max(1.5);
-    system.step(&mut Verlet::new(), BETWEEN_S).expect("a step");
+    system
+        .step(&mut Verlet::plain(), BETWEEN_S)
+        .expect("a step");
     system.state_mut().1[2] = Vector::new(0.999, -0.9553, 0.0) / (4.0 * BETWEEN_S);
     system.state_mut().1[0] = Vector::x() * 1e-3;
-    let mut errors = (0..64).filter_map(|_| system.step(&mut Verlet::new(), BETWEEN_S).err());
+    let mut errors = (0..64).filter_map(|_| system.step(&mut Verlet::plain(), BETWEEN_S).err());
     let first = errors.next().expect("it blows up");
     assert!(matches!(first, StepError::BlowUp { .. }), "{first}");
     let next = errors.next().expect("it is refused");

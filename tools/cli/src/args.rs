@@ -170,7 +170,7 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: String,
 
-    /// The method: provot, pbd, verlet, xpbd (default) or implicit.
+    /// The method: verlet (default), xpbd, pbd, provot or implicit.
     #[arg(long, value_enum, value_name = "METHOD", hide_possible_values = true)]
     pub(crate) solver: Option<SolverName>,
 
@@ -212,9 +212,10 @@ pub(crate) struct TearArgs {
 
     /// The step in seconds (default: one that suits).
     ///
-    /// Provot and verlet: 0.7 of the stability limit; xpbd: h/c, the time in which a pull travels
-    /// an edge; pbd: 3.2 of that; implicit: 1/240; at most 1/120. A step given here is refused where
-    /// it is not stable.
+    /// Verlet: the one at which a tenth of the vertices have to be carried by their neighbours;
+    /// provot: 0.7 of the stability limit; xpbd: h/c, the time in which a pull travels an edge; pbd:
+    /// 3.2 of that; implicit: 1/240; at most 1/120. A step given here is refused where it is not
+    /// stable: for verlet beyond twice its own.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) dt: Option<f64>,
 

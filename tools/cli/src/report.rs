@@ -208,6 +208,10 @@ pub(crate) struct Gain {
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Quality {
+    Guarded {
+        carried: usize,
+        damped_j: f64,
+    },
     Limiter {
         passes: u64,
         steps_short: u64,

@@ -147,6 +147,7 @@ mod tests {
     /// What has to stand beside a key so that it means something.
     fn beside(key: &Key) -> &'static str {
         match (key.table, key.name) {
+            ("solver", "substeps" | "sweeps") => "method = \"xpbd\"",
             ("solver", "stiffness" | "bend_stiffness") => "method = \"pbd\"",
             ("solver", "limit_ratio" | "limit_passes") => "method = \"provot\"",
             ("solver", "order" | "newton_iterations" | "tolerance") => "method = \"implicit\"",

@@ -167,6 +167,12 @@ impl Link for Bend {
     fn force(self, length: f64) -> f64 {
         self.axial(length).force
     }
+
+    /// A fold is where it is meant to be short.
+    #[inline]
+    fn damped_stiffness(self) -> f64 {
+        0.0
+    }
     fn stiffness(self, length: f64) -> [f64; 2] {
         let axial = self.axial(length);
         [axial.slope, axial.force / length]

@@ -10,6 +10,7 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::crush::Crush;
 use crate::culprit::Longest;
 use crate::matrix::Hessian;
 
@@ -24,10 +25,17 @@ pub(crate) trait Element {
     /// That of the constraints of a particle.
     fn energy_at(&self, x: &[Point], particle: usize) -> f64;
 
-    /// Adds the forces, in newtons, to those of the particles. False where one is longer than
-    /// `ratio_max` times its rest length, or not a number.
+    /// Adds the forces, in newtons, to those of the particles, and those of damping where something
+    /// is crushed and that is to be damped. False where one is longer than `ratio_max` times its
+    /// rest length, or not a number.
     #[must_use]
-    fn forces(&self, x: &[Point], ratio_max: f64, forces: &mut [Vector]) -> bool;
+    fn forces(
+        &self,
+        x: &[Point],
+        ratio_max: f64,
+        crush: Option<&mut Crush<'_>>,
+        forces: &mut [Vector],
+    ) -> bool;
 
     /// Adds the forces on one particle, by what the last step left behind where it did.
     fn force_at(&self, x: &[Point], particle: usize, read: Forces, sum: &mut Vector);
@@ -45,6 +53,13 @@ pub(crate) trait Element {
 
     /// Looks for the one with the most energy in a vibration.
     fn find_busiest(&self, x: &[Point], u: &[Vector], busiest: &mut Busiest);
+
+    /// Visits springs that together are as stiff as these constraints or stiffer, in every direction
+    /// and in any state within `reach`: their particles, and their stiffness in N/m.
+    fn each_spring(&self, reach: f64, visit: &mut dyn FnMut([usize; 2], f64));
+
+    /// Visits those springs of a particle: the other one, and the stiffness.
+    fn springs_at(&self, particle: usize, reach: f64, visit: &mut dyn FnMut(usize, f64));
 
     /// Adds up √k over the constraints of a particle, with k the largest stiffness of each in any
     /// state within `reach`.

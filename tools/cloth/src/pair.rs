@@ -4,6 +4,7 @@
 use tearmesh::geometry::{Point, Vector, dot};
 
 use crate::constraint::{Batch, Constraint, Constraints};
+use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Busiest, Element, Forces, Slope};
 use crate::matrix::{Block, Hessian};
@@ -28,6 +29,9 @@ pub(crate) trait Link: Copy {
 
     /// The pull, in newtons: the derivative of the energy. Negative where it pushes apart.
     fn force(self, length: f64) -> f64;
+
+    /// The stiffness that is damped where it is crushed; zero where being short is being bent.
+    fn damped_stiffness(self) -> f64;
 
     /// The derivative of that along the line, and that of the force across it for a turn, force
     /// over length, in newtons per metre.
@@ -105,7 +109,13 @@ impl<L: Law> Element for Pairs<'_, L> {
         constraints.filter_map(energy).sum()
     }
 
-    fn forces(&self, x: &[Point], ratio_max: f64, forces: &mut [Vector]) -> bool {
+    fn forces(
+        &self,
+        x: &[Point],
+        ratio_max: f64,
+        mut crush: Option<&mut Crush<'_>>,
+        forces: &mut [Vector],
+    ) -> bool {
         let mut sane = true;
         for batch in self.constraints.batches() {
             for ([a, b], rest, link) in links(batch, self.law) {
@@ -113,7 +123,14 @@ impl<L: Law> Element for Pairs<'_, L> {
                 let length = dot(d, d).sqrt();
                 sane &= length <= ratio_max * rest;
                 if length > 0.0 {
-                    let force = d * (link.force(length) / length);
+                    let mut pull = link.force(length);
+                    if let Some(crush) = &mut crush
+                        && length < Crush::BELOW * rest
+                    {
+                        let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
+                        pull += crush.pull(link.damped_stiffness(), length / rest, speed);
+                    }
+                    let force = d * (pull / length);
                     forces[a] += force;
                     forces[b] -= force;
                 }
@@ -169,6 +186,27 @@ impl<L: Law> Element for Pairs<'_, L> {
                 let between = u[b] - u[a];
                 let change = link.pull(Slope::Steepest, x[b] - x[a], between);
                 busiest.weigh(dot(between, change), || [a, b]);
+            }
+        }
+    }
+
+    fn each_spring(&self, _reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
+        for batch in self.constraints.batches() {
+            for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
+                if k > 0.0 {
+                    visit([a as usize, b as usize], k * self.law.stiffest());
+                }
+            }
+        }
+    }
+
+    fn springs_at(&self, particle: usize, _reach: f64, visit: &mut dyn FnMut(usize, f64)) {
+        for id in self.constraints.of(particle) {
+            let constraint = self.constraints.get(id);
+            let [a, b] = constraint.ends;
+            if constraint.stiffness_n_per_m > 0.0 {
+                let stiffness = constraint.stiffness_n_per_m * self.law.stiffest();
+                visit(a + b - particle, stiffness);
             }
         }
     }

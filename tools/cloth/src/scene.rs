@@ -11,7 +11,8 @@ mod run;
 
 pub use frame::{Axis, Frame};
 pub use run::{
-    CutMade, Gain, Limited, Names, Quality, Run, RunError, Shortened, Solved, Step, Tally,
+    CutMade, Gain, Guarded, Limited, Names, Quality, Run, RunError, Shortened, Softness, Solved,
+    Step, Tally,
 };
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
@@ -64,7 +65,7 @@ pub enum Method {
     Provot(Limiter),
     /// [`Pbd`].
     Pbd(Pbd),
-    /// [`Verlet`](crate::Verlet).
+    /// [`Verlet`](crate::Verlet): the default, exact at rest at every step.
     Verlet,
     /// [`Xpbd`].
     Xpbd(Xpbd),

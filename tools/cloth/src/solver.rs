@@ -78,6 +78,10 @@ pub struct Abilities {
     /// Whether the method takes in drag by the velocities before a step, so that its rate counts for
     /// [`air_limit`](Abilities::air_limit).
     pub takes_drag_explicitly: bool,
+    /// Whether the method has particles that are too light for a step carried by their neighbours, so
+    /// that [`suited_step_s`](crate::suited_step_s) says how long steps may be, and not the largest
+    /// frequency.
+    pub carries_light: bool,
     /// Whether the method takes in the forces of [`System::triangles`]. One that does not is refused
     /// where there are any.
     pub takes_triangles: bool,

@@ -128,13 +128,29 @@ impl Spectrum {
         positions: &[Point],
         counters: &mut Counters,
     ) -> f64 {
+        self.reach(model, positions, counters);
+        self.bound_within_reach(model)
+    }
+
+    /// How far triangles may be stretched for the bound to hold, which takes in the present state.
+    pub(crate) fn reach(
+        &mut self,
+        model: &Model,
+        positions: &[Point],
+        counters: &mut Counters,
+    ) -> f64 {
         let growth = shear_growth(model, positions, counters);
         // A state that is not finite is for the step to find.
         if growth > self.reach && growth.is_finite() {
             self.reach = 2.0 * growth;
             self.bound = None;
         }
-        self.bound_within_reach(model)
+        self.reach
+    }
+
+    /// The reach so far: no more than a look.
+    pub(crate) fn known_reach(&self) -> f64 {
+        self.reach
     }
 
     /// The bound as long as triangles are not stretched beyond the reach.

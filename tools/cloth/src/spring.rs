@@ -51,6 +51,11 @@ impl Link for Spring {
     fn force(self, length: f64) -> f64 {
         self.stiffness * (length - self.rest)
     }
+
+    #[inline]
+    fn damped_stiffness(self) -> f64 {
+        self.stiffness
+    }
     #[inline]
     fn stiffness(self, length: f64) -> [f64; 2] {
         let across = self.stiffness * ((length - self.rest) / length);

@@ -2,6 +2,7 @@
 
 use crate::air::{self, AirRate};
 use crate::frequency;
+use crate::guard::Guard;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::{System, Unstable};
 
@@ -19,10 +20,12 @@ pub(crate) fn admit(
     if system.unstable == Unstable::Allow {
         return Ok(whole);
     }
-    match (
-        solver.abilities().frequency_limit,
-        air_share(system, solver),
-    ) {
+    let abilities = solver.abilities();
+    if abilities.carries_light {
+        let air = air_share(system, solver);
+        return admit_carried(system, air, dt_s);
+    }
+    match (abilities.frequency_limit, air_share(system, solver)) {
         (Some(limit), air) => admit_springs(system, limit, air, dt_s),
         (None, Some(air)) => admit_air(system, air, dt_s),
         (None, None) => Ok(whole),
@@ -46,20 +49,95 @@ fn admit_springs(
     if dt_s <= bound_s || system.unstable == Unstable::Substep {
         return divided(dt_s, bound_s);
     }
-    let frequency = frequency::recent(system);
-    let springs_s = (system.margin * limit / frequency.omega_rad_per_s).max(springs_s);
+    let omega_rad_per_s = frequency::recent(system).omega_rad_per_s;
+    let springs_s = (system.margin * limit / omega_rad_per_s).max(springs_s);
     let limit_s = with_air(springs_s, air);
     if dt_s <= limit_s {
         return divided(dt_s, limit_s);
     }
+    Err(refused(system, [dt_s, limit_s], springs_s, air))
+}
+
+/// A step in seconds beyond a limit, which springs and air make too long.
+fn refused(
+    system: &mut System,
+    [given_s, limit_s]: [f64; 2],
+    springs_s: f64,
+    air: Option<AirShare>,
+) -> StepError {
     match air.filter(|air| air.per_s * springs_s > 1.0) {
-        Some(air) => Err(air.refused(dt_s, limit_s)),
-        None => Err(StepError::Unstable {
-            given_s: dt_s,
+        Some(air) => air.refused(given_s, limit_s),
+        None => StepError::Unstable {
+            given_s,
             limit_s,
-            frequency,
-        }),
+            frequency: frequency::recent(system),
+        },
     }
+}
+
+/// How many substeps a step takes with light particles carried: none up to twice the one that
+/// suits, and those that suit beyond; and so many more as it takes where that is not stable.
+fn admit_carried(
+    system: &mut System,
+    air: Option<AirShare>,
+    dt_s: f64,
+) -> Result<StepReport, StepError> {
+    let suited_s = suited_step_s(system);
+    let longest_s = Guard::WHOLE * suited_s;
+    let mut limit_s = with_air(longest_s, air);
+    let is_whole = dt_s <= limit_s;
+    if !is_whole && system.unstable == Unstable::Refuse {
+        return Err(refused(system, [dt_s, limit_s], longest_s, air));
+    }
+    let suited_s = with_air(suited_s, air);
+    let mut report = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
+    system.scratch.air_per_s = air.map_or(0.0, |air| air.per_s);
+    while !is_sound(system, dt_s / f64::from(report.substeps)) {
+        limit_s = dt_s / f64::from(2 * report.substeps);
+        report = divided(dt_s, limit_s)?;
+    }
+    if report.substeps > 1 && system.unstable == Unstable::Refuse {
+        return Err(refused(system, [dt_s, limit_s], limit_s, air));
+    }
+    Ok(StepReport {
+        limit_s: Some(limit_s),
+        ..report
+    })
+}
+
+/// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which no more than a
+/// tenth of the particles have to be carried by their neighbours. A step of up to twice that is
+/// admitted whole. Springs alone, with triangles as they are stretched now; infinite where there
+/// are none. While a mesh is cut and torn it gets no shorter: what is light then is carried. A
+/// pass over all constraints where something has changed.
+pub fn suited_step_s(system: &mut System) -> f64 {
+    let (model, counters) = (&system.model, &mut system.counters);
+    let reach = system.spectrum.reach(model, &system.positions, counters);
+    system.guard.suited_s(model, reach)
+}
+
+/// How many particles were carried by their neighbours in the last step of
+/// [`Verlet`](crate::Verlet): those that are too light for it.
+#[must_use]
+pub fn carried_count(system: &System) -> usize {
+    system.guard.carry().len()
+}
+
+/// Weighs particles for steps of this length.
+pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
+    let (reach, air) = (
+        system.spectrum.known_reach(),
+        dt_s * system.scratch.air_per_s,
+    );
+    if system.guard.weigh(&system.model, reach, dt_s, air) {
+        system.scratch.is_fresh = false;
+    }
+}
+
+/// Whether steps of this length are stable with particles carried for it.
+fn is_sound(system: &mut System, dt_s: f64) -> bool {
+    weigh_for(system, dt_s);
+    system.guard.is_sound(&system.model, &mut system.counters)
 }
 
 /// The same by the air alone.
@@ -81,14 +159,27 @@ pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
 
 /// The same for this method with the air that blows now; `None` where nothing limits it.
 pub(crate) fn whole_step_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
-    let springs_s = solver
-        .abilities()
+    let abilities = solver.abilities();
+    if abilities.carries_light {
+        let longest_s = Guard::WHOLE * suited_step_s(system);
+        return Some(with_air(longest_s, air_share(system, solver)));
+    }
+    let springs_s = abilities
         .frequency_limit
         .map(|limit| stable_step_s(system, limit));
     match air_share(system, solver) {
         None => springs_s,
         air => Some(with_air(springs_s.unwrap_or(f64::INFINITY), air)),
     }
+}
+
+/// The step that suits this method with the air that blows now; `None` where it carries nothing.
+pub(crate) fn suited_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
+    if !solver.abilities().carries_light {
+        return None;
+    }
+    let springs_s = suited_step_s(system);
+    Some(with_air(springs_s, air_share(system, solver)))
 }
 
 /// What the air takes of a step by this method.

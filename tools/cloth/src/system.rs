@@ -17,6 +17,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::guard::Guard;
 use crate::load::{Loads, Path};
 use crate::pair;
 use crate::spectrum::Spectrum;
@@ -54,6 +55,7 @@ pub struct System {
     pub(crate) model: Model,
     pub(crate) counters: Counters,
     pub(crate) spectrum: Spectrum,
+    pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
@@ -70,6 +72,10 @@ pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
     /// Whether these are the accelerations now.
     pub(crate) is_fresh: bool,
+    /// The step in seconds whose carried and crushed particles are in them; zero without any.
+    pub(crate) guarded_s: f64,
+    /// The part of a step's limit that wind takes in a second, as a step found it.
+    pub(crate) air_per_s: f64,
     /// Where the step began: the last good state.
     pub(crate) positions: Vec<Point>,
     pub(crate) velocities: Vec<Vector>,
@@ -155,6 +161,7 @@ impl System {
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),
+            guard: Guard::default(),
             scratch: Scratch::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
@@ -235,6 +242,7 @@ impl System {
         self.model.buckling = buckling;
         self.scratch.is_fresh = false;
         self.spectrum.forget();
+        self.guard.forget();
     }
 
     /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4): its particles,
@@ -277,6 +285,7 @@ impl System {
         let index = self.model.triangles.as_slice().len();
         self.model.triangles.push(triangle);
         self.touched(&triangle.vertices.map(|corner| corner as usize));
+        self.guard.forget();
         index
     }
 
@@ -295,6 +304,7 @@ impl System {
         };
         check_constraint(&constraint, self.positions.len())?;
         let id = self.model.family_mut(family).add(constraint);
+        self.guard.forget();
         self.touched(&ends);
         Ok(id)
     }
@@ -310,6 +320,7 @@ impl System {
     pub(crate) fn touched(&mut self, particles: &[usize]) {
         self.scratch.is_fresh = false;
         self.spectrum.touched(&self.model, particles);
+        self.guard.edited();
         self.changes += 1;
     }
 
@@ -333,6 +344,7 @@ impl System {
         };
         check_constraint(&constraint, self.positions.len())?;
         self.model.stretch.set_stiffness(id, stiffness_n_per_m);
+        self.guard.forget();
         self.touched(&constraint.ends);
         Ok(())
     }
@@ -347,6 +359,7 @@ impl System {
     pub fn cut(&mut self, id: ConstraintId) -> Constraint {
         self.is_no_cloth();
         let constraint = self.model.stretch.remove(id);
+        self.guard.forget();
         self.touched(&constraint.ends);
         constraint
     }

@@ -27,6 +27,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
+use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
@@ -136,6 +137,31 @@ impl Triangle {
         [-(f1 + f2), f1, f2]
     }
 
+    /// Those of damping along warp and along weft, as far as they are crushed, with the corners at
+    /// these velocities: the power of what is said of it is that of the stretch of the triangle.
+    #[inline]
+    fn damping(
+        &self,
+        corners: [Point; 3],
+        velocities: [Vector; 3],
+        crush: &mut Crush<'_>,
+    ) -> [Vector; 3] {
+        let w = self.derivatives(corners);
+        let (a, b) = (velocities[1] - velocities[0], velocities[2] - velocities[0]);
+        let d = &self.rest_inverse;
+        let [p_u, p_v] = [0, 1].map(|c| {
+            let ratio = length(w[c]);
+            if !(ratio < Crush::BELOW && ratio > 0.0) {
+                return Vector::zeros();
+            }
+            let direction = w[c] / ratio;
+            let speed = dot(direction, a * d[0][c] + b * d[1][c]);
+            direction * crush.pull(self.area * self.stiffness[c], ratio, speed)
+        });
+        let [f1, f2] = [0, 1].map(|e| -(p_u * d[e][0] + p_v * d[e][1]));
+        [-(f1 + f2), f1, f2]
+    }
+
     /// The change of the forces on the corners when these move by `u`, negated, to first order: what
     /// [`Triangle::hessian`] with `clamp` gives, without the matrix.
     #[inline]
@@ -238,6 +264,21 @@ impl Triangle {
         [along(k_u, g_u), along(k_v, g_v)]
     }
 
+    /// Springs between its corners that together are as stiff as warp and weft: since the weights g of
+    /// either have no sum, |Σ gᵢuᵢ|² is −Σ gᵢgⱼ|uᵢ − uⱼ|² over pairs, and those with a negative
+    /// factor are left out.
+    fn springs(&self, reach: f64) -> [f64; 3] {
+        let roots = self.roots(reach);
+        let weights = self.weights();
+        [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
+            let part = |c: usize| match weights[c][i] * weights[c][j] < 0.0 {
+                true => roots[c][i] * roots[c][j],
+                false => 0.0,
+            };
+            part(0) + part(1)
+        })
+    }
+
     /// The larger row, with the product of inverse mass and sum of each corner.
     fn row(&self, reach: f64, sums: [f64; 3]) -> f64 {
         let row =
@@ -251,6 +292,12 @@ impl Triangle {
         let [w_u, w_v] = self.derivatives(corners);
         let square = ratio_max * ratio_max;
         dot(w_u, w_u) <= square && dot(w_v, w_v) <= square
+    }
+
+    fn is_crushed(&self, corners: [Point; 3]) -> bool {
+        let square = Crush::BELOW * Crush::BELOW;
+        let derivatives = self.derivatives(corners);
+        derivatives.into_iter().any(|w| dot(w, w) < square)
     }
 
     fn corners(&self, x: &[Point]) -> [Point; 3] {
@@ -356,13 +403,28 @@ impl Element for Triangles {
         triangles.fold(0.0, |sum, (t, _)| sum + self.energy_of(t, x))
     }
 
-    fn forces(&self, x: &[Point], ratio_max: f64, forces: &mut [Vector]) -> bool {
+    fn forces(
+        &self,
+        x: &[Point],
+        ratio_max: f64,
+        mut crush: Option<&mut Crush<'_>>,
+        forces: &mut [Vector],
+    ) -> bool {
         let mut sane = true;
         for t in &self.list {
             let corners = t.corners(x);
             sane &= t.is_within(corners, ratio_max);
             for (v, pull) in t.vertices.into_iter().zip(t.forces(corners)) {
                 forces[v as usize] += pull;
+            }
+            if let Some(crush) = &mut crush
+                && t.is_crushed(corners)
+            {
+                let velocities = t.vertices.map(|v| crush.velocities[v as usize]);
+                let damping = t.damping(corners, velocities, crush);
+                for (v, pull) in t.vertices.into_iter().zip(damping) {
+                    forces[v as usize] += pull;
+                }
             }
         }
         sane
@@ -415,6 +477,28 @@ impl Element for Triangles {
                 let edge = (1..3).fold(0, |most, i| if apart(i) > apart(most) { i } else { most });
                 [edge, (edge + 1) % 3].map(|i| t.vertices[i] as usize)
             });
+        }
+    }
+
+    fn each_spring(&self, reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
+        for t in &self.list {
+            let [a, b, c] = t.vertices.map(|v| v as usize);
+            for (ends, stiffness) in [[a, b], [b, c], [c, a]].into_iter().zip(t.springs(reach)) {
+                visit(ends, stiffness);
+            }
+        }
+    }
+
+    fn springs_at(&self, particle: usize, reach: f64, visit: &mut dyn FnMut(usize, f64)) {
+        for (t, corner) in self.of(particle) {
+            let t = &self.list[t];
+            let springs = t.springs(reach);
+            let (next, last) = ((corner + 1) % 3, (corner + 2) % 3);
+            for (other, stiffness) in [(next, springs[corner]), (last, springs[last])] {
+                if stiffness > 0.0 {
+                    visit(t.vertices[other] as usize, stiffness);
+                }
+            }
         }
     }
 

@@ -109,7 +109,7 @@ pub(crate) const KEYS: [Key; 74] = [
     key("fabric", "copies", Kind::Word(&["halved", "whole"]), "what both copies of a torn edge have; halved; the paper: whole"),
     key("fabric", "unbend", Kind::Word(&["seam", "vertex"]), "which of these a split takes; seam; the paper: vertex"),
 
-    key("solver", "method", Kind::Word(METHODS), "xpbd"),
+    key("solver", "method", Kind::Word(METHODS), "verlet"),
     key("solver", "dt_s", Kind::Positive, "the step; see --dt"),
     key("solver", "substeps", Kind::Count, "xpbd: substeps a step; 1"),
     key("solver", "sweeps", Kind::Count, "xpbd, pbd: sweeps a (sub)step; 1, pbd 10"),

@@ -78,9 +78,9 @@ pub(super) fn gain(run: &Run) -> Option<Fault> {
         three_digits(gain.put_in_j),
     );
     let others = match run.scene().solver {
-        Method::Xpbd(_) => "--solver implicit",
-        Method::Implicit(_) => "--solver xpbd",
-        _ => "--solver xpbd or implicit",
+        Method::Verlet => "--solver implicit",
+        Method::Implicit(_) => "--solver verlet",
+        _ => "--solver verlet or implicit",
     };
     let help = format!(
         "{others}, --dt {}, or a larger drag_per_s in a scene file",
@@ -123,7 +123,11 @@ pub(super) fn energy(run: &Run) -> report::Energy {
 }
 
 pub(super) fn quality(run: &Run) -> Option<report::Quality> {
-    match run.quality()? {
+    match run.quality() {
+        Quality::Guarded(guarded) => Some(report::Quality::Guarded {
+            carried: guarded.carried,
+            damped_j: guarded.damped_j,
+        }),
         Quality::Limited(limited) => Some(report::Quality::Limiter {
             passes: limited.passes,
             steps_short: limited.steps_short,
@@ -145,8 +149,7 @@ pub(super) fn quality(run: &Run) -> Option<report::Quality> {
 
 /// What Provot's limiter could not hold.
 pub(super) fn infeasible(run: &Run) -> Option<Fault> {
-    let (Some(Quality::Limited(limited)), Method::Provot(limiter)) =
-        (run.quality(), &run.scene().solver)
+    let (Quality::Limited(limited), Method::Provot(limiter)) = (run.quality(), &run.scene().solver)
     else {
         return None;
     };
@@ -167,7 +170,7 @@ pub(super) fn infeasible(run: &Run) -> Option<Fault> {
         short(limiter.stretch_ratio_max + limited.excess_max),
         limiter.stretch_ratio_max,
     );
-    let help = "a larger limit_ratio in [solver] of a scene file, or --solver xpbd";
+    let help = "a larger limit_ratio in [solver] of a scene file, or --solver verlet";
     Some(Fault::warning("W-SIM-LIMIT", message).help(help))
 }
 
@@ -257,7 +260,11 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
         StepError::Unstable { limit_s, .. } => {
             // What is torn later may need still shorter steps.
             let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
-            format!("--dt {}, or --solver xpbd", two_digits(limit_s * part))
+            let shorter = two_digits(limit_s * part);
+            match run.scene().solver {
+                Method::Verlet => format!("--dt {shorter}"),
+                _ => format!("--dt {shorter}, or --solver verlet"),
+            }
         }
         StepError::Air { limit_s, .. } => {
             let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
@@ -266,7 +273,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
         StepError::Implicit { error, .. } => {
             let shorter = two_digits(run.step_s() / 2.0);
             format!(
-                "--dt {shorter}, --solver xpbd{}",
+                "--dt {shorter}, --solver verlet{}",
                 settings_that_help(&error)
             )
         }

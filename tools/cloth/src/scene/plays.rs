@@ -5,7 +5,6 @@ use tearmesh::geometry::{Ray, Vector};
 use super::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
 use crate::fabric::Fabric;
 use crate::load::Wind;
-use crate::xpbd::Xpbd;
 use crate::{Tearing, Threshold};
 
 impl Scene {
@@ -25,7 +24,7 @@ impl Scene {
     pub fn fall(up: Axis) -> Scene {
         Scene {
             duration_s: 2.0,
-            solver: Method::Xpbd(Xpbd::new(1, 1)),
+            solver: Method::Verlet,
             step_s: None,
             fabric: Fabric::new(Scene::STRETCH_N_PER_M),
             areal_density_kg_per_m2: Scene::AREAL_DENSITY_KG_PER_M2,

@@ -14,7 +14,8 @@ mod step_size;
 
 pub use self::error::{Names, RunError};
 pub use self::gain::Gain;
-pub use self::quality::{Limited, Quality, Solved};
+pub use self::quality::{Guarded, Limited, Quality, Solved};
+pub use self::step_size::Softness;
 
 use tearmesh::geometry::{Vector, length};
 use tearmesh::{CutReport, Edits, Masses, Mesh, Positions, Scissor, VertexId};
@@ -101,8 +102,8 @@ pub struct CutMade {
     pub number: usize,
     /// What it did to the mesh.
     pub report: CutReport,
-    /// What it did to the steps that an explicit method may take: slivers shorten them. `None` for
-    /// the others.
+    /// What it did to the steps that Provot's method may take: slivers shorten them. `None` for the
+    /// others: Verlet has slivers carried.
     pub stability: Option<Shortened>,
 }
 
@@ -304,7 +305,10 @@ impl Run {
 
     /// The longest stable step of an explicit method.
     fn stable_step_s(&mut self) -> Option<f64> {
-        self.engine.abilities().frequency_limit?;
+        let abilities = self.engine.abilities();
+        abilities
+            .frequency_limit
+            .filter(|_| !abilities.carries_light)?;
         stability::whole_step_s(self.cloth.system_mut(), &self.engine)
     }
 
@@ -398,8 +402,11 @@ impl Run {
 
     /// The step in seconds: the scene's, or one that suits it. That is a whole part of 1/60 s.
     ///
-    /// * Provot, Verlet: at most 0.7 of the stability limit of the cloth at rest. What is torn or
-    ///   cut may ask for shorter ones; then each is divided ([`Unstable::Substep`]).
+    /// * Verlet: the one that suits nine tenths of the vertices, at most
+    ///   ([`suited_step_s`](crate::suited_step_s)); the others are carried, and so is
+    ///   what gets light where the cloth is torn or cut.
+    /// * Provot: at most 0.7 of the stability limit of the cloth at rest. What is torn or cut may ask
+    ///   for shorter ones; then each is divided ([`Unstable::Substep`]).
     /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
     ///   that it would have to travel farther; see [`Run::step_wanted_s`].
     /// * Implicit: 1/240 s.
@@ -418,6 +425,13 @@ impl Run {
         step_size::wanted_s(&self.scene, &self.cloth)
     }
 
+    /// By how much XPBD leaves the cloth softer than its fabric at the step of this scene, estimated
+    /// from the masses; `None` for the others. Linear.
+    #[must_use]
+    pub fn softness(&self) -> Option<Softness> {
+        step_size::softness(&self.scene, self.step_s, &self.cloth)
+    }
+
     /// The seconds that have been simulated.
     #[must_use]
     pub fn elapsed_s(&self) -> f64 {
@@ -430,10 +444,9 @@ impl Run {
         self.tally
     }
 
-    /// What the method says of its own steps so far; nothing by velocity Verlet. Costs up to a force
-    /// evaluation.
+    /// What the method says of its own steps so far. Costs up to a force evaluation.
     #[must_use]
-    pub fn quality(&self) -> Option<Quality> {
+    pub fn quality(&self) -> Quality {
         self.engine.quality(self.cloth.system())
     }
 

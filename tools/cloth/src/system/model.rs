@@ -6,7 +6,9 @@ use tearmesh::geometry::{Point, Vector};
 
 use super::Counters;
 use crate::bend::Buckling;
+use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
+use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Element, Forces, Slope};
 use crate::load::{Loads, Path};
@@ -166,15 +168,66 @@ impl Model {
         accelerations: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        counters.force_evaluations += 1;
-        accelerations.fill(Vector::zeros());
-        counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
-        let mut sane = true;
-        for kind in &self.kinds() {
-            sane &= kind.forces(positions, self.stretch_ratio_max, accelerations);
-        }
+        let sane = self.inner(positions, None, accelerations, counters);
         self.external(positions, velocities, accelerations, counters);
         sane
+    }
+
+    /// The same with what is crushed damped, and what is carried as heavy as that makes it.
+    #[must_use]
+    pub(crate) fn accelerate_guarded(
+        &self,
+        positions: &[Point],
+        velocities: &[Vector],
+        (crush, carry): (&mut Crush<'_>, &Carry),
+        accelerations: &mut [Vector],
+        counters: &mut Counters,
+    ) -> bool {
+        let sane = self.inner(positions, Some(crush), accelerations, counters);
+        if carry.len() == 0 {
+            self.external(positions, velocities, accelerations, counters);
+            return sane;
+        }
+        self.blow(positions, velocities, accelerations, counters);
+        let gravity = self.gravity();
+        for (force, &mass) in accelerations.iter_mut().zip(&self.masses) {
+            *force += gravity * mass;
+        }
+        carry.accelerate(accelerations);
+        sane
+    }
+
+    /// Fills in the forces of springs and triangles. False where one has blown up.
+    fn inner(
+        &self,
+        positions: &[Point],
+        mut crush: Option<&mut Crush<'_>>,
+        forces: &mut [Vector],
+        counters: &mut Counters,
+    ) -> bool {
+        counters.force_evaluations += 1;
+        counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
+        forces.fill(Vector::zeros());
+        let mut sane = true;
+        for kind in &self.kinds() {
+            let crush = crush.as_deref_mut();
+            sane &= kind.forces(positions, self.stretch_ratio_max, crush, forces);
+        }
+        sane
+    }
+
+    /// Adds the forces of wind.
+    fn blow(
+        &self,
+        positions: &[Point],
+        velocities: &[Vector],
+        forces: &mut [Vector],
+        counters: &mut Counters,
+    ) {
+        if let Some(wind) = self.loads.wind {
+            counters.wind_evaluations += 1;
+            wind.press(&self.faces, positions, velocities, forces);
+        }
     }
 
     /// Whether nothing is stretched beyond the limit, nor not a number: what [`Model::accelerate`]
@@ -211,10 +264,7 @@ impl Model {
         accelerations: &mut [Vector],
         counters: &mut Counters,
     ) {
-        if let Some(wind) = self.loads.wind {
-            counters.wind_evaluations += 1;
-            wind.press(&self.faces, positions, velocities, accelerations);
-        }
+        self.blow(positions, velocities, accelerations, counters);
         let gravity = self.gravity();
         for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
             *a = if w > 0.0 {

@@ -1,7 +1,8 @@
 //! The methods of scenes, behind one solver.
 
-use super::quality::{Limited, Quality, Solved};
+use super::quality::{Guarded, Limited, Quality, Solved};
 use crate::scene::Method;
+use crate::stability::carried_count;
 use crate::{
     Abilities, Failure, Implicit, Pbd, Provot, SettingError, Solver, System, Verlet, Xpbd,
 };
@@ -40,13 +41,16 @@ impl Engine {
         }
     }
 
-    pub(super) fn quality(&self, system: &System) -> Option<Quality> {
+    pub(super) fn quality(&self, system: &System) -> Quality {
         match self {
-            Engine::Provot(_, limited) => Some(Quality::Limited(*limited)),
-            Engine::Pbd(_) => Some(Quality::Strain(system.strain_rms())),
-            Engine::Verlet(_) => None,
-            Engine::Xpbd(xpbd) => Some(Quality::Residual(xpbd.residual_n(system))),
-            Engine::Implicit(_, solved) => Some(Quality::Solved(*solved)),
+            Engine::Provot(_, limited) => Quality::Limited(*limited),
+            Engine::Pbd(_) => Quality::Strain(system.strain_rms()),
+            Engine::Verlet(verlet) => Quality::Guarded(Guarded {
+                carried: carried_count(system),
+                damped_j: verlet.damped_j(),
+            }),
+            Engine::Xpbd(xpbd) => Quality::Residual(xpbd.residual_n(system)),
+            Engine::Implicit(_, solved) => Quality::Solved(*solved),
         }
     }
 }

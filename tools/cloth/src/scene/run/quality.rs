@@ -4,10 +4,12 @@ use crate::implicit::StepReport;
 use crate::provot::LimiterReport;
 
 /// What the method of a run says of its own steps: where they fell short of the model, and by how
-/// much. Velocity Verlet has nothing to say but its energy.
+/// much.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Quality {
+    /// The guards of velocity Verlet.
+    Guarded(Guarded),
     /// Provot's limiter.
     Limited(Limited),
     /// PBD: constraints are rigid to it, so all strain is what its sweeps have left. The root mean
@@ -19,6 +21,15 @@ pub enum Quality {
     Residual(f64),
     /// An implicit method.
     Solved(Solved),
+}
+
+/// What the guards of velocity Verlet did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Guarded {
+    /// The vertices that are carried by their neighbours now, as they are too light for the step.
+    pub carried: usize,
+    /// The energy that damping took from what was crushed in all steps, in joules.
+    pub damped_j: f64,
 }
 
 /// What Provot's limiter did in all steps.

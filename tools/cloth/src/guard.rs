@@ -1,0 +1,240 @@
+//! Which steps velocity Verlet takes whole, and with which masses.
+//!
+//! A net with the sum S of stiffness at a particle of inverse mass w has r = w S there, and its own
+//! stable step is √(2/r) or a little more. The step that *suits* a system is
+//!
+//! ```text
+//! Δt₀ = √(2μ/r₉₀),   μ = .65
+//! ```
+//!
+//! with r₉₀ such that no more than a tenth of the free particles have a larger one: those are
+//! carried by their neighbours ([`carry`](crate::carry)). On even sheets that is .34 to .41 h/c, on
+//! uneven ones .24. A step up to twice as long is admitted whole, with many more that are carried:
+//! it is as stable, and exact at rest, but errs by some per cent in motion.
+//!
+//! μ leaves room for the damping of what is crushed ([`crush`](crate::crush)), 4μ(1 + 2θ) = 3.9 of
+//! 4, and what wind slows takes its part of it: with λ the rate of wind μ(1 − λΔt), so that the sum
+//! stays within the limit of springs and air together ([`air`](crate::air)).
+//!
+//! Where neighbours are both carried, stability is not proven, and λ is measured by power iteration
+//! on M′⁻¹ L, with L the net's scalar matrix: the worst of all configurations. It was 1.4 to 2.3
+//! of the limit 2.6 on all sheets at twice Δt₀ and less at Δt₀, and up to 7.6 at four times, which
+//! is why that is divided. Where it is beyond, steps are divided too.
+
+use crate::carry::{Carry, Net};
+use crate::system::{Counters, Model};
+
+/// μ: a quarter of the largest Δt² λ.
+const SHARE: f64 = 0.65;
+
+/// Δt₀ is chosen for this part of the particles.
+const PERCENTILE: f64 = 0.9;
+
+/// Wind's part of the limit is rounded up to so many parts of it, so that it seldom changes.
+const PARTS: f64 = 32.0;
+
+/// The products of a measurement at most, and the change at which it ends.
+const PRODUCTS: u32 = 100;
+const SETTLED: f64 = 1e-3;
+
+/// What is known of the masses and steps of a system.
+#[derive(Clone, Debug)]
+pub(crate) struct Guard {
+    carry: Carry,
+    /// The sum of the stiffness at each particle.
+    sums: Vec<f64>,
+    /// `None` where it is not known.
+    suited_s: Option<f64>,
+    /// The reach of triangles that both are for; `None` where they are not known.
+    reach: Option<f64>,
+    /// The step, and the wind's part of the limit, that particles were weighed for.
+    weighed: Option<[f64; 2]>,
+    /// Whether that step is stable.
+    is_sound: bool,
+    /// A step that was found unstable, the shortest so far.
+    unsound_s: f64,
+    /// The vector that was found last, and room for a product.
+    vector: Vec<f64>,
+    product: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl Default for Guard {
+    fn default() -> Guard {
+        Guard {
+            carry: Carry::default(),
+            sums: Vec::new(),
+            suited_s: None,
+            reach: None,
+            weighed: None,
+            is_sound: false,
+            unsound_s: f64::INFINITY,
+            vector: Vec::new(),
+            product: Vec::new(),
+            rates: Vec::new(),
+        }
+    }
+}
+
+impl Guard {
+    /// How many times the suited step is admitted whole.
+    pub(crate) const WHOLE: f64 = 2.0;
+
+    /// The system is another one.
+    pub(crate) fn forget(&mut self) {
+        self.reach = None;
+        self.suited_s = None;
+    }
+
+    /// Masses or stiffness have changed where a mesh was edited. Particles are weighed anew, and the
+    /// step that suits gets no shorter for it: slivers along a cut are to be carried.
+    pub(crate) fn edited(&mut self) {
+        self.reach = None;
+    }
+
+    /// The weights of particles in steps that they were weighed for.
+    pub(crate) fn carry(&self) -> &Carry {
+        &self.carry
+    }
+
+    /// The step that suits a model, in seconds; infinite without springs.
+    pub(crate) fn suited_s(&mut self, model: &Model, reach: f64) -> f64 {
+        self.look(model, reach);
+        self.suited_s.unwrap_or(f64::INFINITY)
+    }
+
+    /// Sums up stiffness anew where it has changed.
+    fn look(&mut self, model: &Model, reach: f64) {
+        if self.reach == Some(reach) {
+            return;
+        }
+        self.reach = Some(reach);
+        self.weighed = None;
+        self.unsound_s = f64::INFINITY;
+        self.sums.clear();
+        self.sums.resize(model.masses.len(), 0.0);
+        let sums = &mut self.sums;
+        each_spring(model, reach, &mut |[a, b], stiffness| {
+            sums[a] += stiffness;
+            sums[b] += stiffness;
+        });
+        let rates = self.sums.iter().zip(&model.inverse_masses);
+        let rates = rates.map(|(sum, w)| w * sum).filter(|rate| *rate > 0.0);
+        self.rates.clear();
+        self.rates.extend(rates);
+        let last = self.rates.len().saturating_sub(1);
+        let place = (PERCENTILE * last as f64).ceil() as usize;
+        if !self.rates.is_empty() {
+            let (_, rate, _) = self.rates.select_nth_unstable_by(place, f64::total_cmp);
+            let suited_s = (2.0 * SHARE / *rate).sqrt();
+            self.suited_s = Some(self.suited_s.map_or(suited_s, |known| known.max(suited_s)));
+        }
+    }
+
+    /// Weighs the particles for a step of which wind takes the part `air`, and says whether any
+    /// weight may have changed.
+    pub(crate) fn weigh(&mut self, model: &Model, reach: f64, dt_s: f64, air: f64) -> bool {
+        self.look(model, reach);
+        let air = ((air * PARTS).ceil() / PARTS).min(1.0 - 1.0 / PARTS);
+        if self.weighed == Some([dt_s, air]) {
+            return false;
+        }
+        let had = self.carry.len();
+        let masses = [&model.masses[..], &model.inverse_masses[..]];
+        let net = Within { model, reach };
+        let share = SHARE * (1.0 - air);
+        self.carry.weigh(masses, &self.sums, &net, share, dt_s);
+        self.weighed = Some([dt_s, air]);
+        self.is_sound = self.carry.is_proven();
+        had + self.carry.len() > 0
+    }
+
+    /// Whether a step is stable that particles were weighed for just now.
+    pub(crate) fn is_sound(&mut self, model: &Model, counters: &mut Counters) -> bool {
+        let Some([dt_s, air]) = self.weighed.filter(|_| !self.is_sound) else {
+            return true;
+        };
+        if dt_s < self.unsound_s {
+            let limit = 4.0 * SHARE * (1.0 - air);
+            self.is_sound = dt_s * dt_s * self.largest(model, counters) <= limit;
+        }
+        if !self.is_sound {
+            self.unsound_s = self.unsound_s.min(dt_s);
+        }
+        self.is_sound
+    }
+
+    /// The largest eigenvalue of M′⁻¹ L, from below.
+    fn largest(&mut self, model: &Model, counters: &mut Counters) -> f64 {
+        let count = model.masses.len();
+        if self.vector.len() != count {
+            // Signs that alternate as the fastest modes do.
+            let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let start = (0..count).map(|i| sign(i) + 0.1 * ((i % 7) as f64));
+            self.vector.clear();
+            self.vector.extend(start);
+        }
+        let mut largest = 0.0;
+        for _ in 0..PRODUCTS {
+            counters.matrix_products += 1;
+            let (u, product) = (&mut self.vector, &mut self.product);
+            for (u, w) in u.iter_mut().zip(&model.inverse_masses) {
+                *u = if *w > 0.0 { *u } else { 0.0 };
+            }
+            product.clear();
+            product.resize(count, 0.0);
+            each_spring(
+                model,
+                self.reach.unwrap_or(0.0),
+                &mut |[a, b], stiffness| {
+                    let force = stiffness * (u[a] - u[b]);
+                    product[a] += force;
+                    product[b] -= force;
+                },
+            );
+            let energy = inner(u, product);
+            std::mem::swap(u, product);
+            // What was the product is made an acceleration, and its own product is needed with it.
+            product.clone_from(u);
+            self.carry.accelerate(u);
+            let square = inner(u, product) / energy;
+            let norm = inner(u, u).sqrt();
+            if !(square.is_finite() && norm > 0.0 && norm.is_finite()) {
+                self.vector.clear();
+                return largest;
+            }
+            u.iter_mut().for_each(|u| *u /= norm);
+            let grown = square - largest;
+            largest = square.max(largest);
+            if grown <= SETTLED * square {
+                break;
+            }
+        }
+        largest
+    }
+}
+
+fn inner(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The springs that are as stiff as all constraints of a model together, or stiffer.
+fn each_spring(model: &Model, reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
+    for kind in &model.kinds() {
+        kind.each_spring(reach, visit);
+    }
+}
+
+/// A model as such a net.
+struct Within<'a> {
+    model: &'a Model,
+    reach: f64,
+}
+
+impl Net for Within<'_> {
+    fn neighbours(&self, particle: usize, visit: &mut dyn FnMut(usize, f64)) {
+        for kind in &self.model.kinds() {
+            kind.springs_at(particle, self.reach, visit);
+        }
+    }
+}
