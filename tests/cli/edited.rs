@@ -80,6 +80,39 @@ fn regression_an_inserted_vertex_that_was_moved_since_is_kept_and_said() {
     }
 }
 
+#[test]
+fn a_vertex_that_a_cut_moved_and_somebody_after_it_is_kept_and_said() {
+    let folder = Folder::new();
+    let run = |line: &str| {
+        let output = folder.run(line);
+        assert!(output.status.success(), "{line}");
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let cut = "tearmesh cut flag.obj --rays 0.31,0.5,5:0,0,-1 0.25,-0.5,5:0,0,-1 --snap 0.2";
+    let _cut: serde_json::Value = run(&format!("{cut} --snap-move --format json -o torn.obj"));
+    let _sewn: serde_json::Value = run("tearmesh mend torn.obj --format json -o sewn.obj");
+    let mut text = folder.read("sewn.obj");
+    let slides = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("#~ slide "));
+    let numbers = slides.filter_map(|item| item.split(' ').next()?.parse().ok());
+    let slid: Vec<usize> = numbers.collect();
+    let mend = "tearmesh mend sewn.obj --simplify --format json -o whole.obj";
+    let report: serde_json::Value = run(mend);
+    assert_eq!(report["mend"]["vertices_slid_back"], slid.len());
+    assert_eq!(report["diagnostics"], serde_json::json!([]));
+    let vertex = slid[slid.len() / 2];
+    text.replace_range(statement(&text, vertex), "v 0.5 0.5 0.25");
+    folder.write("sewn.obj", &text);
+    let report: serde_json::Value = run(mend);
+    assert_eq!(report["mend"]["vertices_slid_edited"], 1, "{report:#}");
+    let said = report["diagnostics"].as_array().expect("a list").iter();
+    let mut messages = said.filter_map(|one| one["message"].as_str());
+    let message = "1 vertex that a cut moved was edited since and stays in place";
+    assert!(messages.any(|said| said == message), "{report:#}");
+    assert!(folder.read("whole.obj").contains("v 0.5 0.5 0.25\n"));
+}
+
 /// Nothing at all can go, or only what is away from the edit: in any case the mass that is said is
 /// that of the file that is written.
 #[test]

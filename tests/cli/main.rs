@@ -13,6 +13,7 @@ mod in_process;
 #[cfg(unix)]
 mod killed;
 mod memory;
+mod numbers;
 mod odd;
 mod places;
 mod tear;

@@ -1,9 +1,7 @@
-//! Files that were edited between a cut and its mending, by a text editor or by a cut that slides
-//! vertices: what is simplified loses nothing of that.
+//! Files that were edited by a text editor between a cut and its mending: what is simplified loses
+//! nothing of that.
 
 use std::collections::BTreeMap;
-
-use tearmesh::{Edit, Method, Point, Ray, Scissor, Vector};
 
 use super::random::Random;
 use super::torn_record::{Work, files};
@@ -224,96 +222,4 @@ fn other_numbers_at_an_inserted_vertex_are_kept() {
             .all(|&kind| tried[&(kind, true)] > 3),
         "{tried:?}"
     );
-}
-
-/// Cuts that slide near vertices onto the plane. That a vertex slid is not on record yet, so it
-/// stays where it slid to when the cut is mended; the surface is the one that was mended, every
-/// other vertex of the file is where it was, and if no vertex is said to be edited, the faces
-/// are those of the file.
-#[test]
-fn the_surface_stays_where_vertices_slid() {
-    let (mut slid_in, mut kept, mut whole) = (0, 0, 0);
-    for (name, file) in files().into_iter().filter(|(name, _)| name != "late") {
-        for seed in 0..30 {
-            let mut random = Random(5000 + seed);
-            let uncut = read(&file);
-            let mut bytes = file.clone();
-            let mut slid = vec![false; uncut.positions().len()];
-            let mut of_uncut: Vec<Option<usize>> = (0..slid.len()).map(Some).collect();
-            for _ in 0..2 {
-                let document = read(&bytes);
-                let mut work = Work::on(&document);
-                for vertex in work.cut_sliding(&mut random) {
-                    if let Some(&Some(vertex)) = of_uncut.get(vertex) {
-                        slid[vertex] = true;
-                    }
-                }
-                bytes = work.written();
-                let in_order = work.torn.vertices_in_order().into_iter();
-                let numbers = in_order.map(|v| of_uncut.get(v.index()).copied().flatten());
-                of_uncut = numbers.collect();
-            }
-            let document = read(&bytes);
-            let mut work = Work::on(&document);
-            work.sew_all();
-            let sewn = work.written();
-            let (after, edited) = simplified(&sewn);
-            let [was, is] = [&Lines::of(&sewn), &after].map(Lines::area);
-            assert!(
-                (was - is).abs() <= 1e-12 * was,
-                "{name}, seed {seed}: {was} became {is}"
-            );
-            let places = after.places();
-            for (v, point) in uncut
-                .positions()
-                .iter()
-                .enumerate()
-                .filter(|&(v, _)| !slid[v])
-            {
-                let point = [point.x, point.y, point.z];
-                assert!(places.contains(&point), "{name}, seed {seed}: {v}");
-            }
-            if edited == 0 {
-                let again = read(&after.bytes());
-                assert_eq!(again.triangles(), uncut.triangles(), "{name}, seed {seed}");
-                whole += 1;
-            } else {
-                assert!(slid.contains(&true), "{name}, seed {seed}: nothing slid");
-                kept += 1;
-            }
-            slid_in += usize::from(slid.contains(&true));
-        }
-    }
-    println!("vertices slid in {slid_in} of 120; {kept} stay divided, {whole} are whole again");
-    assert!(
-        slid_in > 60 && kept > 5 && whole > 30,
-        "{slid_in} {kept} {whole}"
-    );
-}
-
-impl Work<'_> {
-    /// Cuts somewhere, and slides vertices that are near the plane onto it; which ones slid.
-    fn cut_sliding(&mut self, random: &mut Random) -> Vec<usize> {
-        let points = self.positions.as_slice();
-        let near = |random: &mut Random| {
-            let middle = points[below(random, points.len())];
-            middle + Vector::new(random.next() - 0.5, random.next() - 0.5, 0.0) * 0.2
-        };
-        let [p, q]: [Point; 2] = [near(random), near(random)];
-        let down = Vector::new(0.0, 0.0, -1.0);
-        let rays = [p, q].map(|p| Ray::new(p - down * 50.0, down).expect("a ray"));
-        let Ok(scissor) = Scissor::new(&rays[0], &rays[1]) else {
-            return Vec::new();
-        };
-        let scissor = scissor.snap(0.2).snap_move(true);
-        self.edit(|mesh, positions, edits| {
-            let done = scissor.cut(Method::Exact, mesh, positions, edits);
-            done.expect("positions are in step");
-            let slides = edits.iter().filter_map(|edit| match edit {
-                Edit::Slide(slide) => Some(slide.vertex.index()),
-                _ => None,
-            });
-            slides.collect()
-        })
-    }
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::differential::{self, Outcome};
+use crate::random::Random;
 use crate::{rewritten, same_bytes, text};
 
 /// The seeds and the regressions of a fuzz target.
@@ -39,6 +40,23 @@ fn torn_seeds_and_regressions_survive() {
     let inputs = inputs("obj_roundtrip");
     let meshes = inputs.iter().filter(|bytes| same_bytes::check(bytes));
     assert!(meshes.count() >= 4);
+}
+
+/// The files of the seeds, torn, slid, divided and mended where random bytes say.
+#[test]
+fn seeds_survive_random_deeds() {
+    let mut random = Random(4);
+    let mut meshes = 0;
+    for bytes in inputs("obj_roundtrip") {
+        let file = bytes.split(|&byte| byte == 0).next().expect("a file");
+        for _ in 0..150 {
+            let count = (random.next() * 40.0) as usize;
+            let deeds: Vec<u8> = (0..count).map(|_| (random.next() * 256.0) as u8).collect();
+            meshes += usize::from(same_bytes::check_file(file, &deeds));
+        }
+    }
+    println!("{meshes} meshes");
+    assert!(meshes > 1000, "{meshes}");
 }
 
 #[test]

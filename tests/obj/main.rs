@@ -22,6 +22,7 @@ mod refuse;
 mod repair;
 mod round_trip;
 mod same_bytes;
+mod slides;
 mod torn;
 mod torn_damage;
 mod torn_record;

@@ -75,6 +75,10 @@ fn filled(start: &str, mib: usize, mut line: impl FnMut(usize) -> String) -> Vec
 const RECORD: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
     #tearmesh record 1 v 2000000000 f 2000000000 vt 0 0 vn 0 0 faces 0123456789abcdef\n";
 
+/// The same of version 2, which has more kinds of lines.
+const LATER: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
+    #tearmesh record 2 v 2000000000 f 2000000000 vt 9 2000000000 vn 0 0 faces 0123456789abcdef\n";
+
 /// Triangles that have only one vertex in common, which a record that fits says of its copies.
 fn fans_joined(count: usize) -> Vec<u8> {
     let (mut file, mut faces, mut items) =
@@ -216,6 +220,22 @@ fn reading_takes_no_more_memory_than_promised() {
         (
             "parents on record",
             filled(RECORD, 12, |i| format!("#~ parent {0} {0} 1 2 3\n", i + 1)),
+        ),
+        (
+            "slides on record",
+            filled(LATER, 12, |i| {
+                format!("#~ slide {} 1 0 0 0 1 1 1\n", i % 9 + 1)
+            }),
+        ),
+        (
+            "corners of slides on record",
+            filled(&format!("{LATER}#~ slide 1 1 0 0 0 1 1 1\n"), 12, |_| {
+                "#~ slide-vt 2 1 0\n".into()
+            }),
+        ),
+        (
+            "inserted indices on record",
+            filled(LATER, 12, |i| format!("#~ vt {0} {0}\n", 2 * i + 1)),
         ),
         ("fans joined", fans_joined(300_000)),
         (

@@ -3,7 +3,7 @@
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
 use tearmesh::insert::Plan;
-use tearmesh::{Cursor, Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, split};
+use tearmesh::{Cursor, Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, slide, split};
 use tearmesh_obj::{Document, TornDocument};
 
 /// A file, and behind a zero byte (which no OBJ file has) what is split. Whether it is a mesh.
@@ -85,7 +85,7 @@ fn write_torn(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions) -> Ve
     out
 }
 
-/// Inserts where the bytes say; what is written is read and written again. Then all
+/// Slides and inserts where the bytes say; what is written is read and written again. Then all
 /// is sewn and simplified, in a second session too.
 fn divide_and_mend(
     document: &Document,
@@ -96,6 +96,7 @@ fn divide_and_mend(
 ) {
     torn.next_cut();
     let mut edits = Edits::new();
+    slide_some(&mesh, places, &mut edits);
     let mut plan = Plan::new();
     for chunk in places.chunks_exact(3).take(16) {
         let place = usize::from(u16::from_le_bytes([chunk[1], chunk[2]]));
@@ -141,6 +142,28 @@ fn divide_and_mend(
         String::from_utf8_lossy(&later),
         String::from_utf8_lossy(&mended)
     );
+}
+
+/// Slides vertices, of which there are no copies, along edges.
+fn slide_some(mesh: &Mesh, places: &[u8], edits: &mut Edits) {
+    let mut copies = vec![0; mesh.vertex_count()];
+    let roots = mesh.roots();
+    for &root in &roots {
+        copies[root as usize] += 1;
+    }
+    for chunk in places
+        .chunks_exact(3)
+        .take(16)
+        .filter(|chunk| chunk[0] & 4 != 0)
+    {
+        let place = usize::from(u16::from_be_bytes([chunk[1], chunk[2]]));
+        let h = HalfEdgeId::new(place % mesh.half_edge_count()).expect("a half-edge");
+        let [vertex, toward] = [mesh.origin(h), mesh.target(h)];
+        if copies[roots[vertex.index()] as usize] == 1 {
+            let t = (1.0 + f64::from(chunk[0])) / 257.0;
+            slide::toward(mesh, vertex, toward, t, edits).expect("an edge");
+        }
+    }
 }
 
 /// Whether the document itself has no record of cuts.

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId,
-    mend, split,
+    Edit, Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector,
+    VertexId, mend, split,
 };
 use tearmesh_obj::{Document, ReadError, Simplified, TornDocument};
 
@@ -181,8 +181,13 @@ impl<'d> Work<'d> {
 
 /// What is simplified where nothing was edited.
 fn unedited(simplified: Result<Simplified, ReadError>) -> Option<Document> {
-    let Simplified { document, edited } = simplified.expect("what we wrote can be read");
-    assert_eq!(edited, 0, "nothing was edited");
+    let Simplified {
+        document,
+        edited,
+        slid_edited,
+        ..
+    } = simplified.expect("what we wrote can be read");
+    assert_eq!((edited, slid_edited), (0, 0), "nothing was edited");
     document
 }
 
@@ -451,8 +456,11 @@ vt 6 6\nvn 1 0 0\nvn 0 1 0\nf 1/1/1 2/2/1 3/3/2\nf 3/3/2 2/2/1 4/4/2\nf 3/5/2 4/
 #[test]
 fn straight_cuts_are_undone_to_the_byte() {
     let ray = |x, y| Ray::new(Point::new(x, y, 50.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray");
-    for (name, bytes) in files().into_iter().filter(|(name, _)| name != "late") {
-        let document = read(&bytes);
+    let sheets = files().into_iter().filter(|(name, _)| name != "late");
+    let sheets: Vec<(String, Vec<u8>)> = sheets.collect();
+    let cuts = [false, true].map(|slides| sheets.iter().map(move |sheet| (sheet, slides)));
+    for ((name, bytes), slides) in cuts.into_iter().flatten() {
+        let document = read(bytes);
         let points = document.positions();
         let of = |axis: usize, part: f64| {
             let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -469,6 +477,7 @@ fn straight_cuts_are_undone_to_the_byte() {
             let scissor = Scissor::new(&a, &b).expect("a plane");
             let before = work.mesh.face_count();
             scissor
+                .snap_move(slides)
                 .cut(
                     Method::Exact,
                     &mut work.mesh,
@@ -482,7 +491,7 @@ fn straight_cuts_are_undone_to_the_byte() {
         }
         assert!(inserted > 20, "{name}: {inserted} faces");
         assert_eq!(work.torn.cuts(), [1, 2], "{name}");
-        let file = survives(&work, &name);
+        let file = survives(&work, name);
         let again = read(&file);
         let mut work = Work::on(&again);
         for left in [1, 0] {
@@ -492,7 +501,7 @@ fn straight_cuts_are_undone_to_the_byte() {
         let simple = work.torn.simplified(&work.mesh, &work.positions);
         let simple = unedited(simple).expect("it was cut");
         let bytes = Work::on(&simple).written();
-        assert_eq!(text(&bytes), text(&rewritten(&source(&name))));
+        assert_eq!(text(&bytes), text(&rewritten(&source(name))));
         assert_eq!(simple.triangles(), document.triangles(), "{name}");
         assert_eq!(simple.positions(), document.positions(), "{name}");
         assert_eq!(simple.texture_count(), document.texture_count(), "{name}");
@@ -580,7 +589,7 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
         tearmesh::shapes::torus(11, 8),
         tearmesh::shapes::octahedron(),
     ];
-    let (mut compared, mut torn_twice) = (0, 0);
+    let (mut compared, mut torn_twice, mut slid) = (0, 0, 0);
     for (mesh, at) in &shapes {
         let mut file = String::from("vt 0.25 0.5\nvt 1 0\nvt 0 1\n");
         for p in at.as_slice() {
@@ -615,11 +624,18 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
                     Method::Exact
                 };
                 let through = seed % 2 == 0;
+                let slides = seed % 4 < 2 && method == Method::Exact;
                 let report = scissor
                     .through(through)
+                    .snap(if slides { 0.3 } else { Scissor::SNAP })
+                    .snap_move(slides)
                     .cut(method, &mut mesh, &mut at, &mut edits)
                     .expect("positions are in step");
                 edits.replay(&mut torn);
+                slid += edits
+                    .iter()
+                    .filter(|edit| matches!(edit, Edit::Slide(_)))
+                    .count();
                 cuts += usize::from(report.splits > 0);
                 bytes.clear();
                 torn.write(&mesh, &at, &mut bytes).expect("memory");
@@ -650,9 +666,9 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
             torn_twice += usize::from(cuts == 2);
         }
     }
-    println!("{compared} meshes, {torn_twice} of them cut twice");
+    println!("{compared} meshes, {torn_twice} of them cut twice, and {slid} vertices that slid");
     assert!(
-        compared >= 100 && torn_twice >= 60,
-        "{compared} {torn_twice}"
+        compared >= 100 && torn_twice >= 60 && slid > 50,
+        "{compared} {torn_twice} {slid}"
     );
 }

@@ -107,6 +107,8 @@ pub(crate) struct CutArgs {
     pub(crate) snap: f64,
 
     /// Move a vertex that was taken for a crossing onto the plane, along the edge.
+    ///
+    /// `tearmesh mend --simplify` puts it back.
     #[arg(long)]
     pub(crate) snap_move: bool,
 
@@ -298,6 +300,9 @@ pub(crate) struct MendArgs {
     pub(crate) max_distance: Option<f64>,
 
     /// Take out the vertices that cuts inserted and that keep nothing apart any more.
+    ///
+    /// And put back, to the bit, those that a cut with --snap-move moved. Without this option both
+    /// stay, and another `mend --simplify` can still do it. What was edited since is kept.
     #[arg(long)]
     pub(crate) simplify: bool,
 

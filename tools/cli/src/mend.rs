@@ -46,7 +46,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
     let clock = Clock::start();
-    let ledger = masses.ledger();
+    let mut ledger = masses.ledger();
     let broken = if moves {
         None
     } else {
@@ -58,15 +58,17 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let Simplified {
         document: simplified,
         edited,
+        slid_back,
+        slid_edited,
+        ..
     } = if args.simplify {
         let simplified = torn.simplified(&mesh, &positions);
         simplified.expect("what we wrote can be read")
     } else {
         Simplified::default()
     };
-    if edited > 0 {
-        session.faults.push(kept(edited));
-    }
+    session.faults.extend(kept(edited));
+    session.faults.extend(kept_slid(slid_edited));
     if merged == 0 && simplified.is_none() {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
@@ -82,6 +84,12 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
             let torn = TornDocument::new(document);
             let points = document.positions().iter().copied();
             positions = Positions::new(points).expect("they were usable");
+            if slid_back > 0 {
+                // What is put back spans another area: the mass is that of what is written.
+                let masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
+                ledger.after = masses.ledger().after;
+                session.say_mass(&ledger);
+            }
             let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
             session.write(&mesh, fill, streams)?;
         }
@@ -97,6 +105,8 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         cuts_left,
         vertices_removed: taken_out,
         vertices_edited: edited,
+        vertices_slid_back: slid_back,
+        vertices_slid_edited: slid_edited,
         faces_removed: faces_before - mesh.face_count(),
         pieces_before,
         pieces,
@@ -110,6 +120,10 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     if taken_out > 0 {
         let taken_out = count(taken_out, "inserted vertex", "inserted vertices");
         words += &format!(", {taken_out} taken out");
+    }
+    if slid_back > 0 {
+        let slid_back = count(slid_back, "vertex", "vertices");
+        words += &format!(", {slid_back} put back");
     }
     if cuts_left > 0 {
         words += &format!(", {} left", count(cuts_left, "cut", "cuts"));
@@ -137,13 +151,25 @@ fn stitches(
 }
 
 /// Says that vertices stay that were to be taken out.
-fn kept(edited: usize) -> Fault {
+fn kept(edited: usize) -> Option<Fault> {
     let vertices = count(edited, "inserted vertex was", "inserted vertices were");
     let stays = if edited == 1 { "stays" } else { "stay" };
     let message = format!(
         "{vertices} edited since the cut and {stays}, with the divided faces that hang together there"
     );
-    Fault::warning("W-MEND-EDITED", message)
+    (edited > 0).then(|| Fault::warning("W-MEND-EDITED", message))
+}
+
+/// Says that vertices stay where a cut moved them.
+fn kept_slid(edited: usize) -> Option<Fault> {
+    let vertices = count(
+        edited,
+        "vertex that a cut moved was",
+        "vertices that cuts moved were",
+    );
+    let stays = if edited == 1 { "stays" } else { "stay" };
+    let message = format!("{vertices} edited since and {stays} in place");
+    (edited > 0).then(|| Fault::warning("W-MEND-EDITED", message))
 }
 
 /// Refuses numbers that make no sense.

@@ -136,6 +136,10 @@ pub(crate) struct Mend {
     pub(crate) vertices_removed: usize,
     /// Inserted ones that stay because they were edited since.
     pub(crate) vertices_edited: usize,
+    /// Vertices that cuts moved and that are where they were before.
+    pub(crate) vertices_slid_back: usize,
+    /// Those that stay because they were edited since.
+    pub(crate) vertices_slid_edited: usize,
     pub(crate) faces_removed: usize,
     pub(crate) pieces_before: usize,
     pub(crate) pieces: usize,

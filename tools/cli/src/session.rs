@@ -134,8 +134,7 @@ impl<'a> Session<'a> {
         ledger: &Ledger,
         broken: Option<String>,
     ) -> Result<(), Stop> {
-        let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
-        self.report.mass = Some(report::Mass { before, after });
+        let (before, after) = self.say_mass(ledger);
         self.report.invariants.checked = true;
         let violations = &mut self.report.invariants.violations;
         violations.extend(mesh.check().iter().map(ToString::to_string));
@@ -151,6 +150,13 @@ impl<'a> Session<'a> {
                 faults: Vec::new(),
             })
         }
+    }
+
+    /// Notes the mass before and after for the report, and gives both.
+    pub(crate) fn say_mass(&mut self, ledger: &Ledger) -> (f64, f64) {
+        let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
+        self.report.mass = Some(report::Mass { before, after });
+        (before, after)
     }
 
     /// Says that there was nothing to do, and so nothing was written; warnings have said why.

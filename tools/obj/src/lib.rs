@@ -78,6 +78,7 @@
 //! | `W-OBJ-FOREIGN` | there are statements that are kept and not interpreted |
 //! | `W-OBJ-RELATIVE` | (note) negative indices of such statements were made absolute |
 //! | `W-OBJ-RECORD` | the record of tears is damaged, of a later version, or of other faces: the file is read as one without |
+//! | `W-OBJ-RECORD-SLID` | vertices that slid cannot be put back, since the number of `vt` or `vn` was changed |
 //! | `W-OBJ-RECORD-MOVED` | copies of a vertex for its fans are at different places now, and so vertices of their own |
 //! | `W-OBJ-BOM` | (note) a byte order mark was dropped |
 //! | `W-OBJ-REPAIR-BOWTIE` | fans of a vertex were given vertices of their own ([`Repair`]) |
@@ -101,6 +102,9 @@
 //!         | "#~ parent" FIRST LAST A B C          the faces FIRST to LAST cover what was A B C
 //!         | "#~ vt" FIRST LAST                    the texture coordinates FIRST to LAST were inserted
 //!         | "#~ vn" FIRST LAST                    the normals FIRST to LAST were inserted
+//!         | "#~ slide" VERTEX CUT BEFORE AFTER    CUT slid VERTEX: the numbers of its `v` before and then
+//!         | "#~ slide-vt" NEW OLD NUMBERS         ... at whose corners NEW is for OLD; NUMBERS are those of NEW
+//!         | "#~ slide-vn" NEW OLD X Y Z           ... and likewise for normals
 //! end     = "#tearmesh end" ITEMS HASH
 //! ```
 //!
@@ -111,7 +115,9 @@
 //! * `V` and `F` count the `v` and `f` of the file. `BEFORE` counts the `vt` or `vn` before any
 //!   was inserted, and `ALL` those of the file. Without items that say which were inserted, these
 //!   are the last.
-//! * `VERSION` is 2 where it has to be: in version 1 there is no `vt` and no `vn`, and the copies are
+//! * Slides come in the order in which they were made, each with its `slide-vt` and `slide-vn` behind
+//!   it. A vertex is put back only if it has the numbers that its last slide left.
+//! * `VERSION` is 2 where it has to be: version 1 ends with `parent`, and the copies are
 //!   the last `v` of the file. Programs that know version 1 alone say of version 2 that it is
 //!   later, and take the file for one without a record.
 //! * A cut has a number from 1; a later one has a higher one. After a merge, a `split` names
@@ -149,7 +155,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and the compact lists it is made of |
-//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, indices, references ahead, what is carried through, faults |
+//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, indices, references ahead, what is carried through, the record and whether it fits, faults |
 //! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, thin faces that are avoided, diagonals that collide |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
@@ -159,6 +165,7 @@
 //! | `record.rs` | what is on record, and the checksum |
 //! | `sections.rs`, `order.rs` | where objects end, and in which order and under which numbers statements are written |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
+//! | `slides.rs` | vertices that slid, and what they were before |
 //! | `simplify.rs` | a document without what can be taken out again |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
 //!
@@ -180,6 +187,7 @@ mod repair;
 mod said;
 mod sections;
 mod simplify;
+mod slides;
 mod store;
 mod torn;
 mod triangulate;

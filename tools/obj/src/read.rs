@@ -11,9 +11,11 @@ mod copies;
 mod decimal;
 mod face;
 mod fault;
+mod fits;
 mod foreign;
 mod forward;
 mod index;
+mod items;
 mod line;
 mod lines;
 mod numbers;
@@ -23,6 +25,7 @@ mod scan;
 mod tally;
 mod text;
 mod usual;
+mod words;
 
 #[cfg(feature = "obj-rs")]
 pub(crate) use self::face::ARITY_MAX;

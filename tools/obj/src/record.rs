@@ -6,6 +6,7 @@
 //! coordinates and normals at the corners of a divided face are those that its parts have
 //! there, and the links of the mesh follow from its roots (`Mesh::build_torn`).
 
+use crate::slides::Slides;
 use crate::store::push;
 pub(crate) use crate::torn::SplitOff;
 
@@ -30,6 +31,7 @@ pub(crate) struct Record {
     /// its last. Ascending, and apart.
     pub(crate) texture: Vec<[u32; 2]>,
     pub(crate) normals: Vec<[u32; 2]>,
+    pub(crate) slides: Slides,
     /// The `v` of the file that were copies, by their numbers there, and the vertices that they are;
     /// ascending.
     pub(crate) copies: Vec<[u32; 2]>,
@@ -118,7 +120,10 @@ pub(crate) struct Parent {
 impl Record {
     /// Whether there is nothing to say.
     pub(crate) fn is_empty(&self) -> bool {
-        self.splits.is_empty() && self.inserted.is_empty() && self.parents.is_empty()
+        self.splits.is_empty()
+            && self.inserted.is_empty()
+            && self.parents.is_empty()
+            && self.slides.is_empty()
     }
 
     /// The number in the file of a vertex, from 0: copies come between.
@@ -168,13 +173,15 @@ impl Record {
         for parent in &mut self.parents {
             parent.corners = parent.corners.map(&id);
         }
+        self.slides = self.slides.filtered(|_, v| Some(id(v)), |_, index| index);
     }
 
     /// The highest number of a cut; 0 if there is none.
     pub(crate) fn last_cut(&self) -> u32 {
         let splits = self.splits.iter().map(|split| split.cut);
         let inserted = self.inserted.iter().map(|inserted| inserted.cut);
-        splits.chain(inserted).max().unwrap_or(0)
+        let slid = self.slides.iter().map(|slid| slid.cut);
+        splits.chain(inserted).chain(slid).max().unwrap_or(0)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Taking out again what cuts inserted.
+//! Taking out again what cuts inserted, and putting back what they moved.
 
 use tearmesh::{Mesh, Positions};
 
@@ -9,17 +9,22 @@ use crate::write::{Prepared, write};
 
 /// What [`TornDocument::simplified`] found.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Simplified {
     /// The document without what can go; `None` if nothing can.
     pub document: Option<Document>,
     /// How many inserted vertices stay only because they were edited since. Other vertices may
     /// have to stay with them.
     pub edited: usize,
+    /// How many vertices that slid are where they were before.
+    pub slid_back: usize,
+    /// How many vertices that slid stay where they are only because they were edited since.
+    pub slid_edited: usize,
 }
 
 impl TornDocument<'_> {
     /// The document without the vertices that cuts inserted and that keep nothing apart any more,
-    /// and with the faces that they divided whole again.
+    /// with the faces that they divided whole again, and with the vertices that they slid put back.
     ///
     /// Mending sews the sides of a cut, and leaves the vertices along it. An inserted vertex goes if
     /// all its copies are one again and every face that it divided is restored. A divided
@@ -28,17 +33,24 @@ impl TornDocument<'_> {
     /// faces go together along the whole length of a cut, up to where it is still open.
     /// Texture coordinates and normals that were inserted go if no face is left that has them.
     ///
-    /// An inserted vertex stays if it was *edited* since, by another program or by a later cut: if
-    /// its position, its extra numbers, or its texture coordinate or normal at some corner is not,
+    /// A vertex that a cut slid is put back, with its extra numbers and the texture coordinates and
+    /// normals of its corners: if nothing that this cut or a later one tore holds it apart, and
+    /// everything goes that was put beside it since. Several slides of a vertex are undone in
+    /// reverse order.
+    ///
+    /// An inserted vertex stays if it was *edited* since, by another program: if its position, its
+    /// extra numbers, or its texture coordinate or normal at some corner is not,
     /// but for the rounding of a few operations on `f64`, what the recorded insertion makes of those
-    /// at the vertices that it was put between, as these are now. A vertex was edited, then, if it
-    /// was moved, if it slid or an end of its edge did, if its copies lay apart and were sewn
+    /// at the vertices that it was put between, as these were then. A vertex was edited, then, if it
+    /// was moved, if an end of its edge was, if its copies lay apart and were sewn
     /// somewhere between, or if a program rounded all coordinates of the file. The faces round
     /// it stay divided, and so does what hangs together with them; so the surface is
-    /// where it was. [`Simplified::edited`] counts these vertices.
+    /// where it was. [`Simplified::edited`] counts these vertices. A vertex that slid and has not, to the
+    /// bit, what the slide left it, was edited too, and stays where it is:
+    /// [`Simplified::slid_edited`] counts those. Both stay on record.
     ///
     /// After a cut is mended altogether and nothing was edited, this gives what was there before it,
-    /// byte for byte; but for the positions of vertices that slid.
+    /// byte for byte.
     ///
     /// The document is made by writing and reading: linear, in the memory of a file more.
     ///
@@ -73,10 +85,15 @@ impl TornDocument<'_> {
     /// ```
     pub fn simplified(&self, mesh: &Mesh, positions: &Positions) -> Result<Simplified, ReadError> {
         self.assert_in_step(mesh, positions);
-        let (removal, edited) = self.removal(mesh, positions);
+        let (removal, found) = self.removal(mesh, positions);
+        let simplified = Simplified {
+            document: None,
+            edited: found.edited,
+            slid_back: found.slid_back,
+            slid_edited: found.slid_edited,
+        };
         let Some(removal) = removal else {
-            let document = None;
-            return Ok(Simplified { document, edited });
+            return Ok(simplified);
         };
         let mut bytes = Vec::new();
         write(
@@ -86,6 +103,9 @@ impl TornDocument<'_> {
             &mut bytes,
         )?;
         let document = Some(Document::read(&bytes[..])?);
-        Ok(Simplified { document, edited })
+        Ok(Simplified {
+            document,
+            ..simplified
+        })
     }
 }

@@ -28,6 +28,9 @@ fn grow<T>(list: &mut Vec<T>, least: usize) {
     list.reserve_exact((list.len() / 2 + 64).max(least));
 }
 
+/// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
+pub(crate) const NUMBERS_MAX: usize = 16;
+
 /// Rows of numbers, each with a length of its own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Rows {

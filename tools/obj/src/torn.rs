@@ -8,6 +8,9 @@
 mod ancestry;
 mod corners;
 mod edited;
+mod extras;
+mod going;
+mod past;
 mod removal;
 mod slots;
 mod turns;
@@ -18,14 +21,16 @@ pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
 use tearmesh::{
-    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Positions, Slide,
+    Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Point, Positions, Slide,
     VertexId, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
 use self::corners::Corners;
+use self::extras::Extras;
 use crate::document::Document;
 use crate::record::{At, Inserted, Parent, Record, is_in};
+use crate::slides::Slides;
 use crate::store::Rows;
 
 /// A document and what became of it: a [`Follower`] of the log of its mesh, that writes it.
@@ -45,7 +50,8 @@ use crate::store::Rows;
 /// * The new vertex of a split has the extra numbers of the old one; of two that are merged,
 ///   those of the one that is kept stay.
 /// * Where a vertex slides along an edge, its corners there take theirs with them, and so do all
-///   others that have the same index.
+///   others that have the same index. What it was before is put on record, as long as nothing but
+///   the log moves it.
 ///
 /// ```
 /// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};
@@ -83,14 +89,15 @@ pub struct TornDocument<'d> {
     /// Whether anything was split or inserted since that number was given.
     cut_is_used: bool,
     ancestry: Ancestry,
-    /// The row of extra numbers of each vertex: one of the document, or behind those one of
-    /// `new_extras`. Empty if the document has none.
-    extras: Vec<u32>,
-    new_extras: Rows,
+    extras: Extras<'d>,
     /// What was inserted, by class, ascending. `vertex` is the class, and those in `at` are.
     inserted: Vec<Inserted>,
     /// What became of faces, and of their corners; `None` until the first insertion.
     corners: Option<Corners<'d>>,
+    /// Vertices that slid, by the nodes of the ancestry.
+    slides: Slides,
+    /// Where vertices are if nothing but the log moves them; `None` until the first edit.
+    places: Option<Positions>,
 }
 
 impl<'d> TornDocument<'d> {
@@ -99,17 +106,17 @@ impl<'d> TornDocument<'d> {
     pub fn new(document: &'d Document) -> TornDocument<'d> {
         let count = document.positions.len();
         let record = document.record.as_deref();
-        let has_extras = document.extras.len() > 0;
         TornDocument {
             document,
             seen: Cursor::START,
             cut: record.map_or(0, Record::last_cut) + 1,
             cut_is_used: false,
             ancestry: Ancestry::new(count, record.map_or(&[], |record| &record.splits)),
-            extras: (0..count as u32).filter(|_| has_extras).collect(),
-            new_extras: Rows::default(),
+            extras: Extras::new(document),
             inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
             corners: None,
+            slides: record.map_or_else(Slides::default, |record| record.slides.clone()),
+            places: None,
         }
     }
 
@@ -244,9 +251,7 @@ impl<'d> TornDocument<'d> {
 
     fn split(&mut self, old: usize) {
         self.ancestry.split(old, self.cut);
-        if let Some(&row) = self.extras.get(old) {
-            self.extras.push(row);
-        }
+        self.extras.split(old);
         self.cut_is_used = true;
     }
 
@@ -271,11 +276,7 @@ impl<'d> TornDocument<'d> {
                     before = Some(point);
                 }
             }
-            if !self.extras.is_empty() {
-                let row = self.interpolated(&point.at);
-                let row = self.new_row(&row);
-                self.extras.push(row);
-            }
+            self.extras.insert(&point.at);
         }
         let (document, ancestry) = (self.document, &self.ancestry);
         let corners = self.corners.get_or_insert_with(|| Corners::new(document));
@@ -283,25 +284,42 @@ impl<'d> TornDocument<'d> {
         self.cut_is_used = true;
     }
 
-    fn slide(&mut self, slide: &Slide<'_>) {
-        if !self.extras.is_empty() {
-            let ends = [slide.vertex, slide.toward];
-            let row = self.interpolated(&Location::Edge { ends, t: slide.t });
-            if !row.is_empty() {
-                self.extras[slide.vertex.index()] = self.new_row(&row);
-            }
-        }
+    /// Follows an edit with the places of vertices; of one that slides, where it was and is.
+    fn move_places(&mut self, edit: &Edit<'_>) -> Option<[Point; 2]> {
+        let document = self.document;
+        let places = self.places.get_or_insert_with(|| {
+            let points = Positions::new(document.positions.iter().copied());
+            points.expect("the reader refuses other coordinates")
+        });
+        let at = |places: &Positions| match edit {
+            Edit::Slide(slide) => Some(places.at(slide.vertex)),
+            _ => None,
+        };
+        let was = at(places);
+        places.follow(edit);
+        Some([was?, at(places)?])
+    }
+
+    /// Follows a vertex that slides from one place to another.
+    fn slide(&mut self, slide: &Slide<'_>, places: [Point; 2]) {
+        let vertex = slide.vertex.index();
+        let [before, after] = places.map(|point| [point.x, point.y, point.z]);
+        let mut numbers = before.to_vec();
+        numbers.extend_from_slice(self.extra_numbers(vertex));
+        self.extras.slide(slide);
+        numbers.extend(after);
+        numbers.extend_from_slice(self.extra_numbers(vertex));
+        self.slides
+            .push(self.ancestry.node(vertex), self.cut, &numbers);
         let document = self.document;
         if document.texture.len() + document.normals.len() > 0 {
             let corners = self.corners.get_or_insert_with(|| Corners::new(document));
-            corners.slide(slide);
+            for exchange in corners.slide(slide) {
+                let value = self.value(exchange.which, exchange.new);
+                self.slides.push_exchange(exchange, &value);
+            }
         }
-    }
-
-    fn new_row(&mut self, row: &[f64]) -> u32 {
-        let index = self.new_extras.len();
-        self.new_extras.set(index, row);
-        (self.document.positions.len() + index) as u32
+        self.cut_is_used = true;
     }
 
     /// The cut since which the two sides of a torn edge are apart, if these two points are on
@@ -335,35 +353,9 @@ impl<'d> TornDocument<'d> {
         }
     }
 
-    /// The extra numbers at a place; none where those of its sources are not of one length.
-    fn interpolated(&self, at: &Location) -> Vec<f64> {
-        let row = |v: VertexId| self.extra_numbers(v.index());
-        let alike = |rows: &[&[f64]]| rows.iter().all(|row| row.len() == rows[0].len());
-        match *at {
-            Location::Edge { ends, t } => {
-                let [a, b] = ends.map(row);
-                let both = a.iter().zip(b).filter(|_| alike(&[a, b]));
-                both.map(|(a, b)| a.between(b, t)).collect()
-            }
-            Location::Face { vertices, weights } => {
-                let rows @ [a, b, c] = vertices.map(row);
-                let all = (0..a.len()).filter(|_| alike(&rows));
-                all.map(|i| f64::weighted([&a[i], &b[i], &c[i]], weights))
-                    .collect()
-            }
-        }
-    }
-
     /// What the `v` of a vertex has behind z.
     pub(crate) fn extra_numbers(&self, vertex: usize) -> &[f64] {
-        let Some(&row) = self.extras.get(vertex) else {
-            return &[];
-        };
-        let count = self.document.positions.len();
-        match (row as usize).checked_sub(count) {
-            None => self.document.extras.row(row as usize),
-            Some(new) => self.new_extras.row(new),
-        }
+        self.extras.row(vertex)
     }
 
     /// What was split off, by these numbers of the vertices.
@@ -382,6 +374,7 @@ impl Follower for TornDocument<'_> {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
+        let slid = self.move_places(edit);
         match edit {
             Edit::Split(split) => {
                 assert_eq!(
@@ -394,11 +387,9 @@ impl Follower for TornDocument<'_> {
             Edit::Insert(insert) => self.insert(insert),
             Edit::Merge(merge) => {
                 self.ancestry.merge(merge.kept.index(), merge.gone.index());
-                if !self.extras.is_empty() {
-                    self.extras.swap_remove(merge.gone.index());
-                }
+                self.extras.merge(merge.gone.index());
             }
-            Edit::Slide(slide) => self.slide(slide),
+            Edit::Slide(slide) => self.slide(slide, slid.expect("it slid")),
         }
     }
 }
@@ -427,6 +418,16 @@ impl TornDocument<'_> {
             parents.sort_unstable_by_key(|parent| parent.first);
         }
         parents
+    }
+
+    /// Vertices that slid, by their ids as they are now.
+    pub(crate) fn slides(&self) -> Slides {
+        if self.slides.is_empty() {
+            return Slides::default();
+        }
+        let vertices = self.ancestry.clone().vertices_of_nodes();
+        let vertex = |_, node: u32| Some(vertices[node as usize]);
+        self.slides.filtered(vertex, |_, index| index)
     }
 
     pub(crate) fn inserted(&self) -> &[Inserted] {
@@ -508,6 +509,14 @@ impl TornDocument<'_> {
     /// Whether faces and corners are those of the document.
     pub(crate) fn is_undivided(&self) -> bool {
         self.corners.is_none()
+    }
+
+    /// What a texture coordinate (0) or a normal (1) names.
+    pub(crate) fn value(&self, which: usize, index: u32) -> Vec<f64> {
+        match which {
+            0 => self.texture_row(index).to_vec(),
+            _ => self.normal(index).to_vec(),
+        }
     }
 
     pub(crate) fn texture_row(&self, index: u32) -> &[f64] {

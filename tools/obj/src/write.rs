@@ -330,6 +330,9 @@ impl<W: Write> Writer<'_, W> {
         match which {
             VERTICES => {
                 let vertex = self.prepared.vertex(element);
+                if let Some(numbers) = self.prepared.put_back(vertex) {
+                    return self.out.statement(b"v", numbers, &[]);
+                }
                 let at = self.positions.as_slice()[vertex];
                 let extras = torn.extra_numbers(vertex);
                 self.out.statement(b"v", &[at.x, at.y, at.z], extras)
@@ -378,7 +381,7 @@ impl<W: Write> Writer<'_, W> {
             }
         } else {
             for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
-                self.write_indices(torn.corner_of(h as usize))?;
+                self.write_indices(prepared.corner(h, torn.corner_of(h as usize)))?;
             }
         }
         for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
@@ -409,7 +412,7 @@ impl<W: Write> Writer<'_, W> {
             let vertex = prepared.separated.indices[h as usize];
             let vertex = prepared.orders[VERTICES].number(vertex);
             self.hash.add_corner(vertex);
-            let [texture, normal] = self.torn.corner(h as usize, polygon);
+            let [texture, normal] = prepared.corner(h, self.torn.corner(h as usize, polygon));
             out.push(b' ');
             write_integer(out, u64::from(vertex) + 1);
             if texture.is_some() || normal.is_some() {

@@ -8,10 +8,7 @@ use super::fault::{Fault, Parsed};
 use super::line::{Line, quoted};
 use super::reader::{Reader, limit};
 use super::scan::Scan;
-use crate::store::{Column, Kind, Rows, push};
-
-/// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
-pub(super) const NUMBERS_MAX: usize = 16;
+use crate::store::{Column, Kind, NUMBERS_MAX, Rows, push};
 
 impl Reader {
     pub(super) fn vertex(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {

@@ -13,9 +13,8 @@ use tearmesh::{COORDINATE_MAX, Mesh, Point};
 
 use super::decimal::{Expected, Widths, Word, digits, many_digits, nearest};
 use super::face::repeated;
-use super::numbers::NUMBERS_MAX;
 use super::reader::Reader;
-use crate::store::{Column, Kind, Rows, extend, push};
+use crate::store::{Column, Kind, NUMBERS_MAX, Rows, extend, push};
 
 /// The most corners of a usual face.
 const CORNERS_MAX: usize = 4;

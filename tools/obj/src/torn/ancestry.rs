@@ -116,6 +116,24 @@ impl Ancestry {
         self.tree[self.nodes[v] as usize].home
     }
 
+    /// The node of a vertex, which stays the same when ids change.
+    pub(super) fn node(&self, v: usize) -> u32 {
+        self.nodes.get(v).copied().unwrap_or(v as u32)
+    }
+
+    /// For each node the vertex that it is, or was merged into.
+    pub(super) fn vertices_of_nodes(&mut self) -> Vec<u32> {
+        self.plant();
+        let mut vertices = vec![u32::MAX; self.tree.len()];
+        for (&node, v) in self.nodes.iter().zip(0..) {
+            vertices[node as usize] = v;
+        }
+        for node in 0..self.tree.len() as u32 {
+            vertices[node as usize] = vertices[self.find(node) as usize];
+        }
+        vertices
+    }
+
     /// Above every class.
     pub(super) fn class_count(&self) -> usize {
         self.classes as usize

@@ -7,6 +7,7 @@ use tearmesh::{Blend, Child, HalfEdgeId, Insert, Slide, Source, VertexId};
 use super::slots::Slots;
 use crate::document::Document;
 use crate::record::Parent;
+use crate::slides::Exchange;
 use crate::store::Rows;
 
 /// No index.
@@ -120,8 +121,10 @@ impl<'d> Corners<'d> {
     }
 
     /// Follows a vertex that slides: the corners in the faces of the edge get an index between
-    /// those at its ends, and corners that had the same index as these get it with them.
-    pub(super) fn slide(&mut self, slide: &Slide<'_>) {
+    /// those at its ends, and corners that had the same index as these get it with them. Gives
+    /// what was exchanged.
+    pub(super) fn slide(&mut self, slide: &Slide<'_>) -> Vec<Exchange> {
+        let mut exchanges = Vec::new();
         for which in 0..2 {
             let mut changes: Vec<(HalfEdgeId, [u32; 2], u32)> = Vec::new();
             for [corner, toward] in slide.along.into_iter().flatten() {
@@ -134,7 +137,12 @@ impl<'d> Corners<'d> {
                 let index = match made {
                     Some(&(.., index)) => index,
                     // Whoever gets it had the one at the start, and perhaps never that at the end.
-                    None => self.new_between(which, &[from], between, weights, true),
+                    None => {
+                        let new = self.new_between(which, &[from], between, weights, true);
+                        let old = from;
+                        exchanges.push(Exchange { which, new, old });
+                        new
+                    }
                 };
                 changes.push((corner, ends, index));
             }
@@ -147,6 +155,7 @@ impl<'d> Corners<'d> {
                 }
             }
         }
+        exchanges
     }
 
     fn is_part_of_recorded(&self, slot: u32) -> bool {

@@ -1,20 +1,19 @@
 //! Whether an inserted vertex is still as it was inserted.
 //!
 //! The record says where a vertex was inserted: between which vertices, and how far along. That
-//! place follows from the numbers of the file as it is now, and so do the extra numbers, the
+//! place follows from the numbers that these had then, and so do the extra numbers, the
 //! texture coordinates and the normals there. A vertex that has others was edited since, by
 //! whichever program, and taking it out would lose that.
 //!
 //! The numbers of a file that we wrote read back as the same bits, so what nobody touched differs by
 //! the rounding of a few operations at most, and by nothing else. Where another program rounded all
 //! numbers, to six digits say, every vertex was edited in this sense: how much it meant to round
-//! is not to be known, and to keep a vertex is no loss. The same holds where an end of the edge
-//! was moved, or slid along another edge by a later cut.
+//! is not to be known, and to keep a vertex is no loss. The same holds where an end of the edge was
+//! moved. Where a later cut slid one of them, or the vertex, what they were before is known
+//! (`past.rs`).
 
-use tearmesh::Positions;
-
-use super::TornDocument;
 use super::corners::{blend, length};
+use super::past::{CornerAt, Moment, Past};
 use crate::record::At;
 
 /// By how many units of the last place of the largest number concerned a number may differ: an
@@ -22,25 +21,19 @@ use crate::record::At;
 /// two copies that are merged.
 const ROUNDINGS: f64 = 8.0;
 
-/// A corner of a face and the vertex there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CornerAt {
-    pub(super) half_edge: usize,
-    pub(super) vertex: usize,
-}
-
 /// Sources of an inserted value, with their weights.
 type Sources<T> = [(T, f64); 3];
 
-impl TornDocument<'_> {
-    /// Whether a corner is that of a vertex as it was inserted at a place, `None` of whose ends
-    /// are known if the record does not fit; all of them are corners of parts of one face.
+impl Past<'_> {
+    /// Whether a corner is that of a vertex as it was inserted at a place and a moment, `None` of
+    /// whose ends are known if the record does not fit; all of them are corners of parts of one
+    /// face.
     pub(super) fn is_as_inserted(
         &self,
         corner: CornerAt,
         at: &At,
+        moment: Moment,
         end: impl Fn(u32) -> Option<CornerAt>,
-        positions: &Positions,
     ) -> bool {
         let sources = match *at {
             At::Edge { ends: [a, b], t } => [(a, 1.0 - t), (b, t), (b, 0.0)],
@@ -55,30 +48,21 @@ impl TornDocument<'_> {
         let weights = sources.map(|(_, weight)| weight);
         let with = |corners: [CornerAt; 3]| [0, 1, 2].map(|i| (corners[i], weights[i]));
         let sources = with([a, b, c]);
-        self.is_in_place(corner, sources, positions)
-            && self.has_its_extras(corner, sources)
-            && self.has_its_texture(corner, sources)
-            && self.has_its_normal(corner, sources)
+        self.is_in_place(corner, sources, moment)
+            && self.has_its_extras(corner, sources, moment)
+            && self.has_its_texture(corner, sources, moment)
+            && self.has_its_normal(corner, sources, moment)
     }
 
-    fn is_in_place(
-        &self,
-        corner: CornerAt,
-        sources: Sources<CornerAt>,
-        positions: &Positions,
-    ) -> bool {
-        let place = |corner: CornerAt| {
-            let point = positions.as_slice()[corner.vertex];
-            [point.x, point.y, point.z]
-        };
-        let sources = sources.map(|(corner, weight)| (place(corner), weight));
+    fn is_in_place(&self, corner: CornerAt, sources: Sources<CornerAt>, moment: Moment) -> bool {
+        let sources = sources.map(|(corner, weight)| (self.place(corner, moment), weight));
         let rows = sources.each_ref().map(|(row, weight)| (&row[..], *weight));
-        is_between(&place(corner), rows)
+        is_between(&self.place(corner, moment), rows)
     }
 
-    fn has_its_extras(&self, corner: CornerAt, sources: Sources<CornerAt>) -> bool {
-        let rows = sources.map(|(corner, weight)| (self.extra_numbers(corner.vertex), weight));
-        let is = self.extra_numbers(corner.vertex);
+    fn has_its_extras(&self, corner: CornerAt, sources: Sources<CornerAt>, moment: Moment) -> bool {
+        let rows = sources.map(|(corner, weight)| (self.extra_numbers(corner, moment), weight));
+        let is = self.extra_numbers(corner, moment);
         let alike = rows.iter().all(|(row, _)| row.len() == rows[0].0.len());
         if alike {
             is.len() == rows[0].0.len() && is_between(is, rows)
@@ -87,28 +71,33 @@ impl TornDocument<'_> {
         }
     }
 
-    fn has_its_texture(&self, corner: CornerAt, sources: Sources<CornerAt>) -> bool {
-        let of = |corner: CornerAt| self.corner_of(corner.half_edge)[0];
+    fn has_its_texture(
+        &self,
+        corner: CornerAt,
+        sources: Sources<CornerAt>,
+        moment: Moment,
+    ) -> bool {
+        let of = |corner: CornerAt| self.index(corner, 0, moment);
         let [a, b, c] = sources.map(|(corner, _)| of(corner));
         let (Some(a), Some(b), Some(c)) = (a, b, c) else {
             return of(corner).is_none();
         };
         let Some(is) = of(corner) else { return false };
-        let rows = [a, b, c].map(|index| self.texture_row(index));
+        let rows = [a, b, c].map(|index| self.torn.texture_row(index));
         let weighted = [0, 1, 2].map(|i| (rows[i], sources[i].1));
-        is_between(self.texture_row(is), weighted)
+        is_between(self.torn.texture_row(is), weighted)
     }
 
-    fn has_its_normal(&self, corner: CornerAt, sources: Sources<CornerAt>) -> bool {
-        let of = |corner: CornerAt| self.corner_of(corner.half_edge)[1];
+    fn has_its_normal(&self, corner: CornerAt, sources: Sources<CornerAt>, moment: Moment) -> bool {
+        let of = |corner: CornerAt| self.index(corner, 1, moment);
         let [a, b, c] = sources.map(|(corner, _)| of(corner));
         let (Some(a), Some(b), Some(c)) = (a, b, c) else {
             return of(corner).is_none();
         };
         let Some(is) = of(corner) else { return false };
-        let normals = [a, b, c].map(|index| self.normal(index));
+        let normals = [a, b, c].map(|index| self.torn.normal(index));
         is_normal_between(
-            self.normal(is),
+            self.torn.normal(is),
             [0, 1, 2].map(|i| (normals[i], sources[i].1)),
         )
     }

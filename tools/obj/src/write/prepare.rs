@@ -149,6 +149,13 @@ impl<'m> Prepared<'m> {
                 corners: parent.corners.map(root),
             }
         });
+        let slides = torn.slides().filtered(
+            |slide, vertex| {
+                let is_back = self.removal.is_some_and(|removal| removal.is_back[slide]);
+                (!is_back && self.orders[0].has(vertex)).then(|| number(vertex))
+            },
+            |which, index| self.orders[1 + which].number(index),
+        );
         let [texture, normals] = [0, 1].map(|which| {
             let order = &self.orders[1 + which];
             let all = 0..torn.counts()[which];
@@ -164,7 +171,25 @@ impl<'m> Prepared<'m> {
             parents: parents.collect(),
             texture,
             normals,
+            slides,
             copies: Vec::new(), // They are those of the fans.
+        }
+    }
+
+    /// What the `v` of a vertex of the mesh has that slid, where it is put back.
+    pub(super) fn put_back(&self, vertex: usize) -> Option<&[f64]> {
+        self.removal?.put_back(vertex as u32)
+    }
+
+    /// The texture coordinate and the normal of a corner, which has those.
+    #[inline]
+    pub(super) fn corner(&self, half_edge: u32, indices: [Option<u32>; 2]) -> [Option<u32>; 2] {
+        match self.removal {
+            None => indices,
+            Some(removal) => {
+                let element = self.separated.indices[half_edge as usize];
+                removal.indices_before(self.vertex(element) as u32, indices)
+            }
         }
     }
 

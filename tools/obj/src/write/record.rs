@@ -7,6 +7,7 @@ use super::output::Output;
 use super::prepare::Prepared;
 use crate::order::Order;
 use crate::record::{At, END, HEADER, Hash, ITEM, Record, VERSION, are_last, runs};
+use crate::slides::Slides;
 
 /// Writes the record, if there is one: everything before it is written, and its faces have this
 /// hash.
@@ -25,7 +26,8 @@ pub(super) fn write_record<W: Write>(
     };
     let says_where = [(&record.texture, texture), (&record.normals, normals)]
         .map(|(runs, count)| !are_last(runs, count as u32));
-    let version = if says_where.contains(&true) || !are_last(&copies(prepared), vertices as u32) {
+    let is_later = says_where.contains(&true) || !record.slides.is_empty();
+    let version = if is_later || !are_last(&copies(prepared), vertices as u32) {
         VERSION
     } else {
         1
@@ -70,6 +72,7 @@ pub(super) fn write_record<W: Write>(
             items.item(word, &[first + 1, *end], &[])?;
         }
     }
+    items.write_slides(&record.slides)?;
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);
@@ -114,6 +117,18 @@ impl<W: Write> Items<'_, '_, W> {
         for parent in &record.parents {
             let [a, b, c] = parent.corners.map(|v| v + 1);
             self.item("parent", &[parent.first + 1, parent.end, a, b, c], &[])?;
+        }
+        Ok(())
+    }
+
+    fn write_slides(&mut self, slides: &Slides) -> io::Result<()> {
+        for (slide, slid) in slides.iter().enumerate() {
+            let numbers = slides.numbers(slide);
+            self.item("slide", &[slid.vertex + 1, slid.cut], numbers)?;
+            for (exchange, value) in slides.exchanges(slide) {
+                let word = ["slide-vt", "slide-vn"][exchange.which];
+                self.item(word, &[exchange.new + 1, exchange.old + 1], value)?;
+            }
         }
         Ok(())
     }

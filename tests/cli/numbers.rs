@@ -1,0 +1,71 @@
+//! Vertices are named by their numbers in the file, between which copies for fans may stand.
+
+use crate::harness::{Folder, seen};
+
+/// A wheel torn at its hub, with a copy of each vertex that has several fans, and behind it a tile that
+/// is torn in two: vertex 19 was split from 16, and 20 from 17.
+const TORN: &str = "o wheel\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 0\nv -1 -1 0\nv 0 -1 0\nv 0 0 0\nv 0 0 0\n\
+    v 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 -1 0\nv 0 0 0\nv 0 0 0\nf 8 1 2\nf 7 10 3\nf 7 3 4\n\
+    f 14 11 5\nf 13 12 6\nf 13 6 9\no tile\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 6 1 0\nv 6 0 0\n\
+    v 5 1 0\nf 15 16 17\nf 20 19 18\n\
+    #tearmesh record 2 v 20 f 8 vt 0 0 vn 0 0 faces b93094631f04dfcc\n#~ split 8 7 1\n\
+    #~ split 19 16 1\n#~ split 20 17 1\n#~ fan 9 1\n#~ fan 10 2\n#~ fan 11 4\n#~ fan 12 5\n\
+    #~ fan 13 7\n#~ fan 14 8\n#tearmesh end 9 acb9d961f321039a\n";
+
+#[test]
+fn vertices_too_far_apart_are_named_as_in_the_file() {
+    let folder = Folder::new();
+    let tile = TORN.find("o tile").expect("the second object");
+    let (wheel, rest) = TORN.split_at(tile);
+    let (own, copies) = rest.split_at(rest.find("v 6 1 0").expect("the fourth corner"));
+    let moved = copies.replace("v 6 0 0", "v 7 0 0");
+    folder.write("torn.obj", format!("{wheel}{own}{moved}"));
+    let answer = seen(&folder.run("tearmesh mend torn.obj --max-distance 0.5 -o whole.obj"));
+    assert!(
+        answer.contains("the vertices 16 and 19 are 1 apart"),
+        "{answer}"
+    );
+}
+
+#[test]
+fn strengths_and_holds_name_vertices_as_in_the_file() {
+    let folder = Folder::new();
+    folder.write("torn.obj", TORN);
+    let run = |line: &str| {
+        let output = folder.run(&format!(
+            "tearmesh tear torn.obj --seconds 0.01 -o o.obj {line}"
+        ));
+        (output.status.success(), seen(&output))
+    };
+    // The last vertex, and a copy, which is the vertex that it is of.
+    folder.write("good.txt", "20 2\n9 2\n");
+    let (is_done, answer) = run("--scene hang --strength good.txt");
+    assert!(is_done, "{answer}");
+    folder.write("bad.txt", "21 2\n");
+    let (is_done, answer) = run("--scene hang --strength bad.txt");
+    assert!(
+        !is_done && answer.contains("the mesh has the vertices 1 to 20"),
+        "{answer}"
+    );
+    // Vertex 18 hangs by its hand; what is not held falls.
+    folder.write("hold.toml", "[[hold]]\nvertices = [18]\n");
+    let (is_done, answer) = run("--scene hold.toml");
+    assert!(is_done, "{answer}");
+    let text = folder.read("o.obj");
+    let places: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).collect();
+    let resting: Vec<usize> = (1..=places.len())
+        .filter(|number| {
+            places[number - 1]
+                == TORN
+                    .lines()
+                    .filter(|line| line.starts_with("v "))
+                    .nth(number - 1)
+                    .expect("as many")
+        })
+        .collect();
+    assert_eq!(resting, [18], "{text}");
+    folder.write("far.toml", "[[hold]]\nvertices = [21]\n");
+    let (is_done, answer) = run("--scene far.toml");
+    let refused = "hold 1 names the vertex 21, and the mesh has the vertices 1 to 20";
+    assert!(!is_done && answer.contains(refused), "{answer}");
+}

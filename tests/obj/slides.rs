@@ -1,0 +1,406 @@
+//! Vertices that cuts slid onto their plane: on record with what they were before, and put back to the
+//! bit when the cut is undone.
+
+use tearmesh::{
+    Edit, FaceId, HalfEdgeId, Method, Point, Ray, Scissor, Vector, VertexId, insert::Plan, slide,
+    split,
+};
+
+use super::random::Random;
+use super::torn_record::{Work, files};
+use super::{read, rewritten, text};
+
+fn below(random: &mut Random, bound: usize) -> usize {
+    (random.next() * bound as f64) as usize
+}
+
+fn vertex(v: usize) -> VertexId {
+    VertexId::new(v).expect("small")
+}
+
+impl Work<'_> {
+    /// Cuts somewhere, and slides vertices that are near the plane onto it; which ones slid.
+    pub(crate) fn cut_sliding(&mut self, random: &mut Random) -> Vec<usize> {
+        let points = self.positions.as_slice();
+        let near = |random: &mut Random| {
+            let middle = points[below(random, points.len())];
+            middle + Vector::new(random.next() - 0.5, random.next() - 0.5, 0.0) * 0.2
+        };
+        let [p, q]: [Point; 2] = [near(random), near(random)];
+        let down = Vector::new(0.0, 0.0, -1.0);
+        let rays = [p, q].map(|p| Ray::new(p - down * 50.0, down).expect("a ray"));
+        let Ok(scissor) = Scissor::new(&rays[0], &rays[1]) else {
+            return Vec::new();
+        };
+        let scissor = scissor.snap(0.2).snap_move(true);
+        self.edit(|mesh, positions, edits| {
+            let seen = edits.cursor();
+            let done = scissor.cut(Method::Exact, mesh, positions, edits);
+            done.expect("positions are in step");
+            let slides = edits.since(seen).filter_map(|edit| match edit {
+                Edit::Slide(slide) => Some(slide.vertex.index()),
+                _ => None,
+            });
+            slides.collect()
+        })
+    }
+
+    fn slide(&mut self, from: usize, toward: usize, t: f64) {
+        self.edit(|mesh, _, edits| {
+            slide::toward(mesh, vertex(from), vertex(toward), t, edits).expect("an edge");
+        });
+    }
+
+    fn insert_on(&mut self, half_edge: usize) {
+        self.edit(|mesh, _, edits| {
+            let mut plan = Plan::new();
+            plan.on_edge(HalfEdgeId::new(half_edge).expect("small"), 0.375);
+            plan.apply(mesh, edits).expect("a point");
+        });
+    }
+
+    fn split_off(&mut self, from: usize, face: usize) {
+        self.edit(|mesh, _, edits| {
+            let faces = [FaceId::new(face).expect("small")];
+            split::vertex(mesh, vertex(from), &faces, edits).expect("a split");
+        });
+    }
+
+    /// What is written once all is sewn and simplified, in this session.
+    fn undone(mut self) -> String {
+        self.sew_all();
+        let simple = self.torn.simplified(&self.mesh, &self.positions);
+        let simple = simple.expect("what we wrote can be read").document;
+        let written = simple.map_or_else(|| self.written(), |simple| Work::on(&simple).written());
+        text(&written)
+    }
+}
+
+/// The same in another session.
+fn undone_later(file: &[u8]) -> String {
+    let document = read(file);
+    Work::on(&document).undone()
+}
+
+/// Two objects, with all kinds of corners, and with colours, which slide along.
+const FLAG: &str = "o flag\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0.3 0 0 1\nv 1 1 0 1 1 1\n\
+    v 2 0.5 0.1 0 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 0.3 0.7\nvn 0 0 1\nvn 0 0.6 0.8\n\
+    f 1/1/1 2/2/2 3/3/1\nf 3/3/1 2/2/2 4/4/1\nf 2/5/1 5/1/2 4/4/1\n\
+    o tile\nv 9 9 9\nv 8 9 9\nv 9 8 9\nvt 0.1\nf 6/6 7/6 8/6\n";
+
+#[test]
+fn a_slide_is_undone_to_the_bit() {
+    type Deed = fn(&mut Work<'_>);
+    let deeds: [(&str, Deed); 9] = [
+        ("once", |work| work.slide(1, 3, 0.3)),
+        ("along the boundary", |work| work.slide(0, 1, 0.7)),
+        ("twice in a cut", |work| {
+            work.slide(1, 3, 0.3);
+            work.slide(1, 2, 0.1);
+        }),
+        ("in two cuts", |work| {
+            work.slide(1, 3, 0.3);
+            work.torn.next_cut();
+            work.slide(1, 3, 0.3);
+        }),
+        ("and then split", |work| {
+            work.slide(1, 3, 0.3);
+            work.split_off(1, 0);
+        }),
+        ("and then divided", |work| {
+            work.slide(1, 3, 0.3);
+            work.insert_on(1);
+            work.insert_on(0);
+        }),
+        ("after it was divided", |work| {
+            work.insert_on(1);
+            work.torn.next_cut();
+            work.slide(1, 3, 0.3);
+        }),
+        ("after it was divided by the same cut", |work| {
+            work.insert_on(1);
+            work.slide(1, 3, 0.3);
+            work.split_off(1, 0);
+        }),
+        ("as it was inserted", |work| {
+            work.insert_on(1);
+            work.torn.next_cut();
+            work.slide(8, 1, 0.3);
+            work.torn.next_cut();
+            work.slide(1, 8, 0.2);
+        }),
+    ];
+    let document = read(FLAG.as_bytes());
+    for (name, deed) in deeds {
+        let mut work = Work::on(&document);
+        deed(&mut work);
+        let written = work.written();
+        assert_ne!(text(&written), FLAG, "{name}");
+        assert_eq!(text(&rewritten(&written)), text(&written), "{name}");
+        assert_eq!(undone_later(&written), FLAG, "{name}:\n{}", text(&written));
+        assert_eq!(work.undone(), FLAG, "{name}");
+    }
+}
+
+/// Cuts that slide near vertices onto their plane, through files, all undone at last.
+#[test]
+fn cuts_that_slide_are_undone_to_the_byte() {
+    let (mut slid_in, mut slid) = (0, 0);
+    for (name, file) in files() {
+        let uncut = text(&rewritten(&file));
+        for seed in 0..40 {
+            let mut random = Random(5000 + seed);
+            let mut bytes = file.clone();
+            let mut count = 0;
+            for _ in 0..1 + seed % 3 {
+                let document = read(&bytes);
+                let mut work = Work::on(&document);
+                for _ in 0..1 + seed % 2 {
+                    count += work.cut_sliding(&mut random).len();
+                    work.torn.next_cut();
+                }
+                bytes = work.written();
+                assert_eq!(
+                    text(&rewritten(&bytes)),
+                    text(&bytes),
+                    "{name}, seed {seed}"
+                );
+            }
+            assert_eq!(undone_later(&bytes), uncut, "{name}, seed {seed}");
+            slid_in += usize::from(count > 0);
+            slid += count;
+        }
+    }
+    println!("{slid} vertices slid in {slid_in} of 200 files, and are all back");
+    assert!(slid_in > 80, "{slid_in}");
+}
+
+/// What is written of a torn file once it is sewn and simplified, what of it stays for edits: inserted
+/// vertices, and slid ones; and how many of these are put back.
+fn simplified(file: &[u8]) -> (String, [usize; 3]) {
+    let document = read(file);
+    let mut work = Work::on(&document);
+    work.sew_all();
+    let simple = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simple.expect("what we wrote can be read");
+    let counts = [simple.edited, simple.slid_edited, simple.slid_back];
+    let document = simple.document;
+    let written = document.map_or_else(|| work.written(), |simple| Work::on(&simple).written());
+    (text(&written), counts)
+}
+
+/// Edits a line of a file.
+fn edited(file: &str, from: &str, to: &str) -> String {
+    assert_eq!(file.matches(from).count(), 1, "{from} in {file}");
+    file.replace(from, to)
+}
+
+#[test]
+fn what_another_program_did_to_a_slid_vertex_is_kept_and_said() {
+    let document = read(FLAG.as_bytes());
+    let mut work = Work::on(&document);
+    work.slide(1, 3, 0.5);
+    work.slide(0, 2, 0.5);
+    let written = text(&work.written());
+    assert_eq!(simplified(written.as_bytes()), (FLAG.to_owned(), [0, 0, 2]));
+    for (from, to) in [
+        ("v 1 0.5 0 0.5 1 0.5\n", "v 1 0.5 0.25 0.5 1 0.5\n"),
+        ("v 1 0.5 0 0.5 1 0.5\n", "v 1 0.5 0 0.5 1 0.75\n"),
+        ("v 1 0.5 0 0.5 1 0.5\n", "v 1 0.5 0\n"),
+        ("vt 1 0.5\n", "vt 1 0.25\n"),
+        ("vt 1 0.5\n", "vt 1\n"),
+    ] {
+        let file = edited(&written, from, to);
+        let (after, counts) = simplified(file.as_bytes());
+        assert_eq!(counts, [0, 1, 1], "{from} -> {to}");
+        // The other vertex is back, and the edit is there.
+        assert!(after.starts_with("o flag\nv 0 0 0 1 0 0\n"), "{after}");
+        assert!(after.contains(to), "{to} in {after}");
+        // It stays on record, so it is said again, and so on.
+        let (again, counts) = simplified(after.as_bytes());
+        assert_eq!((again, counts), (after, [0, 1, 0]));
+    }
+    // What the corner had before may be edited: the corner has it back, as it is now.
+    let file = edited(&written, "vt 1 0\n", "vt 1 0.125\n");
+    let (after, counts) = simplified(file.as_bytes());
+    assert_eq!(counts, [0, 0, 2]);
+    assert_eq!(after, FLAG.replace("vt 1 0\n", "vt 1 0.125\n"));
+    // Other numbers of texture coordinates may be others altogether.
+    let file = edited(&written, "vt 0.1\n", "vt 0.1\nvt 0.2\n");
+    let told = read(file.as_bytes());
+    let told = told.diagnostics().iter().map(ToString::to_string);
+    let told: Vec<String> = told.collect();
+    assert!(
+        told.iter()
+            .any(|said| said.contains("2 vertices that slid stay where they are")),
+        "{told:?}"
+    );
+    let (after, counts) = simplified(file.as_bytes());
+    assert_eq!(counts, [0, 0, 0]);
+    assert!(after.contains("v 1 0.5 0 0.5 1 0.5\n"), "{after}");
+}
+
+/// While the cut is open where a vertex slid, the vertex stays: on its plane.
+#[test]
+fn a_slide_stays_while_its_cut_is_open() {
+    let document = read(FLAG.as_bytes());
+    let mut work = Work::on(&document);
+    work.slide(1, 3, 0.5);
+    work.split_off(1, 0);
+    work.torn.next_cut();
+    work.slide(0, 2, 0.5);
+    let file = work.written();
+    let again = read(&file);
+    let work = Work::on(&again);
+    let simple = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simple.expect("what we wrote can be read");
+    assert_eq!((simple.slid_back, simple.slid_edited), (1, 0));
+    let simple = simple.document.expect("one is back");
+    assert_eq!(simple.positions()[0], document.positions()[0]);
+    assert_eq!(simple.positions()[1], Point::new(1.0, 0.5, 0.0));
+    let left = Work::on(&simple);
+    assert_eq!(left.undone(), FLAG);
+}
+
+/// What was put beside a vertex where it slid to holds it there; and what was put beside it before, is
+/// held by the slide.
+#[test]
+fn slides_and_insertions_wait_for_each_other() {
+    let document = read(FLAG.as_bytes());
+    // Inserted first, then slid; the slide is held by a split of the second cut.
+    let mut work = Work::on(&document);
+    work.insert_on(1);
+    work.torn.next_cut();
+    work.slide(1, 3, 0.5);
+    work.split_off(1, 0);
+    let before = text(&work.written());
+    let simple = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simple.expect("what we wrote can be read");
+    assert!(simple.document.is_none());
+    assert_eq!(
+        (simple.edited, simple.slid_edited),
+        (0, 0),
+        "nobody edited anything"
+    );
+    assert_eq!(undone_later(before.as_bytes()), FLAG);
+    // The same with the split on another side: what was inserted is as it was, beside a vertex that is
+    // not where it was then.
+    let mut work = Work::on(&document);
+    work.insert_on(1);
+    work.torn.next_cut();
+    work.slide(1, 3, 0.5);
+    work.split_off(1, 2);
+    let simple = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simple.expect("what we wrote can be read");
+    assert!(simple.document.is_none());
+    assert_eq!((simple.edited, simple.slid_edited), (0, 0));
+    assert_eq!(work.undone(), FLAG);
+    // Slid first, then inserted; what was inserted is held by a split.
+    let mut work = Work::on(&document);
+    work.slide(1, 3, 0.5);
+    work.torn.next_cut();
+    work.insert_on(1);
+    work.split_off(8, 0);
+    let simple = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simple.expect("what we wrote can be read");
+    assert!(simple.document.is_none());
+    assert_eq!((simple.edited, simple.slid_edited), (0, 0));
+    assert_eq!(work.undone(), FLAG);
+}
+
+/// A vertex slides along a seam of the texture, and takes other indices on either side; the parts of a
+/// face that was divided before have both.
+#[test]
+fn parts_of_a_face_may_disagree_while_a_vertex_is_slid() {
+    let seam = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 -1 0\nvt 0 0\nvt 1 0\nvt 0.75 0.5\nvt 0 1\n\
+        f 1/1 2/3 3/4\nf 2/2 1/1 4/4\n";
+    let document = read(seam.as_bytes());
+    let divided_and_slid = || {
+        let mut work = Work::on(&document);
+        work.insert_on(5); // Between 4 and 2.
+        work.torn.next_cut();
+        work.slide(0, 1, 0.25);
+        work
+    };
+    let work = divided_and_slid();
+    let indices: Vec<Option<u32>> = (0..3).map(|face| at_vertex(&work, face, 0)).collect();
+    assert_eq!(
+        indices.iter().flatten().count(),
+        3,
+        "all faces have the vertex"
+    );
+    assert_ne!(indices[1], indices[2], "the parts of the second face");
+    assert_eq!(undone_later(&work.written()), seam);
+    assert_eq!(work.undone(), seam);
+    // While the slide is held, so are the parts.
+    let mut work = divided_and_slid();
+    work.split_off(0, 0);
+    let simple = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simple.expect("what we wrote can be read");
+    assert!(simple.document.is_none());
+    assert_eq!(work.undone(), seam);
+}
+
+/// The texture coordinate that a face has at a vertex, as it is written.
+fn at_vertex(work: &Work<'_>, face: usize, vertex: usize) -> Option<u32> {
+    let document = read(&work.written());
+    let corner = document.triangles()[face]
+        .iter()
+        .position(|&v| v as usize == vertex)?;
+    document.corner(face, corner).texture
+}
+
+/// Random slides, splits, insertions and merges, through files: all undone at last, and whoever writes
+/// again what was read writes the same.
+#[test]
+fn slides_among_all_other_edits_are_undone_to_the_byte() {
+    let mut slid = 0;
+    for (name, file) in files() {
+        let uncut = text(&rewritten(&file));
+        for seed in 0..if name == "late" { 300 } else { 12 } {
+            let mut random = Random(88_000 + seed);
+            let mut bytes = file.clone();
+            for _ in 0..1 + seed % 3 {
+                let document = read(&bytes);
+                let mut work = Work::on(&document);
+                for _ in 0..1 + below(&mut random, 3) {
+                    // A cut slides vertices before it divides anything, as ours do.
+                    for _ in 0..below(&mut random, 4) {
+                        slid += usize::from(work.slide_anywhere(&mut random));
+                    }
+                    work.tear(&mut random, 5, true);
+                    work.torn.next_cut();
+                }
+                bytes = work.written();
+                assert_eq!(
+                    text(&rewritten(&bytes)),
+                    text(&bytes),
+                    "{name}, seed {seed}"
+                );
+            }
+            assert_eq!(undone_later(&bytes), uncut, "{name}, seed {seed}");
+        }
+    }
+    println!("{slid} slides among other edits, all undone");
+    assert!(slid > 500, "{slid}");
+}
+
+impl Work<'_> {
+    /// Slides any vertex whose copies are all where it is, along any edge; whether there was one.
+    fn slide_anywhere(&mut self, random: &mut Random) -> bool {
+        let h = below(random, self.mesh.half_edge_count());
+        let h = HalfEdgeId::new(h).expect("a half-edge");
+        let ends = [self.mesh.origin(h), self.mesh.target(h)];
+        let roots = self.mesh.roots();
+        let is_alone = roots
+            .iter()
+            .filter(|&&root| root == roots[ends[0].index()])
+            .count()
+            == 1;
+        if is_alone {
+            let t = 0.05 + 0.9 * random.next();
+            self.slide(ends[0].index(), ends[1].index(), t);
+        }
+        is_alone
+    }
+}

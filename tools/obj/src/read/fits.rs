@@ -1,0 +1,133 @@
+//! Whether a record fits its document, and what of it does.
+
+use super::items::Items;
+use super::line::quoted;
+use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::document::Document;
+use crate::record::{Hash, are_last, runs};
+use crate::store::push;
+
+/// Why a record, whose faces have this hash, is not one of this document.
+pub(super) fn misfit(items: &Items, hash: u64, document: &Document) -> Option<String> {
+    let counts = &items.counts;
+    let changed = |what: String| {
+        Some(format!(
+            "this record is not used, since another program changed the file: {what}"
+        ))
+    };
+    let (vertices, faces) = (document.positions.len(), document.polygons.len());
+    if vertices != counts.vertices as usize {
+        return changed(format!(
+            "it had {} `v`, and has {vertices}",
+            counts.vertices
+        ));
+    }
+    if faces != counts.faces as usize {
+        return changed(format!("it had {} `f`, and has {faces}", counts.faces));
+    }
+    let mut of_faces = Hash::of_faces(vertices);
+    for &vertex in &document.polygons.vertices {
+        of_faces.add_corner(vertex);
+    }
+    if of_faces.0 != hash || !document.polygons.all_triangles() {
+        return changed("its faces are others".to_owned());
+    }
+    if let Some(keyword) = document.statement_with_indices()
+        && !what_may_go_is_last(items)
+    {
+        return changed(format!(
+            "{} may name a vertex by its number, which would be another without the cuts",
+            quoted(keyword)
+        ));
+    }
+    // What a record says that was made by no one who knew the faces.
+    let mut of: Vec<u32> = (0..counts.vertices).collect();
+    for &[copy, vertex] in &items.fans {
+        of[copy as usize] = vertex;
+    }
+    let mut has_face = vec![false; vertices];
+    let roots = items.record.roots(vertices);
+    for corners in document.triangles() {
+        let [a, b, c] = corners.map(|v| roots[of[v as usize] as usize]);
+        if a == b || b == c || c == a {
+            return Some("this record is not used: it joins corners of a face".to_owned());
+        }
+        for &vertex in corners {
+            has_face[vertex as usize] = true;
+        }
+    }
+    let splits = &items.record.splits;
+    if splits.iter().any(|split| items.is_copy(split.from)) {
+        return Some("this record is not used: it splits a copy".to_owned());
+    }
+    let mut split = splits.iter().flat_map(|split| [split.vertex, split.from]);
+    if split.any(|vertex| !has_face[vertex as usize]) {
+        return Some("this record is not used: it splits vertices without faces".to_owned());
+    }
+    None
+}
+
+/// Whether all that can be taken out again, or is a copy, comes behind all that cannot.
+fn what_may_go_is_last(items: &Items) -> bool {
+    let Items { counts, record, .. } = items;
+    let split = record.splits.iter().map(|split| split.vertex);
+    let inserted = record.inserted.iter().map(|inserted| inserted.vertex);
+    let copies = items.fans.iter().map(|&[copy, _]| copy);
+    let mut may_go: Vec<u32> = split.chain(inserted).chain(copies).collect();
+    may_go.sort_unstable();
+    may_go.dedup();
+    are_last(&runs(may_go.into_iter()), counts.vertices)
+        && are_last(&record.texture, counts.texture[1])
+        && are_last(&record.normals, counts.normals[1])
+}
+
+/// Where the record does not say which elements were inserted, they are the last ones. If the file
+/// has not as many as it had, nobody knows.
+pub(super) fn settle(inserted: &mut Vec<[u32; 2]>, [before, all]: [u32; 2], count: usize) {
+    if all as usize != count {
+        inserted.clear();
+    } else if inserted.is_empty() && before < all {
+        push(inserted, [before, all]);
+    }
+}
+
+/// Forgets slides whose corners got indices that may be others now: where the file has not as many
+/// texture coordinates or normals as it had.
+pub(super) fn forget_corners(document: &mut Document, items: &mut Items, place: Location) {
+    let Items { counts, record, .. } = items;
+    let is_known = [
+        counts.texture[1] as usize == document.texture.len(),
+        counts.normals[1] as usize == document.normals.len(),
+    ];
+    let slides = &record.slides;
+    let forgotten = |slide: usize| {
+        let mut exchanges = slides.exchanges(slide);
+        exchanges.any(|(exchange, _)| !is_known[exchange.which])
+    };
+    let all = 0..slides.len();
+    let mut vertices: Vec<u32> = all
+        .filter(|&slide| forgotten(slide))
+        .map(|slide| slides.get(slide).vertex)
+        .collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    if vertices.is_empty() {
+        return;
+    }
+    // What was before is no use without what came later.
+    let stays = |_, vertex: u32| vertices.binary_search(&vertex).is_err().then_some(vertex);
+    record.slides = slides.filtered(stays, |_, index| index);
+    let stay = match vertices.len() {
+        1 => "1 vertex that slid stays where it is".to_owned(),
+        many => format!("{many} vertices that slid stay where they are"),
+    };
+    let which = if is_known[0] { "vn" } else { "vt" };
+    document.diagnostics.push(Diagnostic {
+        level: Level::Warning,
+        code: "W-OBJ-RECORD-SLID",
+        location: Some(place),
+        message: format!("{stay}: another program changed the number of `{which}`"),
+        excerpt: None,
+        help: None,
+    });
+}

@@ -1,0 +1,291 @@
+//! The lines of a record between its first and its last.
+
+use tearmesh::COORDINATE_MAX;
+
+use super::fault::{Fault, Parsed};
+use super::line::quoted;
+use super::scan::Scan;
+use super::words::{CODE, DAMAGED, nothing_more, numbers, out_of_range, whole};
+use crate::record::{At, Inserted, Parent, Record, SplitOff, are_last, runs};
+use crate::slides::Exchange;
+use crate::store::{NUMBERS_MAX, push};
+
+/// What a record says as far as it was read, by the numbers of the file.
+#[derive(Debug, Default)]
+pub(super) struct Items {
+    pub(super) counts: Counts,
+    pub(super) record: Record,
+    /// Vertices of the file that are copies, each with the one that it is a copy of; ascending.
+    pub(super) fans: Vec<[u32; 2]>,
+    /// The place of the last item in the order of kinds.
+    kind: usize,
+}
+
+/// What the first line of a record says.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub(super) version: i64,
+    pub(super) vertices: u32,
+    pub(super) faces: u32,
+    /// Before any was inserted, and all.
+    pub(super) texture: [u32; 2],
+    pub(super) normals: [u32; 2],
+}
+
+impl Items {
+    /// Nothing, but for what the first line says.
+    pub(super) fn new(counts: Counts) -> Items {
+        Items {
+            counts,
+            ..Items::default()
+        }
+    }
+
+    /// The number of vertices of the file.
+    fn vertices(&self) -> i64 {
+        i64::from(self.counts.vertices)
+    }
+
+    /// Whether a vertex of the file is a copy of another.
+    pub(super) fn is_copy(&self, vertex: u32) -> bool {
+        self.fans
+            .binary_search_by_key(&vertex, |&[copy, _]| copy)
+            .is_ok()
+    }
+
+    /// Takes the next line, from behind its mark on.
+    pub(super) fn item(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        // `edge` and `face` are in one order, and so are slides. Version 1 has the first five.
+        const KINDS: [(&[u8], usize); 10] = [
+            (b"split", 0),
+            (b"fan", 1),
+            (b"edge", 2),
+            (b"face", 2),
+            (b"parent", 4),
+            (b"vt", 5),
+            (b"vn", 6),
+            (b"slide", 7),
+            (b"slide-vt", 7),
+            (b"slide-vn", 7),
+        ];
+        scan.find_token();
+        let (start, word) = (scan.at, scan.token());
+        scan.at += word.len();
+        let is_first = self.counts.version == 1;
+        let mut known = KINDS.iter().take(if is_first { 5 } else { KINDS.len() });
+        match known.find(|(kind, _)| *kind == word) {
+            Some(&(_, rank)) if rank >= self.kind => self.kind = rank,
+            _ => {
+                let message = format!("this record has no line {} here", quoted(word));
+                return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            }
+        }
+        match word {
+            b"split" => self.split(scan)?,
+            b"fan" => self.fan(scan)?,
+            b"edge" => self.edge(scan)?,
+            b"face" => self.face(scan)?,
+            b"parent" => self.parent(scan)?,
+            b"slide" => return self.slide(scan),
+            b"slide-vt" => return self.exchange(0, scan),
+            b"slide-vn" => return self.exchange(1, scan),
+            _ => self.inserted_indices(word == b"vt", scan)?,
+        }
+        nothing_more(scan)
+    }
+
+    fn split(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let last = self.record.splits.last().map_or(1, |last| last.vertex + 1);
+        let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
+        let from = whole(scan, 1, i64::from(vertex))? - 1;
+        let cut = whole(scan, 1, i64::from(u32::MAX) - 1)?;
+        push(&mut self.record.splits, SplitOff { vertex, from, cut });
+        Ok(())
+    }
+
+    fn fan(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let least = self.fans.last().map_or(1, |&[copy, _]| i64::from(copy) + 1);
+        scan.find_token();
+        let start = scan.at;
+        let copy = whole(scan, least + 1, self.vertices())? - 1;
+        let splits = &self.record.splits;
+        if splits
+            .binary_search_by_key(&copy, |split| split.vertex)
+            .is_ok()
+        {
+            let message = "a copy of this record was split off";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        scan.find_token();
+        let start = scan.at;
+        let of = whole(scan, 1, i64::from(copy))? - 1;
+        if self.is_copy(of) {
+            let message = "a copy of this record is one of a copy";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        push(&mut self.fans, [copy, of]);
+        Ok(())
+    }
+
+    fn edge(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let (vertex, cut) = self.inserted(scan)?;
+        let ends = [self.root(scan)?, self.root(scan)?];
+        scan.find_token();
+        let at = scan.at;
+        let t = scan.number()?;
+        if !(t > 0.0 && t < 1.0) || ends[0] == ends[1] {
+            return Err(out_of_range(at..scan.at, 0, 1));
+        }
+        let at = At::Edge { ends, t };
+        push(&mut self.record.inserted, Inserted { vertex, cut, at });
+        Ok(())
+    }
+
+    fn face(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let (vertex, cut) = self.inserted(scan)?;
+        let corners = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
+        let mut weights = [0.0; 3];
+        for weight in &mut weights {
+            scan.find_token();
+            let at = scan.at;
+            *weight = scan.number()?;
+            if !(*weight > 0.0 && *weight < 1.0) {
+                return Err(out_of_range(at..scan.at, 0, 1));
+            }
+        }
+        let at = At::Face { corners, weights };
+        push(&mut self.record.inserted, Inserted { vertex, cut, at });
+        Ok(())
+    }
+
+    fn parent(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let faces = i64::from(self.counts.faces);
+        let least = self.record.parents.last().map_or(0, |last| last.end);
+        let first = whole(scan, i64::from(least) + 1, faces)? - 1;
+        let end = whole(scan, i64::from(first) + 1, faces)?;
+        scan.find_token();
+        let at = scan.at;
+        let corners @ [a, b, c] = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
+        if a == b || b == c || c == a {
+            let message = "a face of this record has a vertex twice";
+            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+        }
+        let parent = Parent {
+            first,
+            end,
+            corners,
+        };
+        push(&mut self.record.parents, parent);
+        Ok(())
+    }
+
+    /// A run of texture coordinates or normals that were inserted.
+    fn inserted_indices(&mut self, is_texture: bool, scan: &mut Scan<'_>) -> Parsed<()> {
+        let (runs, [_, all]) = if is_texture {
+            (&mut self.record.texture, self.counts.texture)
+        } else {
+            (&mut self.record.normals, self.counts.normals)
+        };
+        let least = runs.last().map_or(0, |&[_, end]| i64::from(end) + 1);
+        let first = whole(scan, least + 1, i64::from(all))? - 1;
+        let end = whole(scan, i64::from(first) + 1, i64::from(all))?;
+        push(runs, [first, end]);
+        Ok(())
+    }
+
+    /// A vertex that slid, with all numbers of its `v` before and then: to the end of the line.
+    fn slide(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        scan.find_token();
+        let at = scan.at;
+        let vertex = whole(scan, 1, self.vertices())? - 1;
+        if self.is_copy(vertex) {
+            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
+            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+        }
+        let slides = &mut self.record.slides;
+        let last = slides.len().checked_sub(1).map(|last| slides.get(last).cut);
+        let cut = whole(scan, i64::from(last.unwrap_or(1)), i64::from(u32::MAX) - 1)?;
+        let mut row = [0.0; 2 * NUMBERS_MAX];
+        let start = scan.at;
+        let count = numbers(scan, &mut row)?;
+        let half = count / 2;
+        let places = || [0, half].into_iter().flat_map(|at| at..at + 3);
+        if count % 2 != 0 || half < 3 || slides.is_full() {
+            let message = "this record has a slide without as many numbers before as then";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        if places().any(|at| row[at].abs() > COORDINATE_MAX) {
+            let message = "this record has a coordinate that is too large";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        slides.push(vertex, cut, &row[..count]);
+        Ok(())
+    }
+
+    /// A texture coordinate (0) or a normal (1) that corners of the vertex that slid last got for
+    /// another, with what it names.
+    fn exchange(&mut self, which: usize, scan: &mut Scan<'_>) -> Parsed<()> {
+        let [_, all] = [self.counts.texture, self.counts.normals][which];
+        let start = scan.at;
+        let new = whole(scan, 1, i64::from(all))? - 1;
+        let old = whole(scan, 1, i64::from(all))? - 1;
+        let mut value = [0.0; 3];
+        let count = numbers(scan, &mut value)?;
+        let slides = &mut self.record.slides;
+        if slides.is_empty() || slides.is_full() || count == 0 || new == old {
+            let message = "this record has corners here of nothing that slid";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        slides.push_exchange(Exchange { which, new, old }, &value[..count]);
+        Ok(())
+    }
+
+    /// A vertex that was inserted, and by which cut.
+    fn inserted(&self, scan: &mut Scan<'_>) -> Parsed<(u32, u32)> {
+        scan.find_token();
+        let at = scan.at;
+        let vertex = self.root(scan)?;
+        let last = self.record.inserted.last();
+        if last.is_some_and(|last| last.vertex >= vertex) {
+            let message = "vertices of this record are not in order";
+            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+        }
+        Ok((vertex, whole(scan, 1, i64::from(u32::MAX) - 1)?))
+    }
+
+    /// A vertex that was split from no other.
+    fn root(&self, scan: &mut Scan<'_>) -> Parsed<u32> {
+        scan.find_token();
+        let at = scan.at;
+        let vertex = whole(scan, 1, self.vertices())? - 1;
+        if self.is_copy(vertex) {
+            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
+            return Err(Fault::new(CODE, at..scan.at, message, "expected a root"));
+        }
+        let splits = &self.record.splits;
+        let split = splits.binary_search_by_key(&vertex, |split| split.vertex);
+        match split {
+            Err(_) => Ok(vertex),
+            Ok(split) => {
+                let from = u64::from(splits[split].from) + 1;
+                let message = format!("vertex {} was split from {from}", u64::from(vertex) + 1);
+                Err(Fault::new(CODE, at..scan.at, message, "expected a root"))
+            }
+        }
+    }
+
+    /// What is wrong with the counts, now that all lines are there.
+    pub(super) fn wrong_counts(&self) -> Option<&'static str> {
+        let copies = runs(self.fans.iter().map(|&[copy, _]| copy));
+        if self.counts.version == 1 && !are_last(&copies, self.counts.vertices) {
+            return Some("the copies of this record are not the last vertices");
+        }
+        let is_wrong = |[before, all]: [u32; 2], runs: &[[u32; 2]]| {
+            let listed: u32 = runs.iter().map(|[first, end]| end - first).sum();
+            !runs.is_empty() && before.checked_add(listed) != Some(all)
+        };
+        let is_wrong = is_wrong(self.counts.texture, &self.record.texture)
+            || is_wrong(self.counts.normals, &self.record.normals);
+        is_wrong.then_some("this record has other counts than its lines")
+    }
+}

@@ -1,0 +1,100 @@
+//! The words in the lines of a record.
+
+use super::fault::{Fault, Parsed};
+use super::line::quoted;
+use super::scan::Scan;
+use crate::record::VERSION;
+
+pub(super) const CODE: &str = "W-OBJ-RECORD";
+
+pub(super) const DAMAGED: &str = "the record is damaged";
+
+/// The version of a record, which must be one that is known.
+pub(super) fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
+    scan.find_token();
+    let start = scan.at;
+    match scan.integer().filter(|_| scan.at_token_end()) {
+        Some(version @ 1..=VERSION) => Ok(version),
+        Some(later) if later > VERSION => {
+            let message = "this record is of a later version, and not used";
+            let expected = format!("expected {VERSION} at most, not {later}");
+            let fault = Fault::new(CODE, start..scan.at, message, expected);
+            Err(fault.help("a later tearmesh reads it"))
+        }
+        _ => {
+            scan.at = start;
+            exactly(scan, "1").map(|()| 1)
+        }
+    }
+}
+
+pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
+    scan.find_token();
+    let token = scan.token();
+    let start = scan.at;
+    scan.at += token.len();
+    let digits = std::str::from_utf8(token)
+        .ok()
+        .filter(|text| text.len() == 16);
+    let number = digits.and_then(|digits| u64::from_str_radix(digits, 16).ok());
+    number.ok_or_else(|| {
+        let message = format!("{} is no checksum", quoted(token));
+        Fault::new(
+            CODE,
+            start..scan.at,
+            message,
+            "expected 16 hexadecimal digits",
+        )
+    })
+}
+
+pub(super) fn exactly(scan: &mut Scan<'_>, word: &str) -> Parsed<()> {
+    scan.find_token();
+    let token = scan.token();
+    let start = scan.at;
+    scan.at += token.len();
+    if token == word.as_bytes() {
+        return Ok(());
+    }
+    let message = format!("this record has {} where `{word}` should be", quoted(token));
+    Err(Fault::new(CODE, start..scan.at, message, DAMAGED))
+}
+
+pub(super) fn out_of_range(span: std::ops::Range<usize>, least: i64, most: i64) -> Box<Fault> {
+    let message = "a number of this record is out of its range";
+    Fault::new(CODE, span, message, format!("expected {least} to {most}"))
+}
+
+/// The numbers up to the end of the line, of which there may be so many.
+pub(super) fn numbers(scan: &mut Scan<'_>, numbers: &mut [f64]) -> Parsed<usize> {
+    let mut count = 0;
+    while count < numbers.len() && scan.find_token() {
+        numbers[count] = scan.number()?;
+        count += 1;
+    }
+    nothing_more(scan).map(|()| count)
+}
+
+/// A whole number.
+pub(super) fn whole(scan: &mut Scan<'_>, least: i64, most: i64) -> Parsed<u32> {
+    scan.find_token();
+    let start = scan.at;
+    match scan.integer() {
+        Some(number) if scan.at_token_end() && least <= number && number <= most => {
+            Ok(number as u32)
+        }
+        _ => {
+            scan.at = start;
+            Err(out_of_range(start..start + scan.token().len(), least, most))
+        }
+    }
+}
+
+pub(super) fn nothing_more(scan: &mut Scan<'_>) -> Parsed<()> {
+    if !scan.find_token() && scan.at == scan.bytes.len() {
+        return Ok(());
+    }
+    let end = scan.bytes.len();
+    let message = "this line of a record has more than belongs there";
+    Err(Fault::new(CODE, scan.at..end, message, DAMAGED))
+}
