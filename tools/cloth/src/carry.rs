@@ -17,8 +17,8 @@
 //! * M′ is symmetric and positive, so the step keeps what it kept with M. M′ 1 = M 1: where all
 //!   particles have one velocity it is M, so free fall is exact, and momentum too.
 //! * M′ ≥ M, as p|uₐ − s ū|² + s m Σ β/s |u|² ≥ m uₐ² + (p − m)|uₐ − ū|² by Jensen's inequality.
-//! * With it Σ k |uₐ − u_b|² ≤ (4μ/Δt²) u M′u, which is stability up to Δt² λ = 4μ in every
-//!   configuration: of a spring between two that are not carried since |uₐ − u_b|² ≤ 2 uₐ² + 2 u_b²,
+//! * With it Σ k |uₐ − uᵦ|² ≤ (4μ/Δt²) u M′u, which is stability up to Δt² λ = 4μ in every
+//!   configuration: of a spring between two that are not carried since |uₐ − uᵦ|² ≤ 2 uₐ² + 2 uᵦ²,
 //!   and of one that is carried by others since (1 − s)² ≤ 1 + 2s − s². Of two neighbours that are
 //!   both carried it is not proven in general; there [`Carry::is_proven`] is false, and λ is measured.
 //! * At rest it does nothing: M′⁻¹ 0 = 0. So strains at rest are those of the fabric.

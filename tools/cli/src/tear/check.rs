@@ -359,7 +359,7 @@ mod tests {
         let (mesh, positions) = tearmesh::shapes::grid(2, 2);
         let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
         let scene = Scene {
-            solver: Method::Xpbd(Xpbd::new(100_000, 100_000)),
+            solver: Method::Xpbd(Xpbd::new(100_000, 1)),
             step_s: Some(1e12),
             duration_s: 1e12,
             tearing: Some(Tearing::default()),
