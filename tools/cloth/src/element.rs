@@ -1,7 +1,7 @@
 //! What a kind of constraint has to know of itself, and all that anyone asks it.
 //!
 //! Springs, arcs and triangles each have energy, force and stiffness in a file of their own, and
-//! whoever sums over constraints asks the [`kinds`](crate::model::Model::kinds) of a model, one after
+//! whoever sums over constraints asks the [`kinds`](crate::system::Model::kinds) of a model, one after
 //! the other: forces, energy, the bound of frequencies, the matrix of an implicit step, the blame
 //! for a blow-up. So a new kind is a file that implements this, a place in that list, and what
 //! becomes of it where the mesh changes.

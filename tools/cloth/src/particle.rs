@@ -11,14 +11,7 @@ pub(super) fn push(system: &mut System, x: Point, v: Vector, like: Option<usize>
     system.positions.push(x);
     system.velocities.push(v);
     let model = &mut system.model;
-    model.masses.push(0.0);
-    model.inverse_masses.push(0.0);
-    model
-        .held
-        .push(like.is_some_and(|particle| model.held[particle]));
-    model.stretch.push_particle();
-    model.bend.push_particle();
-    model.triangles.push_particle();
+    model.push_particle(like.is_some_and(|particle| model.held[particle]));
     let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;
     if let Some(&(_, path)) = model.grabbed.iter().find(led) {
         model.grabbed.push((new, path));
@@ -45,12 +38,7 @@ pub(super) fn join(system: &mut System, kept: usize, gone: usize, share: f64) {
     }
     x.swap_remove(gone);
     v.swap_remove(gone);
-    model.masses.swap_remove(gone);
-    model.inverse_masses.swap_remove(gone);
-    model.held.swap_remove(gone);
-    model.stretch.swap_remove_particle(gone);
-    model.bend.swap_remove_particle(gone);
-    model.triangles.swap_remove_particle(gone);
+    model.swap_remove_particle(gone);
     let led = |&(led, _): &(u32, u32)| led as usize == kept;
     if system.model.grabbed.iter().any(led) {
         system.model.unlead(gone);

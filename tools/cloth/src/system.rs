@@ -11,7 +11,7 @@ mod model;
 
 pub use counters::Counters;
 pub use error::SystemError;
-pub(crate) use model::{Family, Model};
+pub(crate) use model::{Family, KINDS, Model};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 

@@ -7,7 +7,7 @@ use tearmesh::geometry::Point;
 
 use crate::element::Element;
 use crate::matrix::Hessian;
-use crate::system::{Model, System};
+use crate::system::{KINDS, Model, System};
 
 /// The slots of a [`Hessian`], and which slot each constraint adds to.
 ///
@@ -26,7 +26,7 @@ pub struct Layout {
     free: Vec<u32>,
     slot_of: BTreeMap<[u32; 2], u32>,
     /// By kind of constraint.
-    kinds: [Slots; 3],
+    kinds: [Slots; KINDS],
     /// The lowest particle of the piece of each particle.
     pieces: Vec<u32>,
     sets: DisjointSets,

@@ -56,7 +56,7 @@ impl Model {
     }
 
     /// All kinds of constraints, in the order of every sum.
-    pub(crate) fn kinds(&self) -> [Kind<'_>; 3] {
+    pub(crate) fn kinds(&self) -> [Kind<'_>; KINDS] {
         let stretch: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Constraint {
             ends,
             stretch_ratio,
@@ -73,6 +73,26 @@ impl Model {
             },
             Kind::Triangles(&self.triangles),
         ]
+    }
+
+    /// Appends a particle without mass and constraints.
+    pub(crate) fn push_particle(&mut self, is_held: bool) {
+        self.masses.push(0.0);
+        self.inverse_masses.push(0.0);
+        self.held.push(is_held);
+        self.stretch.push_particle();
+        self.bend.push_particle();
+        self.triangles.push_particle();
+    }
+
+    /// Forgets a particle without constraints; the last one takes its index.
+    pub(crate) fn swap_remove_particle(&mut self, particle: usize) {
+        self.masses.swap_remove(particle);
+        self.inverse_masses.swap_remove(particle);
+        self.held.swap_remove(particle);
+        self.stretch.swap_remove_particle(particle);
+        self.bend.swap_remove_particle(particle);
+        self.triangles.swap_remove_particle(particle);
     }
 
     /// The energy in joules and the pull in newtons of a constraint of a family, whether it is one
@@ -280,6 +300,9 @@ impl Model {
         }
     }
 }
+
+/// How many kinds of constraints there are.
+pub(crate) const KINDS: usize = 3;
 
 /// A kind of constraints, as [`Model::kinds`] lists it.
 #[derive(Debug)]
