@@ -267,10 +267,12 @@ mod tests {
 
     #[test]
     fn the_stretch_ratio_depends_on_the_mesh_and_toughness_hardly() {
-        // Far apart, since each force is that of one tear, which takes its own way.
+        // Far apart, since each force is that of one tear, which takes its own way. The coarsest strip
+        // tears in a handful of splits, and its mean force is nearly its largest.
         let study = whole(&[8, 24]);
-        for [stretch, toughness] in [study.slopes_largest, study.slopes_mean] {
-            assert!((0.6..1.6).contains(&stretch), "{stretch}");
+        let slopes = [(study.slopes_largest, 1.2), (study.slopes_mean, 2.0)];
+        for ([stretch, toughness], most) in slopes {
+            assert!((0.6..most).contains(&stretch), "{stretch}");
             assert!(
                 toughness.abs() < 0.6 && toughness < stretch - 0.3,
                 "{toughness}"
