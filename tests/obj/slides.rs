@@ -142,31 +142,44 @@ fn a_slide_is_undone_to_the_bit() {
     }
 }
 
+/// Edits a file in so many sessions, each of which reads what the last one wrote. Whoever writes again
+/// what was read writes the same, and all is undone at last.
+fn is_undone_after_sessions(
+    name: &str,
+    file: &[u8],
+    sessions: u64,
+    mut edit: impl FnMut(&mut Work<'_>),
+) {
+    let mut bytes = file.to_vec();
+    for _ in 0..sessions {
+        let document = read(&bytes);
+        let mut work = Work::on(&document);
+        edit(&mut work);
+        bytes = work.written();
+        assert_eq!(text(&rewritten(&bytes)), text(&bytes), "{name}");
+    }
+    assert_eq!(undone_later(&bytes), text(&rewritten(file)), "{name}");
+}
+
 /// Cuts that slide near vertices onto their plane, through files, all undone at last.
 #[test]
 fn cuts_that_slide_are_undone_to_the_byte() {
     let (mut slid_in, mut slid) = (0, 0);
     for (name, file) in files() {
-        let uncut = text(&rewritten(&file));
         for seed in 0..40 {
             let mut random = Random(5000 + seed);
-            let mut bytes = file.clone();
             let mut count = 0;
-            for _ in 0..1 + seed % 3 {
-                let document = read(&bytes);
-                let mut work = Work::on(&document);
-                for _ in 0..1 + seed % 2 {
-                    count += work.cut_sliding(&mut random).len();
-                    work.torn.next_cut();
-                }
-                bytes = work.written();
-                assert_eq!(
-                    text(&rewritten(&bytes)),
-                    text(&bytes),
-                    "{name}, seed {seed}"
-                );
-            }
-            assert_eq!(undone_later(&bytes), uncut, "{name}, seed {seed}");
+            is_undone_after_sessions(
+                &format!("{name}, seed {seed}"),
+                &file,
+                1 + seed % 3,
+                |work| {
+                    for _ in 0..1 + seed % 2 {
+                        count += work.cut_sliding(&mut random).len();
+                        work.torn.next_cut();
+                    }
+                },
+            );
             slid_in += usize::from(count > 0);
             slid += count;
         }
@@ -356,29 +369,23 @@ fn at_vertex(work: &Work<'_>, face: usize, vertex: usize) -> Option<u32> {
 fn slides_among_all_other_edits_are_undone_to_the_byte() {
     let mut slid = 0;
     for (name, file) in files() {
-        let uncut = text(&rewritten(&file));
         for seed in 0..if name == "late" { 300 } else { 12 } {
             let mut random = Random(88_000 + seed);
-            let mut bytes = file.clone();
-            for _ in 0..1 + seed % 3 {
-                let document = read(&bytes);
-                let mut work = Work::on(&document);
-                for _ in 0..1 + below(&mut random, 3) {
-                    // A cut slides vertices before it divides anything, as ours do.
-                    for _ in 0..below(&mut random, 4) {
-                        slid += usize::from(work.slide_anywhere(&mut random));
+            is_undone_after_sessions(
+                &format!("{name}, seed {seed}"),
+                &file,
+                1 + seed % 3,
+                |work| {
+                    for _ in 0..1 + below(&mut random, 3) {
+                        // A cut slides vertices before it divides anything, as ours do.
+                        for _ in 0..below(&mut random, 4) {
+                            slid += usize::from(work.slide_anywhere(&mut random));
+                        }
+                        work.tear(&mut random, 5, true);
+                        work.torn.next_cut();
                     }
-                    work.tear(&mut random, 5, true);
-                    work.torn.next_cut();
-                }
-                bytes = work.written();
-                assert_eq!(
-                    text(&rewritten(&bytes)),
-                    text(&bytes),
-                    "{name}, seed {seed}"
-                );
-            }
-            assert_eq!(undone_later(&bytes), uncut, "{name}, seed {seed}");
+                },
+            );
         }
     }
     println!("{slid} slides among other edits, all undone");

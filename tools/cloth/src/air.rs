@@ -19,7 +19,7 @@
 //! stable in every mode where it is for each such oscillator. For symplectic Euler and for velocity
 //! Verlet that is so where (ωΔt/2)² + λΔt/l < 1, with l the limit of λΔt without springs. From
 //! ωΔt/2 + λΔt/l ≤ 1 that follows, and it can be solved for the step: the reciprocals of the two
-//! limits add up. For the Runge–Kutta method the sum was looked at on a grid of ω and λ. A method
+//! limits add up. For Runge and Kutta's method (`tools/lab`) the sum was looked at on a grid of ω and λ. A method
 //! that takes springs implicitly has the limit of its air alone, as a spring only shortens what
 //! it does in a step.
 //!

@@ -73,7 +73,7 @@ impl EnergyLedger {
 ///   momentum is exact, and its edges keep stiffness times length.
 ///
 /// ```
-/// use tearmesh_cloth::{Cloth, Fabric, Loads, Xpbd};
+/// use tearmesh_cloth::{Cloth, Fabric, Loads, Unstable, Verlet};
 /// use tearmesh::{shapes, split, Edits, Masses, Plane, Vector, VertexId};
 ///
 /// let (mut mesh, positions) = shapes::grid(8, 8);
@@ -85,8 +85,10 @@ impl EnergyLedger {
 ///     ..Loads::default()
 /// })?;
 /// (72..81).for_each(|top| system.hold(top));
+/// system.when_unstable(Unstable::Substep); // A step that is too long is divided.
+/// let mut solver = Verlet::new();
 /// for _ in 0..30 {
-///     cloth.step(&mut Xpbd::default(), 1.0 / 60.0)?;
+///     cloth.step(&mut solver, 1.0 / 60.0)?;
 /// }
 ///
 /// // Split a vertex while it hangs, and upload what changed.
@@ -101,7 +103,7 @@ impl EnergyLedger {
 /// assert_eq!((tail.len(), cloth.indices()), (1, mesh.indices()));
 /// assert!(cloth.masses().ledger().is_balanced());
 /// assert_eq!(cloth.ledger().total_j(), 0.0);
-/// cloth.step(&mut Xpbd::default(), 1.0 / 60.0)?;
+/// cloth.step(&mut solver, 1.0 / 60.0)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
