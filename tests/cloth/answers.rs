@@ -624,12 +624,12 @@ fn what_is_not_named_costs_nothing() {
     let counted = chain.counters();
     assert_eq!((counted.force_evaluations, counted.substeps), (11, 10));
     assert_eq!((counted.wind_evaluations, counted.collider_passes), (0, 0));
-    assert_eq!((counted.projections, counted.matrix_products), (0, 0));
+    assert_eq!((counted.visits.project, counted.matrix_products), (0, 0));
     run(&mut chain, Rk4::new(), 0.001, 10);
     assert_eq!(chain.counters().force_evaluations, 11 + 40);
     run(&mut chain, Pbd::new(7), 0.001, 10);
     run(&mut chain, Xpbd::new(2, 3), 0.001, 10);
-    assert_eq!(chain.counters().projections, 10 * 10 * (7 + 6));
+    assert_eq!(chain.counters().visits.project, 10 * 10 * (7 + 6));
     assert_eq!(chain.counters().force_evaluations, 11 + 40);
     run(&mut chain, Provot::new(Limiter::default()), 0.001, 10);
     assert_eq!(chain.counters().force_evaluations, 11 + 40 + 10);

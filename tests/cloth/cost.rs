@@ -37,7 +37,7 @@ fn ten_substeps_of_one_sweep_strain_less_than_one_step_of_ten_sweeps() {
     let strain = |solver: &mut dyn Solver| {
         let (_, mut cloth) = hanging(64, 1e5);
         let strain = run(&mut cloth, solver, 90);
-        (strain, cloth.system().counters().projections)
+        (strain, cloth.system().counters().visits.project)
     };
     let (small, of_small) = strain(&mut Xpbd::new(10, 1));
     let (large, of_large) = strain(&mut Xpbd::new(1, 10));

@@ -288,7 +288,7 @@ fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted(
     // ten steps; and for the implicit one, one of forces, one of the matrix and two of the energy.
     assert_eq!(woven.triangle_evaluations, 2 + 10 + 11 + 4);
     assert_eq!(woven.force_evaluations, springs.force_evaluations);
-    assert_eq!((woven.matrix_products > 0, woven.projections), (true, 0));
+    assert_eq!((woven.matrix_products > 0, woven.visits.project), (true, 0));
 }
 
 /// An edit looks at the triangles that it touches and at no others.

@@ -124,7 +124,7 @@ fn ours<'c, S: Solver>(
 ) -> Contestant<'c> {
     let run = move |longer, steps| {
         let (mut cloth, mut solver) = (cloth.clone(), solver(longer));
-        let before = cloth.system().counters().projections;
+        let before = cloth.system().counters().visits.project;
         let ((), time) = timed_on_cpu(|| {
             for _ in 0..steps {
                 cloth.step(&mut solver, STEP_S).expect("a step");
@@ -132,7 +132,7 @@ fn ours<'c, S: Solver>(
         });
         Run {
             seconds: time.as_secs_f64(),
-            projections: cloth.system().counters().projections - before,
+            projections: cloth.system().counters().visits.project - before,
             positions: cloth.positions().to_vec(),
         }
     };

@@ -237,12 +237,21 @@ pub(crate) enum Quality {
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Counters {
     pub(crate) force_evaluations: u64,
-    pub(crate) projections: u64,
     pub(crate) matrix_products: u64,
     pub(crate) wind_evaluations: u64,
     pub(crate) collider_passes: u64,
     pub(crate) substeps: u64,
     pub(crate) overshoots: u64,
+    pub(crate) visits: Visits,
+}
+
+/// Visits of single constraints by what they were for.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Visits {
+    pub(crate) project: u64,
+    pub(crate) force: u64,
+    pub(crate) detect: u64,
+    pub(crate) meter: u64,
 }
 
 /// Frames that were written.

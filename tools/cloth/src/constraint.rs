@@ -91,9 +91,9 @@ pub(crate) struct Batch<'a> {
 
 /// What a step leaves behind in the constraints of one colour.
 #[derive(Debug)]
-pub(crate) struct Memories<'a> {
-    pub(crate) multipliers: &'a mut [f64],
-    pub(crate) ratios: &'a mut [f64],
+pub(crate) struct Memories<Column> {
+    pub(crate) multipliers: Column,
+    pub(crate) ratios: Column,
 }
 
 /// What a step leaves behind in a constraint.
@@ -185,8 +185,17 @@ impl Constraints {
         self.colours.iter().map(Colour::batch)
     }
 
+    /// The same, with what a step left behind.
+    pub(crate) fn batches_remembered(&self) -> impl Iterator<Item = (Batch<'_>, Memories<&[f64]>)> {
+        self.colours
+            .iter()
+            .map(|colour| (colour.batch(), colour.memories()))
+    }
+
     /// The same, with what a step leaves behind.
-    pub(crate) fn batches_mut(&mut self) -> impl Iterator<Item = (Batch<'_>, Memories<'_>)> {
+    pub(crate) fn batches_mut(
+        &mut self,
+    ) -> impl Iterator<Item = (Batch<'_>, Memories<&mut [f64]>)> {
         self.colours.iter_mut().map(Colour::batch_mut)
     }
 
@@ -341,7 +350,14 @@ impl Colour {
         }
     }
 
-    fn batch_mut(&mut self) -> (Batch<'_>, Memories<'_>) {
+    fn memories(&self) -> Memories<&[f64]> {
+        Memories {
+            multipliers: &self.multipliers,
+            ratios: &self.ratios,
+        }
+    }
+
+    fn batch_mut(&mut self) -> (Batch<'_>, Memories<&mut [f64]>) {
         let batch = Batch {
             ids: &self.ids,
             ends: &self.ends,
@@ -350,8 +366,8 @@ impl Colour {
             compliance: &self.compliance,
         };
         let memories = Memories {
-            multipliers: &mut self.multipliers,
-            ratios: &mut self.ratios,
+            multipliers: &mut self.multipliers[..],
+            ratios: &mut self.ratios[..],
         };
         (batch, memories)
     }

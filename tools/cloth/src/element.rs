@@ -12,6 +12,7 @@ use tearmesh::geometry::{Point, Vector};
 
 use crate::crush::Crush;
 use crate::culprit::Longest;
+use crate::lookout::Lookout;
 use crate::matrix::Hessian;
 
 /// All constraints of one kind.
@@ -27,13 +28,14 @@ pub(crate) trait Element {
 
     /// Adds the forces, in newtons, to those of the particles, and those of damping where something
     /// is crushed and that is to be damped. False where one is longer than `ratio_max` times its
-    /// rest length, or not a number.
+    /// rest length, or not a number. Tells the lookout of those that are as long as it asks for.
     #[must_use]
     fn forces(
         &self,
         x: &[Point],
         ratio_max: f64,
         crush: Option<&mut Crush<'_>>,
+        lookout: Option<&mut Lookout>,
         forces: &mut [Vector],
     ) -> bool;
 
@@ -93,8 +95,11 @@ pub(crate) enum Forces {
     /// In the lengths.
     #[default]
     Lengths,
-    /// In the multipliers.
+    /// In the multipliers, of springs.
     Multipliers,
+    /// In the multipliers of what is rigid: they say what it takes to keep a length, and of a strain
+    /// nothing.
+    Rigid,
     /// The sum of both.
     Both,
 }
@@ -104,7 +109,7 @@ impl Forces {
     pub(crate) fn read(self, by_length: impl FnOnce() -> f64, by_multiplier: f64) -> f64 {
         match self {
             Forces::Lengths => by_length(),
-            Forces::Multipliers => by_multiplier,
+            Forces::Multipliers | Forces::Rigid => by_multiplier,
             Forces::Both => by_length() + by_multiplier,
         }
     }

@@ -15,6 +15,7 @@ pub(crate) fn accelerate(system: &mut System, is_foreseen: bool) -> bool {
         model,
         scratch,
         counters,
+        lookout,
         ..
     } = system;
     scratch.is_fresh = false;
@@ -25,7 +26,13 @@ pub(crate) fn accelerate(system: &mut System, is_foreseen: bool) -> bool {
     } = scratch;
     accelerations.resize(positions.len(), Vector::zeros());
     let velocities = if is_foreseen { foreseen } else { velocities };
-    model.accelerate(positions, velocities, accelerations, counters)
+    model.accelerate(
+        positions,
+        velocities,
+        Some(lookout),
+        accelerations,
+        counters,
+    )
 }
 
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which

@@ -88,6 +88,7 @@ pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bo
     system.model.accelerate(
         &system.positions,
         &system.velocities,
+        None,
         accelerations,
         &mut system.counters,
     )

@@ -7,6 +7,7 @@ use crate::constraint::{Batch, Constraint, Constraints};
 use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Busiest, Element, Forces, Slope};
+use crate::lookout::Lookout;
 use crate::matrix::{Block, Hessian};
 
 /// A law by which constraints act, all of them alike but for their rest length and stiffness.
@@ -72,11 +73,19 @@ impl<'a, L: Law> Pairs<'a, L> {
 
 /// The links of a colour: their ends, rest lengths, and what acts.
 fn links<L: Law>(batch: Batch<'_>, law: L) -> impl Iterator<Item = ([usize; 2], f64, L::Link)> {
+    named_links(batch, law).map(|(_, ends, rest, link)| (ends, rest, link))
+}
+
+/// The same with their ids.
+fn named_links<L: Law>(
+    batch: Batch<'_>,
+    law: L,
+) -> impl Iterator<Item = (u32, [usize; 2], f64, L::Link)> {
     let numbers = batch.rest.iter().zip(batch.stiffness);
-    let constraints = batch.ends.iter().zip(numbers);
-    constraints.filter_map(move |(&[a, b], (&rest, &stiffness))| {
+    let constraints = batch.ids.iter().zip(batch.ends).zip(numbers);
+    constraints.filter_map(move |((&id, &[a, b]), (&rest, &stiffness))| {
         let link = law.link(rest, stiffness)?;
-        Some(([a as usize, b as usize], rest, link))
+        Some((id, [a as usize, b as usize], rest, link))
     })
 }
 
@@ -114,14 +123,24 @@ impl<L: Law> Element for Pairs<'_, L> {
         x: &[Point],
         ratio_max: f64,
         mut crush: Option<&mut Crush<'_>>,
+        mut lookout: Option<&mut Lookout>,
         forces: &mut [Vector],
     ) -> bool {
         let mut sane = true;
+        // One comparison for both questions: next to none are longer.
+        let asked = lookout.as_deref_mut().map(Lookout::begin);
+        let mut bar = asked.map_or(ratio_max, |asked| asked.min(ratio_max));
         for batch in self.constraints.batches() {
-            for ([a, b], rest, link) in links(batch, self.law) {
+            for (id, [a, b], rest, link) in named_links(batch, self.law) {
                 let d = x[b] - x[a];
                 let length = dot(d, d).sqrt();
-                sane &= length <= ratio_max * rest;
+                let is_short = length <= bar * rest;
+                if !is_short {
+                    sane &= length <= ratio_max * rest;
+                    if let Some(lookout) = &mut lookout {
+                        bar = lookout.note(id, length / rest).min(ratio_max);
+                    }
+                }
                 if length > 0.0 {
                     let mut pull = link.force(length);
                     if let Some(crush) = &mut crush

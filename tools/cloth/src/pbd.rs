@@ -84,7 +84,7 @@ impl Solver for Pbd {
         for _ in 0..self.sweeps.max(1) {
             for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
                 for (batch, memories) in family.batches_mut() {
-                    counters.projections += batch.ends.len() as u64;
+                    counters.visits.project += batch.ends.len() as u64;
                     Failure::unless(spring::project(
                         batch,
                         memories.multipliers,
@@ -97,7 +97,7 @@ impl Solver for Pbd {
             }
         }
         model.scale_multipliers(force_scale(model, dt_s));
-        model.forces = Forces::Multipliers;
+        model.forces = Forces::Rigid;
         finish(system, dt_s);
         Ok(())
     }

@@ -116,7 +116,7 @@ impl Provot {
             last = largest;
             largest = 0.0;
             for (batch, memories) in model.stretch.batches_mut() {
-                counters.projections += batch.ends.len() as u64;
+                counters.visits.project += batch.ends.len() as u64;
                 let masses = &model.inverse_masses;
                 let met = spring::limit(batch, memories.multipliers, masses, ratio_max, positions);
                 largest = largest.max(met);

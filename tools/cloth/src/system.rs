@@ -9,7 +9,7 @@ mod counters;
 mod error;
 mod model;
 
-pub use counters::Counters;
+pub use counters::{Counters, Visits};
 pub use error::SystemError;
 pub(crate) use model::{Family, KINDS, Model};
 
@@ -17,8 +17,10 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::element::Forces;
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
+use crate::lookout::Lookout;
 use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
@@ -57,6 +59,7 @@ pub struct System {
     pub(crate) spectrum: Spectrum,
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
+    pub(crate) lookout: Lookout,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
     pub(crate) margin: f64,
@@ -163,6 +166,7 @@ impl System {
             spectrum: Spectrum::default(),
             guard: Guard::default(),
             scratch: Scratch::default(),
+            lookout: Lookout::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             margin: 0.95,
@@ -559,6 +563,39 @@ impl System {
     #[must_use]
     pub fn multiplier_n(&self, id: ConstraintId) -> f64 {
         -self.model.stretch.memory(id).multiplier
+    }
+
+    /// All stretch constraints whose strain, by the method of the last step, makes them at least this
+    /// many times as long as at rest, and maybe some more. From now on steps that compute lengths
+    /// anyway look out for them; where the last one did not, this is a pass over constraints.
+    pub(crate) fn strained_from(&mut self, ratio: f64) -> &[ConstraintId] {
+        self.lookout.ask(ratio);
+        if !self.scratch.is_fresh || self.lookout.found(ratio).is_none() {
+            self.counters.visits.detect += self.model.stretch.len() as u64;
+            let (stretch, x) = (&self.model.stretch, &self.positions[..]);
+            match self.model.forces {
+                Forces::Multipliers => self.lookout.look_at_multipliers(stretch),
+                _ if self.model.is_limited => self.lookout.look_at_ratios(stretch),
+                _ => self.lookout.look(stretch, x),
+            }
+        }
+        let found = self.lookout.found(ratio);
+        found.expect("a look finds what was asked for")
+    }
+
+    /// The largest length of a stretch constraint as a multiple of that at rest, before a limiter; 0
+    /// without constraints. From now on steps that compute lengths anyway find it; where the last one
+    /// did not, this is a pass over constraints.
+    pub(crate) fn most_stretched(&mut self) -> f64 {
+        self.lookout.ask_most();
+        if self.scratch.is_fresh
+            && let Some(most) = self.lookout.most()
+        {
+            return most;
+        }
+        self.counters.visits.meter += self.model.stretch.len() as u64;
+        let stretches = self.model.stretch.iter();
+        stretches.fold(0.0, |most, id| self.unlimited_ratio(id).max(most))
     }
 
     /// The root mean square of the strains l/L − 1 of all stretch constraints.

@@ -23,7 +23,9 @@
 //!    next: its length is what it was before the tear only because nothing has moved yet.
 //!
 //! Every loop is bounded: a split adds a vertex with a face, and there are at most three vertices
-//! a face. Cost a step: linear in edges, without allocation once there was room.
+//! a face. Cost a step: nothing to speak of where the method computes lengths at the end of its step
+//! ([`Verlet`](crate::Verlet)), and a pass over edges elsewhere; without allocation once there was
+//! room.
 //!
 //! How many pieces a cloth tears into depends on the time step, as it does on the mesh: a cascade
 //! is the answer of a method to forces that change faster than it steps. The cap bounds what one
@@ -74,7 +76,9 @@ use tearmesh::geometry::{Vector, check_point};
 #[non_exhaustive]
 pub enum Threshold {
     /// When it is this many times as long as at rest, above 1: the rule of the paper (Souza et
-    /// al. 2014 §III-A). Before Provot's limiter shortens it.
+    /// al. 2014 §III-A). Before Provot's limiter shortens it; by [`Xpbd`](crate::Xpbd), when the force
+    /// of its multiplier would make a spring so long, since the lengths that sweeps leave depend on
+    /// their number and order and the forces at rest do not.
     Stretch(f64),
     /// The same, with one ratio for edges that run mostly along the warp, which is the direction
     /// of `axis` at rest, and one for those along the weft. An edge that runs along neither,

@@ -31,6 +31,7 @@ use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
+use crate::lookout::Lookout;
 use crate::matrix::{Block, Hessian};
 
 /// A triangle that resists stretch and shear.
@@ -408,6 +409,7 @@ impl Element for Triangles {
         x: &[Point],
         ratio_max: f64,
         mut crush: Option<&mut Crush<'_>>,
+        _lookout: Option<&mut Lookout>,
         forces: &mut [Vector],
     ) -> bool {
         let mut sane = true;

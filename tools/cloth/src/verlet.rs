@@ -187,6 +187,7 @@ fn accelerate_guarded(system: &mut System, is_foreseen: bool, dt_s: f64) -> (boo
         scratch,
         counters,
         guard,
+        lookout,
         ..
     } = system;
     scratch.is_fresh = false;
@@ -200,7 +201,14 @@ fn accelerate_guarded(system: &mut System, is_foreseen: bool, dt_s: f64) -> (boo
     let mut crush = Crush::new(&*velocities, dt_s);
     let velocities: &[Vector] = if is_foreseen { foreseen } else { velocities };
     let guards = (&mut crush, guard.carry());
-    let sane = model.accelerate_guarded(positions, velocities, guards, accelerations, counters);
+    let sane = model.accelerate_guarded(
+        positions,
+        velocities,
+        guards,
+        Some(lookout),
+        accelerations,
+        counters,
+    );
     let is_other = guard.carry().len() > 0 || crush.lost_j > 0.0;
     *guarded_s = if is_other { dt_s } else { 0.0 };
     (sane, crush.lost_j)

@@ -67,7 +67,7 @@ impl Xpbd {
             };
             for family in [&mut model.stretch, &mut model.bend] {
                 for (batch, memories) in family.batches_mut() {
-                    counters.projections += batch.ends.len() as u64;
+                    counters.visits.project += batch.ends.len() as u64;
                     let sane = project(
                         batch,
                         memories.multipliers,

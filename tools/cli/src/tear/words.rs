@@ -178,12 +178,17 @@ pub(super) fn counters(run: &Run) -> report::Counters {
     let counters = run.cloth().system().counters();
     report::Counters {
         force_evaluations: counters.force_evaluations,
-        projections: counters.projections,
         matrix_products: counters.matrix_products,
         wind_evaluations: counters.wind_evaluations,
         collider_passes: counters.collider_passes,
         substeps: counters.substeps,
         overshoots: counters.overshoots,
+        visits: report::Visits {
+            project: counters.visits.project,
+            force: counters.visits.force,
+            detect: counters.visits.detect,
+            meter: counters.visits.meter,
+        },
     }
 }
 

@@ -40,7 +40,7 @@ impl<'a> Problem<'a> {
         forces.extend(weights.map(|(g, m)| g * *m));
         for kind in &self.model.kinds() {
             // What is stretched beyond all measure is found in the state that a step ends in.
-            let _ = kind.forces(x, f64::INFINITY, None, forces);
+            let _ = kind.forces(x, f64::INFINITY, None, None, forces);
         }
     }
 

@@ -331,6 +331,12 @@ impl Solver for Implicit {
         let work = self.equation.work;
         counters.force_evaluations += work.force_evaluations;
         counters.matrix_products += work.matrix_products;
+        let sums = work.force_evaluations
+            + work.matrix_products
+            + work.hessian_evaluations
+            + work.energy_evaluations;
+        // And one to see that nothing has blown up.
+        counters.visits.force += (sums + 1) * model.constraint_count();
         if !model.triangles.as_slice().is_empty() {
             counters.triangle_evaluations +=
                 work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;

@@ -265,7 +265,8 @@ impl Run {
         let (engine, balance) = (&mut self.engine, &mut self.balance);
         self.cloth.step_observed(engine, self.step_s, balance)?;
         self.tally.steps += 1;
-        self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(self.stretch_ratio_max());
+        let most = self.cloth.system_mut().most_stretched();
+        self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(most);
         let tear = self.tear_overstretched();
         let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
         if self.watch.is_time(steps) {
@@ -347,13 +348,13 @@ impl Run {
 
     fn tear_overstretched(&mut self) -> Option<TearReport> {
         let tear = self.tear.as_mut()?;
-        let momentum = momentum(&self.cloth);
-        let report = tear.apply(
-            &mut self.mesh,
-            &mut self.cloth,
-            &mut self.edits,
-            self.step_s,
-        );
+        let (mesh, cloth, edits) = (&mut self.mesh, &mut self.cloth, &mut self.edits);
+        let found = tear.find(mesh, cloth, edits, self.step_s);
+        if found.overstretched == 0 {
+            return Some(found);
+        }
+        let momentum = momentum(cloth);
+        let report = tear.tear(mesh, cloth, edits, found);
         self.tally.splits += report.splits as u64;
         self.tally.edge_energy_j += report.edge_energy_j;
         self.tally.steps_at_cap += u64::from(report.cap_hit);
@@ -370,15 +371,6 @@ impl Run {
             let drift = length(after - before) / size;
             self.tally.momentum_drift = self.tally.momentum_drift.max(drift);
         }
-    }
-
-    fn stretch_ratio_max(&self) -> f64 {
-        let system = self.cloth.system();
-        let ratios = system
-            .stretches()
-            .iter()
-            .map(|id| system.unlimited_ratio(id));
-        ratios.fold(0.0, f64::max)
     }
 
     /// Whether the scene's time is over.

@@ -5,8 +5,6 @@
 pub struct Counters {
     /// Evaluations of all forces.
     pub force_evaluations: u64,
-    /// Projections of single constraints.
-    pub projections: u64,
     /// Products of the stiffness matrix with a vector.
     pub matrix_products: u64,
     /// Sums over all triangles: of forces, of products with the stiffness matrix, of energy for
@@ -22,4 +20,21 @@ pub struct Counters {
     pub substeps: u64,
     /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
     pub overshoots: u64,
+    /// Visits of single constraints.
+    pub visits: Visits,
+}
+
+/// Visits of single constraints, springs, bends and triangles alike, by what they were for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Visits {
+    /// To project them, or to shorten them.
+    pub project: u64,
+    /// For forces, for products with the stiffness matrix and its entries, for the energy that an
+    /// implicit step searches along a line by, and to see that nothing has blown up.
+    pub force: u64,
+    /// To find those that are about to tear. What is found on the way, while forces are summed up, is
+    /// no visit of its own.
+    pub detect: u64,
+    /// To tell the largest stretch, and energy.
+    pub meter: u64,
 }

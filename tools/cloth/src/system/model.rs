@@ -12,6 +12,7 @@ use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Element, Forces, Slope};
 use crate::load::{Loads, Path};
+use crate::lookout::Lookout;
 use crate::pair::{Law, Link, Pairs, length};
 use crate::spring::Hooke;
 use crate::triangle::Triangles;
@@ -111,6 +112,11 @@ impl Model {
         }
     }
 
+    /// How many constraints and triangles there are.
+    pub(crate) fn constraint_count(&self) -> u64 {
+        self.kinds().iter().map(|kind| kind.len() as u64).sum()
+    }
+
     /// The elastic energy of all constraints, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
         self.kinds()
@@ -165,10 +171,11 @@ impl Model {
         &self,
         positions: &[Point],
         velocities: &[Vector],
+        lookout: Option<&mut Lookout>,
         accelerations: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, None, accelerations, counters);
+        let sane = self.inner(positions, None, lookout, accelerations, counters);
         self.external(positions, velocities, accelerations, counters);
         sane
     }
@@ -180,10 +187,11 @@ impl Model {
         positions: &[Point],
         velocities: &[Vector],
         (crush, carry): (&mut Crush<'_>, &Carry),
+        lookout: Option<&mut Lookout>,
         accelerations: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, Some(crush), accelerations, counters);
+        let sane = self.inner(positions, Some(crush), lookout, accelerations, counters);
         if carry.len() == 0 {
             self.external(positions, velocities, accelerations, counters);
             return sane;
@@ -202,16 +210,20 @@ impl Model {
         &self,
         positions: &[Point],
         mut crush: Option<&mut Crush<'_>>,
+        mut lookout: Option<&mut Lookout>,
         forces: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
         counters.force_evaluations += 1;
+        counters.visits.force += self.constraint_count();
         counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
         forces.fill(Vector::zeros());
         let mut sane = true;
         for kind in &self.kinds() {
             let crush = crush.as_deref_mut();
-            sane &= kind.forces(positions, self.stretch_ratio_max, crush, forces);
+            // The first kind is that of stretch constraints.
+            let lookout = lookout.take();
+            sane &= kind.forces(positions, self.stretch_ratio_max, crush, lookout, forces);
         }
         sane
     }
@@ -250,6 +262,7 @@ impl Model {
         counters: &mut Counters,
     ) {
         counters.matrix_products += 1;
+        counters.visits.force += self.constraint_count();
         counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
         for kind in &self.kinds() {
             kind.stiffness_times(slope, positions, displacements, product);

@@ -3,7 +3,9 @@
 use tearmesh::geometry::{Plane, Vector, dot, length};
 use tearmesh::{Cursor, Edits, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
 
+use super::load::strain;
 use super::{Tearing, TearingError};
+use crate::element::Forces;
 use crate::energy;
 use crate::sheet::Cloth;
 use crate::system::Family;
@@ -19,9 +21,17 @@ pub struct Tear {
     /// Where a tear may run on, and the direction across it at rest: zero for vertices that are no
     /// tips.
     pub(super) tips: PerVertex<Vector>,
-    /// By half-edge: the seconds since its edge was first found above its threshold, or
-    /// [`BELOW`].
-    pub(super) clocks: Vec<f64>,
+    /// Whether there ever was one.
+    has_tips: bool,
+    /// By half-edge.
+    pub(super) clocks: Vec<Clock>,
+    /// The number of this step, for clocks.
+    pub(super) now: u64,
+    /// From where on an edge may tear, with what that depends on: the number of changes of the
+    /// system, and the forces of its method.
+    bound: Option<((u64, Forces), Option<f64>)>,
+    /// Edges that may tear.
+    candidates: Vec<HalfEdgeId>,
     due: Vec<Due>,
     pub(super) seen: Cursor,
     /// The far ends of the links that a split tore.
@@ -30,8 +40,37 @@ pub struct Tear {
     is_fresh: Vec<bool>,
 }
 
-/// The clock of an edge below its threshold.
-pub(super) const BELOW: f64 = f64::NEG_INFINITY;
+/// How long an edge has been above its threshold.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    /// Since it was first found there.
+    seconds: f64,
+    /// The step that found it there last.
+    at: u64,
+}
+
+impl Clock {
+    /// That of an edge below its threshold.
+    pub(super) const BELOW: Clock = Clock {
+        seconds: f64::NEG_INFINITY,
+        at: 0,
+    };
+
+    /// The same a step later, and one that has not gone on in the step before as one that never did.
+    fn by(self, now: u64) -> Clock {
+        if self.at == now { self } else { Clock::BELOW }
+    }
+
+    /// The one of two that has run longer, both as of this step.
+    pub(super) fn longer(self, other: Clock, now: u64) -> Clock {
+        let [one, other] = [self, other].map(|clock| clock.by(now));
+        if other.seconds > one.seconds {
+            other
+        } else {
+            one
+        }
+    }
+}
 
 /// An edge that may tear in this step.
 #[derive(Clone, Copy, Debug)]
@@ -57,8 +96,8 @@ pub struct TearReport {
     pub refused: usize,
     /// Whether the cap left an edge that would have torn.
     pub cap_hit: bool,
-    /// The edge with the largest load over strength, and that: above 1 it tears. `None` for a cloth
-    /// without a stretched edge.
+    /// Of these, the edge with the largest load over strength, and that: 1 or more. `None` where
+    /// there is none.
     pub worst: Option<(HalfEdgeId, f64)>,
     /// What the splits took from the elastic energy, in joules, by the cloth's ledger: that of
     /// bend constraints across the tear. Negative where copies by the paper's rule made
@@ -84,7 +123,11 @@ impl Tear {
             strengths: PerVertex::new(vec![1.0; count]).starting_at(seen),
             tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(seen),
             seen,
-            clocks: vec![BELOW; cloth.indices().len()],
+            has_tips: false,
+            clocks: vec![Clock::BELOW; cloth.indices().len()],
+            now: 0,
+            bound: None,
+            candidates: Vec::new(),
             due: Vec::new(),
             ahead: Vec::new(),
             is_fresh: Vec::new(),
@@ -111,6 +154,7 @@ impl Tear {
         }
         Ok(Tear {
             strengths: PerVertex::new(strengths).starting_at(self.seen),
+            bound: None,
             ..self
         })
     }
@@ -153,11 +197,30 @@ impl Tear {
         }
     }
 
+    /// The edge with the largest load over strength, and that: from 1 on it tears. `None` for a cloth
+    /// without a stretched edge. Linear; what [`Tear::apply`] finds costs next to nothing, and ends
+    /// at what tears.
+    ///
+    /// # Panics
+    ///
+    /// If cloth or tear are not in step with the mesh.
+    #[must_use]
+    pub fn worst(&self, mesh: &Mesh, cloth: &Cloth) -> Option<(HalfEdgeId, f64)> {
+        let severity = |edge| {
+            let load = self.tearing.threshold.edge_load(mesh, cloth, edge)?;
+            let severity = self.severity(mesh, cloth, edge, load);
+            (severity > 0.0).then_some((edge, severity))
+        };
+        let edges = mesh.edges().filter_map(severity);
+        edges.reduce(|worst, other| if other.1 > worst.1 { other } else { worst })
+    }
+
     /// Tears what is overstretched now, after a step of `dt_s` seconds. Mesh and log advance, and
     /// the cloth and this follow them; other followers replay the log when it suits them.
     ///
-    /// Edits by others that are in the log are followed first. Cost: linear in edges, and a walk
-    /// round the ends of each overstretched edge.
+    /// Edits by others that are in the log are followed first. Cost: a walk round the ends of each
+    /// overstretched edge; and, where the method did not compute lengths at the end of the step, a pass
+    /// over edges, or over faces where [`Threshold::PrincipalStretch`](super::Threshold) decides.
     ///
     /// # Panics
     ///
@@ -170,8 +233,34 @@ impl Tear {
         edits: &mut Edits,
         dt_s: f64,
     ) -> TearReport {
+        let report = self.find(mesh, cloth, edits, dt_s);
+        self.tear(mesh, cloth, edits, report)
+    }
+
+    /// The first half of [`apply`](Tear::apply): finds what is overstretched, and changes nothing.
+    pub(crate) fn find(
+        &mut self,
+        mesh: &Mesh,
+        cloth: &mut Cloth,
+        edits: &Edits,
+        dt_s: f64,
+    ) -> TearReport {
         edits.replay(&mut (&mut *cloth, &mut *self));
-        let mut report = self.find(mesh, cloth, dt_s);
+        self.look(mesh, cloth);
+        self.judge(mesh, cloth, dt_s)
+    }
+
+    /// The other half: tears what was found.
+    pub(crate) fn tear(
+        &mut self,
+        mesh: &mut Mesh,
+        cloth: &mut Cloth,
+        edits: &mut Edits,
+        mut report: TearReport,
+    ) -> TearReport {
+        if self.due.is_empty() {
+            return report;
+        }
         self.is_fresh.clear();
         self.is_fresh.resize(mesh.vertex_count(), false);
         let energy = cloth.ledger().split_elastic_j;
@@ -201,30 +290,54 @@ impl Tear {
         report
     }
 
-    /// Finds the edges that may tear, the worst first, and advances clocks.
-    fn find(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
+    /// Finds the edges that may tear: all that do, and maybe some more.
+    fn look(&mut self, mesh: &Mesh, cloth: &mut Cloth) {
+        self.candidates.clear();
+        let of = (cloth.system().changes, cloth.system().model.forces);
+        let bound = match self.bound {
+            Some((known, bound)) if known == of => bound,
+            _ => {
+                let threshold = self.tearing.threshold;
+                threshold.ratio_from(cloth, self.least_strength())
+            }
+        };
+        self.bound = Some((of, bound));
+        if let Some(ratio) = bound {
+            cloth.system_mut().strained_from(ratio);
+            let found = cloth.system().lookout.found(ratio).unwrap_or(&[]);
+            let edges = found.iter().map(|&id| whole_edge(mesh, cloth.edge(id)));
+            self.candidates.extend(edges);
+        } else {
+            cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
+            self.candidates.extend(mesh.edges());
+        }
+    }
+
+    /// Finds those of the candidates that tear, the worst first, and advances clocks.
+    fn judge(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
         let mut report = TearReport::default();
         self.due.clear();
-        let mut worst = 0.0;
-        let least = self.least_strength();
-        let watches_clocks = self.tearing.delay_s > 0.0;
-        for edge in mesh.edges() {
-            let load = self.tearing.threshold.edge_load(mesh, cloth, edge);
-            let load = load.unwrap_or(f64::NEG_INFINITY);
-            // Most edges bear their load wherever they are.
-            let mut severity = load / least;
-            if severity >= 1.0 || severity > worst {
-                severity = self.severity(mesh, cloth, edge, load);
+        self.now += 1;
+        let candidates = std::mem::take(&mut self.candidates);
+        for &edge in &candidates {
+            let Some(load) = self.tearing.threshold.edge_load(mesh, cloth, edge) else {
+                continue;
+            };
+            let severity = self.severity(mesh, cloth, edge, load);
+            let is_over = severity >= 1.0;
+            if !is_over {
+                continue;
             }
-            if severity > worst {
-                worst = severity;
+            report.overstretched += 1;
+            let is_worse = |(worst, most): (HalfEdgeId, f64)| {
+                severity > most || (severity == most && edge < worst)
+            };
+            if report.worst.is_none_or(is_worse) {
                 report.worst = Some((edge, severity));
             }
-            let is_over = severity >= 1.0;
-            report.overstretched += usize::from(is_over);
-            if watches_clocks && self.waits(mesh, edge, is_over, dt_s) {
+            if self.tearing.delay_s > 0.0 && self.waits(mesh, edge, dt_s) {
                 report.waiting += 1;
-            } else if is_over {
+            } else {
                 self.due.push(Due {
                     edge,
                     load,
@@ -232,6 +345,7 @@ impl Tear {
                 });
             }
         }
+        self.candidates = candidates;
         let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
         self.due
             .sort_unstable_by(|one, other| worse(one, other).then(one.edge.cmp(&other.edge)));
@@ -250,20 +364,23 @@ impl Tear {
     fn least_strength(&self) -> f64 {
         let strengths = self.strengths.as_slice().iter();
         let least = strengths.fold(f64::INFINITY, |least, &strength| least.min(strength));
-        least * self.tearing.weakening.unwrap_or(1.0)
+        match self.tearing.weakening {
+            Some(factor) if self.has_tips => least * factor,
+            _ => least,
+        }
     }
 
-    /// Advances the clock of an edge; whether it is over its threshold and has to wait.
-    fn waits(&mut self, mesh: &Mesh, edge: HalfEdgeId, is_over: bool, dt_s: f64) -> bool {
-        let clock = if is_over {
-            (self.clocks[edge.index()] + dt_s).max(0.0)
-        } else {
-            BELOW
-        };
+    /// Advances the clock of an edge over its threshold; whether it has to wait.
+    fn waits(&mut self, mesh: &Mesh, edge: HalfEdgeId, dt_s: f64) -> bool {
+        let before = self.clocks[edge.index()].by(self.now - 1);
+        let seconds = (before.seconds + dt_s).max(0.0);
         for h in [Some(edge), mesh.pair(edge)].into_iter().flatten() {
-            self.clocks[h.index()] = clock;
+            self.clocks[h.index()] = Clock {
+                seconds,
+                at: self.now,
+            };
         }
-        is_over && clock < self.tearing.delay_s
+        seconds < self.tearing.delay_s
     }
 
     /// The vertex that the rule splits, of those that do not bear the load.
@@ -305,16 +422,27 @@ impl Tear {
         let tips = along_plane(cloth, vertex, &plane, &self.ahead);
         for tip in tips.take(if is_whole { 2 } else { 1 }) {
             self.tips[tip] = across;
+            self.has_tips = true;
         }
         length_m
     }
 }
 
-/// The elastic energy of an edge, in joules.
+/// An edge by the half-edge that [`Mesh::edges`] has it by.
+fn whole_edge(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
+    mesh.pair(h).map_or(h, |pair| h.min(pair))
+}
+
+/// The elastic energy of an edge, in joules, by the strain that it is held against its threshold
+/// with.
 fn energy_j(cloth: &Cloth, edge: HalfEdgeId) -> f64 {
-    let system = cloth.system();
-    let constraint = system.stretches().get(cloth.stretch(edge));
-    energy::elastic_of_j(system, Family::Stretch, &constraint)
+    let (system, id) = (cloth.system(), cloth.stretch(edge));
+    let spring = system.stretches().get(id);
+    if system.model.forces == Forces::Multipliers {
+        let extension = strain(system, id) * spring.rest_length_m;
+        return 0.5 * spring.stiffness_n_per_m * extension * extension;
+    }
+    energy::elastic_of_j(system, Family::Stretch, &spring)
 }
 
 /// The way from one end of an edge to the other, at rest.

@@ -4,7 +4,7 @@
 use tearmesh::geometry::Vector;
 use tearmesh::{Cursor, Edit, Follower, Insert, Merge};
 
-use super::apply::{BELOW, Tear};
+use super::apply::{Clock, Tear};
 use crate::follow::lies_on;
 
 impl Follower for Tear {
@@ -38,11 +38,11 @@ impl Tear {
             for child in family.children() {
                 let start = 3 * child.face.index();
                 let end = self.clocks.len().max(start + 3);
-                self.clocks.resize(end, BELOW);
+                self.clocks.resize(end, Clock::BELOW);
                 for corner in 0..3 {
                     let ends = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
                     let on = |&h: &usize| ends.into_iter().all(|end| lies_on(end, parent[h]));
-                    let clock = (0..3).find(on).map_or(BELOW, |h| before[h]);
+                    let clock = (0..3).find(on).map_or(Clock::BELOW, |h| before[h]);
                     self.clocks[start + corner] = clock;
                 }
             }
@@ -53,7 +53,7 @@ impl Tear {
     fn merge(&mut self, merge: &Merge<'_>) {
         for link in merge.sewn {
             let [one, other] = [link.stayed, link.moved].map(|h| self.clocks[h.index()]);
-            let longer = one.max(other);
+            let longer = one.longer(other, self.now);
             self.clocks[link.stayed.index()] = longer;
             self.clocks[link.moved.index()] = longer;
         }

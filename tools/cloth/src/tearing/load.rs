@@ -4,7 +4,8 @@ use tearmesh::geometry::{Vector, cross, dot};
 use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
-use crate::constraint::ConstraintId;
+use crate::constraint::{Constraint, ConstraintId};
+use crate::element::Forces;
 use crate::fabric::Copies;
 use crate::force;
 use crate::sheet::Cloth;
@@ -70,6 +71,42 @@ impl Threshold {
     }
 }
 
+impl Threshold {
+    /// How many times as long as at rest any edge is at least that has this load, by the strain that
+    /// [`strain`] says; `None` where faces decide, or forces that no strain tells. Linear.
+    pub(super) fn ratio_from(&self, cloth: &Cloth, load: f64) -> Option<f64> {
+        let stretches = cloth.system().stretches();
+        let most = |of: fn(&Constraint) -> f64| {
+            let each = stretches.iter().map(|id| of(&stretches.get(id)));
+            each.fold(0.0, f64::max)
+        };
+        let strain = match *self {
+            Threshold::Stretch(ratio) => ratio - 1.0,
+            Threshold::WarpWeft { warp, weft, .. } => warp.min(weft) - 1.0,
+            Threshold::Toughness(g) => {
+                strain_borne(g, modulus(cloth), most(|edge| edge.rest_length_m))
+            }
+            Threshold::Force(_)
+                if matches!(cloth.system().model.forces, Forces::Rigid | Forces::Both) =>
+            {
+                return None;
+            }
+            Threshold::Force(newtons) => {
+                let share = if cloth.fabric.copies == Copies::Halved {
+                    0.5
+                } else {
+                    1.0
+                };
+                share * newtons / most(|edge| edge.stiffness_n_per_m * edge.rest_length_m)
+            }
+            Threshold::PrincipalStretch(_) => return None,
+        };
+        // The load is computed by another way, which may round down.
+        let ratio = (1.0 + load * strain) * (1.0 - 16.0 * f64::EPSILON);
+        Some(ratio.min(f64::MAX))
+    }
+}
+
 /// Whether no other edge of a face is stretched more; the one with the lowest id, of equals.
 fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
     let ratio = |h: HalfEdgeId| cloth.system().stretch_ratio(cloth.stretch(h));
@@ -79,8 +116,14 @@ fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
     })
 }
 
-/// l / L − 1, before a limiter.
-fn strain(system: &System, id: ConstraintId) -> f64 {
+/// l / L − 1, before a limiter; and of a method that keeps the forces of springs as multipliers, that
+/// of a spring with this force. The lengths that sweeps leave depend on their number and order, but at
+/// rest forces balance whatever they are.
+pub(super) fn strain(system: &System, id: ConstraintId) -> f64 {
+    let spring = system.stretches().get(id);
+    if system.model.forces == Forces::Multipliers && spring.stiffness_n_per_m > 0.0 {
+        return force::force_n(system, id) / (spring.stiffness_n_per_m * spring.rest_length_m);
+    }
     system.unlimited_ratio(id) - 1.0
 }
 

@@ -1,0 +1,247 @@
+//! What is about to tear is found on the way, and is what a look at every edge finds.
+
+use tearmesh::{Edits, Masses, Mesh, Plane, Point, Positions, Vector, VertexId, shapes};
+use tearmesh_cloth::{
+    Cloth, Collider, Fabric, Implicit, Loads, Pbd, Provot, Solver, Tear, Tearing, Threshold,
+    Unstable, Verlet, Xpbd, suited_step_s,
+};
+
+use crate::random::Random;
+
+/// A square metre with diagonals at random and inner points off the grid.
+fn sheet(cells: u32, random: &mut Random) -> (Mesh, Positions) {
+    let (mesh, positions) = shapes::grid_with_diagonals(cells, cells, |_, _| random.next() < 0.5);
+    let part = 0.6 / f64::from(cells);
+    let points = positions.as_slice().iter().map(|p| {
+        let within = [p.x, p.y].iter().all(|&x| x > 0.0 && x < 1.0);
+        let mut off = || {
+            if within {
+                part * (random.next() - 0.5)
+            } else {
+                0.0
+            }
+        };
+        [p.x + off(), p.y + off(), 0.0]
+    });
+    let positions = Positions::new(points.collect::<Vec<_>>()).expect("points");
+    (mesh, positions)
+}
+
+/// A sheet that hangs by its top and is pulled about; what may tear it, and how it is stepped.
+struct Pulled {
+    mesh: Mesh,
+    cloth: Cloth,
+    strengths: Vec<f64>,
+    threshold: Threshold,
+    step_s: f64,
+}
+
+impl Pulled {
+    fn new(seed: u64) -> Pulled {
+        let mut random = Random(seed);
+        let cells = 3 + (random.next() * 6.0) as u32;
+        let (mesh, positions) = sheet(cells, &mut random);
+        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+        let stiffness = 20.0 + 200.0 * random.next();
+        let fabric = Fabric::new(stiffness);
+        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+        let mut loads = Loads {
+            gravity_m_per_s2: Some(Vector::new(0.0, -20.0 * random.next(), 0.0)),
+            drag_per_s: Some(1.0),
+            ..Loads::default()
+        };
+        if seed.is_multiple_of(3) {
+            let floor = Plane::new(Point::new(0.0, -0.1, 0.0), Vector::y()).expect("a plane");
+            loads.colliders.push(Collider::Plane(floor));
+        }
+        let system = cloth.system_mut();
+        system.set_loads(loads).expect("loads");
+        system.when_unstable(Unstable::Substep);
+        let row = cells as usize + 1;
+        (row * (row - 1)..row * row).for_each(|top| system.hold(top));
+        let down = Vector::new(0.0, -2.0 * random.next(), 0.0);
+        for v in &mut system.state_mut().1[..row] {
+            *v = down * random.next();
+        }
+        let threshold = match seed % 4 {
+            0 => Threshold::Stretch(1.02 + 0.3 * random.next()),
+            1 => Threshold::WarpWeft {
+                warp: 1.02 + 0.3 * random.next(),
+                weft: 1.02 + 0.1 * random.next(),
+                axis: Vector::y(),
+            },
+            2 => Threshold::Toughness(0.002 + 0.1 * random.next()),
+            _ => Threshold::Force(0.05 + random.next()),
+        };
+        let strengths = mesh.vertices().map(|_| 0.5 + random.next()).collect();
+        let step_s = suited_step_s(cloth.system_mut());
+        Pulled {
+            mesh,
+            cloth,
+            strengths,
+            threshold,
+            step_s,
+        }
+    }
+
+    /// How many edges have a load beyond the strength of their weaker end: the definition.
+    fn overstretched(&self, tear: &Tear) -> usize {
+        let over = |h| {
+            let load = self.threshold.edge_load(&self.mesh, &self.cloth, h);
+            let ends = [self.mesh.origin(h), self.mesh.target(h)];
+            let [a, b] = ends.map(|v: VertexId| tear.strength(v));
+            load.is_some_and(|load| load / a.min(b) >= 1.0)
+        };
+        self.mesh.edges().filter(|&h| over(h)).count()
+    }
+}
+
+type Make = fn() -> Box<dyn Solver>;
+
+const METHODS: [(&str, Make); 6] = [
+    ("Verlet", || Box::new(Verlet::new())),
+    ("plain Verlet", || Box::new(Verlet::plain())),
+    ("XPBD", || Box::new(Xpbd::default())),
+    ("PBD", || Box::new(Pbd::default())),
+    ("Provot", || Box::new(Provot::default())),
+    ("implicit", || Box::new(Implicit::default())),
+];
+
+#[test]
+fn what_is_found_on_the_way_is_what_a_look_at_every_edge_finds() {
+    for (name, method) in METHODS {
+        let (mut over, mut steps, mut torn) = (0, 0, 0);
+        for seed in 0..24 {
+            let mut pulled = Pulled::new(seed);
+            let mut solver = method();
+            let tearing = Tearing::new(pulled.threshold);
+            let tear = Tear::new(&pulled.cloth, tearing).expect("a tear");
+            let strengths = pulled.strengths.clone();
+            let mut tear = tear.with_strengths(strengths).expect("strengths");
+            let mut edits = Edits::new();
+            for _ in 0..40 {
+                let stepped = pulled.cloth.step(&mut *solver, pulled.step_s);
+                stepped.unwrap_or_else(|error| panic!("{name}, sheet {seed}: {error}"));
+                let expected = pulled.overstretched(&tear);
+                let Pulled { mesh, cloth, .. } = &mut pulled;
+                let report = tear.apply(mesh, cloth, &mut edits, 0.0);
+                assert_eq!(report.overstretched, expected, "{name}, sheet {seed}");
+                (over, steps) = (over + expected, steps + 1);
+                torn += report.splits;
+            }
+        }
+        println!("{name}: {over} edges overstretched in {steps} steps, {torn} splits");
+        assert!(over > 100 && torn > 50, "{name}");
+    }
+}
+
+/// A method that computes lengths at the end of its steps finds what tears there.
+#[test]
+fn verlet_finds_what_tears_without_a_visit_of_its_own() {
+    let Pulled {
+        mut mesh,
+        mut cloth,
+        step_s,
+        ..
+    } = Pulled::new(4);
+    let tearing = Tearing::new(Threshold::Stretch(2.0));
+    let mut tear = Tear::new(&cloth, tearing).expect("a tear");
+    let mut edits = Edits::new();
+    let mut detected = Vec::new();
+    for _ in 0..10 {
+        cloth.step(&mut Verlet::new(), step_s).expect("a step");
+        tear.apply(&mut mesh, &mut cloth, &mut edits, step_s);
+        detected.push(cloth.system().counters().visits.detect);
+    }
+    // The first step does not know yet what will be asked.
+    let edges = mesh.edges().count() as u64;
+    assert_eq!(detected, [edges; 10]);
+    // Where someone else moves particles, only a look can tell.
+    let _ = cloth.system_mut().state_mut();
+    tear.apply(&mut mesh, &mut cloth, &mut edits, step_s);
+    assert_eq!(cloth.system().counters().visits.detect, 2 * edges);
+}
+
+/// At rest the force in each link of a chain is the weight below it, in whatever order links are
+/// swept: so is what XPBD holds against a threshold, whose lengths are off.
+#[test]
+fn xpbd_tears_a_chain_by_the_weight_that_hangs_from_it() {
+    use tearmesh_cloth::System;
+
+    let (links, mass, stiffness, rest) = (30, 0.01, 40.0, 0.1);
+    for order in 0..3 {
+        let points = (0..=links).map(|i| Point::new(0.0, 0.0, -rest * f64::from(i)));
+        let mut chain = System::new(points, vec![mass; links as usize + 1]).expect("a chain");
+        let mut numbers: Vec<usize> = (0..links as usize).collect();
+        match order {
+            0 => {}
+            1 => numbers.reverse(),
+            _ => numbers.rotate_left(11),
+        }
+        let ids = numbers.iter().map(|&i| {
+            let link = chain.stretch([i, i + 1], rest, stiffness);
+            (i, link.expect("a link"))
+        });
+        let ids: Vec<_> = ids.collect();
+        chain.hold(0);
+        let loads = Loads {
+            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
+            drag_per_s: Some(20.0),
+            ..Loads::default()
+        };
+        chain.set_loads(loads).expect("loads");
+        for _ in 0..4000 {
+            chain.step(&mut Xpbd::new(1, 1), 0.01).expect("a step");
+        }
+        let mut off: f64 = 0.0;
+        for (i, id) in ids {
+            let below = f64::from(links) - i as f64;
+            let strain = below * mass * 9.81 / (stiffness * rest);
+            let load = Threshold::Stretch(1.5).load(&chain, id).expect("a load");
+            assert!(
+                (load / (strain / 0.5) - 1.0).abs() < 1e-6,
+                "link {i}: {load}"
+            );
+            off = off.max(((chain.stretch_ratio(id) - 1.0) / strain - 1.0).abs());
+        }
+        println!(
+            "order {order}: lengths are off by up to {:.0} %",
+            100.0 * off
+        );
+        assert!(off > 0.2, "{off}");
+    }
+}
+
+/// Who never tears pays for no search, and the statistics of a run by Verlet are found on the way.
+#[test]
+fn a_run_that_never_tears_detects_nothing() {
+    use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
+
+    let visits = |solver: Method, tearing: Option<Tearing>| {
+        let (mesh, positions) = shapes::grid(8, 8);
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let scene = Scene {
+            solver,
+            tearing,
+            ..Scene::hang(&frame)
+        };
+        let mut run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
+        for _ in 0..30 {
+            run.step().expect("a step");
+        }
+        let edges = run.mesh().edges().count() as u64;
+        let visits = run.cloth().system().counters().visits;
+        [visits.project, visits.force, visits.detect, visits.meter].map(|n| n as f64 / edges as f64)
+    };
+    let [projected, forces, detected, metered] = visits(Method::Verlet, None);
+    assert_eq!([projected, detected], [0.0; 2]);
+    assert!(forces >= 30.0 && metered == 1.0, "{forces} {metered}");
+    let [projected, forces, detected, metered] = visits(Method::Xpbd(Xpbd::new(1, 1)), None);
+    assert_eq!(
+        [projected, forces, detected, metered],
+        [30.0, 0.0, 0.0, 30.0]
+    );
+    let tearing = Some(Tearing::new(Threshold::Stretch(9.0)));
+    assert_eq!(visits(Method::Verlet, tearing)[2], 1.0);
+    assert_eq!(visits(Method::Xpbd(Xpbd::new(1, 1)), tearing)[2], 30.0);
+}
