@@ -2,23 +2,20 @@
 
 use std::time::Instant;
 
-use tearmesh::{Edits, Masses, Mesh, Plane, Point, Vector, shapes, split};
+use tearmesh::{Edits, Mesh, Plane, Point, Vector, shapes, split};
 use tearmesh_cloth::{
-    Cloth, Collider, Fabric, Implicit, Loads, Pbd, Solver, Unstable, Verlet, Xpbd, frequency,
+    Cloth, Collider, Fabric, Implicit, Pbd, Solver, Unstable, Verlet, Xpbd, frequency,
 };
+
+use crate::parts::cloths::cloth;
+use crate::parts::gravity_along_y;
 
 /// A sheet of n × n cells that hangs by its upper edge.
 fn hanging(n: u32, stiffness: f64) -> (Mesh, Cloth) {
     let (mesh, positions) = shapes::grid(n, n);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(stiffness)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(stiffness));
     let system = cloth.system_mut();
-    let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
-        drag_per_s: Some(1.0),
-        ..Loads::default()
-    };
-    system.set_loads(loads).expect("loads");
+    system.set_loads(gravity_along_y(1.0)).expect("loads");
     let row = n as usize + 1;
     (row * (row - 1)..row * row).for_each(|top| system.hold(top));
     (mesh, cloth)
@@ -154,7 +151,7 @@ fn times_of_projections_steps_and_splits() {
     }
     for n in [16, 32, 64] {
         let (_, mut springs) = hanging(n, 1e3);
-        let (_, _, mut woven) = crate::weave::sheet(n, crate::weave::weave());
+        let (_, _, mut woven) = crate::parts::woven::sheet(n, crate::parts::woven::weave());
         let [spring, triangle] = [&mut springs, &mut woven].map(|cloth| {
             cloth.system_mut().when_unstable(Unstable::Allow);
             let faces = cloth.indices().len() as f64 / 3.0;

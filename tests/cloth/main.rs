@@ -13,6 +13,7 @@ mod failures;
 mod follow;
 mod implicit;
 mod limiter;
+mod parts;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]
 mod random;
