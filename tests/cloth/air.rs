@@ -7,6 +7,7 @@ use tearmesh_cloth::{
     Xpbd, air, frequency,
 };
 
+use crate::parts::gravity;
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -318,10 +319,9 @@ fn blown(solver: &mut dyn Solver, steps: u32, drag_per_s: Option<f64>) -> (Vec<P
         coefficient: 0.5,
     };
     let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
         drag_per_s,
         wind: Some(blowing),
-        ..Loads::default()
+        ..gravity(0.0)
     };
     system.set_loads(loads).expect("loads");
     (42..49).for_each(|top| system.hold(top));

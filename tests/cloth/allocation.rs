@@ -1,8 +1,14 @@
 //! What promises not to allocate does not.
 
 use allocation_counter::measure;
-use tearmesh::{Edits, Masses, Vector, shapes};
+use tearmesh::{Edits, Vector, shapes};
+use tearmesh_cloth::{
+    Bending, Cloth, Fabric, Implicit, Pbd, Provot, Solver, Tear, Tearing, Threshold, Unstable,
+    Verlet, Weave, Xpbd,
+};
 
+use crate::parts::cloths::cloth;
+use crate::parts::gravity;
 use crate::rk4::Rk4;
 
 /// The number of allocations that something takes.
@@ -10,28 +16,32 @@ fn allocations(of: impl FnOnce()) -> u64 {
     measure(of).count_total
 }
 
+/// Steps by each of these methods do not allocate.
+fn check_steps<const N: usize>(cloth: &mut Cloth, methods: [&mut dyn Solver; N]) {
+    for method in methods {
+        // The first step makes room.
+        cloth.step(&mut *method, 0.005).expect("a step");
+        let taken = allocations(|| {
+            for _ in 0..5 {
+                cloth.step(&mut *method, 0.005).expect("a step");
+            }
+        });
+        assert_eq!(taken, 0);
+    }
+}
+
 #[test]
 fn steps_of_a_cloth_do_not_allocate() {
-    use tearmesh_cloth::{
-        Bending, Cloth, Fabric, Loads, Pbd, Provot, Solver, Unstable, Verlet, Xpbd,
-    };
-
     let (mesh, positions) = shapes::grid(10, 10);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let fabric = Fabric {
         bend: Some(Bending::Spring {
             stiffness_n_per_m: 1.0,
         }),
         ..Fabric::new(50.0)
     };
-    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
-    let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
-        drag_per_s: Some(1.0),
-        ..Loads::default()
-    };
+    let mut cloth = cloth(&mesh, &positions, fabric);
     let system = cloth.system_mut();
-    system.set_loads(loads).expect("loads");
+    system.set_loads(gravity(1.0)).expect("loads");
     system.hold(0);
     system.when_unstable(Unstable::Substep);
     let (mut provot, mut rk4) = (Provot::default(), Rk4::new());
@@ -42,56 +52,32 @@ fn steps_of_a_cloth_do_not_allocate() {
         &mut Xpbd::default(),
         &mut rk4,
     ];
-    for method in methods {
-        // The first step makes room.
-        cloth.step(&mut *method, 0.005).expect("a step");
-        let taken = allocations(|| {
-            for _ in 0..5 {
-                cloth.step(&mut *method, 0.005).expect("a step");
-            }
-        });
-        assert_eq!(taken, 0);
-    }
+    check_steps(&mut cloth, methods);
 }
 
 #[test]
 fn steps_of_a_cloth_of_triangles_do_not_allocate() {
-    use tearmesh_cloth::{Cloth, Fabric, Implicit, Solver, Unstable, Verlet, Weave};
-
     let (mesh, positions) = shapes::grid(10, 10);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let fabric = Fabric::woven(Weave {
         warp_n_per_m: 50.0,
         weft_n_per_m: 40.0,
         shear_n_per_m: 5.0,
         warp: Vector::x(),
     });
-    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, fabric);
     let system = cloth.system_mut();
     system.hold(0);
     system.state_mut().1[60] = Vector::new(0.1, 0.1, 0.3);
     system.when_unstable(Unstable::Substep);
     let (mut implicit, mut rk4) = (Implicit::default(), Rk4::new());
     let methods: [&mut dyn Solver; 3] = [&mut Verlet::new(), &mut rk4, &mut implicit];
-    for method in methods {
-        // The first step makes room.
-        cloth.step(&mut *method, 0.005).expect("a step");
-        let taken = allocations(|| {
-            for _ in 0..5 {
-                cloth.step(&mut *method, 0.005).expect("a step");
-            }
-        });
-        assert_eq!(taken, 0);
-    }
+    check_steps(&mut cloth, methods);
 }
 
 #[test]
 fn looking_for_tears_allocates_nothing() {
-    use tearmesh_cloth::{Cloth, Fabric, Tear, Tearing, Threshold};
-
     let (mut mesh, positions) = shapes::grid(10, 10);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
     for x in cloth.system_mut().state_mut().0 {
         x.x *= 1.2;
     }

@@ -4,53 +4,12 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::{
-    Limiter, Loads, Pbd, Provot, Solver, System, Unstable, Verlet, Xpbd, energy, force, frequency,
+    Limiter, Pbd, Provot, Solver, System, Unstable, Verlet, Xpbd, force, frequency,
 };
 
+use crate::parts::nets::{catenary, chain, framed, modulus, relaxed, row};
+use crate::parts::{G, gravity, mechanical_j, near, run};
 use crate::rk4::Rk4;
-
-pub(crate) const G: f64 = 9.81;
-
-#[track_caller]
-pub(crate) fn near(value: f64, answer: f64, tolerance: f64) {
-    assert!(
-        (value - answer).abs() <= tolerance,
-        "{value} is not {answer}, off by {:e}",
-        value - answer
-    );
-}
-
-pub(crate) fn gravity(drag_per_s: f64) -> Loads {
-    Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -G)),
-        drag_per_s: (drag_per_s > 0.0).then_some(drag_per_s),
-        ..Loads::default()
-    }
-}
-
-/// Springs in a row along `direction`, the particles `apart` from each other.
-pub(crate) fn row(springs: usize, mass: f64, stiffness: f64, rest: f64, apart: Vector) -> System {
-    let points = (0..=springs).map(|i| Point::origin() + apart * i as f64);
-    let mut row = System::new(points, vec![mass; springs + 1]).expect("particles with mass");
-    for i in 0..springs {
-        row.stretch([i, i + 1], rest, stiffness).expect("a spring");
-    }
-    row.hold(0);
-    row
-}
-
-/// The chain of R2, hanging.
-pub(crate) fn chain(drag_per_s: f64) -> System {
-    let mut chain = row(10, 0.01, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
-    chain.set_loads(gravity(drag_per_s)).expect("loads");
-    chain
-}
-
-pub(crate) fn run(system: &mut System, mut solver: impl Solver, dt_s: f64, steps: usize) {
-    for _ in 0..steps {
-        system.step(&mut solver, dt_s).expect("a stable step");
-    }
-}
 
 /// R1 in motion: one mass on a spring, released at 0.1 m from rest length.
 fn oscillator() -> System {
@@ -305,22 +264,6 @@ fn half_net(n: usize, mass: f64, h: f64, length: impl Fn(f64) -> f64) -> [f64; 2
     [span, sag]
 }
 
-/// A chain between two nails one metre apart.
-pub(crate) fn catenary(n: usize, mass: f64, stiffness: f64, rest: f64, drag: f64) -> System {
-    let points = (0..=n).map(|i| {
-        let x = i as f64 / n as f64;
-        Point::new(x, 0.0, -2.0 * x * (1.0 - x))
-    });
-    let mut net = System::new(points, vec![mass; n + 1]).expect("particles");
-    for i in 0..n {
-        net.stretch([i, i + 1], rest, stiffness).expect("a spring");
-    }
-    net.hold(0);
-    net.hold(n);
-    net.set_loads(gravity(drag)).expect("loads");
-    net
-}
-
 #[test]
 fn r6_a_chain_between_two_nails_hangs_in_a_catenary() {
     // R6a: 2 a sinh(1 / 2a) is the length, a (cosh(1 / 2a) − 1) the sag.
@@ -416,33 +359,6 @@ fn r7_the_top_link_reaches_its_threshold_first_and_at_the_right_force() {
     }
 }
 
-/// The stiffness of a net in the plane, in N/m: xx, yy, xy, shear, and x with shear, from uᵀ K u
-/// of the affine displacements of a cell's springs.
-pub(crate) fn modulus(cell_area: f64, springs: &[[f64; 2]], k: f64) -> [f64; 5] {
-    let energy = |f: &dyn Fn([f64; 2]) -> [f64; 2]| -> f64 {
-        let of = |&spring: &[f64; 2]| {
-            let d = Vector::new(spring[0], spring[1], 0.0);
-            let mut pair = row(1, 1.0, k, d.norm(), d);
-            let [x, y] = f(spring);
-            let u = [Vector::zeros(), Vector::new(x, y, 0.0)];
-            force::stiffness_times(&mut pair, &u)[1].dot(&u[1])
-        };
-        springs.iter().map(of).sum::<f64>() / cell_area
-    };
-    let xx = energy(&|[x, _]| [x, 0.0]);
-    let yy = energy(&|[_, y]| [0.0, y]);
-    let shear = energy(&|[_, y]| [y, 0.0]);
-    let both = energy(&|[x, y]| [x, y]);
-    let x_and_shear = energy(&|[x, y]| [x + y, 0.0]);
-    [
-        xx,
-        yy,
-        (both - xx - yy) / 2.0,
-        shear,
-        (x_and_shear - xx - shear) / 2.0,
-    ]
-}
-
 #[test]
 fn r8_the_modulus_of_a_net() {
     let k = 1000.0;
@@ -512,77 +428,13 @@ fn r10_a_rotating_pair_keeps_its_radius_and_energy() {
         run(&mut pair, solver, dt, (5.0 / dt).round() as usize);
         let d = pair.positions()[1] - pair.positions()[0];
         near(d.norm() / 2.0, r, drift);
-        let now = energy::elastic_j(&pair) + energy::kinetic_j(&pair);
-        near(now, energy, 10.0 * drift);
+        near(mechanical_j(&pair), energy, 10.0 * drift);
         assert!((pair.velocities()[0] + pair.velocities()[1]).norm() < 1e-12);
     };
     check(&mut Verlet::new(), 2e-4, 2e-6);
     check(&mut Rk4::new(), 1e-3, 1e-9);
     check(&mut Provot::unlimited(), 1e-4, 1e-3);
     check(&mut Xpbd::new(1, 1), 1e-6, 1e-2);
-}
-
-/// A square net in a frame with 2 % pretension, sagging.
-pub(crate) fn framed(n: usize, stiffness: f64, drag: f64) -> System {
-    let at = |i: usize, j: usize| j * (n + 1) + i;
-    let apart = 1.0 / n as f64;
-    let points = (0..(n + 1) * (n + 1)).map(|v| {
-        Point::new(
-            (v % (n + 1)) as f64 * apart,
-            (v / (n + 1)) as f64 * apart,
-            0.0,
-        )
-    });
-    let mut net = System::new(points, vec![0.01; (n + 1) * (n + 1)]).expect("particles");
-    let rest = apart / 1.02;
-    for j in 0..=n {
-        for i in 0..=n {
-            if i < n {
-                net.stretch([at(i, j), at(i + 1, j)], rest, stiffness)
-                    .expect("warp");
-            }
-            if j < n {
-                net.stretch([at(i, j), at(i, j + 1)], rest, stiffness)
-                    .expect("weft");
-            }
-            if i < n && j < n {
-                let diagonal = [at(i, j), at(i + 1, j + 1)];
-                net.stretch(diagonal, rest * 2.0_f64.sqrt(), stiffness)
-                    .expect("a diagonal");
-            }
-            if i == 0 || j == 0 || i == n || j == n {
-                net.hold(at(i, j));
-            }
-        }
-    }
-    net.set_loads(gravity(drag)).expect("loads");
-    net
-}
-
-/// Statics with no dynamics and no code in common: particle by particle, each goes the way of its
-/// force until none has any.
-pub(crate) fn relaxed(net: &System) -> Vec<Point> {
-    let springs = net.stretches();
-    let springs: Vec<_> = springs.iter().map(|id| springs.get(id)).collect();
-    let mut points = net.positions().to_vec();
-    for _ in 0..4000 {
-        for i in 0..points.len() {
-            if net.is_held(i) {
-                continue;
-            }
-            let mut force = Vector::new(0.0, 0.0, -G * net.masses()[i]);
-            let mut stiffness = 0.0;
-            for spring in springs.iter().filter(|spring| spring.ends.contains(&i)) {
-                let other = spring.ends[0] + spring.ends[1] - i;
-                let d = points[other] - points[i];
-                let tension = spring.stiffness_n_per_m * (d.norm() - spring.rest_length_m);
-                force += d.normalize() * tension;
-                stiffness += spring.stiffness_n_per_m;
-            }
-            points[i] += force / stiffness;
-        }
-    }
-    points
 }
 
 #[test]

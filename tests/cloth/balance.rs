@@ -1,15 +1,15 @@
 //! The balance of energy, against answers on paper; and the watch over what a method makes.
 
-use tearmesh::{Edits, Masses, Mesh, Plane, Point, Positions, Vector, mend, shapes, split};
+use tearmesh::{Edits, Masses, Plane, Point, Vector, mend, shapes, split};
 use tearmesh_cloth::implicit::{self, Tolerance};
-use tearmesh_cloth::scene::{Axis, Frame, Gain, Method, Run, Scene};
+use tearmesh_cloth::scene::{Frame, Gain, Method, Run, Scene};
 use tearmesh_cloth::{
     Balance, Cloth, Collider, Copies, EnergyBalance, Fabric, Implicit, Limiter, Loads, Path,
-    Solver, StepError, System, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd, energy,
+    Solver, StepError, System, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
 };
 
-use crate::answers::{near, run};
-use crate::scenes::methods;
+use crate::parts::scenes::{methods, play, staged};
+use crate::parts::{mechanical_j, near, run};
 
 const DOWN: Vector = Vector::new(0.0, 0.0, -10.0);
 
@@ -51,7 +51,7 @@ fn a_balance_begins_with_what_is_there() {
     let mut row = row(&[0.0, 1.5], 1.0);
     run(&mut row, &mut Verlet::new(), 0.01, 3);
     let balance = Balance::new(&mut row);
-    let there = energy::elastic_j(&row) + energy::kinetic_j(&row);
+    let there = mechanical_j(&row);
     assert_eq!(now(&balance, &row).began_j, there);
     assert_eq!(now(&balance, &row).put_in_j(), there);
     assert_eq!(now(&balance, &row).method_j(), 0.0);
@@ -334,7 +334,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
         let system = cloth.system();
         let weights = system.masses().iter().zip(system.positions());
         let potential: f64 = weights.map(|(m, x)| m * 10.0 * x.y).sum();
-        energy::kinetic_j(system) + energy::elastic_j(system) + potential
+        mechanical_j(system) + potential
     };
     let mut edits = Edits::new();
     let mut made = 0.0;
@@ -467,23 +467,12 @@ fn beyond_the_limit_a_spring_makes_energy() {
     }
 }
 
-/// A square of one metre in so many cells, the diagonals in turn.
-fn square(cells: u32) -> (Mesh, Positions) {
-    shapes::grid_with_diagonals(cells, cells, |i, j| (i + j) % 2 == 0)
-}
-
-fn play(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Run {
-    let (mesh, positions) = square(cells);
-    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    let mut run = Run::new(mesh, &positions, scene(&frame), &frame).expect("a scene");
-    while !run.is_over() {
-        run.step().expect("a step");
-    }
-    run
+fn played(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Run {
+    play(staged(cells, scene))
 }
 
 fn check_no_gain(cells: u32, scene: fn(&Frame) -> Scene, name: &str, solver: &Method) {
-    let run = play(cells, |frame| Scene {
+    let run = played(cells, |frame| Scene {
         solver: solver.clone(),
         ..scene(frame)
     });
@@ -526,9 +515,9 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
         stretch_ratio_max: 1e6,
         ..Limiter::default()
     });
-    let own = play(16, |frame| violent(frame, springs.clone(), None));
+    let own = played(16, |frame| violent(frame, springs.clone(), None));
     let step_s = Some(own.step_s());
-    let run = play(16, |frame| violent(frame, springs.clone(), step_s));
+    let run = played(16, |frame| violent(frame, springs.clone(), step_s));
     let Some(Gain {
         since_s,
         made_j,
@@ -545,11 +534,11 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     assert!(pieces > 20);
     // A step that may be divided is, as soon as the cloth is torn; and the guards of Verlet show what
     // nature would do at the same step.
-    let half = play(16, |frame| violent(frame, Method::Verlet, step_s));
+    let half = played(16, |frame| violent(frame, Method::Verlet, step_s));
     assert_eq!(half.gain(), None, "{:?}", half.energy_balance());
     assert!(half.mesh().components().count() < pieces / 2);
     for (name, solver) in methods() {
-        let run = play(16, |frame| violent(frame, solver.clone(), None));
+        let run = played(16, |frame| violent(frame, solver.clone(), None));
         assert_eq!(run.gain(), None, "{name}: {:?}", run.energy_balance());
     }
 }
@@ -557,7 +546,7 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
 /// The slivers beside the cut are measured once, and get a tenth faster while they turn.
 #[test]
 fn regression_a_flag_that_is_cut_goes_on_waving_by_verlet() {
-    let run = play(24, |frame| Scene {
+    let run = played(24, |frame| Scene {
         solver: Method::Verlet,
         duration_s: 1.56,
         ..Scene::flag(frame)

@@ -2,14 +2,15 @@
 //! solver by itself, and dense eigenvalues.
 
 use nalgebra::DMatrix;
-use tearmesh::{Masses, Point, Positions, Vector, shapes};
+use tearmesh::{Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::{Hessian, Layout, Settings, Tolerance};
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System,
-    Verlet, Xpbd, energy, force, frequency, stable_step_s,
+    Bending, Buckling, Cloth, Fabric, Implicit, Pbd, Provot, Solver, StepError, System, Verlet,
+    Xpbd, energy, force, frequency, stable_step_s,
 };
 
-use crate::answers::{G, near};
+use crate::parts::cloths::cloth;
+use crate::parts::{G, gravity, mechanical_j, near};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -28,8 +29,7 @@ fn arcs(flexural_n_m2: f64, buckles_below: f64) -> Fabric {
 /// A sheet of 3 × 3 cells, whose vertices were all thrown up to `by` metres.
 fn crumpled(fabric: Fabric, by: f64, seed: u64) -> Cloth {
     let (mesh, positions) = shapes::grid(3, 3);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, fabric);
     let mut random = Random(seed);
     for x in cloth.system_mut().state_mut().0 {
         let mut next = || 2.0 * random.next() - 1.0;
@@ -225,13 +225,7 @@ fn the_limit_is_known_before_it_folds() {
 
 fn hung(cloth: &mut Cloth, held: &[usize]) {
     let system = cloth.system_mut();
-    system
-        .set_loads(Loads {
-            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -G)),
-            drag_per_s: Some(4.0),
-            ..Loads::default()
-        })
-        .expect("loads");
+    system.set_loads(gravity(4.0)).expect("loads");
     held.iter().for_each(|&particle| system.hold(particle));
 }
 
@@ -247,9 +241,7 @@ fn a_folded_strip_rests_where_the_forces_of_the_paper_balance() {
         let points = square.as_slice().iter();
         let points = points.map(|p| Point::new(p.x, 0.2 * p.y, p.z));
         let positions = Positions::new(points).expect("a strip");
-        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-        let fabric = arcs(flexural, below);
-        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+        let mut cloth = cloth(&mesh, &positions, arcs(flexural, below));
         let flat = cloth.positions().to_vec();
         let ends: Vec<usize> = (0..flat.len())
             .filter(|&v| flat[v].x < 0.01 || (gap < 1.0 && flat[v].x > 0.99))
@@ -332,9 +324,7 @@ fn methods_that_project_springs_are_refused_and_those_with_forces_run() {
         assert!(error.to_string().contains("bends buckle"), "{error}");
     }
     let dt_s = 0.1 * stable_step_s(cloth.system_mut(), 2.0);
-    let energy =
-        |cloth: &Cloth| energy::elastic_j(cloth.system()) + energy::kinetic_j(cloth.system());
-    let before = energy(&cloth);
+    let before = mechanical_j(cloth.system());
     for solver in [
         &mut Verlet::plain() as &mut dyn Solver,
         &mut Rk4::new(),
@@ -351,7 +341,7 @@ fn methods_that_project_springs_are_refused_and_those_with_forces_run() {
             });
         }
         assert!(buckled);
-        near(energy(&cloth) / before, 1.0, 0.05);
+        near(mechanical_j(cloth.system()) / before, 1.0, 0.05);
     }
     cloth.step(&mut Implicit::default(), 0.01).expect("a step");
 }

@@ -1,24 +1,17 @@
-//! What cloth costs: by counters always, by a clock when asked.
+//! What cloth costs, by counters. By a clock: `tools/bench`, subcommand `cloth`.
 
-use std::time::Instant;
+use tearmesh::{Edits, Mesh, Plane, Point, Vector, shapes, split};
+use tearmesh_cloth::{Cloth, Collider, Fabric, Pbd, Solver, Unstable, Verlet, Xpbd, frequency};
 
-use tearmesh::{Edits, Masses, Mesh, Plane, Point, Vector, shapes, split};
-use tearmesh_cloth::{
-    Cloth, Collider, Fabric, Implicit, Loads, Pbd, Solver, Unstable, Verlet, Xpbd, frequency,
-};
+use crate::parts::cloths::cloth;
+use crate::parts::gravity_along_y;
 
 /// A sheet of n × n cells that hangs by its upper edge.
 fn hanging(n: u32, stiffness: f64) -> (Mesh, Cloth) {
     let (mesh, positions) = shapes::grid(n, n);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(stiffness)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(stiffness));
     let system = cloth.system_mut();
-    let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
-        drag_per_s: Some(1.0),
-        ..Loads::default()
-    };
-    system.set_loads(loads).expect("loads");
+    system.set_loads(gravity_along_y(1.0)).expect("loads");
     let row = n as usize + 1;
     (row * (row - 1)..row * row).for_each(|top| system.hold(top));
     (mesh, cloth)
@@ -118,87 +111,4 @@ fn an_edit_costs_no_matrix_product_and_a_step_measures_only_what_the_bound_leave
         .step(&mut Verlet::plain(), 2.1 / bound)
         .expect("a step");
     assert!(cloth.system().counters().matrix_products > products);
-}
-
-/// Nanoseconds of the fastest of five.
-fn fastest(mut what: impl FnMut()) -> f64 {
-    let took = |_| {
-        let start = Instant::now();
-        what();
-        start.elapsed().as_nanos() as f64
-    };
-    (0..5).map(took).fold(f64::INFINITY, f64::min)
-}
-
-/// Printed, not judged: `cargo test --release --test main -- --ignored --nocapture times_`.
-#[test]
-#[ignore = "reads a clock"]
-fn times_of_projections_steps_and_splits() {
-    for n in [16, 32, 64, 128, 256, 578] {
-        let (_, mut cloth) = hanging(n, 1e3);
-        cloth.system_mut().when_unstable(Unstable::Allow);
-        let constraints = cloth.system().stretches().len() as f64;
-        let mut step = |solver: &mut dyn Solver, dt: f64| {
-            cloth.step(solver, dt).expect("a step");
-            fastest(|| {
-                cloth.step(solver, dt).expect("a step");
-            }) / constraints
-        };
-        println!(
-            "{constraints} constraints, {} colours: ns a constraint: PBD sweep {:.2}, XPBD substep {:.2}, Verlet step {:.2}",
-            hanging(n, 1e3).1.system().stretches().colour_count(),
-            step(&mut Pbd::new(10), 1e-4) / 10.0,
-            step(&mut Xpbd::new(10, 1), 1e-4) / 10.0,
-            step(&mut Verlet::new(), 1e-6),
-        );
-    }
-    for n in [16, 32, 64] {
-        let (_, mut springs) = hanging(n, 1e3);
-        let (_, _, mut woven) = crate::weave::sheet(n, crate::weave::weave());
-        let [spring, triangle] = [&mut springs, &mut woven].map(|cloth| {
-            cloth.system_mut().when_unstable(Unstable::Allow);
-            let faces = cloth.indices().len() as f64 / 3.0;
-            let mut step = |solver: &mut dyn Solver| {
-                cloth.step(solver, 1e-6).expect("a step");
-                fastest(|| {
-                    cloth.step(solver, 1e-6).expect("a step");
-                }) / faces
-            };
-            [step(&mut Verlet::new()), step(&mut Implicit::default())]
-        });
-        println!(
-            "{n}²: ns a face: Verlet on springs {:.1}, on triangles {:.1}; implicit {:.0} and {:.0}",
-            spring[0], triangle[0], spring[1], triangle[1]
-        );
-    }
-    for n in [64, 128, 256] {
-        let (mut mesh, mut cloth) = hanging(n, 1e3);
-        let dt = 1.8 / frequency::bound(cloth.system_mut());
-        cloth.step(&mut Verlet::new(), dt).expect("a step");
-        let none = fastest(|| {
-            cloth.step(&mut Verlet::new(), dt).expect("a step");
-        });
-        let mut edits = Edits::new();
-        let inner: Vec<_> = mesh.vertices().skip(n as usize + 5).step_by(7).collect();
-        let mut splits = inner.into_iter();
-        let some = fastest(|| {
-            for v in splits.by_ref().take(100) {
-                let face = mesh.faces_of(v).next().expect("a face");
-                let _ = split::vertex(&mut mesh, v, &[face], &mut edits);
-            }
-            edits.replay(&mut cloth);
-            edits.clear();
-            cloth.step(&mut Xpbd::new(1, 1), dt).expect("a step");
-        });
-        let plain = fastest(|| {
-            cloth.step(&mut Xpbd::new(1, 1), dt).expect("a step");
-        });
-        println!(
-            "{n}²: Verlet step {:.0} µs, XPBD substep {:.0} µs, with 100 splits {:.0} µs: {:.2} µs a split",
-            none / 1e3,
-            plain / 1e3,
-            some / 1e3,
-            (some - plain) / 1e5
-        );
-    }
 }

@@ -7,11 +7,10 @@ mod table;
 use tearmesh::Vector;
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::scene::{Axis, Method, Scene};
-use tearmesh_cloth::{
-    Implicit, Loads, Solver, System, Verlet, Xpbd, energy, stable_step_s, suited_step_s,
-};
+use tearmesh_cloth::{Implicit, Loads, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s};
 
 use self::sheets::{ORDERS, Sheet};
+use crate::parts::mechanical_j;
 use crate::random::Random;
 
 /// Advances until nothing moves faster than 1e-7 m/s, or for so many seconds.
@@ -193,7 +192,7 @@ fn energy_j(system: &System) -> f64 {
         .unwrap_or_else(Vector::zeros);
     let weights = system.positions().iter().zip(system.masses());
     let potential: f64 = weights.map(|(x, m)| -m * loads.dot(&x.coords)).sum();
-    energy::kinetic_j(system) + energy::elastic_j(system) + potential
+    mechanical_j(system) + potential
 }
 
 /// The largest energy of so many seconds, and the last.

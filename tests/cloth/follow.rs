@@ -3,15 +3,14 @@
 use std::collections::BTreeMap;
 
 use tearmesh::insert::Plan;
-use tearmesh::{
-    Edits, ExactSum, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split,
-};
+use tearmesh::{Edits, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split};
 use tearmesh_cloth::{
-    Bending, Cloth, Constraint, Copies, Fabric, Loads, Unbend, Unstable, Verlet, Weave, Xpbd,
-    energy, frequency,
+    Bending, Cloth, Constraint, Copies, Fabric, Unbend, Unstable, Verlet, Weave, Xpbd, energy,
+    frequency,
 };
 
-use crate::answers::near;
+use crate::parts::cloths::{cloth, momentum};
+use crate::parts::{gravity, gravity_along_y, mechanical_j, near};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -167,24 +166,6 @@ fn check_bends(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
     all(cloth).len()
 }
 
-/// Σ m v of all that is free, exactly.
-pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
-    let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
-    let system = cloth.system();
-    for (m, v) in system.masses().iter().zip(system.velocities()) {
-        for (sum, v) in sums.iter_mut().zip(v.iter()) {
-            let product = m * v;
-            sum.add(product);
-            sum.add(m.mul_add(*v, -product));
-        }
-    }
-    sums
-}
-
-fn energy(cloth: &Cloth) -> f64 {
-    energy::elastic_j(cloth.system()) + energy::kinetic_j(cloth.system())
-}
-
 fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
     Fabric {
         bend: bend.then_some(Bending::Spring {
@@ -203,15 +184,9 @@ fn shaken(
     fabric: Fabric,
     random: &mut Random,
 ) -> Cloth {
-    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(mesh, positions, masses, fabric).expect("a cloth");
+    let mut cloth = cloth(mesh, positions, fabric);
     let system = cloth.system_mut();
-    system
-        .set_loads(Loads {
-            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
-            ..Loads::default()
-        })
-        .expect("loads");
+    system.set_loads(gravity(0.0)).expect("loads");
     system.when_unstable(Unstable::Substep);
     let (points, velocities) = system.state_mut();
     for (p, v) in points.iter_mut().zip(velocities) {
@@ -330,7 +305,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         check(&mesh, &cloth);
         let mut edits = Edits::new();
         for _ in 0..40 {
-            let (before, ledger) = (energy(&cloth), cloth.ledger());
+            let (before, ledger) = (mechanical_j(cloth.system()), cloth.ledger());
             let elastic = energy::elastic_j(cloth.system());
             let moving = momentum(&cloth);
             let done = edit(&mut mesh, &cloth, &mut edits, &mut random);
@@ -371,7 +346,11 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 near(now.to_f64(), moving.to_f64(), 1e-15);
             }
             let told = cloth.ledger().total_j() - ledger.total_j();
-            near(energy(&cloth) - before, told, 1e-12 * (1.0 + before));
+            near(
+                mechanical_j(cloth.system()) - before,
+                told,
+                1e-12 * (1.0 + before),
+            );
 
             // The bound is that of a cloth made anew, or above it.
             let known = frequency::bound(cloth.system_mut());
@@ -407,8 +386,7 @@ fn pieces_of_a_face_without_area_fall_and_meet_again() {
     ];
     let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a strip");
     let positions = tearmesh::Positions::new(points).expect("numbers");
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
     let mut edits = Edits::new();
     let [a, b] = [2, 3].map(|v| VertexId::new(v).expect("a vertex"));
     let long = mesh.half_edges().find(|&h| {
@@ -436,11 +414,7 @@ fn pieces_of_a_face_without_area_fall_and_meet_again() {
     let mut particles = cloth.system().masses().iter();
     assert!(particles.all(|&mass| mass >= unit));
 
-    let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
-        ..Loads::default()
-    };
-    cloth.system_mut().set_loads(loads).expect("loads");
+    cloth.system_mut().set_loads(gravity(0.0)).expect("loads");
     cloth.step(&mut Xpbd::new(1, 1), 0.01).expect("a step");
     for x in cloth.positions() {
         near(x.z, -9.81e-4, 1e-9);
@@ -520,14 +494,8 @@ fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
 fn a_merge_undoes_a_split_and_pins_are_inherited() {
     let (mut mesh, positions) = shapes::grid(4, 4);
     for copies in [Copies::Halved, Copies::Whole] {
-        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-        let mut cloth = Cloth::new(
-            &mesh,
-            &positions,
-            masses,
-            fabric(copies, Unbend::Seam, true),
-        )
-        .expect("a cloth");
+        let fabric = fabric(copies, Unbend::Seam, true);
+        let mut cloth = cloth(&mesh, &positions, fabric);
         cloth.system_mut().hold(12);
         let sets = |cloth: &Cloth| {
             [cloth.system().stretches(), cloth.system().bends()].map(|family| {
@@ -573,8 +541,7 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
 #[test]
 fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
     let (mut mesh, positions) = shapes::grid(2, 2);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
     let v = VertexId::new(4).expect("the centre");
     let mut edits = Edits::new();
     let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
@@ -596,8 +563,7 @@ fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
 #[should_panic(expected = "the constraints of a cloth follow its mesh")]
 fn a_cloth_takes_no_constraint_from_elsewhere() {
     let (mesh, positions) = shapes::grid(2, 2);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
     let _ = cloth.system_mut().bend([0, 2], 0.5, 1.0);
 }
 
@@ -634,13 +600,8 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
 #[test]
 fn a_hanging_cloth_is_uploaded_while_it_tears() {
     let (mut mesh, positions) = shapes::grid(8, 8);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(5.0)).expect("a cloth");
-    let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
-        drag_per_s: Some(2.0),
-        ..Loads::default()
-    };
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
+    let loads = gravity_along_y(2.0);
     cloth.system_mut().set_loads(loads).expect("loads");
     cloth.system_mut().when_unstable(Unstable::Substep);
     (72..81).for_each(|top| cloth.system_mut().hold(top));

@@ -9,10 +9,10 @@ mod reports;
 mod rest;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{self, Settings, StepReport, Tolerance};
+use tearmesh_cloth::implicit::{self, Method, Settings, StepReport, Tolerance};
 use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System, force};
 
-pub(crate) const G: f64 = 9.81;
+use crate::parts::G;
 
 /// A spring, or a bend with its stiffness against compression.
 #[derive(Clone, Copy)]
@@ -192,6 +192,21 @@ pub(crate) fn rest(system: &mut System, tolerance_n: f64) {
 /// The 2-norm of all components.
 pub(crate) fn norm(v: &[Vector]) -> f64 {
     v.iter().map(|v| v.dot(v)).sum::<f64>().sqrt()
+}
+
+/// By what the amplitude of an oscillation is multiplied in a step, z = ωΔt: 1/√(1 + z²), and the
+/// larger root of (3/2 − iz) ζ² − 2ζ + ½ = 0, which is (2 + √(1 + 2iz)) / (3 − 2iz).
+pub(crate) fn damping(method: Method, z: f64) -> f64 {
+    match method {
+        Method::BackwardEuler => 1.0 / (1.0 + z * z).sqrt(),
+        Method::Bdf2 => {
+            let modulus = (1.0 + 4.0 * z * z).sqrt();
+            let re = (0.5 * (modulus + 1.0)).sqrt();
+            let im = z / re;
+            let above = (2.0 + re) * (2.0 + re) + im * im;
+            (above / (9.0 + 4.0 * z * z)).sqrt()
+        }
+    }
 }
 
 /// The order that two errors at Δt and Δt/2 show.

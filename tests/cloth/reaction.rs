@@ -7,7 +7,8 @@ use tearmesh_cloth::{
     Weave, Wind, Xpbd, force,
 };
 
-use crate::answers::{G, chain, gravity, near, row, run};
+use crate::parts::nets::{chain, row};
+use crate::parts::{G, gravity, near, run};
 use crate::random::Random;
 use crate::rk4::Rk4;
 

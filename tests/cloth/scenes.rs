@@ -1,7 +1,7 @@
 //! Scenes that play: what is held stays, what is led goes where it should, what hangs does not
 //! tear, what is ripped comes apart, and nothing is lost on the way.
 
-use tearmesh::{Mesh, Plane, Point, Positions, Ray, Vector, VertexId, shapes};
+use tearmesh::{Plane, Point, Ray, Vector, VertexId, shapes};
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{
     Axis, Breeze, Frame, Hold, Method, Names, Quality, Region, Run, RunError, Scene, TimedCut,
@@ -10,51 +10,7 @@ use tearmesh_cloth::{
     Collider, Limiter, Path, Pbd, StepError, Tearing, Threshold, Wind, Xpbd, energy, force,
 };
 
-/// A square of one metre in so many cells, the diagonals in turn.
-fn square(cells: u32) -> (Mesh, Positions) {
-    let n = cells + 1;
-    let points = (0..n * n).map(|i| {
-        let part = |i: u32| f64::from(i) / f64::from(cells);
-        Point::new(part(i % n), part(i / n), 0.0)
-    });
-    let mut triangles = Vec::new();
-    for j in 0..cells {
-        for i in 0..cells {
-            let a = j * n + i;
-            let (b, c, d) = (a + 1, a + n + 1, a + n);
-            if (i + j) % 2 == 0 {
-                triangles.extend([[a, b, c], [a, c, d]]);
-            } else {
-                triangles.extend([[a, b, d], [b, c, d]]);
-            }
-        }
-    }
-    let mesh = Mesh::build((n * n) as usize, &triangles).expect("a square");
-    (mesh, Positions::new(points).expect("points"))
-}
-
-fn run(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Run {
-    let (mesh, positions) = square(cells);
-    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    Run::new(mesh, &positions, scene(&frame), &frame).expect("a scene")
-}
-
-fn play(mut run: Run) -> Run {
-    while !run.is_over() {
-        run.step().expect("a step");
-    }
-    run
-}
-
-pub(crate) fn methods() -> [(&'static str, Method); 5] {
-    [
-        ("xpbd", Method::Xpbd(Xpbd::new(1, 1))),
-        ("pbd", Method::Pbd(Pbd::default())),
-        ("verlet", Method::Verlet),
-        ("provot", Method::Provot(Limiter::default())),
-        ("implicit", Method::Implicit(Settings::default())),
-    ]
-}
+use crate::parts::scenes::{methods, play, square, staged};
 
 /// Nothing is lost: mass to the last bit, momentum to rounding, energy by the ledger.
 fn check_ledgers(run: &Run) {
@@ -65,7 +21,7 @@ fn check_ledgers(run: &Run) {
 }
 
 fn check_hanging(cells: u32, name: &str, solver: &Method) {
-    let run = play(run(cells, |frame| Scene {
+    let run = play(staged(cells, |frame| Scene {
         solver: solver.clone(),
         duration_s: 0.75,
         ..Scene::hang(frame)
@@ -109,7 +65,7 @@ fn what_merely_hangs_does_not_tear_however_fine() {
 #[test]
 fn what_is_ripped_falls_in_pieces_and_nothing_is_lost() {
     for (name, solver) in methods() {
-        let run = play(run(16, |frame| Scene {
+        let run = play(staged(16, |frame| Scene {
             solver: solver.clone(),
             ..Scene::rip(frame)
         }));
@@ -128,7 +84,7 @@ fn what_is_ripped_falls_in_pieces_and_nothing_is_lost() {
 #[ignore = "a minute: 160 cells a side"]
 fn what_is_ripped_tears_on_however_fine() {
     for cells in [64, 160] {
-        let mut run = run(cells, |frame| Scene {
+        let mut run = staged(cells, |frame| Scene {
             solver: Method::Implicit(Settings::default()),
             ..Scene::rip(frame)
         });
@@ -142,7 +98,7 @@ fn what_is_ripped_tears_on_however_fine() {
 
 #[test]
 fn a_flag_is_cut_in_two_and_goes_on_waving() {
-    let mut run = run(16, Scene::flag);
+    let mut run = staged(16, Scene::flag);
     let mut after = None;
     while !run.is_over() {
         let before = run.elapsed_s();
@@ -172,7 +128,7 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
 fn a_flag_that_is_cut_goes_on_waving_by_an_explicit_method() {
     for solver in [Method::Verlet, Method::Provot(Limiter::default())] {
         let carries = matches!(solver, Method::Verlet);
-        let mut run = run(32, |frame| Scene {
+        let mut run = staged(32, |frame| Scene {
             solver: solver.clone(),
             duration_s: 1.7,
             ..Scene::flag(frame)
@@ -204,7 +160,7 @@ fn a_cut_is_told_of_though_its_step_fails() {
         let ray = Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
         ray.expect("a ray")
     };
-    let mut run = run(16, |frame| Scene {
+    let mut run = staged(16, |frame| Scene {
         solver: Method::Provot(Limiter::default()),
         step_s: Some(0.0004),
         holds: vec![Hold::still(Region::Patch {
@@ -247,7 +203,7 @@ fn a_cut_is_told_of_though_its_step_fails() {
 
 #[test]
 fn the_legs_of_trousers_pull_against_each_other() {
-    let mut run = run(12, |frame| Scene {
+    let mut run = staged(12, |frame| Scene {
         tearing: Some(Tearing::new(Threshold::Toughness(20.0))),
         ..Scene::trouser(frame)
     });
@@ -281,7 +237,7 @@ fn the_same_scene_gives_the_same_bits() {
             duration_s: 1.2,
             ..Scene::rip(frame)
         };
-        let [one, other] = [play(run(8, short)), play(run(8, short))];
+        let [one, other] = [play(staged(8, short)), play(staged(8, short))];
         assert_eq!(bits(&one), bits(&other), "{name}");
         assert_eq!(one.mesh().indices(), other.mesh().indices());
         assert_eq!(one.tally(), other.tally());
@@ -296,7 +252,7 @@ fn what_is_held_is_taken_led_and_let_go_in_time() {
         until_s: Some(0.6),
         moves: vec![(0.2, Vector::zeros()), (0.4, Vector::new(0.1, 0.2, 0.3))],
     };
-    let mut run = run(8, |frame| Scene {
+    let mut run = staged(8, |frame| Scene {
         gravity_m_per_s2: Vector::zeros(),
         duration_s: 1.0,
         holds: vec![hold.clone()],
@@ -332,7 +288,7 @@ fn copies_of_what_is_held_are_held_and_let_go_with_it() {
         let ray = Ray::new(Point::new(0.5, y, 5.0), Vector::new(0.0, 0.0, -1.0));
         ray.expect("a ray")
     };
-    let mut run = run(8, |frame| Scene {
+    let mut run = staged(8, |frame| Scene {
         duration_s: 0.5,
         holds: vec![Hold {
             until_s: Some(0.3),
@@ -386,7 +342,7 @@ fn what_one_hold_lets_go_another_still_holds() {
         ..for_a_while.clone()
     };
     let moved = |holds: Vec<Hold>| {
-        let mut run = run(6, |frame| Scene {
+        let mut run = staged(6, |frame| Scene {
             duration_s: 0.6,
             holds: holds.clone(),
             tearing: None,
@@ -526,7 +482,7 @@ fn methods_say_where_their_steps_fall_short() {
         })
     };
     for (name, solver) in methods() {
-        let run = play(run(8, |frame| Scene {
+        let run = play(staged(8, |frame| Scene {
             solver: solver.clone(),
             duration_s: 1.0,
             holds: vec![led([0.0, 0.0], 0.0), led([1.0, 1.0], 0.5)],
@@ -643,7 +599,7 @@ fn scenes_that_make_no_sense_are_refused() {
 
 #[test]
 fn a_step_of_ones_own_is_refused_where_it_is_unstable() {
-    let mut run = run(8, |frame| Scene {
+    let mut run = staged(8, |frame| Scene {
         solver: Method::Verlet,
         step_s: Some(1.0 / 60.0),
         ..Scene::hang(frame)

@@ -5,6 +5,8 @@ use tearmesh::{Masses, Mesh, Plane, Point, Positions, Vector};
 use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
 use tearmesh_cloth::{Cloth, Collider, Fabric, Implicit, Loads, Path, System, Verlet, Weave};
 
+use crate::parts::gravity;
+
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
 
 fn implicit(method: Method, limit_m_per_s: f64) -> Implicit {
@@ -13,13 +15,6 @@ fn implicit(method: Method, limit_m_per_s: f64) -> Implicit {
         tolerance: Tolerance::Fixed(limit_m_per_s),
         ..Settings::default()
     })
-}
-
-fn falling() -> Loads {
-    Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
-        ..Loads::default()
-    }
 }
 
 fn pair(stiffness_n_per_m: f64) -> System {
@@ -111,7 +106,7 @@ fn what_lands_stays_on_the_floor() {
         let floor = Plane::new(Point::origin(), Vector::z()).expect("a plane");
         let loads = Loads {
             colliders: vec![Collider::Plane(floor)],
-            ..falling()
+            ..gravity(0.0)
         };
         ball.set_loads(loads).expect("loads");
         let mut solver = implicit(method, 1e-9);
@@ -180,7 +175,7 @@ fn a_vertex_without_a_face_stays_and_the_others_move() {
         ] {
             let cloth = Cloth::new(&mesh, &positions, masses.clone(), fabric);
             let mut cloth = cloth.expect("a cloth");
-            cloth.system_mut().set_loads(falling()).expect("loads");
+            cloth.system_mut().set_loads(gravity(0.0)).expect("loads");
             let mut solver = implicit(method, 1e-9);
             solver.settings.newton_iterations_max = newton_iterations_max;
             for _ in 0..10 {
@@ -194,7 +189,7 @@ fn a_vertex_without_a_face_stays_and_the_others_move() {
             let three = three.expect("positions");
             let masses = Masses::area(&alone, &three, 0.15).expect("an area");
             let mut other = Cloth::new(&alone, &three, masses, fabric).expect("a cloth");
-            other.system_mut().set_loads(falling()).expect("loads");
+            other.system_mut().set_loads(gravity(0.0)).expect("loads");
             let mut solver = implicit(method, 1e-9);
             solver.settings.newton_iterations_max = newton_iterations_max;
             for _ in 0..10 {

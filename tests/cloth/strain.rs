@@ -3,20 +3,9 @@
 use tearmesh::{FaceId, Masses, Mesh, Point, Positions, Vector, VertexId, shapes};
 use tearmesh_cloth::{Cloth, Fabric};
 
-use crate::answers::near;
+use crate::parts::cloths::{cloth, deform};
+use crate::parts::near;
 use crate::random::Random;
-
-fn cloth_of(mesh: &Mesh, positions: &Positions) -> Cloth {
-    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
-    Cloth::new(mesh, positions, masses, Fabric::new(50.0)).expect("a cloth")
-}
-
-/// Moves every particle by a map.
-fn deform(cloth: &mut Cloth, map: impl Fn(Point) -> Point) {
-    for p in cloth.system_mut().state_mut().0 {
-        *p = map(*p);
-    }
-}
 
 /// A turn about an axis by an angle: columns.
 fn turn(axis: Vector, angle: f64) -> [Vector; 3] {
@@ -38,7 +27,7 @@ fn every_face_of_every_shape_has_stretch_one_at_rest_however_it_is_turned() {
         shapes::octahedron(),
         shapes::torus(6, 5),
     ] {
-        let mut cloth = cloth_of(&mesh, &positions);
+        let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
         for _ in 0..2 {
             for f in mesh.faces() {
                 near(cloth.principal_stretch(f), 1.0, 1e-13);
@@ -61,7 +50,7 @@ fn an_affine_map_stretches_every_face_by_its_larger_singular_value() {
     let mut next = || random.next() - 0.5;
     for _ in 0..200 {
         let (mesh, positions) = shapes::grid(3, 2);
-        let mut cloth = cloth_of(&mesh, &positions);
+        let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
         // Stretch by s and t along two axes at an angle, then turn in space.
         let (s, t, angle) = (1.0 + next(), 1.0 + next(), 6.0 * next());
         let (c, d) = (angle.cos(), angle.sin());
@@ -85,7 +74,7 @@ fn an_affine_map_stretches_every_face_by_its_larger_singular_value() {
 fn no_direction_is_stretched_more_than_the_principal_one() {
     let mut random = Random(11);
     let (mesh, positions) = shapes::octahedron();
-    let mut cloth = cloth_of(&mesh, &positions);
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
     for p in cloth.system_mut().state_mut().0 {
         *p += Vector::new(random.next(), random.next(), random.next()) * 0.6;
     }

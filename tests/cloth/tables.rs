@@ -14,9 +14,10 @@ use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd};
 
-use crate::answers::row;
+use crate::parts::implicit;
+use crate::parts::nets::row;
+use crate::parts::woven::strip;
 use crate::rk4::Rk4;
-use crate::weave::{implicit, strip};
 
 /// The methods, in the order of the tables' columns.
 pub(crate) const METHODS: [&str; 7] = ["Provot", "Verlet", "RK4", "Euler", "BDF2", "XPBD", "PBD"];

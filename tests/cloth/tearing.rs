@@ -2,98 +2,16 @@
 //! tear keeps.
 
 use tearmesh::insert::Plan;
-use tearmesh::{
-    Edit, Edits, Masses, Mesh, Point, Positions, Vector, VertexId, mend, shapes, split,
-};
-use tearmesh_cloth::{
-    Cloth, Copies, Fabric, Provot, Tear, TearReport, Tearing, TearingError, Threshold, Verlet,
-    energy,
-};
+use tearmesh::{Edit, Point, Vector, VertexId, mend, shapes, split};
+use tearmesh_cloth::{Copies, Fabric, Provot, Tear, Tearing, TearingError, Threshold, Verlet};
 
-use crate::answers::{chain, near};
-use crate::follow::momentum;
+use crate::parts::cloths::{Torn, cloth, deform, momentum, sheet};
+use crate::parts::nets::chain;
+use crate::parts::{mechanical_j, near};
 use crate::random::Random;
-
-/// A flat sheet whose inner vertices are off the grid, in generic position.
-pub(crate) fn sheet(columns: u32, rows: u32, seed: u64) -> (Mesh, Positions) {
-    let mut random = Random(seed);
-    let (mesh, positions) = shapes::grid_with_diagonals(columns, rows, |i, j| (i + j) % 2 == 0);
-    let (n, m) = (columns as usize, rows as usize);
-    let points = positions.as_slice().iter().enumerate().map(|(v, p)| {
-        let (i, j) = (v % (n + 1), v / (n + 1));
-        let inner = i > 0 && j > 0 && i < n && j < m;
-        let mut off = || {
-            if inner {
-                0.4 * (random.next() - 0.5)
-            } else {
-                0.0
-            }
-        };
-        [p.x * n as f64 + off(), p.y * m as f64 + off(), 0.0].map(|x| 0.1 * x)
-    });
-    (
-        mesh,
-        Positions::new(points.collect::<Vec<_>>()).expect("finite"),
-    )
-}
-
-pub(crate) fn cloth(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> Cloth {
-    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
-    Cloth::new(mesh, positions, masses, fabric).expect("a cloth")
-}
-
-/// Moves the particles of a cloth by a function of where they are.
-fn bend(cloth: &mut Cloth, mut to: impl FnMut(Point) -> Point) {
-    for x in cloth.system_mut().state_mut().0 {
-        *x = to(*x);
-    }
-}
 
 fn stretched(ratio: f64) -> impl FnMut(Point) -> Point {
     move |p| Point::new(p.x, p.y * ratio, p.z)
-}
-
-/// A mesh, its cloth, and what tears it.
-pub(crate) struct Torn {
-    pub(crate) mesh: Mesh,
-    pub(crate) cloth: Cloth,
-    pub(crate) edits: Edits,
-    pub(crate) tear: Tear,
-}
-
-impl Torn {
-    pub(crate) fn new(
-        (mesh, positions): (Mesh, Positions),
-        fabric: Fabric,
-        tearing: Tearing,
-    ) -> Torn {
-        let cloth = cloth(&mesh, &positions, fabric);
-        let tear = Tear::new(&cloth, tearing).expect("usable numbers");
-        let edits = Edits::new();
-        Torn {
-            mesh,
-            cloth,
-            edits,
-            tear,
-        }
-    }
-
-    pub(crate) fn apply(&mut self, dt_s: f64) -> TearReport {
-        let report = self
-            .tear
-            .apply(&mut self.mesh, &mut self.cloth, &mut self.edits, dt_s);
-        assert_eq!(self.mesh.check(), []);
-        report
-    }
-
-    /// The vertices that were split, in order.
-    fn split(&self) -> Vec<VertexId> {
-        let old = |edit: Edit<'_>| match edit {
-            Edit::Split(split) => Some(split.old),
-            _ => None,
-        };
-        self.edits.iter().filter_map(old).collect()
-    }
 }
 
 #[test]
@@ -105,7 +23,7 @@ fn the_worst_goes_first_and_a_cap_takes_the_rest() {
             ..tearing
         };
         let mut torn = Torn::new(sheet(8, 8, 3), Fabric::new(50.0), tearing);
-        bend(&mut torn.cloth, |p| {
+        deform(&mut torn.cloth, |p| {
             Point::new(p.x, p.y + 1.2 * p.y * p.y, 0.1 * p.x * p.x)
         });
         let worst = torn.mesh.edges().map(|h| {
@@ -151,7 +69,7 @@ fn held_vertices_hold_unless_they_may_tear() {
         (0..36)
             .filter(|v| v % 2 == 0)
             .for_each(|v| torn.cloth.system_mut().hold(v));
-        bend(&mut torn.cloth, stretched(1.4));
+        deform(&mut torn.cloth, stretched(1.4));
         let report = torn.apply(0.01);
         let split = torn.split();
         let held = |v: &&VertexId| torn.cloth.system().is_held(v.index());
@@ -169,7 +87,7 @@ fn held_vertices_hold_unless_they_may_tear() {
         // With all held there is nothing to split.
         let mut torn = Torn::new(sheet(5, 5, 1), Fabric::new(50.0), tearing);
         (0..36).for_each(|v| torn.cloth.system_mut().hold(v));
-        bend(&mut torn.cloth, stretched(1.4));
+        deform(&mut torn.cloth, stretched(1.4));
         let report = torn.apply(0.01);
         assert_eq!(report.splits == 0, !tears_held);
         assert_eq!(report.refused == report.overstretched, !tears_held);
@@ -184,7 +102,7 @@ fn an_edge_tears_after_it_was_above_its_threshold_for_so_long() {
     };
     let new = || Torn::new(sheet(4, 4, 2), Fabric::new(50.0), tearing);
     let mut torn = new();
-    bend(&mut torn.cloth, stretched(1.4));
+    deform(&mut torn.cloth, stretched(1.4));
     // Found at 0, and above for 0.02, 0.04 and 0.06 s.
     for waits in [true, true, true, false] {
         let report = torn.apply(0.02);
@@ -193,20 +111,20 @@ fn an_edge_tears_after_it_was_above_its_threshold_for_so_long() {
     }
     // A dip begins the wait anew.
     let mut torn = new();
-    bend(&mut torn.cloth, stretched(1.4));
+    deform(&mut torn.cloth, stretched(1.4));
     for _ in 0..3 {
         assert_eq!(torn.apply(0.02).splits, 0);
     }
-    bend(&mut torn.cloth, stretched(1.0 / 1.4));
+    deform(&mut torn.cloth, stretched(1.0 / 1.4));
     assert_eq!(torn.apply(0.02).overstretched, 0);
-    bend(&mut torn.cloth, stretched(1.4));
+    deform(&mut torn.cloth, stretched(1.4));
     for waits in [true, true, true, false] {
         assert_eq!(torn.apply(0.02).splits == 0, waits);
     }
 
     // Cuts, mends and insertions by others keep the clocks.
     let mut torn = new();
-    bend(&mut torn.cloth, stretched(1.4));
+    deform(&mut torn.cloth, stretched(1.4));
     assert!(torn.apply(0.02).waiting > 0);
     let v = VertexId::new(12).expect("the centre");
     let faces: Vec<_> = torn.mesh.faces_of(v).take(3).collect();
@@ -236,7 +154,7 @@ fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
     let load = |threshold: Threshold, to: &mut dyn FnMut(Point) -> Point| {
         let (mesh, positions) = shapes::grid(6, 6);
         let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
-        bend(&mut cloth, to);
+        deform(&mut cloth, to);
         let mut loads = [0.0_f64; 3];
         for h in mesh.edges() {
             let d = positions.at(mesh.target(h)) - positions.at(mesh.origin(h));
@@ -294,7 +212,7 @@ fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
         };
         let mut torn = Torn::new(sheet(8, 8, 5), fabric, Tearing::default());
         let mut random = Random(4);
-        bend(&mut torn.cloth, stretched(1.5));
+        deform(&mut torn.cloth, stretched(1.5));
         for v in torn.cloth.system_mut().state_mut().1 {
             *v = Vector::new(random.next(), random.next(), random.next());
         }
@@ -302,11 +220,14 @@ fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
         let mut splits = 0;
         for _ in 0..40 {
             let moving = momentum(&torn.cloth);
-            let (before, ledger) = (energy(&torn.cloth), torn.cloth.ledger().total_j());
+            let (before, ledger) = (
+                mechanical_j(torn.cloth.system()),
+                torn.cloth.ledger().total_j(),
+            );
             let report = torn.apply(0.001);
             splits += report.splits;
             let told = torn.cloth.ledger().total_j() - ledger;
-            near(energy(&torn.cloth) - before, told, 1e-12);
+            near(mechanical_j(torn.cloth.system()) - before, told, 1e-12);
             assert_eq!(report.energy_released_j, -told);
             let made = copies == Copies::Whole && report.tear_length_m > 0.0;
             assert_eq!(told != 0.0, made, "{report:?}");
@@ -323,10 +244,6 @@ fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
     }
 }
 
-fn energy(cloth: &Cloth) -> f64 {
-    energy::elastic_j(cloth.system()) + energy::kinetic_j(cloth.system())
-}
-
 #[test]
 fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
     // A seam of vertices that bear half as much: only they are split.
@@ -337,7 +254,7 @@ fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
         .tear
         .with_strengths(strengths.collect())
         .expect("strengths");
-    bend(&mut torn.cloth, stretched(1.3));
+    deform(&mut torn.cloth, stretched(1.3));
     let report = torn.apply(0.01);
     assert!(report.splits >= 3, "{report:?}");
     let split = torn.split();
@@ -357,7 +274,7 @@ fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
     let mut strengths = vec![1.0; 100];
     strengths[44] = 0.6;
     torn.tear = torn.tear.with_strengths(strengths).expect("strengths");
-    bend(&mut torn.cloth, stretched(1.35));
+    deform(&mut torn.cloth, stretched(1.35));
     assert_eq!((torn.apply(0.01).splits, torn.split()[0].index()), (1, 44));
     let tips: Vec<VertexId> = torn
         .mesh
@@ -386,7 +303,7 @@ fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
     assert!(rows.iter().all(|y| (y - 0.4).abs() < 0.16), "{rows:?}");
     // Without weakening nothing else was overstretched.
     let mut torn = Torn::new(sheet(9, 9, 7), Fabric::new(50.0), Tearing::default());
-    bend(&mut torn.cloth, stretched(1.35));
+    deform(&mut torn.cloth, stretched(1.35));
     assert_eq!(torn.apply(0.01).overstretched, 0);
 }
 

@@ -3,7 +3,8 @@
 use tearmesh::Vector;
 use tearmesh_cloth::{Constraint, Loads, Solver, System, Tearing, Threshold, Verlet, energy};
 
-use crate::answers::{G, near, row};
+use crate::parts::nets::row;
+use crate::parts::{G, near};
 use crate::rk4::Rk4;
 
 /// A link that was cut, and its load: at least 1.

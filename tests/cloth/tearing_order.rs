@@ -3,8 +3,9 @@
 use tearmesh::{Mesh, Point, Positions, Vector};
 use tearmesh_cloth::{Fabric, TearReport, Tearing, Threshold};
 
+use crate::parts::cloths::{Torn, sheet};
+use crate::parts::shuffle;
 use crate::random::Random;
-use crate::tearing::{Torn, sheet};
 
 /// The mesh with its vertices and triangles in another order and its triangles turned.
 struct Renamed {
@@ -16,9 +17,7 @@ struct Renamed {
 
 fn shuffled(count: usize, random: &mut Random) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
-    for i in (1..count).rev() {
-        order.swap(i, (random.next() * (i + 1) as f64) as usize);
-    }
+    shuffle(&mut order, random);
     order
 }
 

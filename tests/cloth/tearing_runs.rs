@@ -11,9 +11,9 @@ use tearmesh_cloth::{
     force, frequency, stable_step_s,
 };
 
-use crate::answers::{gravity, near};
+use crate::parts::cloths::{cloth, sheet};
+use crate::parts::{gravity, gravity_along_y, near};
 use crate::random::Random;
-use crate::tearing::{cloth, sheet};
 
 /// A strip of 0.2 × 0.1 m with a slit from its left side to a quarter of its length; `rows` cells
 /// across.
@@ -203,12 +203,7 @@ fn hangs(cells: u32, seconds: f64) -> f64 {
         .collect();
     let system = cloth.system_mut();
     held.into_iter().for_each(|v| system.hold(v));
-    let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
-        drag_per_s: Some(2.0),
-        ..Loads::default()
-    };
-    system.set_loads(loads).expect("loads");
+    system.set_loads(gravity_along_y(2.0)).expect("loads");
     let mut tear = Tear::new(&cloth, Tearing::default()).expect("a tear");
     let mut edits = Edits::new();
     let dt = 0.95 * stable_step_s(cloth.system_mut(), 2.0);

@@ -8,7 +8,8 @@ use tearmesh_cloth::{
     Provot, SettingError, Solver, StepError, System, Verlet, Wind, Xpbd, force, frequency,
 };
 
-use crate::answers::row;
+use crate::parts::gravity_along_y;
+use crate::parts::nets::row;
 use crate::rk4::Rk4;
 
 /// Ten springs of 1000 N/m between particles of 10 g: a step of 0.02 s is six times too long.
@@ -283,10 +284,8 @@ fn blown() -> (Mesh, Cloth, Balance) {
         coefficient: 0.5,
     };
     let loads = Loads {
-        gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
         wind: Some(wind),
-        drag_per_s: Some(1.0),
-        ..Loads::default()
+        ..gravity_along_y(1.0)
     };
     system.set_loads(loads).expect("loads");
     let x = system.positions()[0];

@@ -1,56 +1,15 @@
 //! Cloth of triangles against the reference answers: a strip that moves like a chain is one,
 //! because triangles have no Poisson's ratio.
 
-use tearmesh::{Masses, Mesh, Point, Positions, Vector, shapes};
-use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh_cloth::{
-    Cloth, Fabric, Implicit, Loads, Provot, Solver, System, Unstable, Verlet, Weave, energy, force,
-};
+use tearmesh::{Point, Vector, shapes};
+use tearmesh_cloth::implicit::Method;
+use tearmesh_cloth::{Fabric, Loads, Provot, Solver, System, Verlet, Weave, energy, force};
 
-use crate::answers::{G, gravity, near, run};
+use crate::parts::cloths::cloth;
+use crate::parts::woven::{framed, moduli, sheet, strip, weave};
+use crate::parts::{G, gravity, gravity_along_y, implicit, mechanical_j, near, run};
 use crate::random::Random;
 use crate::rk4::Rk4;
-
-/// A strip two columns wide, whose rows are a chain with these numbers: particles 2 i and 2 i + 1 are
-/// row i. `apart` leads from row to row; held at row 0.
-pub(crate) fn strip(rows: usize, mass: f64, stiffness: f64, rest: f64, apart: Vector) -> System {
-    let width = 0.25;
-    // Across the strip, and across its length.
-    let across = if apart.x.abs() > 0.0 {
-        Vector::y()
-    } else {
-        Vector::x()
-    };
-    let points = (0..2 * (rows + 1))
-        .map(|v| Point::origin() + apart * (v / 2) as f64 + across * (width * (v % 2) as f64));
-    let mut strip = System::new(points, vec![mass / 2.0; 2 * (rows + 1)]).expect("particles");
-    let modulus = stiffness * rest / width;
-    let at = |v: usize| [width * (v % 2) as f64, rest * (v / 2) as f64];
-    for row in 0..rows {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| 2 * row + i);
-        for corners in [[a, b, d], [a, d, c]] {
-            strip
-                .triangle(
-                    corners,
-                    corners.map(at),
-                    [0.1 * modulus, modulus, 0.05 * modulus],
-                )
-                .expect("a triangle");
-        }
-    }
-    strip.hold(0);
-    strip.hold(1);
-    strip
-}
-
-pub(crate) fn implicit(method: Method, tolerance: f64) -> Implicit {
-    Implicit::new(Settings {
-        method,
-        tolerance: Tolerance::Fixed(tolerance),
-        newton_iterations_max: 30,
-        ..Settings::default()
-    })
-}
 
 const DOWN: Vector = Vector::new(0.0, 0.0, -1.0);
 
@@ -182,28 +141,6 @@ fn r7_a_row_at_its_threshold_holds_the_energy_of_its_link() {
     near(-(forces[2].x + forces[3].x) * 0.005, 2.5, 1e-13);
 }
 
-/// The modulus of a piece of cloth in homogeneous small strain, by (εx, εy, γ) along these axes,
-/// from uᵀ K u of affine displacements.
-pub(crate) fn moduli(cloth: &mut Cloth, area: f64, [e, f]: [Vector; 2]) -> [[f64; 3]; 3] {
-    let points = cloth.positions().to_vec();
-    let affine = |mode: usize| -> Vec<Vector> {
-        let of = |p: &Point| match mode {
-            0 => e * e.dot(&p.coords),
-            1 => f * f.dot(&p.coords),
-            _ => 0.5 * (e * f.dot(&p.coords) + f * e.dot(&p.coords)),
-        };
-        points.iter().map(of).collect()
-    };
-    [0, 1, 2].map(|i| {
-        let product = force::stiffness_times(cloth.system_mut(), &affine(i));
-        [0, 1, 2].map(|j| {
-            let pairs = affine(j);
-            let sum: f64 = pairs.iter().zip(&product).map(|(u, p)| u.dot(p)).sum();
-            sum / area
-        })
-    })
-}
-
 /// R8: moduli are those that were asked for, on a net with one diagonal a cell that leans, on a fan,
 /// and after the sheet was torn at random.
 #[test]
@@ -226,9 +163,7 @@ fn r8_moduli_are_those_asked_for_whatever_the_mesh() {
                 shear_n_per_m: 70.0,
                 warp: axes[0] + Vector::z(),
             };
-            let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-            let mut cloth =
-                Cloth::new(&mesh, &positions, masses, Fabric::woven(weave)).expect("a cloth");
+            let mut cloth = cloth(&mesh, &positions, Fabric::woven(weave));
             let area: f64 = cloth.system().triangles().iter().map(|t| t.area).sum();
             let c = moduli(&mut cloth, area, axes);
             let truth = [[1000.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 70.0]];
@@ -254,23 +189,6 @@ fn r8_moduli_are_those_asked_for_whatever_the_mesh() {
             }
         }
     }
-}
-
-pub(crate) fn weave() -> Weave {
-    Weave {
-        warp_n_per_m: 120.0,
-        weft_n_per_m: 80.0,
-        shear_n_per_m: 15.0,
-        warp: Vector::new(1.0, 0.4, 0.0),
-    }
-}
-
-pub(crate) fn sheet(n: u32, weave: Weave) -> (Mesh, Positions, Cloth) {
-    let (mesh, positions) = shapes::grid(n, n);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let fabric = Fabric::woven(weave);
-    let cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
-    (mesh, positions, cloth)
 }
 
 #[test]
@@ -321,25 +239,10 @@ fn r10_a_rotating_strip_keeps_its_radius_and_energy() {
         run(&mut pair, solver, dt, (5.0 / dt).round() as usize);
         let d = pair.positions()[2] - pair.positions()[0];
         near(d.norm() / 2.0, r, drift);
-        let now = energy::elastic_j(&pair) + energy::kinetic_j(&pair);
-        near(now, 2.908_587_257_617_729, 10.0 * drift);
+        near(mechanical_j(&pair), 2.908_587_257_617_729, 10.0 * drift);
     };
     check(&mut Verlet::new(), 2e-4, 2e-6);
     check(&mut Rk4::new(), 1e-3, 1e-9);
-}
-
-/// A sheet in a frame, sagging, with this weave.
-pub(crate) fn framed(n: u32, weave: Weave) -> Cloth {
-    let (mesh, positions, mut cloth) = sheet(n, weave);
-    for v in mesh.vertices() {
-        let p = positions.at(v);
-        if p.x == 0.0 || p.y == 0.0 || p.x == 1.0 || p.y == 1.0 {
-            cloth.system_mut().hold(v.index());
-        }
-    }
-    cloth.system_mut().set_loads(gravity(8.0)).expect("loads");
-    cloth.system_mut().when_unstable(Unstable::Substep);
-    cloth
 }
 
 #[test]
@@ -397,11 +300,7 @@ fn a_hanging_sheet_comes_to_the_length_of_the_continuum() {
         let (_, _, mut cloth) = sheet(n, along);
         let row = (n + 1) as usize;
         (row * (row - 1)..row * row).for_each(|top| cloth.system_mut().hold(top));
-        let loads = Loads {
-            gravity_m_per_s2: Some(Vector::new(0.0, -G, 0.0)),
-            drag_per_s: Some(8.0),
-            ..Loads::default()
-        };
+        let loads = gravity_along_y(8.0);
         cloth.system_mut().set_loads(loads).expect("loads");
         let mut solver = implicit(Method::BackwardEuler, 1e-11);
         for _ in 0..150 {

@@ -7,9 +7,10 @@ use tearmesh_cloth::{
     SystemError, Unstable, Verlet, Weave, Xpbd, energy, frequency, warp_of_texture,
 };
 
-use crate::answers::near;
+use crate::parts::cloths::cloth;
+use crate::parts::woven::{sheet, strip, weave};
+use crate::parts::{mechanical_j, near};
 use crate::rk4::Rk4;
-use crate::weave::{sheet, strip, weave};
 
 #[test]
 fn explicit_methods_are_held_to_the_limit_of_triangles() {
@@ -78,7 +79,7 @@ fn the_blow_up_map_of_triangles() {
                     if system.step(&mut *method, dt).is_err() {
                         return false;
                     }
-                    most = most.max(energy::elastic_j(system) + energy::kinetic_j(system));
+                    most = most.max(mechanical_j(system));
                 }
                 most < 400.0 * push
             };
@@ -272,8 +273,7 @@ fn children_inherit_the_warp_of_their_face() {
 #[test]
 fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted() {
     let (mesh, positions) = shapes::grid(3, 3);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut springs = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
+    let mut springs = cloth(&mesh, &positions, Fabric::new(50.0));
     let (_, _, mut woven) = sheet(3, weave());
     for cloth in [&mut springs, &mut woven] {
         let dt = 1.0 / frequency::bound(cloth.system_mut());

@@ -3,6 +3,7 @@
 use tearmesh::{Masses, Mesh, Point, Positions, shapes};
 use tearmesh_cloth::System;
 
+use crate::parts::shuffle;
 use crate::random::Random;
 
 /// The stiffness of every edge, in N/m, and the mass of a square metre, in kg.
@@ -24,12 +25,7 @@ impl Order {
         match self {
             Order::Mesh => {}
             Order::Reversed => list.reverse(),
-            Order::Shuffled => {
-                let mut random = Random(5);
-                for i in (1..list.len()).rev() {
-                    list.swap(i, (random.next() * (i + 1) as f64) as usize);
-                }
-            }
+            Order::Shuffled => shuffle(list, &mut Random(5)),
         }
     }
 }

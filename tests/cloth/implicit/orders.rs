@@ -1,7 +1,8 @@
 //! Orders of convergence against a fine solution by Runge and Kutta's method, and what a fixed
 //! tolerance of the solver does to them (F13).
 
-use super::{G, Scene, forces, order, spring, step};
+use super::{Scene, forces, order, spring, step};
+use crate::parts::G;
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::Implicit;
 use tearmesh_cloth::implicit::{Jacobian, Method, Settings, Tolerance};

@@ -1,8 +1,7 @@
 //! What a user is told: indefinite matrices (F12), numerical damping (F10), failures that
 //! leave the state as it was, and work.
 
-use super::references::damping;
-use super::{Scene, spring, step};
+use super::{Scene, damping, spring, step};
 use tearmesh_cloth::implicit::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
 use tearmesh_cloth::{Culprit, Implicit, System};
 

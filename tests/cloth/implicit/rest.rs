@@ -2,7 +2,8 @@
 //! written here, its gradient by differences, a dense Newton iteration.
 
 use super::dense::solve;
-use super::{G, Scene, forces, rest, spring, step};
+use super::{Scene, forces, rest, spring, step};
+use crate::parts::G;
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
 use tearmesh_cloth::{Buckling, Implicit, System, energy};

@@ -3,7 +3,7 @@
 use tearmesh::Vector;
 
 use super::{Links, METHODS, method};
-use crate::answers::{near, run};
+use crate::parts::{near, run};
 
 /// The relative error in x and v/ω after 0.25 s.
 fn error(links: Links, name: &str, dt: f64) -> f64 {

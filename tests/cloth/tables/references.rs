@@ -2,12 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use tearmesh::{Masses, Point, Vector, shapes};
+use tearmesh::{Point, Vector, shapes};
 use tearmesh_cloth::{Cloth, Fabric, Solver, Weave, energy};
 
 use super::{Links, METHODS, method, theory};
-use crate::answers::{catenary, framed, gravity, modulus, relaxed, run};
-use crate::weave::{self, moduli, weave};
+use crate::parts::cloths::cloth;
+use crate::parts::nets::{catenary, framed, modulus, relaxed};
+use crate::parts::woven::{self, moduli, weave};
+use crate::parts::{gravity, mechanical_j, run};
 
 /// An error, and the largest that it may be; `None` where the answer is none of the method's.
 type Cell = Option<(f64, f64)>;
@@ -254,7 +256,7 @@ fn r10(links: Links, name: &str) -> Cell {
         dt,
         (0.5_f64 / dt).round() as usize,
     );
-    let energy = energy::elastic_j(&pair) + energy::kinetic_j(&pair);
+    let energy = mechanical_j(&pair);
     let radius = (links.point(&pair, 1) - links.point(&pair, 0)).norm() / 2.0;
     let error = (radius / r - 1.0)
         .abs()
@@ -279,7 +281,7 @@ fn r11(links: Links, name: &str) -> Cell {
             (net, answer)
         }
         Links::Triangles => {
-            let sheet = weave::framed(6, weave());
+            let sheet = woven::framed(6, weave());
             let answer = relaxed_sheet(&sheet);
             (sheet.system().clone(), answer)
         }
@@ -385,8 +387,7 @@ fn print_moduli() {
         warp: Vector::x(),
     });
     let (mesh, positions) = shapes::fan(7, true);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, fabric);
     let area = cloth.system().triangles().iter().map(|t| t.area).sum();
     let c = moduli(&mut cloth, area, [Vector::x(), Vector::y()]);
     let [[e, uv, us], [_, f, _], [.., g]] = c;

@@ -455,7 +455,7 @@ impl TornDocument<'_> {
 
     /// The vertex of the document that a vertex is, or that it was split from, if it was.
     pub(crate) fn origin(&self, v: usize) -> Option<usize> {
-        let [home, class] = [self.ancestry.home(v), self.ancestry.class(v)];
+        let [home, class] = [self.ancestry.node(v), self.ancestry.class(v)];
         let known = |&statement: &u32| (statement as usize) < self.document.positions.len();
         let origin = Some(home).filter(known).or(Some(class).filter(known));
         origin.map(|statement| statement as usize)

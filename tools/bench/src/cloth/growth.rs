@@ -1,10 +1,11 @@
-//! What a step costs a constraint, as sheets grow.
+//! What a step costs an edge of the mesh, as sheets grow: of springs along edges, each a constraint,
+//! and of triangles in their place.
 
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd, frequency};
 
 use super::bullet::{Bullet, Order, Program};
-use super::sheet::{STEP_S, hanging};
+use super::sheet::{STEP_S, hanging, woven};
 use crate::measure::{median, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
@@ -24,8 +25,16 @@ enum Step {
     Bound(f64),
 }
 
+/// What resists stretch.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Elements {
+    Springs,
+    Triangles,
+}
+
 struct Method {
     name: &'static str,
+    elements: Elements,
     solver: fn() -> Box<dyn Solver>,
     step: Step,
     /// About how many projections a step takes as long as.
@@ -33,9 +42,10 @@ struct Method {
     note: &'static str,
 }
 
-const METHODS: [Method; 4] = [
+const METHODS: [Method; 6] = [
     Method {
         name: "verlet",
+        elements: Elements::Springs,
         solver: || Box::new(Verlet::new()),
         step: Step::Bound(0.9),
         weight: 2,
@@ -43,6 +53,7 @@ const METHODS: [Method; 4] = [
     },
     Method {
         name: "xpbd",
+        elements: Elements::Springs,
         solver: || Box::new(Xpbd::new(10, 1)),
         step: Step::Frame,
         weight: 10,
@@ -50,6 +61,7 @@ const METHODS: [Method; 4] = [
     },
     Method {
         name: "pbd",
+        elements: Elements::Springs,
         solver: || Box::new(Pbd::new(10)),
         step: Step::Frame,
         weight: 10,
@@ -57,29 +69,54 @@ const METHODS: [Method; 4] = [
     },
     Method {
         name: "implicit",
+        elements: Elements::Springs,
         solver: || Box::new(Implicit::new(Settings::default())),
         step: Step::Bound(10.0),
         weight: 200,
         note: "backward Euler, ten times the bound",
     },
+    Method {
+        name: "verlet, triangles",
+        elements: Elements::Triangles,
+        solver: || Box::new(Verlet::new()),
+        step: Step::Bound(0.9),
+        weight: 6,
+        note: "a step of 0.9 of the bound of stability",
+    },
+    Method {
+        name: "implicit, triangles",
+        elements: Elements::Triangles,
+        solver: || Box::new(Implicit::new(Settings::default())),
+        step: Step::Bound(10.0),
+        weight: 400,
+        note: "backward Euler, ten times the bound",
+    },
 ];
 
-/// One line a method: nanoseconds a constraint and step.
+/// One line a method: nanoseconds an edge and step.
 pub(super) fn run(program: &Result<Program, String>, options: &Options) -> String {
     let cloths = SIDES.map(|n| hanging(n).1);
     let counts = cloths.each_ref().map(constraints);
+    let woven = SIDES.map(|n| woven(n).1);
     let mut head = vec![String::new()];
     head.extend(counts.map(|count| count.to_string()));
     head.extend(line(["last / first", ""]));
     let mut lines = vec![head];
 
-    let names = ["verlet", "xpbd", "pbd", "implicit", "bullet"];
+    let names: Vec<&str> = METHODS.iter().map(|method| method.name).collect();
+    let names = [names, vec!["bullet"]].concat();
     for method in &METHODS {
         if options.picks(method.name, &names) {
             let measured = SIDES.map(|_| Vec::new());
-            let measured = rounds(measured, options, |i| nanoseconds(method, &cloths[i]));
+            let cloths = match method.elements {
+                Elements::Springs => &cloths,
+                Elements::Triangles => &woven,
+            };
+            let measured = rounds(measured, options, |i| {
+                nanoseconds(method, &cloths[i], counts[i])
+            });
             lines.push(row(method.name, measured.map(|all| all.0), method.note));
-            if method.name == "implicit" {
+            if method.name.starts_with("implicit") {
                 let products = measured.map(|all| all.1);
                 lines.push(row("", products, "the same a matrix product"));
             }
@@ -100,7 +137,7 @@ pub(super) fn run(program: &Result<Program, String>, options: &Options) -> Strin
         lines.push(row("bullet", measured.map(|all| all.0), note));
     }
     format!(
-        "ns a constraint and step, as sheets grow; CPU time of {} rounds\n{}",
+        "ns an edge and step, as sheets grow; CPU time of {} rounds\n{}",
         options.rounds,
         table(&lines)
     )
@@ -137,12 +174,12 @@ fn constraints(cloth: &Cloth) -> usize {
     cloth.system().stretches().len()
 }
 
-fn steps(constraints: usize, weight: usize) -> usize {
-    (PROJECTIONS / (constraints * weight)).max(1)
+fn steps(edges: usize, weight: usize) -> usize {
+    (PROJECTIONS / (edges * weight)).max(1)
 }
 
-/// How long a step takes for each constraint, and each of its matrix products.
-fn nanoseconds(method: &Method, cloth: &Cloth) -> (f64, f64) {
+/// How long a step takes for each edge of the mesh, and each of its matrix products.
+fn nanoseconds(method: &Method, cloth: &Cloth, edges: usize) -> (f64, f64) {
     let (mut cloth, mut solver) = (cloth.clone(), (method.solver)());
     let step_s = match method.step {
         Step::Frame => STEP_S,
@@ -152,8 +189,7 @@ fn nanoseconds(method: &Method, cloth: &Cloth) -> (f64, f64) {
     for _ in 0..2 {
         cloth.step(&mut *solver, step_s).expect("a step");
     }
-    let count = constraints(&cloth);
-    let steps = steps(count, method.weight);
+    let steps = steps(edges, method.weight);
     let before = cloth.system().counters().matrix_products;
     let ((), time) = timed_on_cpu(|| {
         for _ in 0..steps {
@@ -161,6 +197,6 @@ fn nanoseconds(method: &Method, cloth: &Cloth) -> (f64, f64) {
         }
     });
     let products = cloth.system().counters().matrix_products - before;
-    let a_constraint = time.as_secs_f64() * 1e9 / count as f64;
-    (a_constraint / steps as f64, a_constraint / products as f64)
+    let an_edge = time.as_secs_f64() * 1e9 / edges as f64;
+    (an_edge / steps as f64, an_edge / products as f64)
 }

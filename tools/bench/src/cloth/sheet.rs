@@ -1,7 +1,7 @@
 //! A sheet that hangs by its upper edge.
 
 use tearmesh::{Masses, Mesh, Point, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, Loads, System};
+use tearmesh_cloth::{Cloth, Fabric, Loads, System, Weave};
 
 pub(super) const GRAVITY_M_PER_S2: f64 = -9.81;
 pub(super) const STEP_S: f64 = 1.0 / 60.0;
@@ -13,9 +13,24 @@ const STIFFNESS_N_PER_M: f64 = 1e5;
 /// n × n vertices over a square metre of 0.2 kg, upright and at rest; an edge of the mesh is a
 /// constraint, of grid and one diagonal a cell. The upper row is held. No drag, no bending.
 pub(super) fn hanging(n: u32) -> (Mesh, Cloth) {
+    hung(n, Fabric::new(STIFFNESS_N_PER_M))
+}
+
+/// The same mesh, masses and held row, of triangles in place of constraints: as stiff along warp and
+/// weft, and a tenth of that in shear.
+pub(super) fn woven(n: u32) -> (Mesh, Cloth) {
+    let weave = Weave {
+        warp_n_per_m: STIFFNESS_N_PER_M,
+        weft_n_per_m: STIFFNESS_N_PER_M,
+        shear_n_per_m: 0.1 * STIFFNESS_N_PER_M,
+        warp: Vector::x(),
+    };
+    hung(n, Fabric::woven(weave))
+}
+
+fn hung(n: u32, fabric: Fabric) -> (Mesh, Cloth) {
     let (mesh, positions) = shapes::grid(n - 1, n - 1);
     let masses = Masses::area(&mesh, &positions, 0.2).expect("a sheet has an area");
-    let fabric = Fabric::new(STIFFNESS_N_PER_M);
     let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("edges have a length");
     let system = cloth.system_mut();
     let loads = Loads {

@@ -7,7 +7,10 @@
 //! oldest link is dropped. The tree is no history, then, but all that is needed to undo cuts.
 //!
 //! Ids of vertices change where vertices are merged; nodes of the tree never do. They are numbered
-//! as the `v` of the document, and behind these as vertices were added.
+//! as the `v` of the document, and behind these as vertices were added. Nodes whose vertices were
+//! merged are a set, and the leader of the set, the lowest, is the node of the vertex.
+
+use tearmesh::DisjointSets;
 
 /// Not younger than any cut: vertices that are one are apart since then.
 pub(super) const NEVER: u32 = u32::MAX;
@@ -28,20 +31,19 @@ pub(super) struct Ancestry {
     /// merged: up to then each vertex is a tree.
     nodes: Vec<u32>,
     tree: Vec<Node>,
+    /// Sets of nodes that are one vertex.
+    merged: DisjointSets,
     classes: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The node that this one was split from, and the cut; itself at the top of a tree.
+    /// A node that is now of the vertex above; at the top of a tree, one of the same vertex.
     from: u32,
+    /// The cut between. Of nodes of one vertex, only the leader's `from` and `cut` count.
     cut: u32,
     /// The vertices of one root have one class, which never changes.
     class: u32,
-    /// The node that this one became when it was merged; itself while it is a vertex.
-    merged: u32,
-    /// The first of the nodes that became this one, and this one.
-    home: u32,
 }
 
 impl Ancestry {
@@ -51,6 +53,7 @@ impl Ancestry {
         let mut ancestry = Ancestry {
             nodes: Vec::new(),
             tree: Vec::new(),
+            merged: DisjointSets::default(),
             classes: count as u32,
         };
         if splits.is_empty() {
@@ -63,8 +66,6 @@ impl Ancestry {
                 from: split.from,
                 cut: split.cut,
                 class: tree[split.from as usize].class,
-                merged: split.vertex,
-                home: split.vertex,
             };
         }
         ancestry
@@ -77,11 +78,10 @@ impl Ancestry {
                 from: v,
                 cut: NEVER,
                 class: v,
-                merged: v,
-                home: v,
             };
             self.nodes = (0..self.classes).collect();
             self.tree = (0..self.classes).map(alone).collect();
+            self.merged.reset(self.classes);
         }
     }
 
@@ -107,16 +107,9 @@ impl Ancestry {
         self.tree[self.nodes[v] as usize].class
     }
 
-    /// The `v` of the document that a vertex is; behind these, new vertices come in the order in
-    /// which they were made. Of vertices that became one, the first stands for all.
-    pub(super) fn home(&self, v: usize) -> u32 {
-        if self.is_whole() {
-            return v as u32;
-        }
-        self.tree[self.nodes[v] as usize].home
-    }
-
-    /// The node of a vertex, which stays the same when ids change.
+    /// The node of a vertex. It is the `v` of the document that the vertex is; behind these, new
+    /// vertices come in the order in which they were made. Of vertices that became one, the first stands
+    /// for all.
     pub(super) fn node(&self, v: usize) -> u32 {
         self.nodes.get(v).copied().unwrap_or(v as u32)
     }
@@ -129,7 +122,7 @@ impl Ancestry {
             vertices[node as usize] = v;
         }
         for node in 0..self.tree.len() as u32 {
-            vertices[node as usize] = vertices[self.find(node) as usize];
+            vertices[node as usize] = vertices[self.merged.leader(node) as usize];
         }
         vertices
     }
@@ -148,13 +141,8 @@ impl Ancestry {
         } else {
             self.tree[from as usize].class
         };
-        self.tree.push(Node {
-            from,
-            cut,
-            class,
-            merged: node,
-            home: node,
-        });
+        self.tree.push(Node { from, cut, class });
+        self.merged.push();
         self.nodes.push(node);
     }
 
@@ -170,20 +158,11 @@ impl Ancestry {
         self.push(Some((self.nodes[old], cut)));
     }
 
-    /// The node that another has become.
-    fn find(&mut self, mut node: u32) -> u32 {
-        while self.tree[node as usize].merged != node {
-            let next = self.tree[node as usize].merged;
-            self.tree[node as usize].merged = self.tree[next as usize].merged;
-            node = next;
-        }
-        node
-    }
-
     /// The node above, with the cut between; `None` at the top.
     fn above(&mut self, node: u32) -> Option<(u32, u32)> {
         let Node { from, cut, .. } = self.tree[node as usize];
-        (from != node).then(|| (self.find(from), cut))
+        let above = self.merged.leader(from);
+        (above != node).then_some((above, cut))
     }
 
     /// The oldest link between two nodes of one tree: the node below it, whether that is on the
@@ -236,10 +215,12 @@ impl Ancestry {
                 (kept, gone)
             };
             self.turn(goes, below);
-            let [one, other] = [stays, goes].map(|node| self.tree[node as usize].home);
-            self.tree[stays as usize].home = one.min(other);
-            self.tree[goes as usize].merged = stays;
-            self.nodes[vertex] = stays;
+            let Node { from, cut, .. } = self.tree[stays as usize];
+            self.merged.join(stays, goes);
+            let leader = self.merged.leader(stays);
+            let node = &mut self.tree[leader as usize];
+            (node.from, node.cut) = (from, cut);
+            self.nodes[vertex] = leader;
         }
     }
 
@@ -278,35 +259,24 @@ impl Ancestry {
         links.sort_unstable_by(|a, b| b.cmp(a));
         let ends = links.iter().flat_map(|&(_, one, other)| [one, other]);
         let above_all = ends.max().map_or(0, |highest| highest + 1);
-        let mut lowest: Vec<u32> = (0..above_all).collect();
+        let mut joined = DisjointSets::new(above_all);
         let mut split_off = Vec::with_capacity(links.len());
         for of_cut in links.chunk_by(|a, b| a.0 == b.0) {
             let cut = of_cut[0].0;
             let first = split_off.len();
             for &(_, one, other) in of_cut {
-                let [one, other] = [one, other].map(|v| find(&mut lowest, v));
-                let vertex = one.max(other);
-                lowest[vertex as usize] = one.min(other);
+                let vertex = joined.leader(one).max(joined.leader(other));
+                joined.join(one, other);
                 let from = vertex; // Known once all links of the cut are joined.
                 split_off.push(SplitOff { vertex, from, cut });
             }
             for split in &mut split_off[first..] {
-                split.from = find(&mut lowest, split.vertex);
+                split.from = joined.leader(split.vertex);
             }
         }
         split_off.sort_unstable_by_key(|split| split.vertex);
         split_off
     }
-}
-
-/// The lowest vertex joined to `v`.
-fn find(lowest: &mut [u32], mut v: u32) -> u32 {
-    while lowest[v as usize] != v {
-        let next = lowest[v as usize];
-        lowest[v as usize] = lowest[next as usize];
-        v = next;
-    }
-    v
 }
 
 #[cfg(test)]
@@ -388,7 +358,7 @@ mod tests {
                     born += 1;
                 }
                 for (v, home) in homes.iter().enumerate() {
-                    assert_eq!(ancestry.home(v), *home);
+                    assert_eq!(ancestry.node(v), *home);
                 }
                 let split_off = ancestry.split_off(|v| v);
                 let mut again = Ancestry::new(table.len(), &split_off);

@@ -81,7 +81,7 @@ impl<'t> Turns<'t> {
     /// The turn of a vertex of the mesh.
     pub(crate) fn vertex(&self, v: usize) -> Turn {
         let home = match self.sections {
-            Some(_) => self.torn.ancestry.home(v),
+            Some(_) => self.torn.ancestry.node(v),
             None => v as u32,
         };
         if (home as usize) < self.torn.document.positions.len() {
@@ -95,7 +95,7 @@ impl<'t> Turns<'t> {
 
     /// The turn of a copy of a vertex, which is written for another fan.
     pub(crate) fn copy(&self, v: usize) -> Turn {
-        let home = self.torn.ancestry.home(v);
+        let home = self.torn.ancestry.node(v);
         Turn::Added {
             behind: self.behind(Of::Vertices, || {
                 let is_own = (home as usize) < self.torn.document.positions.len();

@@ -1,0 +1,101 @@
+//! Cloths of meshes: made, moved, measured, torn.
+
+use tearmesh::{Edit, Edits, ExactSum, Masses, Mesh, Point, Positions, VertexId, shapes};
+use tearmesh_cloth::{Cloth, Fabric, Tear, TearReport, Tearing};
+
+use crate::random::Random;
+
+/// A cloth of 0.2 kg/m² in the shape of a mesh.
+pub(crate) fn cloth(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> Cloth {
+    let masses = Masses::area(mesh, positions, 0.2).expect("masses");
+    Cloth::new(mesh, positions, masses, fabric).expect("a cloth")
+}
+
+/// A flat sheet of cells of 0.1 m, whose inner vertices are off the grid, in generic position.
+pub(crate) fn sheet(columns: u32, rows: u32, seed: u64) -> (Mesh, Positions) {
+    let mut random = Random(seed);
+    let (mesh, positions) = shapes::grid_with_diagonals(columns, rows, |i, j| (i + j) % 2 == 0);
+    let (n, m) = (columns as usize, rows as usize);
+    let points = positions.as_slice().iter().enumerate().map(|(v, p)| {
+        let (i, j) = (v % (n + 1), v / (n + 1));
+        let inner = i > 0 && j > 0 && i < n && j < m;
+        let mut off = || {
+            if inner {
+                0.4 * (random.next() - 0.5)
+            } else {
+                0.0
+            }
+        };
+        [p.x * n as f64 + off(), p.y * m as f64 + off(), 0.0].map(|x| 0.1 * x)
+    });
+    (
+        mesh,
+        Positions::new(points.collect::<Vec<_>>()).expect("finite"),
+    )
+}
+
+/// Moves the particles of a cloth by a function of where they are.
+pub(crate) fn deform(cloth: &mut Cloth, mut to: impl FnMut(Point) -> Point) {
+    for x in cloth.system_mut().state_mut().0 {
+        *x = to(*x);
+    }
+}
+
+/// Σ m v of all that is free, exactly, in kg m/s.
+pub(crate) fn momentum(cloth: &Cloth) -> [ExactSum; 3] {
+    let mut sums = [ExactSum::new(), ExactSum::new(), ExactSum::new()];
+    let system = cloth.system();
+    for (m, v) in system.masses().iter().zip(system.velocities()) {
+        for (sum, v) in sums.iter_mut().zip(v.iter()) {
+            let product = m * v;
+            sum.add(product);
+            sum.add(m.mul_add(*v, -product));
+        }
+    }
+    sums
+}
+
+/// A mesh, its cloth, and what tears it.
+pub(crate) struct Torn {
+    pub(crate) mesh: Mesh,
+    pub(crate) cloth: Cloth,
+    pub(crate) edits: Edits,
+    pub(crate) tear: Tear,
+}
+
+impl Torn {
+    /// A cloth as of [`cloth`] that tears by this rule.
+    pub(crate) fn new(
+        (mesh, positions): (Mesh, Positions),
+        fabric: Fabric,
+        tearing: Tearing,
+    ) -> Torn {
+        let cloth = cloth(&mesh, &positions, fabric);
+        let tear = Tear::new(&cloth, tearing).expect("usable numbers");
+        let edits = Edits::new();
+        Torn {
+            mesh,
+            cloth,
+            edits,
+            tear,
+        }
+    }
+
+    /// Tears what is due after a step of Δt. The mesh is checked.
+    pub(crate) fn apply(&mut self, dt_s: f64) -> TearReport {
+        let report = self
+            .tear
+            .apply(&mut self.mesh, &mut self.cloth, &mut self.edits, dt_s);
+        assert_eq!(self.mesh.check(), []);
+        report
+    }
+
+    /// The vertices that were split, in order.
+    pub(crate) fn split(&self) -> Vec<VertexId> {
+        let old = |edit: Edit<'_>| match edit {
+            Edit::Split(split) => Some(split.old),
+            _ => None,
+        };
+        self.edits.iter().filter_map(old).collect()
+    }
+}
