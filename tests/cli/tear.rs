@@ -367,6 +367,54 @@ fn what_never_happens_is_warned_of() {
     }
 }
 
+/// What a mesh or a step is too coarse for is said: with a number, and not where it is fine.
+#[test]
+fn what_gets_past_colliders_and_what_cannot_tear_is_said() {
+    let folder = Folder::new();
+    let ball =
+        |radius: f64| format!("[[collider]]\ncentre = [0.5, 0.5, -0.4]\nradius_m = {radius}\n");
+    let strong = |radius: f64| {
+        format!("base = \"hang\"\n[[strength]]\nnear = [0.5, 0.5]\nradius = {radius}\nfactor = 8\n")
+    };
+    folder.write("ball.toml", ball(0.3));
+    folder.write("pea.toml", ball(0.01));
+    folder.write(
+        "thrown.toml",
+        format!("gravity_m_per_s2 = [0, 0, -2000]\n{}", ball(0.3)),
+    );
+    folder.write("some.toml", strong(0.2));
+    folder.write("all.toml", strong(2.0));
+    for (line, words) in [
+        ("ball.toml", None),
+        (
+            "pea.toml",
+            Some("W-SIM-COLLIDER]: collider 1 is a ball 0.02 m across, and edges are up to 0."),
+        ),
+        (
+            "thrown.toml --dt 0.02 --solver xpbd",
+            Some("W-SIM-COLLIDER]: a vertex moved "),
+        ),
+        ("some.toml", None),
+        (
+            "all.toml",
+            Some("are stronger than the cloth: nothing tears below 8 times the threshold"),
+        ),
+    ] {
+        let command = "tearmesh tear sheet.obj --dry-run --seconds 0.1 --scene";
+        let output = folder.run(&format!("{command} {line}"));
+        let said = seen(&output);
+        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+        let is_said = ["W-SIM-COLLIDER", "W-SIM-STRONG"]
+            .iter()
+            .any(|code| said.contains(code));
+        assert_eq!(is_said, words.is_some(), "{line}: {said}");
+        assert!(
+            words.is_none_or(|words| said.contains(words)),
+            "{line}: {said}"
+        );
+    }
+}
+
 /// Each with what is typed, and what it says; the numbers of lines are those of the file.
 #[test]
 fn what_would_be_ignored_is_refused() {

@@ -76,6 +76,13 @@ impl Fault {
         }
     }
 
+    pub(crate) fn note(code: &'static str, message: String) -> Fault {
+        Fault {
+            severity: Severity::Note,
+            ..Fault::error(code, message)
+        }
+    }
+
     pub(crate) fn help(self, help: impl Into<String>) -> Fault {
         Fault {
             help: Some(help.into()),

@@ -3,6 +3,7 @@
 mod check;
 mod frames;
 mod points;
+mod reach;
 mod strength;
 mod times;
 mod words;
@@ -61,6 +62,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     session
         .faults
         .extend(check::warnings(&run, &frame, &opened.document));
+    session.faults.extend(reach::before(&run));
     session.faults.extend(times::warnings(&run, args));
     session.warn_now(streams);
     let play = Play {
@@ -186,6 +188,7 @@ impl Play<'_> {
             frames: None,
         };
         session.faults.extend(words::infeasible(&run));
+        session.faults.extend(reach::after(&run));
         session.words.push(words::simulation(&tear));
         session.words.push(words::balance(&run));
         session.faults.extend(words::gain(&run));

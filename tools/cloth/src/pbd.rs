@@ -4,8 +4,10 @@
 //! (Müller et al. 2007). Its constraints are stable at any step, and so is drag; wind, which is that
 //! of the velocities before, up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)). Never sold as accurate: how
 //! stiff it is depends on the step and on the number of sweeps, and as the step goes to zero there
-//! is no limit. What it converges to with more sweeps is an inextensible net. Judge it by
-//! [`System::strain_rms`].
+//! is no limit. What it converges to with more sweeps is an inextensible net.
+//! [`System::strain_rms`] says how far its lengths are from that, and not where it hangs: pushes act
+//! along the directions that constraints had when they were projected, as those of
+//! [`Xpbd`](crate::Xpbd) do.
 
 use crate::element::Forces;
 use crate::flight::{finish, force_scale, predict};

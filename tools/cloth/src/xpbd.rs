@@ -5,8 +5,11 @@
 //! less strain for about the same cost. The force in each constraint is known as its
 //! multiplier, so a tear threshold can be in newtons.
 //!
-//! With enough sweeps this is backward Euler, and damps like it. With few it is wrong under
-//! pretension: look at [`Xpbd::residual_n`].
+//! With many sweeps it comes near backward Euler, and damps like it, but not to it: each sweep pushes
+//! along the directions that constraints had then, not those that they have in the end, and once it
+//! has converged there is nothing left to turn the pushes with. At 60 steps a second a chain that sags
+//! by 0.39 m stays off by 0.26 mm where [`Xpbd::residual_n`] is rounding alone. With few sweeps it is softer than its springs, and at
+//! rest too: by how much is in the table of [`Verlet`](crate::Verlet), and the command says it of a scene.
 //!
 //! Sweeps always run in the same direction; alternating stretches 33 times more. Drag enters the
 //! prediction *and* the compliance (a factor 1 + c Δt), otherwise the static stretch would be

@@ -17,7 +17,7 @@ pub use self::gain::Gain;
 pub use self::quality::{Guarded, Limited, Quality, Solved};
 pub use self::step_size::Softness;
 
-use tearmesh::geometry::{Vector, length};
+use tearmesh::geometry::{Vector, dot, length};
 use tearmesh::{CutReport, Edits, Masses, Mesh, Positions, Scissor, VertexId};
 
 use self::engine::Engine;
@@ -27,7 +27,7 @@ use super::{Breeze, Frame, Scene, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::culprit::Culprit;
 use crate::frequency;
-use crate::load::Loads;
+use crate::load::{Collider, Loads};
 use crate::sheet::{Cloth, ClothError};
 use crate::solver::{Solver, StepError};
 use crate::stability;
@@ -84,6 +84,9 @@ pub struct Tally {
     /// The largest ratio of an edge's length to its rest length after a step, before tearing and
     /// before Provot's limiter.
     pub stretch_ratio_max: f64,
+    /// The farthest that a vertex moved in a substep, in metres: where the scene has a ball, which it
+    /// may have passed. 0 elsewhere.
+    pub farthest_m: f64,
     /// The largest change of momentum by edits, as a part of the sum of |m v| then.
     pub momentum_drift: f64,
 }
@@ -263,8 +266,9 @@ impl Run {
         self.cut(now)?;
         self.blow(now);
         let (engine, balance) = (&mut self.engine, &mut self.balance);
-        self.cloth.step_observed(engine, self.step_s, balance)?;
+        let report = self.cloth.step_observed(engine, self.step_s, balance)?;
         self.tally.steps += 1;
+        self.measure_moves(self.step_s / f64::from(report.substeps));
         let most = self.cloth.system_mut().most_stretched();
         self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(most);
         let tear = self.tear_overstretched();
@@ -273,6 +277,17 @@ impl Run {
             self.watch.judge(elapsed_s, &self.energy_balance());
         }
         Ok(Step { tear })
+    }
+
+    /// Notes how far vertices move in a substep, where there is something to get past.
+    fn measure_moves(&mut self, substep_s: f64) {
+        let is_ball = |collider: &Collider| matches!(collider, Collider::Sphere { .. });
+        if !self.scene.colliders.iter().any(is_ball) {
+            return;
+        }
+        let velocities = self.cloth.system().velocities().iter();
+        let fastest = velocities.map(|v| dot(*v, *v)).fold(0.0, f64::max).sqrt();
+        self.tally.farthest_m = self.tally.farthest_m.max(fastest * substep_s);
     }
 
     /// Makes the cuts whose time has come.
@@ -485,6 +500,12 @@ impl Run {
     #[must_use]
     pub fn cuts_made(&self) -> &[CutMade] {
         &self.cuts_made
+    }
+
+    /// What tears it; `None` where the scene never does.
+    #[must_use]
+    pub fn tear(&self) -> Option<&Tear> {
+        self.tear.as_ref()
     }
 
     /// The vertices that a hold of the scene leads or holds now, copies included; empty
