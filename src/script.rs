@@ -21,6 +21,7 @@
 //!     plane 1 1 0 0         # split vertex 1 by the plane through it with this normal
 //!     insert 5 edge 0 32    # put a vertex in the middle of the edge of half-edge 5
 //!     merge 0 1 1 1         # make the first torn vertex and its first copy one again
+//!     slide 0 1 16          # slide vertex 0 a quarter of the way to its second neighbour
 //! ".parse()?;
 //!
 //! let mut refused = 0;
@@ -191,6 +192,18 @@ pub enum Operation {
         any: bool,
         /// The weights of both. Negative ones are refused.
         weights: [i8; 2],
+    },
+    /// Slide a vertex, as a rule along an edge.
+    Slide {
+        /// The vertex.
+        vertex: u16,
+        /// Where to: number so many of its neighbours in ascending order, or of all vertices where
+        /// it has none.
+        toward: u16,
+        /// Whether it slides towards number so many of all vertices instead.
+        any: bool,
+        /// How far along, in parts of 64: 0 to 64. Both ends are refused.
+        part: u8,
     },
     /// Sew together all copies that are chosen, weighed by their masses.
     Sew {

@@ -9,7 +9,7 @@ use crate::rays::{Case, Outcome};
 
 /// The seeds of the target, as text: one for each shape and each kind of operation. With
 /// `TEARMESH_BLESS` set, the files are written.
-const SEEDS: [(&str, &str); 14] = [
+const SEEDS: [(&str, &str); 15] = [
     (
         "grid",
         "grid 3 3 0b101\nsplit 5 0b11\nplane 6 1 0 0\nsplit 5 0b1 foreign 3\nclear\nsplit 16 1",
@@ -68,6 +68,11 @@ const SEEDS: [(&str, &str); 14] = [
         "sew",
         "tube 4 2\nplane 5 1 0 0\nplane 5 0 0 1\ninsert 12 edge 3 32\nsew 0xffff\ntear\nsew 0xff0f\n\
          insert 4 face 0 1 1 1\nsew 0xffff",
+    ),
+    (
+        "slide",
+        "grid 2 2 0b0110\nslide 4 1 16\nslide 0 0 0\nslide any 0 8 32\nsplit 4 0b11\nslide 4 2 48\n\
+         slide 9 0 1\ninsert 0 edge 1 32\nclear\nslide 10 3 63\nmerge 0 1 1 3\nslide 4 1 64\nslide 4 1 8",
     ),
 ];
 

@@ -99,13 +99,12 @@ impl Bytes<'_> {
     }
 
     fn operation(&mut self) -> Operation {
-        // Codes below 16 are those that are written, and older than insertions and merges. The
-        // others make most operations sound ones; tearing to pieces ends what can happen,
-        // so it is rare.
-        const OFTEN: [u8; 15] = [0, 0, 0, 0, 0, 9, 9, 9, 13, 16, 16, 16, 17, 17, 18];
+        // Codes up to 19 are themselves, and of these are the ones that are written. The others make
+        // most operations sound ones; tearing to pieces ends what can happen, so it is rare.
+        const OFTEN: [u8; 15] = [0, 0, 0, 0, 19, 9, 9, 9, 13, 16, 16, 16, 17, 17, 18];
         const SELDOM: [u8; 4] = [7, 8, 15, 18];
         let code = match self.byte() {
-            code @ 0..=18 => code,
+            code @ 0..=19 => code,
             code if code % 16 == 15 => SELDOM[usize::from(code / 16) % SELDOM.len()],
             code => OFTEN[usize::from(code % 16)],
         };
@@ -141,7 +140,16 @@ impl Bytes<'_> {
                     weights: self.array().map(u8::cast_signed),
                 }
             }
-            _ => Operation::Sew { mask: self.u16() },
+            18 => Operation::Sew { mask: self.u16() },
+            _ => {
+                let flags = self.byte();
+                Operation::Slide {
+                    vertex: self.u16(),
+                    toward: self.u16(),
+                    any: flags % 8 == 7,
+                    part: self.byte() % 65,
+                }
+            }
         }
     }
 
@@ -283,6 +291,17 @@ fn write_operation(operation: &Operation, bytes: &mut Vec<u8>) {
         Operation::Sew { mask } => {
             bytes.push(18);
             bytes.extend(mask.to_le_bytes());
+        }
+        Operation::Slide {
+            vertex,
+            toward,
+            any,
+            part,
+        } => {
+            bytes.extend([19, if any { 7 } else { 0 }]);
+            bytes.extend(vertex.to_le_bytes());
+            bytes.extend(toward.to_le_bytes());
+            bytes.push(part);
         }
     }
 }

@@ -11,6 +11,8 @@
 //! insert HALF-EDGE [SPOT …] [chord END END]
 //! merge VERTEX COPY WEIGHT WEIGHT
 //! merge any VERTEX VERTEX WEIGHT WEIGHT
+//! slide VERTEX NEIGHBOUR PART
+//! slide any VERTEX VERTEX PART
 //! sew MASK
 //! tear
 //! clear
@@ -131,6 +133,15 @@ impl fmt::Display for Operation {
             } => {
                 let any = if *any { " any" } else { "" };
                 write!(f, "merge{any} {vertex} {other} {one} {two}")
+            }
+            Operation::Slide {
+                vertex,
+                toward,
+                any,
+                part,
+            } => {
+                let any = if *any { " any" } else { "" };
+                write!(f, "slide{any} {vertex} {toward} {part}")
             }
             Operation::Sew { mask } => write!(f, "sew {mask:#b}"),
             Operation::Tear => write!(f, "tear"),
@@ -354,6 +365,12 @@ impl<'t> Line<'t> {
                 vertex: self.u16()?,
                 other: self.u16()?,
                 weights: self.vector()?,
+            },
+            "slide" => Operation::Slide {
+                any: self.takes("any"),
+                vertex: self.u16()?,
+                toward: self.u16()?,
+                part: self.within(0, 64)?,
             },
             "sew" => Operation::Sew { mask: self.u16()? },
             "tear" => Operation::Tear,

@@ -11,6 +11,7 @@ use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::scissor::{CutReport, Method, Scissor, Tips};
+use crate::slide;
 use crate::split::{self, Refusal};
 
 /// A mesh and everything that can follow it.
@@ -32,7 +33,8 @@ pub struct World {
     /// The same, but replayed only just before the log is cleared: by many edits at once.
     pub late_triangles: Triangles,
     /// For each corner where it is. Has seen every edit. As a corner is where its vertex is,
-    /// this is the position of that up to rounding, whatever was done.
+    /// this is the position of that up to rounding, until copies that slid apart are merged: the
+    /// vertex is then between, and its corners stay.
     pub corners: PerCorner<[f64; 3]>,
 }
 
@@ -114,6 +116,17 @@ pub enum Step<'s> {
         weights: [f64; 2],
         /// The edit, or why there was none.
         outcome: Result<Cursor, mend::Refusal>,
+    },
+    /// A slide was tried.
+    Slide {
+        /// The vertex.
+        vertex: VertexId,
+        /// The vertex towards which it was to slide.
+        toward: VertexId,
+        /// How far.
+        t: f64,
+        /// The edit, or why there was none.
+        outcome: Result<Cursor, slide::Refusal>,
     },
     /// Copies were sewn together.
     Sewn {
@@ -238,6 +251,20 @@ impl World {
                 };
                 self.merge(one, other, weights.map(f64::from), &mut observe);
             }
+            Operation::Slide {
+                vertex,
+                toward,
+                any,
+                part,
+            } => {
+                let v = self.vertex(vertex);
+                let neighbours = self.neighbours(v);
+                let toward = match neighbours.len() {
+                    count @ 1.. if !any => neighbours[usize::from(toward) % count],
+                    _ => self.vertex(toward),
+                };
+                self.slide(v, toward, f64::from(part) / 64.0, &mut observe);
+            }
             Operation::Sew { mask } => self.sew_chosen(mask, &mut observe),
             Operation::Tear => {
                 for v in self.mesh.vertices() {
@@ -262,6 +289,15 @@ impl World {
         let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
         faces.sort();
         faces
+    }
+
+    fn neighbours(&self, v: VertexId) -> Vec<VertexId> {
+        let faces = self.mesh.faces_of(v);
+        let corners = faces.flat_map(|f| self.mesh.face_vertices(f));
+        let mut neighbours: Vec<VertexId> = corners.filter(|&w| w != v).collect();
+        neighbours.sort();
+        neighbours.dedup();
+        neighbours
     }
 
     /// Splits a vertex by a set of faces, and shows the observer that step.
@@ -445,6 +481,26 @@ impl World {
             one,
             other,
             weights,
+            outcome,
+        };
+        observe(self, &step);
+    }
+
+    /// Slides a vertex towards another, and shows the observer that step.
+    pub fn slide(
+        &mut self,
+        vertex: VertexId,
+        toward: VertexId,
+        t: f64,
+        mut observe: impl FnMut(&World, &Step<'_>),
+    ) {
+        let slide = slide::toward(&self.mesh, vertex, toward, t, &mut self.edits);
+        let outcome = slide.map(|slide| slide.before);
+        self.replay();
+        let step = Step::Slide {
+            vertex,
+            toward,
+            t,
             outcome,
         };
         observe(self, &step);

@@ -1,14 +1,15 @@
 //! What is kept beside a mesh: positions, masses, data of vertices and corners.
 
+use tearmesh::script::World;
 use tearmesh::{
     Child, Cursor, Edit, HalfEdgeId, Location, Masses, Mesh, PerCorner, PerVertex, Point,
-    Positions, Source, VertexId,
+    Positions, Slide, Source, VertexId,
 };
 
-use crate::oracle::{Soup, WHOLE};
+use crate::oracle::{Soup, WHOLE, between};
 
-/// I20: positions are copied bit for bit, and so those of copies are equal.
-pub(super) fn every_vertex_is_where_its_root_was(positions: &Positions, soup: &Soup) {
+/// I20: positions are copied bit for bit, and nothing moves but what slides or is merged.
+pub(super) fn every_vertex_is_where_the_soup_has_it(positions: &Positions, soup: &Soup) {
     let bits = |x: [f64; 3]| x.map(f64::to_bits);
     let points = positions.as_slice().iter().map(|p| bits([p.x, p.y, p.z]));
     assert!(points.eq(soup.points.iter().map(|&p| bits(p))), "positions");
@@ -60,10 +61,14 @@ pub(super) fn halves_add_up(masses: &Masses, soup: &Soup, unit: f64) {
     assert!(masses.ledger().is_balanced(), "the total mass");
 }
 
-/// Data of a corner is interpolated in its face, so that which is linear is that at its vertex.
+/// Data of a corner is interpolated in its face, so that which is linear is that at its vertex. A
+/// merge moves vertices that are apart, and no corner.
 pub(super) fn every_corner_is_where_its_vertex_is(corners: &PerCorner<[f64; 3]>, soup: &Soup) {
     let corners = corners.as_slice();
     assert_eq!(corners.len(), 3 * soup.faces.len());
+    if soup.joined_apart {
+        return;
+    }
     for (h, (at, &v)) in corners.iter().zip(soup.faces.as_flattened()).enumerate() {
         let point = soup.points[v as usize];
         let apart = (0..3).map(|i| (at[i] - point[i]).abs()).fold(0.0, f64::max);
@@ -192,5 +197,62 @@ pub(super) fn merged_values_are_joined_by_weight(mesh: &Mesh, edit: &Edit<'_>) {
                 "{v}"
             );
         }
+    }
+}
+
+/// A vertex that slides has what lies between it and the other end of the edge; all other vertices
+/// keep what they have.
+pub(super) fn slid_values_lie_along_the_edge(mesh: &Mesh, edit: &Edit<'_>) {
+    let Edit::Slide(slide) = edit else {
+        panic!("not a slide: {edit:?}");
+    };
+    let mut positions = scattered_points(mesh, edit.before());
+    let speed = |v: VertexId| scattered(v.index());
+    let mut speeds = PerVertex::new(mesh.vertices().map(speed).collect());
+    speeds = speeds.starting_at(edit.before());
+    let old = positions.clone();
+    edit.pass_on(&mut positions);
+    edit.pass_on(&mut speeds);
+    for v in mesh.vertices() {
+        if v == slide.vertex {
+            let mean = |v: f64, toward: f64| (1.0 - slide.t) * v + slide.t * toward;
+            let [from, toward] = [v, slide.toward].map(|v| coordinates(old.at(v)));
+            for (i, x) in coordinates(positions.at(v)).into_iter().enumerate() {
+                assert!(
+                    (x - mean(from[i], toward[i])).abs() < 1e-9,
+                    "{v} after {slide:?}"
+                );
+            }
+            assert!((speeds[v] - mean(speed(v), speed(slide.toward))).abs() < 1e-9);
+        } else {
+            assert_eq!((positions.at(v), speeds[v]), (old.at(v), speed(v)), "{v}");
+        }
+    }
+}
+
+/// Where a vertex slides, its corners in the faces of the edge have what lies between the two ends in
+/// that face, and its other corners with the same value go with them; all others keep theirs.
+pub(super) fn corners_go_along(before: &World, after: &World, slide: &Slide<'_>) {
+    let [was, is] = [before, after].map(|world| world.corners.as_slice());
+    let ends = [slide.vertex, slide.toward].map(u32::from);
+    let faces = before.mesh.indices().as_chunks::<3>().0.iter().enumerate();
+    let along = faces.filter_map(|(f, face)| {
+        let [corner, toward] = ends.map(|end| face.iter().position(|&v| v == end));
+        let [corner, toward] = [3 * f + corner?, 3 * f + toward?];
+        Some((corner, between(was[corner], was[toward], slide.t)))
+    });
+    let along: Vec<(usize, [f64; 3])> = along.collect();
+    for (h, &v) in before.mesh.indices().iter().enumerate() {
+        let own = along.iter().find(|(corner, _)| *corner == h);
+        let alike: Vec<_> = along
+            .iter()
+            .filter(|(corner, _)| v == ends[0] && was[*corner] == was[h])
+            .collect();
+        let expected = match own {
+            Some((_, value)) => is[h] == *value,
+            None if alike.is_empty() => is[h] == was[h],
+            None => alike.iter().any(|(_, value)| is[h] == *value),
+        };
+        assert!(expected, "corner {h} went from {:?} to {:?}", was[h], is[h]);
     }
 }

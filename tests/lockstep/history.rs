@@ -23,6 +23,13 @@ pub(crate) enum Told {
         renumbered: Option<(VertexId, VertexId, Vec<HalfEdgeId>)>,
         sewn: Vec<TornLink>,
     },
+    Slide {
+        vertex: VertexId,
+        toward: VertexId,
+        t: f64,
+        along: [Option<[HalfEdgeId; 2]>; 2],
+        corners: Vec<HalfEdgeId>,
+    },
 }
 
 impl Told {
@@ -48,7 +55,13 @@ impl Told {
                     .map(|it| (it.from, it.to, it.corners.to_vec())),
                 sewn: merge.sewn.to_vec(),
             },
-            other => panic!("there is no other operation, and this is {other:?}"),
+            Edit::Slide(slide) => Told::Slide {
+                vertex: slide.vertex,
+                toward: slide.toward,
+                t: slide.t,
+                along: slide.along,
+                corners: slide.corners.to_vec(),
+            },
         }
     }
 }
@@ -131,6 +144,7 @@ pub(super) fn undone(history: &[Told], mesh: &Mesh) -> (usize, Vec<[u32; 3]>) {
                 relabel(&mut faces, corners, *kept, *gone);
                 assert!(has(&faces, *kept), "{kept} had a corner of its own");
             }
+            Told::Slide { .. } => {}
         }
     }
     (vertices, faces)

@@ -14,10 +14,12 @@ fn merge_of<'e>(edit: &Edit<'e>) -> Merge<'e> {
     }
 }
 
-/// The vertex that stays, and that which goes.
-pub(super) fn vertices(edit: &Edit<'_>) -> [usize; 2] {
+/// Merges what a record says; the soup must agree on which of the two stays.
+pub(super) fn is_carried_out(soup: &mut Soup, edit: &Edit<'_>) {
     let merge = merge_of(edit);
-    [merge.kept.index(), merge.gone.index()]
+    let [kept, gone] = [merge.kept, merge.gone].map(VertexId::index);
+    let merged = soup.merge(gone, kept, merge.share);
+    assert_eq!(merged, Ok([kept, gone]), "kept and gone");
 }
 
 pub(super) fn is_refused_where_it_should(
@@ -27,7 +29,7 @@ pub(super) fn is_refused_where_it_should(
     weights: [f64; 2],
     outcome: Result<Cursor, Refusal>,
 ) {
-    let expected = soup.clone().merge(one.index(), other.index());
+    let expected = soup.clone().merge(one.index(), other.index(), 0.5);
     match outcome {
         Err(Refusal::Weights { given }) => {
             assert_eq!(given, weights);

@@ -8,6 +8,7 @@ mod history;
 mod insert;
 mod merge;
 mod mesh;
+mod slide;
 mod split;
 
 use tearmesh::script::{Script, Step, World};
@@ -23,6 +24,7 @@ pub(crate) struct Done {
     pub(crate) splits: usize,
     pub(crate) insertions: usize,
     pub(crate) merges: usize,
+    pub(crate) slides: usize,
     /// Refused, or nothing to do.
     pub(crate) refused: usize,
 }
@@ -133,9 +135,22 @@ impl Model {
                 if outcome.is_ok() {
                     let edit = world.edits.iter().next_back().expect("it is in the log");
                     merge::has_the_weights(&edit, one, weights);
-                    let merged = self.soup.merge(one.index(), other.index());
-                    assert_eq!(merged, Ok(merge::vertices(&edit)), "kept and gone");
+                    merge::is_carried_out(&mut self.soup, &edit);
                 }
+                self.one_edit(world, outcome.ok());
+            }
+            Step::Slide {
+                vertex,
+                toward,
+                t,
+                outcome,
+            } => {
+                let expected = self.soup.slide(vertex.index(), toward.index(), t);
+                assert_eq!(
+                    outcome.map_err(slide::plain).map(|_| ()),
+                    expected,
+                    "outcome of {step:?}"
+                );
                 self.one_edit(world, outcome.ok());
             }
             Step::Sewn {
@@ -146,8 +161,7 @@ impl Model {
                 assert_eq!(first.number(), edits as u64, "edits are numbered from 0");
                 let mut mesh = self.before.mesh.clone();
                 for edit in world.edits.since(first) {
-                    let [kept, gone] = merge::vertices(&edit);
-                    assert_eq!(self.soup.merge(kept, gone), Ok([kept, gone]));
+                    merge::is_carried_out(&mut self.soup, &edit);
                     let after = merge::is_a_merge(&mesh, &edit);
                     merge::changes_nothing_else(&mesh, &after, &edit);
                     mesh = after;
@@ -238,7 +252,12 @@ impl Model {
                 beside::merged_values_are_joined_by_weight(&before.mesh, &edit);
                 self.done.merges += 1;
             }
-            other => panic!("there is no other operation, and this is {other:?}"),
+            Edit::Slide(slide) => {
+                slide::changes_nothing_else(before, after, &slide);
+                beside::corners_go_along(before, after, &slide);
+                beside::slid_values_lie_along_the_edge(&before.mesh, &edit);
+                self.done.slides += 1;
+            }
         }
         self.history.push(Told::by(&edit));
     }
@@ -271,7 +290,7 @@ impl Model {
     fn everything_agrees(&self, world: &World) {
         let soup = &self.soup;
         mesh::agrees(&world.mesh, soup);
-        beside::every_vertex_is_where_its_root_was(&world.positions, soup);
+        beside::every_vertex_is_where_the_soup_has_it(&world.positions, soup);
         beside::every_corner_is_where_its_vertex_is(&world.corners, soup);
         beside::every_vertex_weighs_what_its_faces_weigh(&world.area, soup, self.unit);
         if let Some(half) = &world.half {

@@ -2,8 +2,8 @@
 //! bit when the cut is undone.
 
 use tearmesh::{
-    Edit, FaceId, HalfEdgeId, Method, Point, Ray, Scissor, Vector, VertexId, insert::Plan, slide,
-    split,
+    Edit, FaceId, HalfEdgeId, Method, Point, Ray, Scissor, Vector, VertexId, insert::Plan, mend,
+    slide, split,
 };
 
 use super::random::Random;
@@ -87,6 +87,23 @@ const FLAG: &str = "o flag\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0.3 0 0 1\nv 1 1
     v 2 0.5 0.1 0 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 0.3 0.7\nvn 0 0 1\nvn 0 0.6 0.8\n\
     f 1/1/1 2/2/2 3/3/1\nf 3/3/1 2/2/2 4/4/1\nf 2/5/1 5/1/2 4/4/1\n\
     o tile\nv 9 9 9\nv 8 9 9\nv 9 8 9\nvt 0.1\nf 6/6 7/6 8/6\n";
+
+#[test]
+fn of_two_copies_that_slid_apart_the_one_that_is_kept_keeps_its_colours() {
+    let document = read(FLAG.as_bytes());
+    let mut work = Work::on(&document);
+    work.split_off(1, 0);
+    work.slide(8, 0, 0.5);
+    assert!(text(&work.written()).contains("\nv 0.5 0 0 0.5 0.5 0\n"));
+    work.edit(|mesh, _, edits| {
+        mend::merge(mesh, vertex(8), vertex(1), [1.0; 2], edits).expect("two copies");
+    });
+    let written = text(&work.written());
+    assert!(
+        written.starts_with("o flag\nv 0 0 0 1 0 0\nv 0.75 0 0 0 1 0\n"),
+        "{written}"
+    );
+}
 
 #[test]
 fn a_slide_is_undone_to_the_bit() {

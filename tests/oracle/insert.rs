@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Soup, joined_sets, links_of, reversed, side};
+use super::{Soup, between, joined_sets, links_of, reversed, side};
 
 /// Where a vertex is to be inserted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,10 +217,7 @@ impl Soup {
                 let v = soup.class.len() as u32;
                 soup.class.push(class);
                 soup.points.push(match place {
-                    Place::Edge { ends: [a, b], t } => {
-                        let [a, b] = [a, b].map(|v| old[v as usize]);
-                        [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t)
-                    }
+                    Place::Edge { ends: [a, b], t } => between(old[a as usize], old[b as usize], t),
                     Place::Face { vertices, weights } => {
                         let [a, b, c] = vertices.map(|v| old[v as usize]);
                         [0, 1, 2].map(|i| a[i] * weights[0] + b[i] * weights[1] + c[i] * weights[2])

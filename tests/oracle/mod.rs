@@ -33,6 +33,9 @@ pub(crate) struct Soup {
     /// For each vertex the mass that its class has, in units, and its part of that, in parts of
     /// [`WHOLE`]. Nothing once a vertex was inserted.
     pub(crate) halved: Option<Vec<(u64, u128)>>,
+    /// Whether two vertices at different places were ever merged. Until then, corners are where
+    /// their vertices are.
+    pub(crate) joined_apart: bool,
     /// The sides of faces that lie opposite each other in the whole: (face, side), (face, side).
     pub(crate) links: Vec<[(usize, usize); 2]>,
 }
@@ -56,6 +59,13 @@ pub(crate) enum Unmerged {
     Apart,
 }
 
+/// Why a slide was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unslid {
+    Parameter,
+    Apart,
+}
+
 impl Soup {
     /// The soup of these triangles. `corner_mass` has three units for each face.
     pub(crate) fn new(points: &[[f64; 3]], faces: &[[u32; 3]], corner_mass: &[[u64; 3]]) -> Soup {
@@ -67,6 +77,7 @@ impl Soup {
             points: points.to_vec(),
             corner_mass: corner_mass.to_vec(),
             halved: None,
+            joined_apart: false,
             links: links_of(faces),
         };
         let whole = (0..points.len()).map(|v| (soup.lumped_mass(v), WHOLE));
@@ -151,9 +162,14 @@ impl Soup {
         Ok(())
     }
 
-    /// Merges two vertices: the lower number stays, and the last vertex gets the other one.
-    /// Returns both.
-    pub(crate) fn merge(&mut self, one: usize, other: usize) -> Result<[usize; 2], Unmerged> {
+    /// Merges two vertices: the lower number stays, with so large a share in where it is then, and
+    /// the last vertex gets the other one. Returns both.
+    pub(crate) fn merge(
+        &mut self,
+        one: usize,
+        other: usize,
+        share: f64,
+    ) -> Result<[usize; 2], Unmerged> {
         if one == other {
             return Err(Unmerged::Same);
         }
@@ -170,12 +186,28 @@ impl Soup {
             }
         }
         self.class.swap_remove(gone);
+        self.joined_apart |= self.points[kept] != self.points[gone];
+        self.points[kept] = between(self.points[kept], self.points[gone], 1.0 - share);
         self.points.swap_remove(gone);
         if let Some(halved) = &mut self.halved {
             halved[kept].1 += halved[gone].1;
             halved.swap_remove(gone);
         }
         Ok([kept, gone])
+    }
+
+    /// Slides a vertex along a side of one of its faces.
+    pub(crate) fn slide(&mut self, v: usize, toward: usize, t: f64) -> Result<(), Unslid> {
+        if t.is_nan() || t <= 0.0 || t >= 1.0 {
+            return Err(Unslid::Parameter);
+        }
+        let ends = [v as u32, toward as u32];
+        let has_both = |face: &[u32; 3]| ends.iter().all(|end| face.contains(end));
+        if v == toward || !self.faces.iter().any(has_both) {
+            return Err(Unslid::Apart);
+        }
+        self.points[v] = between(self.points[v], self.points[toward], t);
+        Ok(())
     }
 
     /// The faces of a vertex whose centres are strictly behind the plane through that vertex:
@@ -337,6 +369,11 @@ pub(crate) fn joined_sets(count: usize, joined: &[[usize; 2]]) -> Vec<usize> {
         }
     }
     least
+}
+
+/// At `a + t (b − a)`, and at `a` where both are that, whatever the sign of a zero.
+pub(crate) fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
+    [0, 1, 2].map(|i| a[i] - (a[i] - b[i]) * t)
 }
 
 /// The side `i` of a face, from its corner `i` to the next.

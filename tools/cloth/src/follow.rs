@@ -8,6 +8,7 @@ pub(crate) use room::Room;
 use tearmesh::geometry::between;
 use tearmesh::{
     Child, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Source, Split, VertexId,
+    VertexOp,
 };
 
 use self::room::Piece;
@@ -36,14 +37,7 @@ impl Follower for Cloth {
 impl Cloth {
     fn split(&mut self, split: &Split<'_>, edit: &Edit<'_>) {
         let (old, new) = (split.old.index(), split.new.index());
-        let system = &mut self.system;
-        assert_eq!(
-            new,
-            system.positions.len(),
-            "a cloth is in step with its mesh"
-        );
-        let (x, v) = (system.positions[old], system.velocities[old]);
-        particle::push(system, x, v, Some(old));
+        self.push_particles(edit);
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
         self.reweigh(old);
@@ -215,15 +209,7 @@ impl Cloth {
             .map(|&v| energy::kinetic_at_j(&self.system, v))
             .sum();
 
-        for point in insert.points {
-            assert_eq!(
-                point.vertex.index(),
-                self.system.positions.len(),
-                "a cloth is in step with its mesh"
-            );
-            let (x, v) = particle::inserted(&self.system, point.at);
-            particle::push(&mut self.system, x, v, None);
-        }
+        self.push_particles(edit);
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
         for &v in &room.vertices {
@@ -298,6 +284,17 @@ impl Cloth {
         self.ledger.insert_elastic_j += gained;
         self.system.touched(&room.vertices);
         self.room = room;
+    }
+
+    /// A particle for each new vertex.
+    fn push_particles(&mut self, edit: &Edit<'_>) {
+        for op in edit.vertex_ops() {
+            if let VertexOp::Push { new, from } = op {
+                let count = self.system.positions.len();
+                assert_eq!(new.index(), count, "a cloth is in step with its mesh");
+                particle::push(&mut self.system, from);
+            }
+        }
     }
 
     /// An edge that was there stays; what is across it may be another vertex.

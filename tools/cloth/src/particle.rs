@@ -1,13 +1,20 @@
 //! Particles of a system that come, go and meet while a cloth follows the log.
 
-use tearmesh::geometry::{Point, Vector, between};
-use tearmesh::{Blend, Location, Mix};
+use tearmesh::geometry::{Vector, between};
+use tearmesh::{Blend, Mix, VertexId};
 
 use crate::system::System;
 
-/// Appends a particle, held and led like another one.
-pub(super) fn push(system: &mut System, x: Point, v: Vector, like: Option<usize>) {
+/// Appends a particle that is where others are, or between them, and as fast; a copy is also held and
+/// led like the one that it is of.
+pub(super) fn push(system: &mut System, from: Mix<VertexId>) {
     let new = system.positions.len() as u32;
+    let x = Blend::blend(from.map(|v| &system.positions[v.index()]));
+    let v = Blend::blend(from.map(|v| &system.velocities[v.index()]));
+    let like = match from {
+        Mix::Copy(v) => Some(v.index()),
+        Mix::Between { .. } | Mix::Weighted { .. } => None,
+    };
     system.positions.push(x);
     system.velocities.push(v);
     let model = &mut system.model;
@@ -52,12 +59,4 @@ pub(super) fn join(system: &mut System, kept: usize, gone: usize, share: f64) {
         }
     }
     system.spectrum.swap_remove_particle(gone);
-}
-
-/// Where an inserted point comes to lie, and how fast.
-pub(super) fn inserted(system: &System, at: Location) -> (Point, Vector) {
-    let mix = Mix::from(at);
-    let x = Blend::blend(mix.map(|v| &system.positions[v.index()]));
-    let v = Blend::blend(mix.map(|v| &system.velocities[v.index()]));
-    (x, v)
 }

@@ -21,8 +21,8 @@ pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
 use tearmesh::{
-    Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Point, Positions, Slide,
-    VertexId, mend::Stitch,
+    Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Mix, Positions, Slide,
+    VertexId, VertexOp, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
@@ -124,10 +124,13 @@ impl<'d> TornDocument<'d> {
     pub(crate) fn after_splits(document: &'d Document, mesh: &Mesh) -> TornDocument<'d> {
         let mut torn = TornDocument::new(document);
         let triangles = document.triangles().as_flattened();
-        for v in mesh.vertices().skip(document.positions.len()) {
+        for new in mesh.vertices().skip(document.positions.len()) {
             // A split only moves corners, so all of these were of one vertex.
-            let corner = mesh.half_edge_of(v).expect("a new vertex has a face");
-            torn.split(triangles[corner.index()] as usize);
+            let corner = mesh.half_edge_of(new).expect("a new vertex has a face");
+            let old = VertexId::new(triangles[corner.index()] as usize).expect("I1: ids fit");
+            let from = Mix::Copy(old);
+            torn.extras.apply(VertexOp::Push { new, from });
+            torn.split(old.index());
         }
         torn
     }
@@ -251,7 +254,6 @@ impl<'d> TornDocument<'d> {
 
     fn split(&mut self, old: usize) {
         self.ancestry.split(old, self.cut);
-        self.extras.split(old);
         self.cut_is_used = true;
     }
 
@@ -276,7 +278,6 @@ impl<'d> TornDocument<'d> {
                     before = Some(point);
                 }
             }
-            self.extras.insert(&point.at);
         }
         let (document, ancestry) = (self.document, &self.ancestry);
         let corners = self.corners.get_or_insert_with(|| Corners::new(document));
@@ -284,31 +285,25 @@ impl<'d> TornDocument<'d> {
         self.cut_is_used = true;
     }
 
-    /// Follows an edit with the places of vertices; of one that slides, where it was and is.
-    fn move_places(&mut self, edit: &Edit<'_>) -> Option<[Point; 2]> {
+    /// Where vertices are if nothing but the log moves them.
+    fn places(&mut self) -> &mut Positions {
         let document = self.document;
-        let places = self.places.get_or_insert_with(|| {
+        self.places.get_or_insert_with(|| {
             let points = Positions::new(document.positions.iter().copied());
             points.expect("the reader refuses other coordinates")
-        });
-        let at = |places: &Positions| match edit {
-            Edit::Slide(slide) => Some(places.at(slide.vertex)),
-            _ => None,
-        };
-        let was = at(places);
-        places.follow(edit);
-        Some([was?, at(places)?])
+        })
     }
 
-    /// Follows a vertex that slides from one place to another.
-    fn slide(&mut self, slide: &Slide<'_>, places: [Point; 2]) {
+    /// All numbers of the `v` of a vertex, if nothing but the log moves it.
+    fn numbers(&mut self, v: VertexId) -> Vec<f64> {
+        let place: [f64; 3] = self.places().at(v).into();
+        [&place, self.extra_numbers(v.index())].concat()
+    }
+
+    /// Follows a vertex that slid, and had these numbers before.
+    fn slide(&mut self, slide: &Slide<'_>, before: &[f64]) {
+        let numbers = [before, &self.numbers(slide.vertex)].concat();
         let vertex = slide.vertex.index();
-        let [before, after] = places.map(|point| [point.x, point.y, point.z]);
-        let mut numbers = before.to_vec();
-        numbers.extend_from_slice(self.extra_numbers(vertex));
-        self.extras.slide(slide);
-        numbers.extend(after);
-        numbers.extend_from_slice(self.extra_numbers(vertex));
         self.slides
             .push(self.ancestry.node(vertex), self.cut, &numbers);
         let document = self.document;
@@ -374,7 +369,12 @@ impl Follower for TornDocument<'_> {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let slid = self.move_places(edit);
+        let before = match edit {
+            Edit::Slide(slide) => self.numbers(slide.vertex),
+            Edit::Split(_) | Edit::Insert(_) | Edit::Merge(_) => Vec::new(),
+        };
+        self.places().follow(edit);
+        self.extras.follow(edit);
         match edit {
             Edit::Split(split) => {
                 assert_eq!(
@@ -385,11 +385,8 @@ impl Follower for TornDocument<'_> {
                 self.split(split.old.index());
             }
             Edit::Insert(insert) => self.insert(insert),
-            Edit::Merge(merge) => {
-                self.ancestry.merge(merge.kept.index(), merge.gone.index());
-                self.extras.merge(merge.gone.index());
-            }
-            Edit::Slide(slide) => self.slide(slide, slid.expect("it slid")),
+            Edit::Merge(merge) => self.ancestry.merge(merge.kept.index(), merge.gone.index()),
+            Edit::Slide(slide) => self.slide(slide, &before),
         }
     }
 }

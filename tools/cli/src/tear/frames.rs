@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use tearmesh::{Edit, Edits, Location, Mesh, Point, Positions, VertexId};
+use tearmesh::{Blend, Edits, Mesh, Mix, Point, Positions, VertexId, VertexOp};
 use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 
@@ -31,7 +31,8 @@ pub(super) struct Frames {
     count: usize,
     /// Frames that wait for the last one's faces.
     waiting: Vec<Shot>,
-    births: Vec<Birth>,
+    /// What each vertex was born from, and so is before it is born.
+    births: Vec<Mix<VertexId>>,
     /// Faces that were divided, by their index.
     divided: Vec<bool>,
     /// The vertices before any birth.
@@ -45,13 +46,6 @@ struct Shot {
     indices: Rc<Vec<u32>>,
     /// How many births came before.
     births: usize,
-}
-
-/// Where a vertex is before it is born.
-#[derive(Clone, Copy)]
-enum Birth {
-    Copy(VertexId),
-    At(Location),
 }
 
 /// What there is to say of the frames.
@@ -94,20 +88,19 @@ impl Frames {
     /// Notes where vertices were born.
     pub(super) fn follow(&mut self, edits: &Edits) {
         for edit in edits.iter() {
-            match edit {
-                Edit::Split(split) => self.births.push(Birth::Copy(split.old)),
-                Edit::Insert(insert) => {
-                    let births = insert.points.iter().map(|point| Birth::At(point.at));
-                    self.births.extend(births);
-                    for child in insert.children {
-                        let face = child.face.index().max(child.parent.index());
-                        if self.divided.len() <= face {
-                            self.divided.resize(face + 1, true);
-                        }
-                        self.divided[child.parent.index()] = true;
-                    }
+            for op in edit.vertex_ops() {
+                match op {
+                    VertexOp::Push { from, .. } => self.births.push(from),
+                    // A slide bears nobody, and a simulation never merges.
+                    VertexOp::Set { .. } | VertexOp::SwapRemove { .. } => {}
                 }
-                _ => {} // A simulation never merges, and a slide bears nobody.
+            }
+            for family in edit.families() {
+                self.divided[family.parent().index()] = true;
+                for child in family.children() {
+                    let count = self.divided.len().max(child.face.index() + 1);
+                    self.divided.resize(count, true);
+                }
             }
         }
     }
@@ -193,15 +186,7 @@ impl Frames {
             "each birth a vertex"
         );
         for birth in &self.births[shot.births..] {
-            let at = |v: VertexId| points[v.index()];
-            points.push(match *birth {
-                Birth::Copy(ancestor) => at(ancestor),
-                Birth::At(Location::Edge { ends: [a, b], t }) => at(a) + (at(b) - at(a)) * t,
-                Birth::At(Location::Face { vertices, weights }) => {
-                    let [a, b, c] = vertices.map(|v| at(v).coords);
-                    Point::from(a * weights[0] + b * weights[1] + c * weights[2])
-                }
-            });
+            points.push(Point::blend(birth.map(|v| &points[v.index()])));
         }
         points
     }

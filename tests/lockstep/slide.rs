@@ -1,0 +1,47 @@
+//! What a slide must do, and what it must leave as it was.
+
+use tearmesh::script::World;
+use tearmesh::slide::Refusal;
+use tearmesh::{HalfEdgeId, Slide, VertexId};
+
+use crate::oracle::Unslid;
+
+/// A refusal, in the words of the oracle.
+pub(super) fn plain(refusal: Refusal) -> Unslid {
+    match refusal {
+        Refusal::Parameter { .. } => Unslid::Parameter,
+        Refusal::Apart { .. } => Unslid::Apart,
+        other => panic!("no slide of a script is {other}"),
+    }
+}
+
+/// I16, I20: a slide changes no mesh and no mass, and its record names all corners of the vertex, and
+/// those of each face of the edge.
+pub(super) fn changes_nothing_else(before: &World, after: &World, slide: &Slide<'_>) {
+    let Slide {
+        vertex,
+        toward,
+        along,
+        corners,
+        ..
+    } = *slide;
+    let mesh = &before.mesh;
+    assert_eq!(after.mesh, *mesh, "the mesh");
+    for v in mesh.vertices() {
+        assert_eq!(after.area.at(v), before.area.at(v), "the mass of {v}");
+        let halves = [before, after].map(|world| world.half.as_ref().map(|half| half.at(v)));
+        assert_eq!(halves[0], halves[1], "the mass of {v}");
+    }
+    let walk = mesh.corners_of(vertex);
+    assert!(walk.eq(corners.iter().copied()), "the corners of {vertex}");
+    let corner = |f, v: VertexId| {
+        mesh.half_edges()
+            .find(|h| h.face() == f && mesh.origin(*h) == v)
+    };
+    let faces = mesh.faces();
+    let both = faces.filter_map(|f| Some([corner(f, vertex)?, corner(f, toward)?]));
+    let both: Vec<[HalfEdgeId; 2]> = both.collect();
+    let mut told: Vec<[HalfEdgeId; 2]> = along.into_iter().flatten().collect();
+    told.sort();
+    assert_eq!(told, both, "the corners in the faces of the edge");
+}
