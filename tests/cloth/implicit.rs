@@ -7,6 +7,7 @@ mod orders;
 mod references;
 mod reports;
 mod rest;
+mod tolerance;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{self, Method, Settings, StepReport, Tolerance};
