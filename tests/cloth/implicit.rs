@@ -1,6 +1,7 @@
 //! The implicit solver against closed forms, finite differences and naive dense code.
 
 mod dense;
+mod history;
 mod kernels;
 mod matrix;
 mod orders;

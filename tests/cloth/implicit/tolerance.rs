@@ -67,7 +67,10 @@ fn euler(dt_s: f64, steps: u32) -> Vec<Vec<f64>> {
             right.push(mass * speed[i] + dt_s * force);
         }
         speed = solve(rows, right);
-        depth.iter_mut().zip(&speed).for_each(|(x, v)| *x += dt_s * v);
+        depth
+            .iter_mut()
+            .zip(&speed)
+            .for_each(|(x, v)| *x += dt_s * v);
         passed.push(depth.clone());
     }
     passed
@@ -128,7 +131,11 @@ fn what_is_stretched_by_however_little_contracts_at_every_step() {
             for (dt_s, steps) in STEPS {
                 for strain in [1e-6, 1e-3, 0.1] {
                     let mut system = chain(0.0).system();
-                    system.state_mut().0.iter_mut().for_each(|x| x.z *= 1.0 + strain);
+                    system
+                        .state_mut()
+                        .0
+                        .iter_mut()
+                        .for_each(|x| x.z *= 1.0 + strain);
                     let mut solver = implicit(method, tolerance, 1);
                     for _ in 0..steps {
                         step(&mut system, &mut solver, dt_s).expect("a step");
