@@ -40,17 +40,24 @@
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
+use super::Layout;
 use super::equation::{Equation, Stage};
+use super::history::History;
 use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
+use crate::moment::{Identity, Moment, Note};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
 
 /// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
 /// are stable at any step; wind is taken in as it is where a step begins, and is stable up to
 /// λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)).
+///
+/// One solver may step many systems: BDF2 remembers the last step of each. Where that did not lead to
+/// the state that it finds, because another solver has stepped the system since, a step was
+/// undone, the system is a clone, or particles have come or gone, it begins with a step of order one.
 ///
 /// ```
 /// use tearmesh_cloth::implicit::{self, Settings, Tolerance};
@@ -89,7 +96,19 @@ pub struct Implicit {
     shift: Vec<Vector>,
     piece_masses: Vec<f64>,
     history: History,
+    /// The system that the history, and the layout of the equation, are of.
+    system: Note,
+    others: Vec<Aside>,
     report: Option<StepReport>,
+}
+
+/// What is kept of a system while others are stepped. The layout too: its order depends on what was
+/// torn, and with it the rounding of sums.
+#[derive(Clone, Debug)]
+struct Aside {
+    system: Note,
+    history: History,
+    layout: Layout,
 }
 
 /// The part of all forces that a tied tolerance leaves unanswered, at most.
@@ -111,12 +130,38 @@ impl Implicit {
         self.report
     }
 
-    /// Forgets the previous step, after particles were renumbered by a merge: BDF2 starts anew with a
-    /// step of order one. Where the number of particles changed that is noticed. Positions and
+    /// Forgets the last step of every system: BDF2 starts anew with a step of order one. Positions and
     /// velocities may be changed without it; the acceleration of the last step is what BDF2 then goes
     /// on with.
     pub fn forget(&mut self) {
-        self.history.time_step_s = 0.0;
+        self.history.forget();
+        let others = self.others.iter_mut();
+        others.for_each(|aside| aside.history.forget());
+    }
+
+    /// Takes up what is known of a system, and puts what is known of another aside.
+    fn turn_to(&mut self, system: &Identity) {
+        if self.system.is_of(system) {
+            return;
+        }
+        self.others.retain(|aside| aside.system.is_alive());
+        let known = self.others.iter().position(|a| a.system.is_of(system));
+        let next = match known {
+            Some(place) => self.others.swap_remove(place),
+            None => Aside {
+                system: system.note(),
+                history: History::default(),
+                layout: Layout::default(),
+            },
+        };
+        let last = Aside {
+            system: std::mem::replace(&mut self.system, next.system),
+            history: std::mem::replace(&mut self.history, next.history),
+            layout: std::mem::replace(&mut self.equation.layout, next.layout),
+        };
+        if last.system.is_alive() {
+            self.others.push(last);
+        }
     }
 
     /// Takes one step, in place. A particle that is held keeps its velocity. Nothing is changed where
@@ -206,10 +251,9 @@ impl Implicit {
         equation.velocities.clear();
         equation.velocities.extend_from_slice(v);
         let history = &self.history;
-        let known = history.time_step_s > 0.0 && history.moved.len() == x.len();
         let (mut method, mut h) = (Method::BackwardEuler, time_step_s);
-        if settings.method == Method::Bdf2 && known {
-            let ratio = time_step_s / history.time_step_s;
+        if settings.method == Method::Bdf2 && history.is_known() {
+            let ratio = history.ratio(time_step_s);
             let weight = ratio * ratio / (1.0 + 2.0 * ratio);
             (method, h) = (
                 Method::Bdf2,
@@ -321,6 +365,10 @@ impl Solver for Implicit {
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        self.turn_to(&system.identity);
+        if !self.history.leads_to(system.moment) {
+            self.history.forget();
+        }
         let System {
             positions,
             velocities,
@@ -357,46 +405,11 @@ impl Solver for Implicit {
                 work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
         }
         let report = step.map_err(Failure::Implicit)?;
-        if !model.is_within_limit(positions) {
-            // The system goes back, and history must not tell of a step that was not taken.
-            self.forget();
-            return Err(Failure::BlowUp);
-        }
+        Failure::unless(model.is_within_limit(positions))?;
+        self.history.leave(Moment::After(counters.substeps));
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
         Ok(())
-    }
-}
-
-/// What the particles did in the last step.
-#[derive(Clone, Debug, Default)]
-struct History {
-    /// x₀ − x₋₁ and v₀ − v₋₁ as the step left them.
-    moved: Vec<Vector>,
-    sped: Vec<Vector>,
-    /// v₀ as the step left it.
-    velocities: Vec<Vector>,
-    time_step_s: f64,
-}
-
-impl History {
-    /// Notes a step from here to there.
-    fn note(&mut self, from: (&[Point], &[Vector]), to: (&[Point], &[Vector]), time_step_s: f64) {
-        self.moved.clear();
-        self.moved
-            .extend(to.0.iter().zip(from.0).map(|(x, old)| x - old));
-        self.sped.clear();
-        self.sped
-            .extend(to.1.iter().zip(from.1).map(|(v, old)| v - old));
-        self.velocities.clear();
-        self.velocities.extend_from_slice(to.1);
-        self.time_step_s = time_step_s;
-    }
-
-    /// x₀ − x₋₁ and v₀ − v₋₁ for a particle whose velocity is now `v`.
-    fn of(&self, i: usize, v: Vector) -> [Vector; 2] {
-        let pushed = v - self.velocities[i];
-        [self.moved[i] + pushed * self.time_step_s, self.sped[i]]
     }
 }
 
