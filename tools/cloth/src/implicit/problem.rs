@@ -7,7 +7,7 @@ use crate::matrix::Hessian;
 use crate::system::Model;
 
 /// The equation of motion m a = −∇E(x) + m g − c m v: E and c of a model, and the accelerations g of
-/// gravity and wind as they are where the step begins.
+/// gravity and of wind, which do not change in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
     pub(super) model: &'a Model,
