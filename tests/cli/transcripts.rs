@@ -12,7 +12,7 @@ use crate::harness::{Folder, root, seen};
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0xc5ce_ab11_31bb_af4f;
+const DIGEST: u64 = 0x186c_22d1_c471_621f;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
