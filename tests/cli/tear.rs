@@ -149,6 +149,34 @@ fn the_limiter_counts_in_the_unit_that_it_names() {
     assert!(said.contains(&expected), "{said}");
 }
 
+/// Where a linearised step overshot, and Newton's method came down but not to the end.
+#[test]
+fn implicit_steps_that_are_taken_unsolved_are_warned_of() {
+    let folder = Folder::new();
+    let line = "tearmesh tear flag.obj --solver implicit --dry-run --report r.json --seconds 3";
+    for (scene, is_solved) in [("rip --dt 0.1", false), ("hang --dt 0.02", true)] {
+        let output = folder.run(&format!("{line} --scene {scene}"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        let report: serde_json::Value =
+            serde_json::from_str(&folder.read("r.json")).expect("a report");
+        let quality = &report["quality"]["implicit"];
+        let unsolved = quality["unsolved"].as_u64().expect("a count");
+        let excess = quality["excess_max"].as_f64().expect("a number");
+        assert_eq!((unsolved == 0, excess <= 1.0), (is_solved, is_solved));
+        let said = seen(&output);
+        assert_eq!(said.contains("W-SIM-RESIDUAL"), !is_solved, "{said}");
+        if !is_solved {
+            let expected = format!("W-SIM-RESIDUAL]: {unsolved} of 30 steps were taken");
+            assert!(said.contains(&expected), "{said}");
+            assert!(said.contains("times what the tolerance allows"), "{said}");
+            assert!(
+                said.contains(" = help: --dt 0.05, --solver verlet"),
+                "{said}"
+            );
+        }
+    }
+}
+
 #[test]
 fn seconds_that_steps_do_not_make_up_are_warned_of() {
     let folder = Folder::new();

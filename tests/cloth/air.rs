@@ -2,6 +2,7 @@
 //! and of which order they are.
 
 use tearmesh::{Masses, Point, Vector, shapes};
+use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::{
     Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
     Xpbd, air, frequency,
@@ -20,7 +21,7 @@ type Method = (&'static str, f64, fn() -> Box<dyn Solver>);
 /// z⁴/24.
 const RK4: f64 = 2.785_293_563_405_28;
 
-const METHODS: [Method; 7] = [
+const METHODS: [Method; 8] = [
     ("guarded Verlet", 1.0, || Box::new(Verlet::new())),
     ("Verlet", 1.0, || Box::new(Verlet::plain())),
     ("Provot", 2.0, || Box::new(Provot::default())),
@@ -28,7 +29,17 @@ const METHODS: [Method; 7] = [
     ("PBD", 2.0, || Box::new(Pbd::default())),
     ("XPBD", 20.0, || Box::new(Xpbd::new(10, 1))),
     ("implicit", 2.0, || Box::new(Implicit::default())),
+    ("BDF2", 4.0 / 3.0, || Box::new(bdf2(1.0))),
 ];
+
+/// BDF2 at T m/s per s³.
+fn bdf2(tolerance: f64) -> Implicit {
+    Implicit::new(Settings {
+        method: implicit::Method::Bdf2,
+        tolerance: Tolerance::Tied(tolerance),
+        ..Settings::default()
+    })
+}
 
 /// Wind across a sheet.
 fn wind(speed_m_per_s: f64, coefficient: f64) -> Wind {
@@ -312,6 +323,16 @@ fn no_mode_is_slowed_faster_than_the_rate_says() {
 /// Where a hanging sheet in slanting wind is after 0.2 s, taken in so many steps, and the force
 /// evaluations that took.
 fn blown(solver: &mut dyn Solver, steps: u32, drag_per_s: Option<f64>) -> (Vec<Point>, u64) {
+    blown_by(solver, steps, [1.0; 2], drag_per_s)
+}
+
+/// The same by steps that are so many times as long by turns.
+fn blown_by(
+    solver: &mut dyn Solver,
+    steps: u32,
+    lengths: [f64; 2],
+    drag_per_s: Option<f64>,
+) -> (Vec<Point>, u64) {
     let mut cloth = sheet(6, 20.0, wind(0.0, 0.0));
     let system = cloth.system_mut();
     let blowing = Wind {
@@ -325,8 +346,8 @@ fn blown(solver: &mut dyn Solver, steps: u32, drag_per_s: Option<f64>) -> (Vec<P
     };
     system.set_loads(loads).expect("loads");
     (42..49).for_each(|top| system.hold(top));
-    for _ in 0..steps {
-        let dt_s = 0.2 / f64::from(steps);
+    for step in 0..steps {
+        let dt_s = 0.2 / f64::from(steps) * lengths[step as usize % 2];
         system.step(&mut *solver, dt_s).expect("a step");
     }
     let evaluations = system.counters().force_evaluations;
@@ -347,6 +368,34 @@ fn velocity_verlet_is_of_second_order_in_wind() {
         for two in errors.windows(2) {
             let order = (two[0] / two[1]).log2();
             assert!((order - 2.0).abs() < 0.1, "{order}, {errors:?}");
+        }
+    }
+}
+
+/// At the tolerance of the library and at that of the command, with steps as different as 1.4 and 0.6
+/// too.
+#[test]
+fn bdf2_is_of_second_order_in_wind() {
+    let orders_of = |errors: &[f64; 4]| {
+        let order = |two: &[f64]| (two[0] / two[1]).log2();
+        errors.windows(2).map(order).collect::<Vec<_>>()
+    };
+    for drag_per_s in [None, Some(3.0)] {
+        let (truth, _) = blown(&mut Rk4::new(), 1600, drag_per_s);
+        for (tolerance, lengths) in [(1.0, [1.0; 2]), (10.0, [1.0; 2]), (1.0, [1.4, 0.6])] {
+            let errors = [100, 200, 400, 800].map(|steps| {
+                let (at, evaluations) = blown_by(&mut bdf2(tolerance), steps, lengths, drag_per_s);
+                assert_eq!(evaluations, u64::from(steps));
+                let apart = at.iter().zip(&truth).map(|(a, b)| (a - b).norm_squared());
+                apart.sum::<f64>().sqrt()
+            });
+            let orders = orders_of(&errors);
+            println!(
+                "drag {drag_per_s:?}, T {tolerance}, {lengths:?}: {errors:?}, orders {orders:.2?}"
+            );
+            for order in &orders[1..] {
+                assert!((order - 2.0).abs() < 0.2, "{orders:?}, {errors:?}");
+            }
         }
     }
 }

@@ -1,12 +1,14 @@
 //! The implicit solver against closed forms, finite differences and naive dense code.
 
 mod dense;
+mod history;
 mod kernels;
 mod matrix;
 mod orders;
 mod references;
 mod reports;
 mod rest;
+mod tolerance;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{self, Method, Settings, StepReport, Tolerance};

@@ -230,6 +230,8 @@ pub(crate) enum Quality {
         indefinite: u64,
         clamped: u64,
         residual_max_m_per_s: f64,
+        unsolved: u64,
+        excess_max: f64,
     },
 }
 

@@ -188,6 +188,7 @@ impl Play<'_> {
             frames: None,
         };
         session.faults.extend(words::infeasible(&run));
+        session.faults.extend(words::residual(&run));
         session.faults.extend(reach::after(&run));
         session.words.push(words::simulation(&tear));
         session.words.push(words::balance(&run));

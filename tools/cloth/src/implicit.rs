@@ -15,6 +15,7 @@
 //! and leaves positions and velocities as they were.
 
 mod equation;
+mod history;
 mod layout;
 mod newton;
 mod pcg;

@@ -61,6 +61,7 @@ mod load;
 mod lookout;
 mod material;
 mod matrix;
+mod moment;
 mod pair;
 mod particle;
 mod pbd;

@@ -7,6 +7,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::contact;
 use crate::culprit::Culprit;
+use crate::moment::Moment;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
 use crate::system::{Model, System};
@@ -74,7 +75,11 @@ impl System {
         let report = admitted.map_err(|error| unless_broken(self, error))?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
-        let began = (self.elapsed_s, self.contact_j);
+        let began = Began {
+            elapsed_s: self.elapsed_s,
+            contact_j: self.contact_j,
+            moment: self.moment,
+        };
         self.model.forget();
         let substep = Substep {
             dt_s: dt_s / f64::from(report.substeps),
@@ -89,7 +94,7 @@ impl System {
             }
         }
         observer.ended(true);
-        self.elapsed_s = began.0 + dt_s;
+        self.elapsed_s = began.elapsed_s + dt_s;
         // A method may set the state, and still moves it by no more than a step.
         self.spectrum.jumped(had_jumped);
         Ok(report)
@@ -131,6 +136,7 @@ fn advance(
     Failure::unless(is_finite(system))?;
     observer.after(system, substep);
     system.elapsed_s += substep.dt_s;
+    system.moment = Moment::After(system.counters.substeps);
     Ok(())
 }
 
@@ -153,12 +159,17 @@ fn unless_broken(system: &System, error: StepError) -> StepError {
     }
 }
 
+/// What a step changes beside positions and velocities, as it was before.
+#[derive(Clone, Copy)]
+struct Began {
+    elapsed_s: f64,
+    contact_j: Option<f64>,
+    moment: Moment,
+}
+
 /// Puts the system back to where the step began, and says why the step was not taken.
-fn go_back(
-    system: &mut System,
-    failure: Failure,
-    (elapsed_s, contact_j): (f64, Option<f64>),
-) -> StepError {
+fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
+    let elapsed_s = began.elapsed_s;
     let error = match failure {
         Failure::BlowUp => StepError::BlowUp {
             elapsed_s,
@@ -173,7 +184,11 @@ fn go_back(
     system.model.forget();
     system.model.clear_multipliers();
     system.changes += 1;
-    (system.elapsed_s, system.contact_j) = (elapsed_s, contact_j);
+    Began {
+        elapsed_s: system.elapsed_s,
+        contact_j: system.contact_j,
+        moment: system.moment,
+    } = began;
     error
 }
 

@@ -21,6 +21,7 @@ use crate::element::Forces;
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
 use crate::lookout::Lookout;
+use crate::moment::{Identity, Moment};
 use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
@@ -67,6 +68,9 @@ pub struct System {
     pub(crate) contact_j: Option<f64>,
     /// How often the state was changed but by a step.
     pub(crate) changes: u64,
+    pub(crate) identity: Identity,
+    /// The substep that led to the state.
+    pub(crate) moment: Moment,
 }
 
 /// Room for a step, so that none allocates.
@@ -172,6 +176,8 @@ impl System {
             margin: 0.95,
             contact_j: None,
             changes: 0,
+            identity: Identity::default(),
+            moment: Moment::default(),
         }
     }
 

@@ -142,6 +142,8 @@ pub(super) fn quality(run: &Run) -> Option<report::Quality> {
             indefinite: solved.indefinite,
             clamped: solved.clamped,
             residual_max_m_per_s: solved.residual_max_m_per_s,
+            unsolved: solved.unsolved,
+            excess_max: solved.excess_max,
         }),
         _ => None,
     }
@@ -156,22 +158,47 @@ pub(super) fn infeasible(run: &Run) -> Option<Fault> {
     if limited.steps_infeasible == 0 {
         return None;
     }
-    let substeps = run.cloth().system().counters().substeps;
-    let (one, many) = if substeps == run.tally().steps {
-        ("step", "steps")
-    } else {
-        ("substep", "substeps") // Steps were divided, and the limiter had each part.
-    };
     let message = format!(
         "in {} of {} what is held was too far apart for the limiter, and edges stayed up to {} \
          times as long as at rest, above its limit of {}",
         limited.steps_infeasible,
-        count(substeps as usize, one, many),
+        of_steps(run),
         short(limiter.stretch_ratio_max + limited.excess_max),
         limiter.stretch_ratio_max,
     );
     let help = "a larger limit_ratio in [solver] of a scene file, or --solver verlet";
     Some(Fault::warning("W-SIM-LIMIT", message).help(help))
+}
+
+/// What an implicit method left unsolved, and went on from.
+pub(super) fn residual(run: &Run) -> Option<Fault> {
+    let Quality::Solved(solved) = run.quality() else {
+        return None;
+    };
+    if solved.unsolved == 0 {
+        return None;
+    }
+    let message = format!(
+        "{} of {} were taken before they were solved: their velocities may be off by {} m/s, up to {} \
+         times what the tolerance allows, and so may be what tore",
+        solved.unsolved,
+        of_steps(run),
+        three_digits(solved.residual_max_m_per_s),
+        three_digits(solved.excess_max),
+    );
+    let help = format!("--dt {}, --solver verlet", two_digits(run.step_s() / 2.0));
+    Some(Fault::warning("W-SIM-RESIDUAL", message).help(help))
+}
+
+/// How many steps were taken; where they were divided, and the method had each part, how many parts.
+fn of_steps(run: &Run) -> String {
+    let substeps = run.cloth().system().counters().substeps;
+    let (one, many) = if substeps == run.tally().steps {
+        ("step", "steps")
+    } else {
+        ("substep", "substeps")
+    };
+    count(substeps as usize, one, many)
 }
 
 pub(super) fn counters(run: &Run) -> report::Counters {

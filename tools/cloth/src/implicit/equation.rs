@@ -48,6 +48,8 @@ pub(super) struct Equation {
     /// f where it was asked for last.
     pub(super) forces: Vec<Vector>,
     pub(super) pcg: Pcg,
+    /// The rounding of forces where the matrix was made last, as an rms acceleration.
+    pub(super) rounding: f64,
     /// Room for velocities.
     pub(super) room: Vec<Vector>,
     hessian: Hessian,
@@ -86,6 +88,18 @@ impl Equation {
         self.work.force_evaluations += 1;
     }
 
+    /// All that acts on the free particles where the forces were taken last, with drag on these
+    /// velocities, as an rms acceleration.
+    pub(super) fn load(&mut self, problem: Problem<'_>, v: &[Vector]) -> f64 {
+        let drag_per_s = problem.model.drag_per_s();
+        self.pcg.b.clear();
+        for (i, (&f, &v)) in self.forces.iter().zip(v).enumerate() {
+            let all = f - v * (drag_per_s * problem.masses()[i]);
+            self.pcg.b.push(problem.filter(i, all));
+        }
+        problem.residual(&self.pcg.b)
+    }
+
     /// f − M ((1 + h c) v − v*)/h for the present velocities and forces, into `pcg.b`.
     pub(super) fn imbalance(&mut self, problem: Problem<'_>, stage: Stage) {
         self.pcg.b.clear();
@@ -122,13 +136,14 @@ impl Equation {
         loop {
             let clamped = problem.hessian(x, &self.layout, clamp, &mut self.hessian);
             self.work.hessian_evaluations += 1;
+            self.rounding = problem.rounding(x, &self.hessian);
             match shift {
                 Some(shift) => self.imbalance_less(problem, stage, shift),
                 None => self.imbalance(problem, stage),
             }
             let newton = settings.newton_iterations_max > 1;
             let stop = Stop {
-                residual: stage.residual_max * if newton { 0.25 } else { 1.0 },
+                residual: (stage.residual_max * if newton { 0.25 } else { 1.0 }).max(self.rounding),
                 // No residual can be smaller than the rounding of the right-hand side.
                 relative: 1e-14,
                 iterations: settings.solver_iterations_max,

@@ -48,6 +48,10 @@ pub(super) fn iterate(
         if let Err(error) = solved {
             break Err(error);
         }
+        if left <= equation.rounding {
+            report.limit = report.limit.max(report.residual);
+            break Ok(());
+        }
         match search(equation, problem, stage, phi, left, &mut from, report) {
             Search::Taken(next) => phi = next,
             Search::Rounding => {

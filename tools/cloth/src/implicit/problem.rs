@@ -7,7 +7,7 @@ use crate::matrix::Hessian;
 use crate::system::Model;
 
 /// The equation of motion m a = −∇E(x) + m g − c m v: E and c of a model, and the accelerations g of
-/// gravity and wind as they are where the step begins.
+/// gravity and of wind, which do not change in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Problem<'a> {
     pub(super) model: &'a Model,
@@ -48,10 +48,15 @@ impl<'a> Problem<'a> {
     pub(super) fn potential(self, x: &[Point], inertia: f64) -> Potential {
         let inside = self.model.elastic_j(x);
         let particles = self.outside.iter().zip(self.masses()).zip(x);
-        let outside = particles.fold(0.0, |sum, ((g, m), x)| sum - m * dot(*g, x.coords));
+        let (mut outside, mut size) = (0.0, 0.0);
+        for ((g, m), x) in particles {
+            let weight = m * dot(*g, x.coords);
+            outside -= weight;
+            size += weight.abs();
+        }
         Potential {
             value: inside + outside + inertia,
-            rounding: 64.0 * f64::EPSILON * (inside + outside.abs() + inertia),
+            rounding: 64.0 * f64::EPSILON * (inside + size + inertia),
         }
     }
 
@@ -63,6 +68,25 @@ impl<'a> Problem<'a> {
         hessian: &mut Hessian,
     ) -> u64 {
         layout.hessian_at(self.model, x, clamp, hessian)
+    }
+
+    /// The forces on free particles that the rounding of their coordinates alone makes, as an rms
+    /// acceleration: below it there is nothing to solve.
+    pub(super) fn rounding(self, x: &[Point], hessian: &Hessian) -> f64 {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (i, (&m, x)) in self.masses().iter().zip(x).enumerate() {
+            total += m;
+            if self.is_free(i) {
+                let [[a, _, _], [_, b, _], [_, _, c]] = hessian.diagonal[i].0;
+                let force = (a + b + c) * (f64::EPSILON * x.coords.amax());
+                sum += force * force / m;
+            }
+        }
+        if total > 0.0 {
+            (sum / total).sqrt()
+        } else {
+            0.0
+        }
     }
 
     /// A force on each particle as an rms acceleration, √(rᵀ M⁻¹ r / Σm); zero where nothing has a

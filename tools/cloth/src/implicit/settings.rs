@@ -30,7 +30,9 @@ pub enum Jacobian {
 /// How exactly a step's equation has to be solved: a bound on the rms error of the velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
-    /// T Δt^(p+1), with p the order of the method; T in m/s per s^(p+1).
+    /// T Δt^(p+1), with p the order of the method; T in m/s per s^(p+1). Less where little acts: a
+    /// tenth of what all forces where the step begins would make of the velocities, Δt a or the part
+    /// of that which drag leaves, by the rms; but no less than rounding.
     Tied(f64),
     /// The same at every Δt, in m/s. The error then *rises* as Δt falls.
     Fixed(f64),

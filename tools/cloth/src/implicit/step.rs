@@ -17,6 +17,12 @@
 //! step left, because contact or a user changed it, x₋₁ and v₋₁ change with it: what is
 //! remembered is acceleration, so that what lands does not bounce.
 //!
+//! **Wind** depends on velocities and areas, and its derivatives are in no matrix. BDF2 takes it at
+//! x₀ + ω (x₀ − x₋₁) and v₀ + ω (v₀ − v₋₁), which err by O(Δt²); taken where the step begins it
+//! would make the method one of order one. In still air alone steps of one length obey
+//! 3z² − 4z + 1 + 2μ (2z − 1) = 0 with μ = λΔt, which has the root −1 at μ = 4/3; one that is ω times
+//! as long as the last has its limit at μ = 2 (1 + ω)/(1 + 2ω). Springs only raise it.
+//!
 //! **Linearised** (one iteration, the default): forces are linearised at x₀, as Baraff and
 //! Witkin 1998 §3 and Choi and Ko 2002 §5 do. This keeps the order of both methods, as long as
 //! the Jacobian is exact; with terms dropped BDF2 falls back to order one.
@@ -30,7 +36,8 @@
 //! **The solver's tolerance has to fall with Δt.** A step of a method of order p errs by
 //! Δt^(p+1); a solver that leaves the same error at each step, however short, makes the sum
 //! grow as Δt falls. So the rms velocity error that a step may leave is T Δt^(p+1)
-//! ([`Tolerance::Tied`]).
+//! ([`Tolerance::Tied`]). And the forces that it leaves unanswered are no more than a tenth of all
+//! that act: where T Δt^p is above g, what hangs would hover.
 //!
 //! **Momentum.** Internal forces sum to zero, so the exact answer has a known momentum for each
 //! piece that nothing holds. What the solver's residual misses of it is added as one
@@ -39,17 +46,25 @@
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
+use super::Layout;
 use super::equation::{Equation, Stage};
+use super::history::History;
 use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
+use crate::moment::{Identity, Moment, Note};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
 
 /// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
-/// are stable at any step; wind is taken in as it is where a step begins, and is stable up to
-/// λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)).
+/// are stable at any step. Wind is taken in by backward Euler as it is where a step begins, and is
+/// stable up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)); by BDF2 as it will be where the step
+/// ends if all goes on as in the last, which keeps the order, and up to λ Δt = 4/3.
+///
+/// One solver may step many systems: BDF2 remembers the last step of each. Where that did not lead to
+/// the state that it finds, because another solver has stepped the system since, a step was
+/// undone, the system is a clone, or particles have come or gone, it begins with a step of order one.
 ///
 /// ```
 /// use tearmesh_cloth::implicit::{self, Settings, Tolerance};
@@ -88,8 +103,23 @@ pub struct Implicit {
     shift: Vec<Vector>,
     piece_masses: Vec<f64>,
     history: History,
+    /// The system that the history, and the layout of the equation, are of.
+    system: Note,
+    others: Vec<Aside>,
     report: Option<StepReport>,
 }
+
+/// What is kept of a system while others are stepped. The layout too: its order depends on what was
+/// torn, and with it the rounding of sums.
+#[derive(Clone, Debug)]
+struct Aside {
+    system: Note,
+    history: History,
+    layout: Layout,
+}
+
+/// The part of all forces that a tied tolerance leaves unanswered, at most.
+const UNANSWERED: f64 = 0.1;
 
 impl Implicit {
     /// The method with these settings.
@@ -107,12 +137,38 @@ impl Implicit {
         self.report
     }
 
-    /// Forgets the previous step, after particles were renumbered by a merge: BDF2 starts anew with a
-    /// step of order one. Where the number of particles changed that is noticed. Positions and
+    /// Forgets the last step of every system: BDF2 starts anew with a step of order one. Positions and
     /// velocities may be changed without it; the acceleration of the last step is what BDF2 then goes
     /// on with.
     pub fn forget(&mut self) {
-        self.history.time_step_s = 0.0;
+        self.history.forget();
+        let others = self.others.iter_mut();
+        others.for_each(|aside| aside.history.forget());
+    }
+
+    /// Takes up what is known of a system, and puts what is known of another aside.
+    fn turn_to(&mut self, system: &Identity) {
+        if self.system.is_of(system) {
+            return;
+        }
+        self.others.retain(|aside| aside.system.is_alive());
+        let known = self.others.iter().position(|a| a.system.is_of(system));
+        let next = match known {
+            Some(place) => self.others.swap_remove(place),
+            None => Aside {
+                system: system.note(),
+                history: History::default(),
+                layout: Layout::default(),
+            },
+        };
+        let last = Aside {
+            system: std::mem::replace(&mut self.system, next.system),
+            history: std::mem::replace(&mut self.history, next.history),
+            layout: std::mem::replace(&mut self.equation.layout, next.layout),
+        };
+        if last.system.is_alive() {
+            self.others.push(last);
+        }
     }
 
     /// Takes one step, in place. A particle that is held keeps its velocity. Nothing is changed where
@@ -129,6 +185,10 @@ impl Implicit {
     ) -> Result<StepReport, StepError> {
         self.equation.work = Work::default();
         self.equation.layout.follow_model(problem.model);
+        let is_linearised = self.settings.newton_iterations_max <= 1;
+        if is_linearised || matches!(self.settings.tolerance, Tolerance::Tied(_)) {
+            self.equation.pull(problem, x);
+        }
         let stage = self.begin(problem, x, v, time_step_s);
         let mut report = StepReport {
             method: stage.method,
@@ -143,7 +203,7 @@ impl Implicit {
         };
         let settings = self.settings;
         let mut came_down = false;
-        if settings.newton_iterations_max <= 1 {
+        if is_linearised {
             let level = newton::level(&mut self.equation, problem, x, v, stage);
             self.linearised(problem, x, v, stage, &mut report)?;
             let equation = &mut self.equation;
@@ -181,7 +241,8 @@ impl Implicit {
         Ok(report)
     }
 
-    /// x*, v*, h; and the velocities now as the first guess.
+    /// x*, v*, h; and the velocities now as the first guess. The forces at `x` are known where the
+    /// tolerance depends on them.
     fn begin(
         &mut self,
         problem: Problem<'_>,
@@ -197,10 +258,9 @@ impl Implicit {
         equation.velocities.clear();
         equation.velocities.extend_from_slice(v);
         let history = &self.history;
-        let known = history.time_step_s > 0.0 && history.moved.len() == x.len();
         let (mut method, mut h) = (Method::BackwardEuler, time_step_s);
-        if settings.method == Method::Bdf2 && known {
-            let ratio = time_step_s / history.time_step_s;
+        if settings.method == Method::Bdf2 && history.is_known() {
+            let ratio = history.ratio(time_step_s);
             let weight = ratio * ratio / (1.0 + 2.0 * ratio);
             (method, h) = (
                 Method::Bdf2,
@@ -218,11 +278,17 @@ impl Implicit {
             }
         }
         let dragged = 1.0 + h * problem.model.drag_per_s();
-        // The tolerance is that of the method asked for, also where it starts.
-        let limit = match (settings.tolerance, settings.method) {
-            (Tolerance::Fixed(limit), _) => limit,
-            (Tolerance::Tied(t), Method::BackwardEuler) => t * time_step_s * time_step_s,
-            (Tolerance::Tied(t), Method::Bdf2) => t * time_step_s * time_step_s * time_step_s,
+        let residual = |limit: f64| limit * dragged / h;
+        let residual_max = match settings.tolerance {
+            Tolerance::Fixed(limit) => residual(limit),
+            Tolerance::Tied(t) => {
+                // The order is that of the method asked for, also where it starts.
+                let by_order = match settings.method {
+                    Method::BackwardEuler => t * time_step_s * time_step_s,
+                    Method::Bdf2 => t * time_step_s * time_step_s * time_step_s,
+                };
+                residual(by_order).min(UNANSWERED * equation.load(problem, v))
+            }
         };
         Stage {
             method,
@@ -230,11 +296,12 @@ impl Implicit {
             h,
             dragged,
             inertia: dragged / (h * h),
-            residual_max: limit * dragged / h,
+            residual_max,
         }
     }
 
-    /// One step of Newton's method, with forces linearised at `x`, where the step started.
+    /// One step of Newton's method, with the forces at `x`, where the step started, and linearised
+    /// there.
     fn linearised(
         &mut self,
         problem: Problem<'_>,
@@ -244,7 +311,6 @@ impl Implicit {
         report: &mut StepReport,
     ) -> Result<(), StepError> {
         let equation = &mut self.equation;
-        equation.pull(problem, x);
         self.shift.clear();
         let guess = equation.start.iter().zip(v).map(|(s, v)| s + v * stage.h);
         self.shift.extend(guess.zip(x).map(|(y, x)| y - x));
@@ -293,10 +359,14 @@ impl Implicit {
 }
 
 impl Solver for Implicit {
-    /// The limit of air is that of backward Euler, with which BDF2 begins, and begins anew after an
-    /// edit.
+    /// The limit of air of BDF2 is that of steps of one length, and below the one of backward Euler,
+    /// with which it begins.
     fn abilities(&self) -> Abilities {
-        Abilities::of_forces(None, 2.0)
+        let air_limit = match self.settings.method {
+            Method::BackwardEuler => 2.0,
+            Method::Bdf2 => 4.0 / 3.0,
+        };
+        Abilities::of_forces(None, air_limit)
     }
 
     fn check(&self) -> Result<(), SettingError> {
@@ -306,6 +376,10 @@ impl Solver for Implicit {
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        self.turn_to(&system.identity);
+        if !self.history.leads_to(system.moment) {
+            self.history.forget();
+        }
         let System {
             positions,
             velocities,
@@ -320,7 +394,20 @@ impl Solver for Implicit {
         let mut outside = std::mem::take(&mut self.outside);
         outside.clear();
         outside.resize(positions.len(), Vector::zeros());
-        model.external(positions, velocities, &mut outside, counters);
+        let is_foreseen = self.settings.method == Method::Bdf2 && self.history.is_known();
+        if is_foreseen && model.loads.wind.is_some() {
+            let Equation {
+                trial,
+                velocities: later,
+                ..
+            } = &mut self.equation;
+            let now = (&positions[..], &velocities[..]);
+            let free = &model.inverse_masses;
+            self.history.foresee(now, free, dt_s, (trial, later));
+            model.external(trial, later, &mut outside, counters);
+        } else {
+            model.external(positions, velocities, &mut outside, counters);
+        }
         let problem = Problem {
             model,
             outside: &outside,
@@ -342,46 +429,11 @@ impl Solver for Implicit {
                 work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;
         }
         let report = step.map_err(Failure::Implicit)?;
-        if !model.is_within_limit(positions) {
-            // The system goes back, and history must not tell of a step that was not taken.
-            self.forget();
-            return Err(Failure::BlowUp);
-        }
+        Failure::unless(model.is_within_limit(positions))?;
+        self.history.leave(Moment::After(counters.substeps));
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
         Ok(())
-    }
-}
-
-/// What the particles did in the last step.
-#[derive(Clone, Debug, Default)]
-struct History {
-    /// x₀ − x₋₁ and v₀ − v₋₁ as the step left them.
-    moved: Vec<Vector>,
-    sped: Vec<Vector>,
-    /// v₀ as the step left it.
-    velocities: Vec<Vector>,
-    time_step_s: f64,
-}
-
-impl History {
-    /// Notes a step from here to there.
-    fn note(&mut self, from: (&[Point], &[Vector]), to: (&[Point], &[Vector]), time_step_s: f64) {
-        self.moved.clear();
-        self.moved
-            .extend(to.0.iter().zip(from.0).map(|(x, old)| x - old));
-        self.sped.clear();
-        self.sped
-            .extend(to.1.iter().zip(from.1).map(|(v, old)| v - old));
-        self.velocities.clear();
-        self.velocities.extend_from_slice(to.1);
-        self.time_step_s = time_step_s;
-    }
-
-    /// x₀ − x₋₁ and v₀ − v₋₁ for a particle whose velocity is now `v`.
-    fn of(&self, i: usize, v: Vector) -> [Vector; 2] {
-        let pushed = v - self.velocities[i];
-        [self.moved[i] + pushed * self.time_step_s, self.sped[i]]
     }
 }
 

@@ -58,6 +58,11 @@ pub struct Solved {
     pub clamped: u64,
     /// The largest residual of a step, as a bound on the rms error of the velocity in m/s.
     pub residual_max_m_per_s: f64,
+    /// The steps (or substeps) that were taken with a residual above what the tolerance allows:
+    /// linearised ones that overshot, and from which Newton's method did not come down all the way.
+    pub unsolved: u64,
+    /// The largest residual of a step as a multiple of what the tolerance allowed in that.
+    pub excess_max: f64,
 }
 
 impl Limited {
@@ -77,5 +82,11 @@ impl Solved {
         self.indefinite += u64::from(report.indefinite);
         self.clamped += report.clamped;
         self.residual_max_m_per_s = self.residual_max_m_per_s.max(report.residual);
+        if report.residual > report.limit {
+            self.unsolved += 1;
+        }
+        if report.residual > 0.0 {
+            self.excess_max = self.excess_max.max(report.residual / report.limit);
+        }
     }
 }

@@ -1,0 +1,220 @@
+//! How exactly a step has to be solved by default: never so loosely that what acts is not felt.
+
+use super::dense::solve;
+use super::matrix::crumpled;
+use super::{G, Scene, forces, norm, step};
+use tearmesh::Vector;
+use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
+use tearmesh_cloth::{Implicit, System};
+
+const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
+
+/// The default settings, and those of the command.
+const TOLERANCES: [Tolerance; 2] = [Tolerance::Tied(1.0), Tolerance::Tied(10.0)];
+
+/// Steps in seconds, and how many take what is dragged at 20 /s to rest.
+const STEPS: [(f64, u32); 5] = [
+    (1.0, 60),
+    (0.1, 300),
+    (0.01, 1000),
+    (1e-3, 5000),
+    (1e-4, 50_000),
+];
+
+fn implicit(method: Method, tolerance: Tolerance, newton_iterations_max: u32) -> Implicit {
+    Implicit::new(Settings {
+        method,
+        tolerance,
+        newton_iterations_max,
+        ..Settings::default()
+    })
+}
+
+/// R2 with drag: ten links of 50 N/m that hang.
+fn chain(gravity: f64) -> Scene {
+    let mut chain = Scene::chain(10, 0.01, 50.0, 0.1);
+    chain.gravity = Vector::new(0.0, 0.0, -gravity);
+    chain.drag = 20.0;
+    chain
+}
+
+/// Backward Euler's steps of the chain, which is linear as long as it hangs straight: the depths of
+/// its ten free particles after each, by elimination.
+fn euler(dt_s: f64, steps: u32) -> Vec<Vec<f64>> {
+    let (mass, stiffness, drag) = (0.01, 50.0, 20.0);
+    let mut depth: Vec<f64> = (1..=10).map(|i| 0.1 * f64::from(i)).collect();
+    let mut speed = vec![0.0; 10];
+    let mut passed = Vec::new();
+    for _ in 0..steps {
+        let pull = |i: usize| {
+            let above = if i == 0 { 0.0 } else { depth[i - 1] };
+            stiffness * (depth[i] - above - 0.1)
+        };
+        let (mut rows, mut right) = (Vec::new(), Vec::new());
+        for i in 0..10 {
+            let mut row = vec![0.0; 10];
+            row[i] = mass * (1.0 + dt_s * drag) + dt_s * dt_s * stiffness;
+            let mut force = mass * G - pull(i);
+            if i > 0 {
+                row[i - 1] = -dt_s * dt_s * stiffness;
+            }
+            if i < 9 {
+                row[i] += dt_s * dt_s * stiffness;
+                row[i + 1] = -dt_s * dt_s * stiffness;
+                force += pull(i + 1);
+            }
+            rows.push(row);
+            right.push(mass * speed[i] + dt_s * force);
+        }
+        speed = solve(rows, right);
+        depth
+            .iter_mut()
+            .zip(&speed)
+            .for_each(|(x, v)| *x += dt_s * v);
+        passed.push(depth.clone());
+    }
+    passed
+}
+
+#[test]
+fn what_hangs_falls_as_backward_euler_says_at_every_step() {
+    for tolerance in TOLERANCES {
+        for newton in [1, 20] {
+            for (dt_s, _) in STEPS {
+                let mut system = chain(G).system();
+                let mut solver = implicit(Method::BackwardEuler, tolerance, newton);
+                let mut worst = 0.0_f64;
+                for depth in euler(dt_s, 20) {
+                    step(&mut system, &mut solver, dt_s).expect("a step");
+                    let particles = system.positions()[1..].iter().zip(&depth).enumerate();
+                    let [mut apart, mut fallen] = [0.0; 2];
+                    for (i, (x, depth)) in particles {
+                        apart += (x.z + depth) * (x.z + depth);
+                        let way = depth - 0.1 * (i + 1) as f64;
+                        fallen += way * way;
+                    }
+                    worst = worst.max((apart / fallen).sqrt());
+                }
+                println!("{tolerance:?}, {newton} iterations, {dt_s} s: apart by {worst:.1e}");
+                assert!(worst < 0.1, "{tolerance:?} {newton} {dt_s}: {worst}");
+            }
+        }
+    }
+}
+
+fn length(system: &System) -> f64 {
+    -system.positions()[10].z
+}
+
+#[test]
+fn what_hangs_comes_to_rest_where_forces_balance_at_every_step() {
+    for method in METHODS {
+        for tolerance in TOLERANCES {
+            for (dt_s, steps) in STEPS {
+                let mut system = chain(G).system();
+                let mut solver = implicit(method, tolerance, 1);
+                for _ in 0..steps {
+                    step(&mut system, &mut solver, dt_s).expect("a step");
+                }
+                let off = (length(&system) - 1.107_91).abs();
+                assert!(off < 1e-9, "{method:?} {tolerance:?} {dt_s}: off by {off}");
+            }
+        }
+    }
+}
+
+/// Without gravity as well, however little acts.
+#[test]
+fn what_is_stretched_by_however_little_contracts_at_every_step() {
+    for method in METHODS {
+        for tolerance in TOLERANCES {
+            for (dt_s, steps) in STEPS {
+                for strain in [1e-6, 1e-3, 0.1] {
+                    let mut system = chain(0.0).system();
+                    system
+                        .state_mut()
+                        .0
+                        .iter_mut()
+                        .for_each(|x| x.z *= 1.0 + strain);
+                    let mut solver = implicit(method, tolerance, 1);
+                    for _ in 0..steps {
+                        step(&mut system, &mut solver, dt_s).expect("a step");
+                    }
+                    let left = (length(&system) - 1.0).abs();
+                    assert!(
+                        left < 1e-2 * strain,
+                        "{method:?} {tolerance:?} {dt_s} {strain}: {left} is left"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_nothing_acts_on_stands_still_and_is_solved() {
+    for newton in [1, 20] {
+        let mut system = chain(0.0).system();
+        let before = system.positions().to_vec();
+        let mut solver = implicit(Method::Bdf2, Tolerance::Tied(1.0), newton);
+        for _ in 0..5 {
+            let report = step(&mut system, &mut solver, 0.1).expect("a step");
+            assert!(report.residual <= report.limit && report.limit < 1e-12);
+        }
+        assert_eq!(system.positions(), before);
+    }
+}
+
+/// The rms of the accelerations by all forces, weighed by masses; drag included.
+fn acceleration_rms(scene: &Scene, system: &mut System) -> f64 {
+    let velocities = system.velocities().to_vec();
+    let forces = forces(system);
+    let drag = velocities.iter().zip(&scene.masses);
+    let all: Vec<Vector> = forces
+        .iter()
+        .zip(drag)
+        .enumerate()
+        .filter(|(i, _)| !scene.held[*i])
+        .map(|(_, (f, (v, m)))| (f - v * (scene.drag * m)) / m.sqrt())
+        .collect();
+    norm(&all) / scene.masses.iter().sum::<f64>().sqrt()
+}
+
+/// The least of T Δt^(p+1) and a tenth of what the forces at the beginning of a step would make of
+/// the velocities, with drag.
+#[test]
+fn a_step_may_err_by_its_order_or_by_a_tenth_of_what_acts_whichever_is_less() {
+    let mut decided = [0; 2];
+    for seed in 0..6 {
+        let mut scene = crumpled(3, seed);
+        scene.held[0] = true;
+        scene.gravity = Vector::new(0.3, 0.0, -G);
+        scene.drag = f64::from(seed as u32);
+        for (method, p) in [(Method::BackwardEuler, 1), (Method::Bdf2, 2)] {
+            for dt_s in [1e-3, 0.01, 0.1, 1.0] {
+                for newton in [1, 60] {
+                    let mut system = scene.system();
+                    let mut solver = implicit(method, Tolerance::Tied(100.0), newton);
+                    for turn in 0..3 {
+                        let is_bdf2 = p == 2 && turn > 0;
+                        let h = dt_s * if is_bdf2 { 2.0 / 3.0 } else { 1.0 };
+                        let tenth = acceleration_rms(&scene, &mut system) / 10.0;
+                        let tenth = tenth * h / (1.0 + h * scene.drag);
+                        let order = 100.0 * dt_s.powi(p + 1);
+                        decided[usize::from(tenth < order)] += 1;
+                        let Ok(report) = step(&mut system, &mut solver, dt_s) else {
+                            break; // Newton's method is not sure to get there in such steps.
+                        };
+                        let expected = tenth.min(order);
+                        assert!(
+                            (report.limit / expected - 1.0).abs() < 1e-9,
+                            "{method:?} {dt_s} {newton}: {} {expected}",
+                            report.limit
+                        );
+                    }
+                }
+            }
+        }
+    }
+    assert!(decided.iter().all(|&times| times > 20), "{decided:?}");
+}
