@@ -45,7 +45,7 @@ fn work(args: &ChartArgs, streams: &mut Streams<'_>) -> Ended {
     };
     let bar = ProgressBar::with_draw_target(Some(2 * tear::CELLS.len() as u64), target);
     let guard = Guard::new();
-    let study = tear::study(&tear::CELLS, |done| {
+    let study = tear::study(&tear::CELLS, true, |done| {
         bar.set_position(done as u64);
         !guard.is_interrupted()
     });

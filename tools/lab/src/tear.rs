@@ -11,13 +11,19 @@
 //! edge's and more the crowd's: slopes of +0.67 and +0.06 instead of +0.91 and +0.10.
 
 mod csv;
+mod first;
 mod svg;
 
 pub use self::csv::csv;
+pub use self::first::{FirstTear, spread};
 pub use self::svg::svg;
 
+use std::num::NonZero;
+use std::sync::{Mutex, mpsc};
+use std::thread;
+
 use serde::Serialize;
-use tearmesh::{Mesh, Point, Positions};
+use tearmesh::{Mesh, Point, Positions, Vector};
 use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene};
 use tearmesh_cloth::{StepError, Tearing, Threshold, force};
 
@@ -71,6 +77,8 @@ pub struct Test {
     pub force_largest_n: f64,
     /// The mean force from the first tear to the last, over displacement.
     pub force_mean_n: f64,
+    /// Where it tore first, by two methods with two steps each.
+    pub first: Vec<FirstTear>,
     /// The distance between the clamps in metres, and the force in newtons.
     pub curve: Vec<[f64; 2]>,
 }
@@ -99,14 +107,16 @@ impl std::fmt::Display for StudyError {
 
 impl std::error::Error for StudyError {}
 
-/// Tears strips with so many cells across, at least two numbers; `watch` hears of each test that is
-/// done, and may stop the study by saying false: then there is none.
+/// Tears strips with so many cells across, at least two numbers; with `is_checked` each also for its first
+/// tear by two methods and two steps, which takes four times as long. `watch` hears of each test that
+/// is done, and may stop the study by saying false: then there is none.
 ///
 /// # Errors
 ///
 /// [`StudyError`], which would be a bug.
 pub fn study(
     cells: &[u32],
+    is_checked: bool,
     mut watch: impl FnMut(usize) -> bool,
 ) -> Result<Option<Study>, StudyError> {
     let k = Scene::STRETCH_N_PER_M;
@@ -114,15 +124,12 @@ pub fn study(
     // ½ k ε² h: the energy of an edge at the ratio, on the mesh in the middle.
     let toughness = 0.5 * k * (RATIO - 1.0) * (RATIO - 1.0) * middle;
     let rules = [Threshold::Stretch(RATIO), Threshold::Toughness(toughness)];
-    let mut tests = Vec::new();
-    for rule in rules {
-        for &cells in cells {
-            tests.push(test(cells, rule)?);
-            if !watch(tests.len()) {
-                return Ok(None);
-            }
-        }
-    }
+    let strips = rules
+        .iter()
+        .flat_map(|&rule| cells.iter().map(move |&cells| (cells, rule)));
+    let Some(tests) = side_by_side(&strips.collect::<Vec<_>>(), is_checked, &mut watch)? else {
+        return Ok(None);
+    };
     let (stretch, tough) = tests.split_at(cells.len());
     let slopes = |of: fn(&Test) -> f64| [slope(stretch, of), slope(tough, of)];
     let slopes_largest = slopes(|test| test.force_largest_n);
@@ -137,13 +144,60 @@ pub fn study(
     }))
 }
 
+/// Tears strips on all processors, the finest first, since it takes longest; results are in the order
+/// of the list.
+fn side_by_side(
+    strips: &[(u32, Threshold)],
+    is_checked: bool,
+    watch: &mut impl FnMut(usize) -> bool,
+) -> Result<Option<Vec<Test>>, StudyError> {
+    let workers = thread::available_parallelism().map_or(1, NonZero::get);
+    let mut order: Vec<usize> = (0..strips.len()).collect();
+    order.sort_by_key(|&i| strips[i].0);
+    let waiting = Mutex::new(order);
+    let (done, results) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..workers.min(strips.len()) {
+            let (waiting, done) = (&waiting, done.clone());
+            scope.spawn(move || {
+                while let Some(i) = waiting.lock().ok().and_then(|mut list| list.pop()) {
+                    let (cells, rule) = strips[i];
+                    if done.send((i, test(cells, rule, is_checked))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(done);
+        let mut tests: Vec<Option<Test>> = strips.iter().map(|_| None).collect();
+        for (count, (i, test)) in (1..).zip(&results) {
+            tests[i] = Some(test?);
+            if !watch(count) {
+                // Nobody waits for what is left: those who are at work send it into the void.
+                drop(results);
+                return Ok(None);
+            }
+        }
+        Ok(tests.into_iter().collect())
+    })
+}
+
+/// How far apart the forces of a first tear may be by two methods and two steps.
+pub const AGREEMENT: f64 = 0.05;
+
 fn conclude(stretch: &[Test], tough: &[Test], slopes: [f64; 2]) -> String {
     let forces = |tests: &[Test]| {
         let forces = tests.iter();
         let forces = forces.map(|test| format!("{:.3}", test.force_largest_n));
         forces.collect::<Vec<_>>().join(" / ")
     };
-    format!(
+    let is_checked = stretch.iter().any(|test| !test.first.is_empty());
+    let spreads = stretch.iter().chain(tough).map(|test| spread(&test.first));
+    let agree = spreads
+        .clone()
+        .filter(|&spread| spread <= AGREEMENT)
+        .count();
+    let words = format!(
         "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {} N, \
          slope {:+.2} over the edge length. By toughness it is {} N, slope {:+.2}: where forces \
          matter, use --toughness.",
@@ -151,6 +205,16 @@ fn conclude(stretch: &[Test], tough: &[Test], slopes: [f64; 2]) -> String {
         slopes[0],
         forces(tough),
         slopes[1],
+    );
+    if !is_checked {
+        return words;
+    }
+    format!(
+        "{words} At the first tear, forces by Verlet and by XPBD, each at Δt and Δt/2, are within \
+         {:.0} % of each other in {agree} of {} tests, {:.1} % apart at most.",
+        100.0 * AGREEMENT,
+        stretch.len() + tough.len(),
+        100.0 * spreads.fold(0.0, f64::max),
     )
 }
 
@@ -166,7 +230,7 @@ fn slope(tests: &[Test], of: impl Fn(&Test) -> f64) -> f64 {
 }
 
 /// Tears one strip.
-fn test(cells: u32, threshold: Threshold) -> Result<Test, StudyError> {
+fn test(cells: u32, threshold: Threshold, is_checked: bool) -> Result<Test, StudyError> {
     let (mesh, positions) = strip(cells).ok_or(StudyError::Strip)?;
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let scene = Scene {
@@ -176,35 +240,33 @@ fn test(cells: u32, threshold: Threshold) -> Result<Test, StudyError> {
         }),
         ..Scene::trouser(&frame)
     };
-    let mut run = Run::new(mesh, &positions, scene, &frame).map_err(StudyError::Run)?;
-    let depth = frame.depth.vector();
-    let every = (run.steps_planned() / SAMPLES).max(1);
+    let pulled = |scene: &Scene| {
+        let run = Run::new(mesh.clone(), &positions, scene.clone(), &frame);
+        Ok(Pulled {
+            run: run.map_err(StudyError::Run)?,
+            depth: frame.depth.vector(),
+        })
+    };
+    let first = if is_checked {
+        first::first_tears(pulled, &scene)?
+    } else {
+        Vec::new()
+    };
+    let mut pulled = pulled(&scene)?;
+    let every = (pulled.run.steps_planned() / SAMPLES).max(1);
     let (mut curve, mut forces) = (Vec::new(), Vec::new());
     // The steps of the first tear and of the last.
     let mut torn: Option<[usize; 2]> = None;
-    while !run.is_over() {
-        let splits = run.tally().splits;
-        run.step().map_err(StudyError::Step)?;
-        // Half the difference: what both clamps agree on.
-        let [left, right] = [0, 1].map(|leg| {
-            let system = run.cloth().system();
-            let held = run.held(leg).iter();
-            held.map(|v| force::reaction_n(system, v.index()).dot(&depth))
-                .sum::<f64>()
-        });
-        let force = (left - right) / 2.0;
-        forces.push(force);
-        if run.tally().splits > splits {
+    while !pulled.run.is_over() {
+        let splits = pulled.run.tally().splits;
+        forces.push(pulled.step()?);
+        if pulled.run.tally().splits > splits {
             let last = forces.len();
             torn = Some([torn.map_or(last - 1, |[first, _]| first), last]);
         }
-        if run.tally().steps % every == 0 {
-            let apart = [0, 1].map(|leg| {
-                let first = run.held(leg)[0];
-                run.cloth().positions()[first.index()].coords.dot(&depth)
-            });
+        if pulled.run.tally().steps % every == 0 {
             let recent = &forces[forces.len() - every as usize..];
-            curve.push([apart[0] - apart[1], mean(recent)]);
+            curve.push([pulled.apart_m(), mean(recent)]);
         }
     }
     let tearing = torn.map_or(&forces[..0], |[first, last]| &forces[first..last]);
@@ -219,11 +281,43 @@ fn test(cells: u32, threshold: Threshold) -> Result<Test, StudyError> {
         },
         edge_m: STRIP_M[0] / f64::from(cells),
         cells,
-        splits: run.tally().splits,
+        splits: pulled.run.tally().splits,
         force_largest_n: curve.iter().map(|[_, force]| *force).fold(0.0, f64::max),
         force_mean_n: mean(tearing),
+        first,
         curve,
     })
+}
+
+/// A strip whose legs are pulled apart.
+struct Pulled {
+    run: Run,
+    depth: Vector,
+}
+
+impl Pulled {
+    /// Takes a step; the force between the clamps then, in newtons.
+    fn step(&mut self) -> Result<f64, StudyError> {
+        self.run.step().map_err(StudyError::Step)?;
+        // Half the difference: what both clamps agree on.
+        let [left, right] = [0, 1].map(|leg| {
+            let system = self.run.cloth().system();
+            let held = self.run.held(leg).iter();
+            held.map(|v| force::reaction_n(system, v.index()).dot(&self.depth))
+                .sum::<f64>()
+        });
+        Ok((left - right) / 2.0)
+    }
+
+    /// How far the clamps are apart, in metres.
+    fn apart_m(&self) -> f64 {
+        let [left, right] = [0, 1].map(|leg| {
+            let first = self.run.held(leg)[0];
+            let at = self.run.cloth().positions()[first.index()];
+            at.coords.dot(&self.depth)
+        });
+        left - right
+    }
 }
 
 fn mean(forces: &[f64]) -> f64 {
@@ -261,7 +355,7 @@ mod tests {
     use super::*;
 
     fn whole(cells: &[u32]) -> Study {
-        let study = study(cells, |_| true).expect("no bug");
+        let study = study(cells, false, |_| true).expect("no bug");
         study.expect("nobody stopped it")
     }
 
@@ -305,7 +399,30 @@ mod tests {
     }
 
     #[test]
+    fn strips_tear_first_at_the_same_force_by_methods_that_share_no_force() {
+        let study = study(&[8, 12], true, |_| true)
+            .expect("no bug")
+            .expect("a study");
+        for test in &study.tests {
+            let [verlet, half, xpbd, fine] = test.first[..] else {
+                panic!("{:?}", test.first);
+            };
+            let by = [verlet, half, xpbd, fine].map(|tear| (tear.method, tear.force_n));
+            assert_eq!([verlet.method, xpbd.method], ["verlet", "xpbd"]);
+            assert_eq!([half.dt_s, fine.dt_s], [verlet.dt_s / 2.0; 2]);
+            assert!(spread(&test.first) < AGREEMENT, "{:?}", test.first);
+            assert!(verlet.force_n > 0.5 * test.force_mean_n, "{by:?}");
+        }
+        assert!(
+            study.conclusion.contains("in 4 of 4 tests"),
+            "{}",
+            study.conclusion
+        );
+        assert!(csv(&study).contains(",first xpbd @"));
+    }
+
+    #[test]
     fn a_study_can_be_stopped() {
-        assert!(study(&[4, 6], |_| false).expect("no bug").is_none());
+        assert!(study(&[4, 6], false, |_| false).expect("no bug").is_none());
     }
 }

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::Study;
 
-/// One line for each point of each curve, and for each test a line `largest` and one `mean`.
+/// One line for each point of each curve, and for each test a line `largest`, one `mean`, and one for
+/// each of its first tears, `first` with the method and, behind an `@`, its step in seconds.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from("rule,threshold,cells,edge_m,what,displacement_m,force_n\n");
@@ -18,6 +19,10 @@ pub fn csv(study: &Study) -> String {
         };
         line("largest", String::new(), test.force_largest_n);
         line("mean", String::new(), test.force_mean_n);
+        for first in &test.first {
+            let what = format!("first {} @{}", first.method, first.dt_s);
+            line(&what, first.displacement_m.to_string(), first.force_n);
+        }
         for [displacement, force] in &test.curve {
             line("curve", displacement.to_string(), *force);
         }

@@ -57,7 +57,10 @@ fn curves(study: &Study, panel: &Area<'_>, rule: &str, name: &str, highest: f64)
     let ends = tests().filter_map(|test| test.curve.last());
     let farthest = ends.map(|[x, _]| *x).fold(f64::MIN_POSITIVE, f64::max);
     let mut chart = ChartBuilder::on(panel)
-        .caption(format!("by {name}"), ("sans-serif", 16))
+        .caption(
+            format!("by {name}; first tear: × Verlet, ○ XPBD, at Δt and Δt/2"),
+            ("sans-serif", 14),
+        )
         .margin(8)
         .x_label_area_size(36)
         .y_label_area_size(48)
@@ -71,6 +74,12 @@ fn curves(study: &Study, panel: &Area<'_>, rule: &str, name: &str, highest: f64)
         .light_line_style(TRANSPARENT)
         .draw()?;
     for (test, colour) in tests().zip(COLOURS.iter().cycle()) {
+        let of = |method| {
+            let tears = test.first.iter().filter(move |tear| tear.method == method);
+            tears.map(|tear| (tear.displacement_m, tear.force_n))
+        };
+        chart.draw_series(of("verlet").map(|at| Cross::new(at, 4, colour.stroke_width(2))))?;
+        chart.draw_series(of("xpbd").map(|at| Circle::new(at, 5, colour)))?;
         let points = test.curve.iter().map(|[x, force]| (*x, force.max(0.0)));
         chart
             .draw_series(LineSeries::new(points, colour.stroke_width(1)))?
