@@ -195,10 +195,12 @@ pub(crate) struct Energy {
     pub(crate) drag: f64,
     pub(crate) colliders: f64,
     pub(crate) edits: f64,
-    /// The rest: what the method made, or lost where negative. Of one that projects with few sweeps
-    /// it has in it what springs hold by lengths that no force stands for.
+    /// What the method made, or lost where negative, by its own account; not said by Provot's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) method: Option<f64>,
+    /// What is left of it all, and nobody accounts for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) remainder: Option<f64>,
     /// Where the method made far more than it may: W-SIM-ENERGY.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) gain: Option<Gain>,

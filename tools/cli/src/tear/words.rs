@@ -52,8 +52,8 @@ fn has_limited(run: &Run) -> bool {
     matches!(run.quality(), Quality::Limited(limited) if limited.steps_limited > 0)
 }
 
-/// The line of the summary that says where the energy went. Of a method that projects it does not
-/// say what the method lost: its springs are longer than its forces are strong.
+/// The line of the summary that says where the energy went: what the method lost by its own account,
+/// and apart from it what nobody accounts for.
 pub(super) fn balance(run: &Run) -> String {
     let balance = run.energy_balance();
     if has_limited(run) {
@@ -69,15 +69,15 @@ pub(super) fn balance(run: &Run) -> String {
         three_digits(balance.kinetic_j + balance.elastic_j),
         three_digits(-balance.drag_j),
     );
-    let method = balance.method_j();
+    let Some(method) = balance.method_j else {
+        return words;
+    };
     let how = if method > 0.0 { "made" } else { "lost" };
-    match run.scene().solver {
-        Method::Pbd(_) | Method::Xpbd(_) => words,
-        _ => format!(
-            "{words}, {} J {how} by the method",
-            three_digits(method.abs())
-        ),
-    }
+    format!(
+        "{words}, {} J {how} by the method, {} J unaccounted for",
+        three_digits(method.abs()),
+        three_digits(balance.remainder_j())
+    )
 }
 
 /// Says that the method made energy out of nothing.
@@ -128,7 +128,8 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         drag: balance.drag_j,
         colliders: balance.colliders_j,
         edits: balance.edits_j,
-        method: said(balance.method_j()),
+        method: balance.method_j,
+        remainder: said(balance.remainder_j()),
         gain: run.gain().map(|gain| report::Gain {
             since_s: gain.since_s,
             made_j: said(gain.made_j),
