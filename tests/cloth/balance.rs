@@ -54,7 +54,7 @@ fn a_balance_begins_with_what_is_there() {
     let there = mechanical_j(&row);
     assert_eq!(now(&balance, &row).began_j, there);
     assert_eq!(now(&balance, &row).put_in_j(), there);
-    assert_eq!(now(&balance, &row).method_j(), 0.0);
+    assert_eq!(now(&balance, &row).made_j(), 0.0);
 }
 
 /// v = g/c (1 − e^−ct): gravity has worked m g x, and drag the rest. The error is of second order.
@@ -87,7 +87,7 @@ fn drag_takes_what_a_fall_does_not_keep() {
         near(balance.gravity_j, g * way, 5e-3);
         near(balance.drag_j, v * v / 2.0 - g * way, 5e-3);
         assert_eq!(balance.held_j + balance.wind_j + balance.colliders_j, 0.0);
-        balance.method_j()
+        balance.made_j()
     });
     near(errors[1], 0.0, 2e-3);
     near(errors[0] / errors[1], 4.0, 0.05);
@@ -112,7 +112,7 @@ fn a_hand_works_its_force_times_its_way() {
             let t = step as f64 * dt;
             let worked = now(&kept, &chain).held_j;
             largest = largest.max((worked - u * u * (1.0 - (omega * t).cos())).abs());
-            near(now(&kept, &chain).method_j(), 0.0, 0.01 * u * u);
+            near(now(&kept, &chain).made_j(), 0.0, 0.01 * u * u);
         }
         largest
     });
@@ -146,7 +146,7 @@ fn a_hand_that_shakes_gives_what_the_implicit_method_takes() {
         let pulled = lengths(&chain).into_iter().zip(before.1);
         let pulled: f64 = pulled.map(|(l, was)| 100.0 * (l - was).powi(2)).sum();
         method -= 0.5 * (sped + pulled);
-        near(now(&kept, &chain).method_j(), method, 1e-9);
+        near(now(&kept, &chain).made_j(), method, 1e-9);
     }
     assert!(method < -0.1, "{method}");
 }
@@ -173,7 +173,7 @@ fn lifting_works_against_gravity() {
     watch(&mut stone, &mut kept, &mut Verlet::new(), 0.01, 200);
     near(now(&kept, &stone).held_j, 3.0, 1e-12);
     near(now(&kept, &stone).gravity_j, -3.0, 1e-12);
-    near(now(&kept, &stone).method_j(), 0.0, 1e-12);
+    near(now(&kept, &stone).made_j(), 0.0, 1e-12);
 }
 
 #[test]
@@ -196,13 +196,13 @@ fn who_takes_hold_takes_motion_and_who_lets_go_gives_it() {
     let path = Path::new(way).expect("a path");
     kept.handle(&mut pair, 1, |pair| pair.grab(1, path));
     near(now(&kept, &pair).held_j, -4.5 - 12.5 + 6.0, 1e-12);
-    near(now(&kept, &pair).method_j(), 0.0, 1e-12);
+    near(now(&kept, &pair).made_j(), 0.0, 1e-12);
     kept.handle(&mut pair, 0, |pair| pair.hold(0));
     watch(&mut pair, &mut kept, &mut Verlet::new(), 0.01, 10);
     let before = now(&kept, &pair);
     kept.handle(&mut pair, 1, |pair| pair.release(1));
     near(now(&kept, &pair).held_j - before.held_j, 2.0, 1e-12);
-    near(now(&kept, &pair).method_j(), before.method_j(), 1e-12);
+    near(now(&kept, &pair).made_j(), before.made_j(), 1e-12);
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn another_gravity_counts_from_where_it_sets_in() {
     watch(&mut stone, &mut kept, &mut Verlet::new(), 0.01, 100);
     // Faster to 10 m/s, and slower to rest.
     near(now(&kept, &stone).gravity_j, 0.0, 1e-10);
-    near(now(&kept, &stone).method_j(), 0.0, 1e-10);
+    near(now(&kept, &stone).made_j(), 0.0, 1e-10);
 }
 
 /// A triangle that wind blows at squarely: v = u (1 − e^(−c A t/m)), and the wind has worked ½ m v².
@@ -247,7 +247,7 @@ fn wind_works_on_who_is_free() {
     let balance = now(&kept, system);
     near(balance.kinetic_j, 0.25 * v * v, 2e-3);
     near(balance.wind_j, 0.25 * v * v, 2e-3);
-    near(balance.method_j(), 0.0, 2e-3);
+    near(balance.made_j(), 0.0, 2e-3);
     (0..3).for_each(|v| kept.handle(system, v, |system| system.hold(v)));
     watch(system, &mut kept, &mut Verlet::new(), 4e-4, 3);
     let before = now(&kept, system);
@@ -301,7 +301,7 @@ fn an_impact_takes_motion() {
     let balance = now(&kept, &stones);
     assert!(balance.colliders_j < -1.0, "{balance:?}");
     assert!(verlet.damped_j() > 0.0);
-    near(balance.method_j(), -verlet.damped_j(), 1e-3);
+    near(balance.made_j(), -verlet.damped_j(), 1e-3);
 }
 
 /// A strained sheet in free fall: what is there before and after an edit, summed over everything.
@@ -349,7 +349,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
             1e-12,
         );
         near(
-            kept.now(cloth.system(), cloth.ledger().made_j()).method_j(),
+            kept.now(cloth.system(), cloth.ledger().made_j()).made_j(),
             0.0,
             1e-12,
         );
@@ -360,7 +360,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
     split::by_plane(&mut mesh, middle, &plane, cloth.positions(), &mut edits);
     assert!(follow(&mut cloth, &mut edits) > 0.0, "copies make energy");
     watch(cloth.system_mut(), &mut kept, &mut Verlet::new(), 1e-3, 20);
-    let before = kept.now(cloth.system(), cloth.ledger().made_j()).method_j();
+    let before = kept.now(cloth.system(), cloth.ledger().made_j()).made_j();
     let had = (
         there(&cloth),
         kept.now(cloth.system(), cloth.ledger().made_j()).edits_j,
@@ -374,7 +374,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
         1e-12,
     );
     near(
-        kept.now(cloth.system(), cloth.ledger().made_j()).method_j(),
+        kept.now(cloth.system(), cloth.ledger().made_j()).made_j(),
         before,
         1e-12,
     );
@@ -410,7 +410,7 @@ fn substeps_are_summed_one_by_one() {
     let (_, single) = play(1.0 / substeps as f64, substeps as usize);
     near(whole.drag_j, single.drag_j, 1e-9);
     near(whole.held_j, single.held_j, 1e-9);
-    near(whole.method_j(), single.method_j(), 1e-9);
+    near(whole.made_j(), single.made_j(), 1e-9);
 }
 
 #[test]
@@ -444,7 +444,7 @@ fn numerical_damping_is_what_backward_euler_is_known_for() {
     let balance = now(&kept, &swing);
     let left = 0.2 * 0.845_154_254_728_517_f64.powi(10);
     near(balance.kinetic_j + balance.elastic_j, left, 1e-9);
-    near(balance.method_j(), left - 0.2, 1e-9);
+    near(balance.made_j(), left - 0.2, 1e-9);
 }
 
 /// One spring a thousandth beyond the limit makes energy, and a twentieth below it makes none.
@@ -458,7 +458,7 @@ fn beyond_the_limit_a_spring_makes_energy() {
         let mut largest = 0.0_f64;
         for _ in 0..60 {
             watch(&mut swing, &mut kept, &mut Verlet::plain(), part * 0.2, 1);
-            largest = largest.max(now(&kept, &swing).method_j());
+            largest = largest.max(now(&kept, &swing).made_j());
         }
         let put_in = now(&kept, &swing).put_in_j();
         println!("{part}: {largest:e} of {put_in:e}");
@@ -477,7 +477,7 @@ fn check_no_gain(cells: u32, scene: fn(&Frame) -> Scene, name: &str, solver: &Me
         ..scene(frame)
     });
     let balance = run.energy_balance();
-    println!("{name} {cells}: {} J made, {balance:?}", balance.method_j());
+    println!("{name} {cells}: {} J made, {balance:?}", balance.made_j());
     assert_eq!(run.gain(), None, "{name} at {cells}");
 }
 
@@ -530,7 +530,7 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     println!("{made_j} J beside {put_in_j} J since {since_s} s: {pieces} pieces");
     assert!((1.0..1.6).contains(&since_s));
     assert!(made_j > put_in_j);
-    assert!(made_j >= run.energy_balance().method_j());
+    assert!(made_j >= run.energy_balance().made_j());
     assert!(pieces > 20);
     // A step that may be divided is, as soon as the cloth is torn; and the guards of Verlet show what
     // nature would do at the same step.

@@ -14,6 +14,7 @@ mod follow;
 mod implicit;
 mod limiter;
 mod lookout;
+mod losses;
 mod parts;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]

@@ -526,7 +526,7 @@ fn methods_say_where_their_steps_fall_short() {
             ("verlet", Quality::Guarded(guarded)) => {
                 let free = system.inverse_masses().iter().filter(|w| **w > 0.0).count();
                 assert!(10 * guarded.carried <= free, "{guarded:?} of {free}");
-                let lost = -run.energy_balance().method_j();
+                let lost = -run.energy_balance().made_j();
                 assert!(
                     (0.0..1.5 * lost).contains(&guarded.damped_j),
                     "{guarded:?} {lost}"

@@ -86,14 +86,14 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let ledger = masses.ledger();
     let moved = || session::moved(&document, &mesh, &positions);
     let broken = if slid { None } else { moved() };
-    session.verify(&mesh, &ledger, broken)?;
+    let mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
     session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
     if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
-    let ending = files::ending(vertices_before, &mesh, &ledger, &session.destination);
+    let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
 }

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use tearmesh::{Ledger, Mesh};
+use tearmesh::Mesh;
 
 use crate::args::{FileArgs, Format};
 use crate::exit::{Exit, Stop};
 use crate::output;
+use crate::report;
 use crate::say::{Fault, short};
 
 /// Where the mesh goes.
@@ -107,7 +108,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
 pub(crate) fn ending(
     vertices_before: usize,
     mesh: &Mesh,
-    ledger: &Ledger,
+    mass: report::Mass,
     destination: &Destination,
 ) -> String {
     let ending = match destination {
@@ -116,10 +117,18 @@ pub(crate) fn ending(
         Destination::File(path) => format!("wrote {}", path.display()),
     };
     format!(
-        "mass {} -> {} · vertices {vertices_before} -> {} · faces {} · invariants hold · {ending}",
-        short(ledger.before.to_f64()),
-        short(ledger.after.to_f64()),
+        "{} · vertices {vertices_before} -> {} · faces {} · invariants hold · {ending}",
+        summed(mass),
         mesh.vertex_count(),
         mesh.face_count(),
     )
+}
+
+/// What there was before and after, by the word for what it is.
+fn summed(mass: report::Mass) -> String {
+    let [before, after] = [mass.before, mass.after].map(short);
+    match mass.unit {
+        report::MassUnit::Area => format!("area {before} -> {after}"),
+        report::MassUnit::Kilogram => format!("mass {before} -> {after} kg"),
+    }
 }

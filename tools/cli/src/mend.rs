@@ -52,7 +52,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     } else {
         session::moved(&document, &mesh, &positions)
     };
-    session.verify(&mesh, &ledger, broken)?;
+    let mut mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
     session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
 
     let Simplified {
@@ -88,7 +88,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
                 // What is put back spans another area: the mass is that of what is written.
                 let masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
                 ledger.after = masses.ledger().after;
-                session.say_mass(&ledger);
+                mass = session.say_mass(&ledger, report::MassUnit::Area);
             }
             let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
             session.write(&mesh, fill, streams)?;
@@ -129,7 +129,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         words += &format!(", {} left", count(cuts_left, "cut", "cuts"));
     }
     session.words.push(words);
-    let ending = files::ending(vertices_before, &mesh, &ledger, &session.destination);
+    let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
 }

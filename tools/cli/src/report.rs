@@ -187,14 +187,20 @@ pub(crate) struct Energy {
     pub(crate) kinetic: f64,
     pub(crate) elastic: f64,
     pub(crate) gravity: f64,
-    pub(crate) held: f64,
+    /// As `method` and the numbers of `gain`, not said where Provot's limiter has worked: that grows
+    /// without bound as steps get shorter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) held: Option<f64>,
     pub(crate) wind: f64,
     pub(crate) drag: f64,
     pub(crate) colliders: f64,
     pub(crate) edits: f64,
-    /// The rest: what the method made, or lost where negative. Of one that projects with few sweeps
-    /// it has in it what springs hold by lengths that no force stands for.
-    pub(crate) method: f64,
+    /// What the method made, or lost where negative, by its own account; not said by Provot's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) method: Option<f64>,
+    /// What is left of it all, and nobody accounts for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) remainder: Option<f64>,
     /// Where the method made far more than it may: W-SIM-ENERGY.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) gain: Option<Gain>,
@@ -204,8 +210,10 @@ pub(crate) struct Energy {
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Gain {
     pub(crate) since_s: f64,
-    pub(crate) made_j: f64,
-    pub(crate) put_in_j: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) made_j: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) put_in_j: Option<f64>,
 }
 
 /// What the method says of its own steps; see [`tearmesh_cloth::scene::Quality`].
@@ -221,6 +229,7 @@ pub(crate) enum Quality {
         steps_short: u64,
         steps_infeasible: u64,
         excess_max: f64,
+        steps_limited: u64,
     },
     StrainRms(f64),
     ResidualN(f64),
@@ -328,10 +337,23 @@ fn numbers(v: Vector) -> [f64; 3] {
     [v.x + 0.0, v.y + 0.0, v.z + 0.0]
 }
 
+/// The sum over all vertices.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Mass {
     pub(crate) before: f64,
     pub(crate) after: f64,
+    pub(crate) unit: MassUnit,
+}
+
+/// What vertices are weighed in.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) enum MassUnit {
+    /// No density was given: the mass is the area of the faces, in squares of the file's unit of
+    /// length.
+    #[serde(rename = "area")]
+    Area,
+    #[serde(rename = "kg")]
+    Kilogram,
 }
 
 #[derive(Debug, Default, Serialize)]

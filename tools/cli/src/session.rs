@@ -132,18 +132,20 @@ impl<'a> Session<'a> {
         &mut self,
         mesh: &Mesh,
         ledger: &Ledger,
+        unit: report::MassUnit,
         broken: Option<String>,
-    ) -> Result<(), Stop> {
-        let (before, after) = self.say_mass(ledger);
+    ) -> Result<report::Mass, Stop> {
+        let mass = self.say_mass(ledger, unit);
         self.report.invariants.checked = true;
         let violations = &mut self.report.invariants.violations;
         violations.extend(mesh.check().iter().map(ToString::to_string));
         violations.extend(broken);
         if !ledger.is_balanced() {
+            let report::Mass { before, after, .. } = mass;
             violations.push(format!("I20 (mass): {before:e} became {after:e}"));
         }
         if violations.is_empty() {
-            Ok(())
+            Ok(mass)
         } else {
             Err(Stop {
                 exit: Exit::Bug,
@@ -153,10 +155,15 @@ impl<'a> Session<'a> {
     }
 
     /// Notes the mass before and after for the report, and gives both.
-    pub(crate) fn say_mass(&mut self, ledger: &Ledger) -> (f64, f64) {
+    pub(crate) fn say_mass(&mut self, ledger: &Ledger, unit: report::MassUnit) -> report::Mass {
         let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
-        self.report.mass = Some(report::Mass { before, after });
-        (before, after)
+        let mass = report::Mass {
+            before,
+            after,
+            unit,
+        };
+        self.report.mass = Some(mass);
+        mass
     }
 
     /// Says that there was nothing to do, and so nothing was written; warnings have said why.

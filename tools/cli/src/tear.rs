@@ -154,7 +154,9 @@ impl Play<'_> {
 
         let clock = Clock::start();
         let ledger = run.cloth().masses().ledger();
-        session.verify(run.mesh(), &ledger, words::momentum_broken(&run))?;
+        let unit = report::MassUnit::Kilogram;
+        let broken = words::momentum_broken(&run);
+        let mass = session.verify(run.mesh(), &ledger, unit, broken)?;
         session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
 
         let pieces = run.mesh().components().count();
@@ -211,7 +213,7 @@ impl Play<'_> {
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
         let mesh = run.mesh();
-        let ending = files::ending(vertices_before, mesh, &ledger, &session.destination);
+        let ending = files::ending(vertices_before, mesh, mass, &session.destination);
         session.words.push(ending);
         self.show(frames, &run, &torn, session)
     }

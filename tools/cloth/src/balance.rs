@@ -1,10 +1,11 @@
 //! The balance of energy: where a system's energy came from, where it went, and what is left over.
 //!
 //! Motion and strain hold energy; gravity, wind, drag, colliders, edits and those who hold and lead
-//! particles give or take some. What remains when all of them are counted is what the *method* made
-//! or lost. A method that damps loses some, and says so here; one that makes energy out of nothing
-//! shatters what it should tear, and nothing else shows it: lengths stay finite, and each step is
-//! below its stability limit.
+//! particles give or take some, and so does the *method*. One that damps loses some; one that makes
+//! energy out of nothing shatters what it should tear, and nothing else shows it: lengths stay
+//! finite, and each step is below its stability limit. Each method says itself what it made, by the
+//! forces and ways of its steps ([`loss`](crate::loss)), and so what is left when all are counted is a
+//! [remainder](EnergyBalance::remainder_j) that nobody is to blame for.
 //!
 //! A [`Balance`] is kept outside of the system, by whoever wants one, and sees each step before and
 //! after ([`System::step_observed`]). Each part is exact or nearly so:
@@ -18,6 +19,7 @@
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
 //! | edits | [`EnergyLedger`](crate::EnergyLedger) | nothing |
+//! | the method | what its forces did on the way of particles, and what that stored | a pass over constraints and a few over particles each |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
@@ -26,7 +28,7 @@
 //!
 //! Particles that are held have no kinetic energy, and wind and drag on them do no work: whoever
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
-//! are added, cut or made stiffer, count as the method's.
+//! are added, cut or made stiffer, stay in the remainder.
 
 use tearmesh::geometry::{Vector, dot};
 
@@ -56,7 +58,8 @@ pub(crate) const WIND_S: f64 = 1e-3;
 /// let balance = balance.now(&stone, 0.0);
 /// assert!((balance.kinetic_j - 50.0).abs() < 1e-9);
 /// assert!((balance.gravity_j - 50.0).abs() < 1e-9);
-/// assert!(balance.method_j().abs() < 1e-9);
+/// assert!(balance.method_j.unwrap().abs() < 1e-9);
+/// assert!(balance.remainder_j().abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,6 +83,11 @@ pub struct EnergyBalance {
     pub colliders_j: f64,
     /// What edits made: tears and cuts.
     pub edits_j: f64,
+    /// What the method itself made, or took where negative: numerical damping. Each computes it from
+    /// its own steps, and none takes it for the rest of a sum. `None` where it does not say:
+    /// [`Provot`](crate::Provot), whose limiter works without bound as steps get shorter, and methods
+    /// from outside this crate.
+    pub method_j: Option<f64>,
 }
 
 impl EnergyBalance {
@@ -92,11 +100,17 @@ impl EnergyBalance {
         parts.fold(self.began_j, |sum, part| sum + part.max(0.0))
     }
 
-    /// What the method made, or lost where negative: the rest, in joules. Lost is numerical
-    /// damping; made is an error, beyond the few per cent by which the energy of an explicit method
-    /// swings.
+    /// What is there and nobody accounts for, or is missing where negative: the rest, in joules.
     #[must_use]
-    pub fn method_j(&self) -> f64 {
+    pub fn remainder_j(&self) -> f64 {
+        self.made_j() - self.method_j.unwrap_or(0.0)
+    }
+
+    /// What nothing outside put in or took, in joules: what the method made, as it says itself, and
+    /// the remainder. Beyond the few per cent by which the energy of an explicit method swings, what
+    /// is made is an error.
+    #[must_use]
+    pub fn made_j(&self) -> f64 {
         let worked = self.gravity_j + self.held_j + self.wind_j + self.drag_j;
         let given = self.began_j + worked + self.colliders_j + self.edits_j;
         self.kinetic_j + self.elastic_j - given
@@ -131,6 +145,10 @@ struct Account {
     held_j: f64,
     wind_j: f64,
     drag_j: f64,
+    /// What methods said that they made, with what they took from wind.
+    made_j: f64,
+    /// Whether some step did not say what the method made.
+    is_silent: bool,
     wind: Sampled,
 }
 
@@ -162,22 +180,24 @@ impl Balance {
         let sums = self.account;
         let unsampled_j = sums.wind.watts.unwrap_or(0.0) * sums.wind.since_s;
         let gravity_j = sums.gravity_j + (self.potential_j - energy::potential_j(system));
+        let wind_j = sums.wind_j + unsampled_j;
         EnergyBalance {
             began_j: self.began_j,
             kinetic_j: energy::kinetic_j(system),
             elastic_j: energy::elastic_j(system),
             gravity_j,
             held_j: sums.held_j,
-            wind_j: sums.wind_j + unsampled_j,
+            wind_j,
             drag_j: sums.drag_j,
             colliders_j: system.contact_j.unwrap_or(0.0) - self.contact_began_j,
             edits_j,
+            method_j: (!sums.is_silent).then_some(sums.made_j - wind_j),
         }
     }
 
     /// Does something to one particle on behalf of those who hold it, and notes what that took: by
-    /// [`System::hold`], [`System::grab`] or [`System::release`]. What is done without this counts as
-    /// the method's.
+    /// [`System::hold`], [`System::grab`] or [`System::release`]. What is done without this stays in
+    /// the remainder.
     pub fn handle(
         &mut self,
         system: &mut System,
@@ -208,6 +228,10 @@ impl Balance {
 }
 
 impl Observer for Balance {
+    fn meters(&self) -> bool {
+        true
+    }
+
     fn before(&mut self, system: &System) {
         if self.changes != system.changes {
             self.kinetic_j = None;
@@ -231,6 +255,8 @@ impl Observer for Balance {
 
     fn after(&mut self, system: &System, substep: Substep) {
         let dt_s = substep.dt_s;
+        self.account.made_j += substep.made_j.unwrap_or(0.0);
+        self.account.is_silent |= substep.made_j.is_none();
         let drag_per_s = system.model.drag_per_s();
         if drag_per_s > 0.0 {
             let now_j = energy::free_kinetic_j(system);

@@ -29,6 +29,8 @@
 
 use std::ops::{AddAssign, Mul};
 
+use tearmesh::geometry::{Vector, dot};
+
 /// The stiffness of a net of springs, as far as masses are concerned.
 pub(crate) trait Net {
     /// The neighbours of a particle with the stiffness between, in N/m.
@@ -137,6 +139,33 @@ impl Carry {
     /// Whether no two of them are neighbours, so that stability is proven.
     pub(crate) fn is_proven(&self) -> bool {
         self.is_proven
+    }
+
+    /// u M′w over the particles that are not held. Only where something is carried.
+    pub(crate) fn product(&self, u: &[Vector], w: &[Vector]) -> f64 {
+        let all = u.iter().zip(w).zip(&self.inverse);
+        let mut sum = all.fold(0.0, |sum, ((&u, &w), &inverse)| {
+            sum + if inverse > 0.0 {
+                dot(u, w) / inverse
+            } else {
+                0.0
+            }
+        });
+        let mut first = 0;
+        for star in &self.stars {
+            let particle = star.particle as usize;
+            let legs = &self.legs[first..star.legs as usize];
+            let against = |u: &[Vector]| {
+                let free = legs.iter().filter(|leg| self.inverse[leg.0 as usize] > 0.0);
+                free.fold(u[particle], |sum, &(other, share)| {
+                    sum - u[other as usize] * share
+                })
+            };
+            let more = dot(against(u), against(w)) - dot(u[particle], w[particle]);
+            sum += more / self.inverse[particle];
+            first = star.legs as usize;
+        }
+        sum
     }
 
     /// Makes accelerations of forces: M′⁻¹ f. Only where something is carried.

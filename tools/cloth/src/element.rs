@@ -40,7 +40,13 @@ pub(crate) trait Element {
     ) -> bool;
 
     /// Adds the forces on one particle, by what the last step left behind where it did.
-    fn force_at(&self, x: &[Point], particle: usize, read: Forces, sum: &mut Vector);
+    fn force_at(
+        &self,
+        x: &[Point],
+        particle: usize,
+        read: &dyn Fn([usize; 2]) -> Forces,
+        sum: &mut Vector,
+    );
 
     /// Whether none is longer than `ratio_max` times its rest length, or not a number: what
     /// [`forces`](Element::forces) says.

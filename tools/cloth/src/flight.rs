@@ -132,7 +132,9 @@ pub(crate) fn finish(system: &mut System, dt_s: f64) {
 /// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody
 /// asks for velocities in between.
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
-    if system.model.loads.wind.is_some() || !system.model.loads.colliders.is_empty() {
+    let model = &system.model;
+    let asks = system.scratch.is_metered || model.loads.wind.is_some();
+    if asks || !model.loads.colliders.is_empty() {
         finish(system, dt_s);
         contact::push_out(system);
         predict(system, dt_s);

@@ -31,7 +31,8 @@ pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
 /// The force in a stretch constraint by the method of the last step, in newtons; tension is
 /// positive. By the length for methods with physical stiffness and before any step
 /// ([`tension_n`]), by the multiplier for those that project ([`System::multiplier_n`]), and the sum
-/// of both where a limiter helped the springs.
+/// of both where a limiter helped the springs. By the length, too, between two that are held where
+/// the method is rigid ([`Pbd`]): it moves neither, and has no multiplier.
 ///
 /// # Panics
 ///
@@ -39,10 +40,10 @@ pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
 #[must_use]
 pub fn force_n(system: &System, id: ConstraintId) -> f64 {
     let by_multiplier = system.multiplier_n(id);
-    system
+    let read = system
         .model
-        .forces
-        .read(|| tension_n(system, id), by_multiplier)
+        .forces_between(system.model.stretch.get(id).ends);
+    read.read(|| tension_n(system, id), by_multiplier)
 }
 
 /// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum of
@@ -121,7 +122,8 @@ pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
     let model = &system.model;
     let mut sum = model.gravity() * model.masses[particle];
     for kind in &model.kinds() {
-        kind.force_at(&system.positions, particle, model.forces, &mut sum);
+        let read = |ends| model.forces_between(ends);
+        kind.force_at(&system.positions, particle, &read, &mut sum);
     }
     sum
 }

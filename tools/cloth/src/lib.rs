@@ -59,6 +59,7 @@ pub mod implicit;
 mod incidence;
 mod load;
 mod lookout;
+mod loss;
 mod material;
 mod matrix;
 mod moment;

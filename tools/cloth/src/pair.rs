@@ -158,7 +158,13 @@ impl<L: Law> Element for Pairs<'_, L> {
         sane
     }
 
-    fn force_at(&self, x: &[Point], particle: usize, read: Forces, sum: &mut Vector) {
+    fn force_at(
+        &self,
+        x: &[Point],
+        particle: usize,
+        read: &dyn Fn([usize; 2]) -> Forces,
+        sum: &mut Vector,
+    ) {
         for id in self.constraints.of(particle) {
             let constraint = self.constraints.get(id);
             let [a, b] = constraint.ends;
@@ -168,7 +174,7 @@ impl<L: Law> Element for Pairs<'_, L> {
                 let link = self.link(&constraint);
                 let by_length = || link.map_or(0.0, |link| link.force(length));
                 let by_multiplier = -self.constraints.memory(id).multiplier;
-                *sum += d * (read.read(by_length, by_multiplier) / length);
+                *sum += d * (read([a, b]).read(by_length, by_multiplier) / length);
             }
         }
     }

@@ -11,6 +11,7 @@
 
 use crate::element::Forces;
 use crate::flight::{finish, force_scale, predict};
+use crate::loss;
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
@@ -98,6 +99,8 @@ impl Solver for Pbd {
                 }
             }
         }
+        loss::note_projected(system, dt_s);
+        let model = &mut system.model;
         model.scale_multipliers(force_scale(model, dt_s));
         model.forces = Forces::Rigid;
         finish(system, dt_s);

@@ -52,6 +52,8 @@ pub struct LimiterReport {
     pub passes: u32,
     /// The largest stretch ratio before: what a tear threshold is held against.
     pub stretch_ratio_before: f64,
+    /// Whether that was above the limit, and so ends were moved.
+    pub has_shortened: bool,
     /// What the largest stretch ratio still has above the limit.
     pub excess: f64,
     /// Whether the passes ran out and the last one took less than a hundredth of
@@ -123,10 +125,11 @@ impl Provot {
             }
             if report.passes == 0 {
                 report.stretch_ratio_before = largest;
+                report.has_shortened = largest > ratio_max;
             }
             report.passes += 1;
         }
-        if limiter.rewrites_velocities && report.stretch_ratio_before > ratio_max {
+        if limiter.rewrites_velocities && report.has_shortened {
             let moved = positions.iter().zip(&scratch.before);
             for (v, (x, before)) in velocities.iter_mut().zip(moved) {
                 *v += (x - before) / dt_s;

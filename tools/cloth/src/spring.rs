@@ -140,7 +140,8 @@ pub(crate) fn project_compliant<const IS_FIRST: bool>(
         let compliance = scale * compliance;
         // −Δλ / l: one division for both.
         let change = (length - rest + compliance * before) / ((w + compliance) * length);
-        let change = if w > 0.0 && length > 0.0 { change } else { 0.0 };
+        // Between two that are held it moves nothing, and is the force of the spring.
+        let change = if length > 0.0 { change } else { 0.0 };
         *multiplier = before - change * length;
         change
     };
@@ -361,8 +362,8 @@ mod tests {
                 let error = length - pairs.rest[i] + compliance * before;
                 let change = error / ((w + compliance) * length);
                 pairs.move_one(i, change, &mut expected);
-                let moves = w > 0.0 && length > 0.0;
-                expected_multipliers.push(before - if moves { change * length } else { 0.0 });
+                let pulls = length > 0.0;
+                expected_multipliers.push(before - if pulls { change * length } else { 0.0 });
             }
             let mut positions = pairs.positions.clone();
             let (batch, w) = (pairs.batch(), &pairs.inverse_masses);

@@ -20,6 +20,12 @@ pub trait Observer {
     /// It was taken.
     fn after(&mut self, system: &System, substep: Substep);
 
+    /// Whether methods are to compute what they themselves make of energy
+    /// ([`Substep::made_j`]), which costs about a pass over constraints.
+    fn meters(&self) -> bool {
+        false
+    }
+
     /// The step that these substeps were of has ended. Where it was not taken, all that was seen of
     /// it is void: the system is where the step began.
     fn ended(&mut self, is_taken: bool);
@@ -42,6 +48,9 @@ pub struct Substep {
     /// Whether the method moved particles by the forces at its end, as those do that have no stability
     /// limit.
     pub moves_at_end: bool,
+    /// What the method itself made of energy in it, or took where negative, in joules; with what it
+    /// took from wind. `None` where the method does not say, or [nobody asked](Observer::meters).
+    pub made_j: Option<f64>,
 }
 
 impl System {
@@ -84,6 +93,7 @@ impl System {
         let substep = Substep {
             dt_s: dt_s / f64::from(report.substeps),
             moves_at_end: solver.abilities().frequency_limit.is_none(),
+            made_j: None,
         };
         let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
@@ -131,10 +141,13 @@ fn advance(
     system.counters.substeps += 1;
     system.drive(substep.dt_s);
     observer.before(system);
+    system.scratch.is_metered = observer.meters();
+    system.scratch.made_j = None;
     solver.advance(system, substep.dt_s)?;
     contact::push_out(system);
     Failure::unless(is_finite(system))?;
-    observer.after(system, substep);
+    let made_j = system.scratch.made_j;
+    observer.after(system, Substep { made_j, ..substep });
     system.elapsed_s += substep.dt_s;
     system.moment = Moment::After(system.counters.substeps);
     Ok(())

@@ -81,6 +81,12 @@ pub(crate) struct Scratch {
     pub(crate) is_fresh: bool,
     /// The step in seconds whose carried and crushed particles are in them; zero without any.
     pub(crate) guarded_s: f64,
+    /// Whether someone asks what the method itself makes of energy in this step.
+    pub(crate) is_metered: bool,
+    /// What it made so far, in joules, with what it took from air; `None` unless it says.
+    pub(crate) made_j: Option<f64>,
+    /// The elastic energy that a step left, where someone asked.
+    pub(crate) elastic: Option<Elastic>,
     /// The part of a step's limit that wind takes in a second, as a step found it.
     pub(crate) air_per_s: f64,
     /// Where the step began: the last good state.
@@ -92,6 +98,16 @@ pub(crate) struct Scratch {
     pub(crate) foreseen: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
+}
+
+/// The elastic energy that a substep left.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Elastic {
+    pub(crate) joules: f64,
+    /// Its number.
+    pub(crate) substep: u64,
+    /// How often the state was changed before, but by a step.
+    pub(crate) changes: u64,
 }
 
 /// What to do with a step beyond the stability limit of an explicit method.
@@ -251,6 +267,7 @@ impl System {
         );
         self.model.buckling = buckling;
         self.scratch.is_fresh = false;
+        self.changes += 1;
         self.spectrum.forget();
         self.guard.forget();
     }

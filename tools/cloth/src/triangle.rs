@@ -432,7 +432,13 @@ impl Element for Triangles {
         sane
     }
 
-    fn force_at(&self, x: &[Point], particle: usize, _read: Forces, sum: &mut Vector) {
+    fn force_at(
+        &self,
+        x: &[Point],
+        particle: usize,
+        _read: &dyn Fn([usize; 2]) -> Forces,
+        sum: &mut Vector,
+    ) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
             *sum += t.forces(t.corners(x))[corner];

@@ -55,6 +55,7 @@ use tearmesh::geometry::Vector;
 
 use crate::crush::Crush;
 use crate::flight::{accelerate, fly, foresee, kick};
+use crate::loss::Account;
 use crate::solver::{Abilities, Failure, Solver};
 use crate::stability::{carried_count, weigh_for};
 use crate::system::{Scratch, System};
@@ -159,7 +160,11 @@ impl Solver for Verlet {
             weigh_for(system, dt_s);
         }
         let mut sane = self.is_fresh(system, dt_s) || self.accelerate(system, false, dt_s).0;
+        let mut account = Account::open(system, dt_s);
         fly(system, half_s, dt_s);
+        if let Some(account) = &mut account {
+            account.fly(system);
+        }
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
         // as without wind. (Those of the middle err by O(Δt).)
@@ -169,10 +174,16 @@ impl Solver for Verlet {
         }
         let (is_sane, damped_j) = self.accelerate(system, blows, dt_s);
         sane &= is_sane;
+        if let Some(account) = &mut account {
+            account.fly(system);
+        }
         kick(system, half_s);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
         Failure::unless(sane)?;
         self.damped_j += damped_j;
+        if let Some(account) = account {
+            account.close(system);
+        }
         Ok(())
     }
 }

@@ -20,6 +20,7 @@ use tearmesh::geometry::{Vector, dot};
 use crate::constraint::Constraint;
 use crate::element::Forces;
 use crate::flight::{finish, finish_and_predict, force_scale, predict};
+use crate::loss;
 use crate::pair::{Law, Link};
 use crate::solver::{Abilities, Failure, Solver};
 use crate::spring::{self, Hooke};
@@ -132,7 +133,9 @@ impl Solver for Xpbd {
             if substep > 0 {
                 finish_and_predict(system, substep_s);
             }
-            self.sweep(system, substep_s)
+            let is_sane = self.sweep(system, substep_s);
+            loss::note_projected(system, substep_s);
+            is_sane
         });
         Failure::unless(sane)?;
         finish(system, substep_s);

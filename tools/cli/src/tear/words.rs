@@ -46,37 +46,51 @@ pub(super) fn stable_step(stability: Shortened) -> report::StableStep {
     }
 }
 
-/// The line of the summary that says where the energy went. Of a method that projects it does not
-/// say what the method lost: its springs are longer than its forces are strong.
+/// Whether Provot's limiter has worked. Its work grows without bound as steps get shorter, on what is
+/// held as well: joules that it has a part in say nothing of the cloth.
+fn has_limited(run: &Run) -> bool {
+    matches!(run.quality(), Quality::Limited(limited) if limited.steps_limited > 0)
+}
+
+/// The line of the summary that says where the energy went: what the method lost by its own account,
+/// and apart from it what nobody accounts for.
 pub(super) fn balance(run: &Run) -> String {
     let balance = run.energy_balance();
+    if has_limited(run) {
+        return format!(
+            "energy: {} J there; not said what was put in and lost, as the limiter works without \
+             bound the shorter the steps",
+            three_digits(balance.kinetic_j + balance.elastic_j)
+        );
+    }
     let words = format!(
         "energy: {} J put in, {} J there, {} J lost to drag",
         three_digits(balance.put_in_j()),
         three_digits(balance.kinetic_j + balance.elastic_j),
         three_digits(-balance.drag_j),
     );
-    let method = balance.method_j();
+    let Some(method) = balance.method_j else {
+        return words;
+    };
     let how = if method > 0.0 { "made" } else { "lost" };
-    match run.scene().solver {
-        Method::Pbd(_) | Method::Xpbd(_) => words,
-        _ => format!(
-            "{words}, {} J {how} by the method",
-            three_digits(method.abs())
-        ),
-    }
+    format!(
+        "{words}, {} J {how} by the method, {} J unaccounted for",
+        three_digits(method.abs()),
+        three_digits(balance.remainder_j())
+    )
 }
 
 /// Says that the method made energy out of nothing.
 pub(super) fn gain(run: &Run) -> Option<Fault> {
     let gain = run.gain()?;
-    let message = format!(
-        "the method made {} J out of nothing, from {} s on, where {} J were put in: what tore since \
-         tore by that as well",
-        three_digits(gain.made_j),
-        short(gain.since_s),
-        three_digits(gain.put_in_j),
-    );
+    let since = short(gain.since_s);
+    let much = if has_limited(run) {
+        format!("energy out of nothing, from {since} s on")
+    } else {
+        let [made, put_in] = [gain.made_j, gain.put_in_j].map(three_digits);
+        format!("{made} J out of nothing, from {since} s on, where {put_in} J were put in")
+    };
+    let message = format!("the method made {much}: what tore since tore by that as well");
     let others = match run.scene().solver {
         Method::Verlet => "--solver implicit",
         Method::Implicit(_) => "--solver verlet",
@@ -99,6 +113,7 @@ pub(super) fn momentum_broken(run: &Run) -> Option<String> {
 pub(super) fn energy(run: &Run) -> report::Energy {
     let ledger = run.cloth().ledger();
     let balance = run.energy_balance();
+    let said = |joules: f64| Some(joules).filter(|_| !has_limited(run));
     report::Energy {
         split_elastic: ledger.split_elastic_j,
         insert_elastic: ledger.insert_elastic_j,
@@ -108,16 +123,17 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         kinetic: balance.kinetic_j,
         elastic: balance.elastic_j,
         gravity: balance.gravity_j,
-        held: balance.held_j,
+        held: said(balance.held_j),
         wind: balance.wind_j,
         drag: balance.drag_j,
         colliders: balance.colliders_j,
         edits: balance.edits_j,
-        method: balance.method_j(),
+        method: balance.method_j,
+        remainder: said(balance.remainder_j()),
         gain: run.gain().map(|gain| report::Gain {
             since_s: gain.since_s,
-            made_j: gain.made_j,
-            put_in_j: gain.put_in_j,
+            made_j: said(gain.made_j),
+            put_in_j: said(gain.put_in_j),
         }),
     }
 }
@@ -133,6 +149,7 @@ pub(super) fn quality(run: &Run) -> Option<report::Quality> {
             steps_short: limited.steps_short,
             steps_infeasible: limited.steps_infeasible,
             excess_max: limited.excess_max,
+            steps_limited: limited.steps_limited,
         }),
         Quality::Strain(rms) => Some(report::Quality::StrainRms(rms)),
         Quality::Residual(newtons) => Some(report::Quality::ResidualN(newtons)),

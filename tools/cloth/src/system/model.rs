@@ -288,6 +288,16 @@ impl Model {
         }
     }
 
+    /// Where the force between two particles is to be read. A rigid method has no multiplier for what
+    /// it cannot move: of that, the length alone tells.
+    pub(crate) fn forces_between(&self, ends: [usize; 2]) -> Forces {
+        let is_free = |end: usize| self.inverse_masses[end] > 0.0;
+        match self.forces {
+            Forces::Rigid if !ends.into_iter().any(is_free) => Forces::Lengths,
+            forces => forces,
+        }
+    }
+
     /// Forgets what the last step left behind in constraints.
     pub(crate) fn forget(&mut self) {
         self.forces = Forces::Lengths;

@@ -75,7 +75,7 @@ impl Watch {
         } else {
             balance.elastic_j
         };
-        let made_j = balance.method_j() - lengths_j;
+        let made_j = balance.made_j() - lengths_j;
         let put_in_j = balance.put_in_j();
         let is_beyond = made_j > Watch::SHARE * put_in_j + self.least_j;
         match &mut self.gain {

@@ -43,6 +43,8 @@ pub struct Limited {
     pub steps_infeasible: u64,
     /// What the largest stretch ratio had above the limit, at most.
     pub excess_max: f64,
+    /// The steps (or substeps) in which some edge was longer than the limit, and was shortened.
+    pub steps_limited: u64,
 }
 
 /// What the implicit method did in all steps.
@@ -68,6 +70,7 @@ pub struct Solved {
 impl Limited {
     pub(super) fn note(&mut self, report: &LimiterReport) {
         self.passes += u64::from(report.passes);
+        self.steps_limited += u64::from(report.has_shortened);
         // Rounding leaves some 1e-14 of an edge that was shortened to the limit.
         self.steps_short += u64::from(report.excess > 1e-9);
         self.steps_infeasible += u64::from(report.is_infeasible);
