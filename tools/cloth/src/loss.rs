@@ -56,14 +56,18 @@ pub(crate) struct Account {
 }
 
 impl Account {
-    /// Opens it, where someone asks: accelerations are those of now.
-    pub(crate) fn open(system: &System, dt_s: f64) -> Option<Account> {
+    /// Opens it, where someone asks: accelerations are those of now, and of the end of the last step
+    /// where they are fresh.
+    pub(crate) fn open(system: &System, is_fresh: bool, dt_s: f64) -> Option<Account> {
         system.scratch.is_metered.then(|| {
             let elastic_j = elastic_before_j(system, &system.positions);
             let hand_j = half_of_hands_j(system, dt_s);
+            let kept = left(system).and_then(|kept| kept.swing);
+            let kept = kept.filter(|&(of_s, _)| is_fresh && of_s == dt_s);
+            let swung_j = kept.map_or_else(|| swing_j(system, dt_s), |(_, swung_j)| swung_j);
             Account {
                 dt_s,
-                made_j: hand_j - elastic_j - swing_j(system, dt_s),
+                made_j: hand_j - elastic_j - swung_j,
             }
         })
     }
@@ -103,19 +107,27 @@ impl Account {
     /// Closes it, when the step is taken, and notes what was made.
     pub(crate) fn close(self, system: &mut System) {
         let elastic_j = elastic_after_j(system);
-        let end_j = elastic_j + half_of_hands_j(system, self.dt_s) + swing_j(system, self.dt_s);
+        let swung_j = swing_j(system, self.dt_s);
+        if let Some(kept) = &mut system.scratch.elastic {
+            kept.swing = Some((self.dt_s, swung_j));
+        }
+        let end_j = elastic_j + half_of_hands_j(system, self.dt_s) + swung_j;
         note(system, self.made_j + end_j);
     }
 }
 
 /// The elastic energy where a step begins: as the last one left it, unless something has changed since.
 fn elastic_before_j(system: &System, x: &[Point]) -> f64 {
+    left(system).map_or_else(|| system.model.elastic_j(x), |kept| kept.joules)
+}
+
+/// What the last step left, unless something has changed since.
+fn left(system: &System) -> Option<Elastic> {
     let is_left = |kept: &Elastic| {
         let last = system.counters.substeps - kept.substep <= 1;
         last && kept.changes == system.changes && system.model.loads.colliders.is_empty()
     };
-    let kept = system.scratch.elastic.filter(is_left);
-    kept.map_or_else(|| system.model.elastic_j(x), |kept| kept.joules)
+    system.scratch.elastic.filter(is_left)
 }
 
 /// The elastic energy where a step ends, kept for the next.
@@ -123,6 +135,7 @@ fn elastic_after_j(system: &mut System) -> f64 {
     let joules = system.model.elastic_j(&system.positions);
     system.scratch.elastic = Some(Elastic {
         joules,
+        swing: None,
         substep: system.counters.substeps,
         changes: system.changes,
     });

@@ -104,7 +104,9 @@ pub(crate) struct Scratch {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Elastic {
     pub(crate) joules: f64,
-    /// Its number.
+    /// Of Verlet the swing against its shadow as well, for steps of so many seconds.
+    pub(crate) swing: Option<(f64, f64)>,
+    /// The number of the substep.
     pub(crate) substep: u64,
     /// How often the state was changed before, but by a step.
     pub(crate) changes: u64,

@@ -159,8 +159,9 @@ impl Solver for Verlet {
         if !self.is_plain {
             weigh_for(system, dt_s);
         }
-        let mut sane = self.is_fresh(system, dt_s) || self.accelerate(system, false, dt_s).0;
-        let mut account = Account::open(system, dt_s);
+        let is_fresh = self.is_fresh(system, dt_s);
+        let mut sane = is_fresh || self.accelerate(system, false, dt_s).0;
+        let mut account = Account::open(system, is_fresh, dt_s);
         fly(system, half_s, dt_s);
         if let Some(account) = &mut account {
             account.fly(system);

@@ -12,10 +12,12 @@
 
 mod csv;
 mod first;
+mod pulled;
 mod svg;
 
 pub use self::csv::csv;
 pub use self::first::{FirstTear, spread};
+pub use self::pulled::StudyError;
 pub use self::svg::svg;
 
 use std::num::NonZero;
@@ -23,9 +25,11 @@ use std::sync::{Mutex, mpsc};
 use std::thread;
 
 use serde::Serialize;
-use tearmesh::{Mesh, Point, Positions, Vector};
-use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene};
-use tearmesh_cloth::{StepError, Tearing, Threshold, force};
+use tearmesh::{Mesh, Point, Positions};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh_cloth::{Tearing, Threshold};
+
+use self::pulled::{Pulled, mean};
 
 /// Width and height of the strip, in metres.
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];
@@ -82,30 +86,6 @@ pub struct Test {
     /// The distance between the clamps in metres, and the force in newtons.
     pub curve: Vec<[f64; 2]>,
 }
-
-/// Why an experiment could not be made: our bug, as its inputs are fixed.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum StudyError {
-    /// The scene was refused.
-    Run(RunError),
-    /// A step failed.
-    Step(StepError),
-    /// The strip was refused.
-    Strip,
-}
-
-impl std::fmt::Display for StudyError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            StudyError::Run(error) => error.fmt(f),
-            StudyError::Step(error) => error.fmt(f),
-            StudyError::Strip => f.write_str("the strip is no mesh"),
-        }
-    }
-}
-
-impl std::error::Error for StudyError {}
 
 /// Tears strips with so many cells across, at least two numbers; with `is_checked` each also for its first
 /// tear by two methods and two steps, which takes four times as long. `watch` hears of each test that
@@ -287,41 +267,6 @@ fn test(cells: u32, threshold: Threshold, is_checked: bool) -> Result<Test, Stud
         first,
         curve,
     })
-}
-
-/// A strip whose legs are pulled apart.
-struct Pulled {
-    run: Run,
-    depth: Vector,
-}
-
-impl Pulled {
-    /// Takes a step; the force between the clamps then, in newtons.
-    fn step(&mut self) -> Result<f64, StudyError> {
-        self.run.step().map_err(StudyError::Step)?;
-        // Half the difference: what both clamps agree on.
-        let [left, right] = [0, 1].map(|leg| {
-            let system = self.run.cloth().system();
-            let held = self.run.held(leg).iter();
-            held.map(|v| force::reaction_n(system, v.index()).dot(&self.depth))
-                .sum::<f64>()
-        });
-        Ok((left - right) / 2.0)
-    }
-
-    /// How far the clamps are apart, in metres.
-    fn apart_m(&self) -> f64 {
-        let [left, right] = [0, 1].map(|leg| {
-            let first = self.run.held(leg)[0];
-            let at = self.run.cloth().positions()[first.index()];
-            at.coords.dot(&self.depth)
-        });
-        left - right
-    }
-}
-
-fn mean(forces: &[f64]) -> f64 {
-    forces.iter().sum::<f64>() / forces.len().max(1) as f64
 }
 
 /// A strip whose diagonals lie in turn; cells are square.

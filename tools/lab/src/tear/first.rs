@@ -9,7 +9,7 @@ use serde::Serialize;
 use tearmesh_cloth::Xpbd;
 use tearmesh_cloth::scene::{Method, Scene};
 
-use super::{Pulled, StudyError};
+use super::pulled::{Pulled, StudyError, mean};
 
 /// Where a strip tore first.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -61,7 +61,7 @@ pub(super) fn first_tears(
                         method,
                         dt_s,
                         displacement_m: pulled.apart_m(),
-                        force_n: super::mean(recent),
+                        force_n: mean(recent),
                     });
                     break;
                 }
