@@ -32,7 +32,7 @@ pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
 /// positive. By the length for methods with physical stiffness and before any step
 /// ([`tension_n`]), by the multiplier for those that project ([`System::multiplier_n`]), and the sum
 /// of both where a limiter helped the springs. By the length, too, between two that are held where
-/// the method is rigid ([`Pbd`]): it moves neither, and has no multiplier.
+/// the method is rigid ([`Pbd`](crate::Pbd)): it moves neither, and has no multiplier.
 ///
 /// # Panics
 ///

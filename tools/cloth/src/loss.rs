@@ -58,9 +58,9 @@ pub(crate) struct Account {
 impl Account {
     /// Opens it, where someone asks: accelerations are those of now, and of the end of the last step
     /// where they are fresh.
-    pub(crate) fn open(system: &System, is_fresh: bool, dt_s: f64) -> Option<Account> {
+    pub(crate) fn open(system: &mut System, is_fresh: bool, dt_s: f64) -> Option<Account> {
         system.scratch.is_metered.then(|| {
-            let elastic_j = elastic_before_j(system, &system.positions);
+            let elastic_j = elastic_before_j(system, |system| &system.positions);
             let hand_j = half_of_hands_j(system, dt_s);
             let kept = left(system).and_then(|kept| kept.swing);
             let kept = kept.filter(|&(of_s, _)| is_fresh && of_s == dt_s);
@@ -117,8 +117,12 @@ impl Account {
 }
 
 /// The elastic energy where a step begins: as the last one left it, unless something has changed since.
-fn elastic_before_j(system: &System, x: &[Point]) -> f64 {
-    left(system).map_or_else(|| system.model.elastic_j(x), |kept| kept.joules)
+fn elastic_before_j(system: &mut System, from: fn(&System) -> &[Point]) -> f64 {
+    if let Some(kept) = left(system) {
+        return kept.joules;
+    }
+    system.counters.visits.meter += system.model.constraint_count();
+    system.model.elastic_j(from(system))
 }
 
 /// What the last step left, unless something has changed since.
@@ -132,6 +136,7 @@ fn left(system: &System) -> Option<Elastic> {
 
 /// The elastic energy where a step ends, kept for the next.
 fn elastic_after_j(system: &mut System) -> f64 {
+    system.counters.visits.meter += system.model.constraint_count();
     let joules = system.model.elastic_j(&system.positions);
     system.scratch.elastic = Some(Elastic {
         joules,
@@ -212,6 +217,7 @@ pub(crate) fn note_projected(system: &mut System, dt_s: f64) {
     if !system.scratch.is_metered {
         return;
     }
+    let elastic_j = elastic_before_j(system, |system| &system.scratch.before);
     let (model, x) = (&system.model, &system.positions[..]);
     let before = &system.scratch.before[..];
     let motion = Motion {
@@ -221,7 +227,7 @@ pub(crate) fn note_projected(system: &mut System, dt_s: f64) {
         gravity: model.gravity(),
     };
     let per_s = 1.0 / dt_s;
-    let mut made_j = -elastic_before_j(system, before);
+    let mut made_j = -elastic_j;
     for (i, &v) in system.velocities.iter().enumerate() {
         if model.inverse_masses[i] > 0.0 {
             let way = x[i] - before[i];
