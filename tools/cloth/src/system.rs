@@ -120,7 +120,10 @@ pub enum Unstable {
     /// with a margin.
     #[default]
     Refuse,
-    /// Divide it into as many substeps as are stable in every configuration, and say how many.
+    /// Divide it into as many substeps as are stable by the linear theory in every configuration, and say
+    /// how many. What is crushed can still make energy by a method without guards
+    /// ([`Verlet::plain`](crate::Verlet::plain), [`Provot`](crate::Provot)): springs under compression
+    /// push sideways, which no bound of small motions sees.
     Substep,
     /// Take it. No frequency is computed; blow-up is still noticed.
     Allow,
@@ -590,10 +593,10 @@ impl System {
         -self.model.stretch.memory(id).multiplier
     }
 
-    /// All stretch constraints whose strain, by the method of the last step, makes them at least this
-    /// many times as long as at rest, and maybe some more. From now on steps that compute lengths
-    /// anyway look out for them; where the last one did not, this is a pass over constraints.
-    pub(crate) fn strained_from(&mut self, ratio: f64) -> &[ConstraintId] {
+    /// Has the lookout know all stretch constraints whose strain, by the method of the last step, makes
+    /// them at least this many times as long as at rest. From now on steps that compute lengths anyway
+    /// look out for them; where the last one did not, this is a pass over constraints.
+    pub(crate) fn look_out_from(&mut self, ratio: f64) {
         self.lookout.ask(ratio);
         if !self.scratch.is_fresh || self.lookout.found(ratio).is_none() {
             self.counters.visits.detect += self.model.stretch.len() as u64;
@@ -604,8 +607,6 @@ impl System {
                 _ => self.lookout.look(stretch, x),
             }
         }
-        let found = self.lookout.found(ratio);
-        found.expect("a look finds what was asked for")
     }
 
     /// The largest length of a stretch constraint as a multiple of that at rest, before a limiter; 0

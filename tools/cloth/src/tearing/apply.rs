@@ -220,7 +220,8 @@ impl Tear {
     ///
     /// Edits by others that are in the log are followed first. Cost: a walk round the ends of each
     /// overstretched edge; and, where the method did not compute lengths at the end of the step, a pass
-    /// over edges, or over faces where [`Threshold::PrincipalStretch`](super::Threshold) decides.
+    /// over edges; over edges and the faces beside them where
+    /// [`Threshold::PrincipalStretch`](super::Threshold) decides.
     ///
     /// # Panics
     ///
@@ -303,9 +304,10 @@ impl Tear {
         };
         self.bound = Some((of, bound));
         if let Some(ratio) = bound {
-            cloth.system_mut().strained_from(ratio);
-            let found = cloth.system().lookout.found(ratio).unwrap_or(&[]);
-            let edges = found.iter().map(|&id| whole_edge(mesh, cloth.edge(id)));
+            cloth.system_mut().look_out_from(ratio);
+            let found = cloth.system().lookout.found(ratio);
+            let found = found.expect("a look finds what was asked for").iter();
+            let edges = found.map(|&id| whole_edge(mesh, cloth.edge(id)));
             self.candidates.extend(edges);
         } else {
             cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
