@@ -12,6 +12,7 @@ use tearmesh::{
     PerVertex, Positions, VertexId, mend, shapes, slide, split,
 };
 
+use crate::cases::cases;
 use crate::random::Random;
 use values::{Value, Values};
 
@@ -212,11 +213,8 @@ impl ForeignLists {
 
 #[test]
 fn followers_by_the_normal_form_keep_what_the_records_say() {
-    let cases = std::env::var("TEARMESH_CASES").ok();
-    let cases = cases.map_or(CASES, |cases| {
-        cases.parse().expect("TEARMESH_CASES is a number")
-    });
     let (mut counts, mut records) = ([0; 5], 0);
+    let cases = cases(CASES);
     for seed in 0..cases {
         let mut work = Work::new(seed);
         let mut plain = work.values();

@@ -14,6 +14,7 @@ use tearmesh::{
     shapes, slide, split, tear,
 };
 
+use crate::cases::cases_of;
 use crate::lockstep::nothing_changed;
 use crate::random::Random;
 
@@ -282,10 +283,8 @@ fn a_foreign_id_is_a_panic_that_changes_nothing(world: &World, case: &Case<'_>) 
 
 #[test]
 fn foreign_ids_are_named_and_change_nothing() {
-    let asked = std::env::var("TEARMESH_CASES").ok();
-    let asked = asked.and_then(|cases| cases.parse().ok()).unwrap_or(CASES);
     let mut tried = 0;
-    for seed in 0..CASES.min(asked) {
+    for seed in 0..cases_of(CASES) {
         let mut random = Random(seed);
         let bytes: Vec<u8> = (0..60).map(|_| (256.0 * random.next()) as u8).collect();
         let world = Script::from_bytes(&bytes).run(|_, _| {});

@@ -7,6 +7,7 @@ use proptest::test_runner::{Config, TestError, TestRunner};
 use tearmesh::script::Script;
 use tearmesh::{Defect, Faces, Mesh};
 
+use crate::cases::cases;
 use crate::lockstep::{self, Done};
 use crate::oracle::{Fault, faults, is_strict};
 
@@ -19,10 +20,7 @@ fn for_all<S: Strategy>(strategy: &S, property: impl Fn(S::Value)) -> u32
 where
     S::Value: std::fmt::Display,
 {
-    let cases = std::env::var("TEARMESH_CASES").ok();
-    let cases = cases.map_or(CASES, |cases| {
-        cases.parse().expect("TEARMESH_CASES is a number")
-    });
+    let cases = cases(CASES.into()).try_into().expect("below 2^32");
     let config = Config {
         failure_persistence: None,
         ..Config::with_cases(cases)
