@@ -101,7 +101,7 @@ fn table_of_what_chose_the_default() {
             "\n{}: step in h/c, off in % (largest, 99 %, rms), crushed E/E0, µs",
             sheet.name
         );
-        let exact = reference(&sheet, 400.0);
+        let exact = sheet.strains(&reference(&sheet, 400.0));
         let hc = sheet.edge_s();
         let own = suited_step_s(&mut sheet.system(ORDERS[0])) / hc;
         println!("the step that suits is {own:.3} h/c");
