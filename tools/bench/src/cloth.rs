@@ -1,5 +1,5 @@
 //! `cloth`: a sheet that hangs by its upper edge, stepped beside Bullet's soft body; then what a
-//! step costs as sheets grow, and with splits in it.
+//! step costs as sheets grow, with splits in it, and with what a run adds to it.
 //!
 //! Both have the same net (the edges of the mesh), the same masses and held particles, gravity, and
 //! steps of 1/60 s; neither has bending, drag or collisions. Bullet's body is stepped without a
@@ -7,6 +7,7 @@
 
 mod bullet;
 mod growth;
+mod shares;
 mod sheet;
 mod splits;
 
@@ -25,7 +26,11 @@ pub(crate) fn run(options: &Options) -> String {
         .into_iter()
         .map(|n| contest(n, &program, options))
         .collect();
-    parts.extend([growth::run(&program, options), splits::run(options)]);
+    parts.extend([
+        growth::run(&program, options),
+        splits::run(options),
+        shares::run(options),
+    ]);
     parts.join("\n")
 }
 
