@@ -37,7 +37,7 @@
 //! # Cut by two rays; texture coordinates and masses follow
 //!
 //! ```
-//! use tearmesh::{shapes, Edits, Masses, Method, PerCorner, Point, Ray, Scissor, Vector};
+//! use tearmesh::{shapes, CutMethod, Edits, Masses, PerCorner, Point, Ray, Scissor, Vector};
 //!
 //! let (mut mesh, mut positions) = shapes::grid(16, 16);
 //! let mut masses = Masses::area(&mesh, &positions, 0.15)?;
@@ -48,7 +48,7 @@
 //! let eye = Point::new(0.5, 0.5, 3.0);
 //! let a = Ray::new(eye, Vector::new(-0.6, 0.1, -3.0))?;
 //! let b = Ray::new(eye, Vector::new(0.6, -0.1, -3.0))?;
-//! let report = Scissor::new(&a, &b)?.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)?;
+//! let report = Scissor::new(&a, &b)?.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
 //! edits.replay(&mut (&mut uv, &mut masses));
 //!
 //! assert_eq!((report.pieces, report.lost, report.crumbs), (2, 0, 0));
@@ -80,7 +80,7 @@
 //! # Errors
 //!
 //! Bad input is an error with ids, one type for each operation. "There is nothing to do" is a
-//! value: `None`, or [`split::Refusal`]. A panic is a bug, of ours or in the caller's ids, and
+//! value: `None`, or [`SplitRefusal`]. A panic is a bug, of ours or in the caller's ids, and
 //! names the invariant.
 
 #![cfg_attr(
@@ -113,17 +113,22 @@ pub mod tear;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
 pub use edit::{
-    Child, CornerOp, Cursor, Edit, Edits, Family, Follower, Followers, Insert, InsertedPoint,
-    Location, Merge, Mix, Renumbered, Slide, Source, Split, TornLink, VertexOp,
+    ChildFace, CornerOp, CornerSource, Cursor, Edit, Edits, FaceFamily, Follower, Followers,
+    Insert, InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink,
+    VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
 pub use id::{FaceId, HalfEdgeId, VertexId};
-pub use mass::{Ledger, MassError, Masses};
+pub use insert::InsertRefusal;
+pub use mass::{MassError, MassLedger, Masses};
+pub use mend::MergeRefusal;
 pub use mesh::{
     BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
     TornError, Violation,
 };
 pub use place::{Place, PositionError, Positions};
-pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
+pub use scissor::{CutError, CutMethod, CutReport, CutTips, Scissor, ScissorError};
 pub use sets::DisjointSets;
+pub use slide::SlideRefusal;
+pub use split::SplitRefusal;

@@ -3,7 +3,7 @@
 //! A user picks two points on the screen; each gives a ray. The rays span a plane and a strip of it
 //! (Souza et al. 2014 §V, with two errata of the paper mended: see `scissor/strip.rs`).
 //!
-//! Methods differ in what they split: see [`Method`]. Each returns a [`CutReport`] that says
+//! Methods differ in what they split: see [`CutMethod`]. Each returns a [`CutReport`] that says
 //! what was done and what was not.
 
 mod exact;
@@ -19,7 +19,7 @@ mod unshare;
 use std::fmt;
 
 pub use measure::CutReport;
-pub use partition::Tips;
+pub use partition::CutTips;
 
 use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Ray, max_abs};
@@ -36,14 +36,14 @@ use strip::Strip;
 /// A cut to be made: a plane, and two planes that bound it at the sides.
 ///
 /// ```
-/// use tearmesh::{shapes, Edits, Method, Point, Positions, Ray, Scissor, Vector};
+/// use tearmesh::{shapes, CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(8, 8);
 /// let down = Vector::new(0.0, 0.0, -1.0);
 /// let a = Ray::new(Point::new(0.4, -1.0, 5.0), down)?;
 /// let b = Ray::new(Point::new(0.4, 2.0, 5.0), down)?;
 /// let mut edits = Edits::new();
-/// let report = Scissor::new(&a, &b)?.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)?;
+/// let report = Scissor::new(&a, &b)?.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
 /// assert_eq!((report.splits, report.pieces, report.separated), (9, 2, true));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -51,14 +51,14 @@ use strip::Strip;
 pub struct Scissor {
     strip: Strip,
     rays: [Ray; 2],
-    tips: Tips,
+    tips: CutTips,
     exact: exact::Settings,
 }
 
 /// How a cut is made. All methods share the rays, the report and the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Method {
+pub enum CutMethod {
     /// Insert vertices where the plane crosses edges, so that the seam is straight. Adds faces,
     /// always divides; with a snap ([`Scissor::snap`]) no face gets thin, and the seam is as far
     /// from the plane as that allows.
@@ -92,7 +92,7 @@ impl Scissor {
         Ok(Scissor {
             strip,
             rays: [*a, *b],
-            tips: Tips::default(),
+            tips: CutTips::default(),
             exact: exact::Settings {
                 snap: Scissor::SNAP,
                 snap_move: false,
@@ -233,7 +233,7 @@ impl Scissor {
 
     /// Where a finite cut of the method `partition` ends; the paper's methods know one rule.
     #[must_use]
-    pub fn tips(self, tips: Tips) -> Scissor {
+    pub fn tips(self, tips: CutTips) -> Scissor {
         Scissor { tips, ..self }
     }
 
@@ -272,7 +272,7 @@ impl Scissor {
     /// If `edits` was cleared before `positions` replayed it.
     pub fn cut(
         &self,
-        method: Method,
+        method: CutMethod,
         mesh: &mut Mesh,
         positions: &mut Positions,
         edits: &mut Edits,
@@ -310,7 +310,7 @@ impl Scissor {
     /// If `edits` was cleared before `positions` replayed it.
     pub fn cut_only(
         &self,
-        method: Method,
+        method: CutMethod,
         mesh: &mut Mesh,
         positions: &mut Positions,
         edits: &mut Edits,
@@ -322,10 +322,10 @@ impl Scissor {
         Ok(())
     }
 
-    fn offsets(&self, method: Method, positions: &Positions) -> Offsets {
+    fn offsets(&self, method: CutMethod, positions: &Positions) -> Offsets {
         let offsets = Offsets::new(&self.strip.plane, positions);
         match method {
-            Method::Exact => offsets.rounded(),
+            CutMethod::Exact => offsets.rounded(),
             _ => offsets,
         }
     }
@@ -333,19 +333,19 @@ impl Scissor {
     /// Decides what can be decided before anything is changed.
     fn ready(
         &self,
-        method: Method,
+        method: CutMethod,
         mesh: &Mesh,
         positions: &Positions,
         offsets: &Offsets,
     ) -> Ready {
         match method {
-            Method::Exact => {
+            CutMethod::Exact => {
                 let trace = exact::trace(&self.strip, &self.exact, mesh, positions, offsets);
                 Ready::Exact(trace)
             }
-            Method::Partition => Ready::Partition,
-            Method::Uniform => Ready::Paper(Form::Uniform),
-            Method::Alternating => Ready::Paper(Form::Alternating),
+            CutMethod::Partition => Ready::Partition,
+            CutMethod::Uniform => Ready::Paper(Form::Uniform),
+            CutMethod::Alternating => Ready::Paper(Form::Alternating),
         }
     }
 

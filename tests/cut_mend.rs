@@ -6,8 +6,8 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Cursor, Edits, FaceId, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector,
-    VertexId, mend,
+    Cursor, CutMethod, Edits, FaceId, Masses, Mesh, PerCorner, Point, Positions, Ray, Scissor,
+    Vector, VertexId, mend,
 };
 
 /// A mesh, and what is done to it.
@@ -22,7 +22,7 @@ pub(crate) struct Case {
 enum Step {
     Cut {
         rays: [[Point; 2]; 2],
-        method: Method,
+        method: CutMethod,
         snap: f64,
         snap_move: bool,
         through: bool,
@@ -116,13 +116,13 @@ impl Step {
         Step::Cut {
             rays,
             method: [
-                Method::Exact,
-                Method::Exact,
-                Method::Exact,
-                Method::Exact,
-                Method::Partition,
-                Method::Uniform,
-                Method::Alternating,
+                CutMethod::Exact,
+                CutMethod::Exact,
+                CutMethod::Exact,
+                CutMethod::Exact,
+                CutMethod::Partition,
+                CutMethod::Uniform,
+                CutMethod::Alternating,
             ][usize::from(kind % 7)],
             snap: SNAPS[usize::from(k / 3) % SNAPS.len()],
             snap_move: l % 4 == 3,

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use tearmesh::{
-    CutReport, Edits, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector, mend,
+    CutMethod, CutReport, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray, Scissor, Vector,
+    mend,
 };
 
 use crate::oracle::straight::{Cut, Surface, judge, judge_polyline};
@@ -40,7 +41,7 @@ impl Cutting {
     /// Cuts, and checks what holds of every cut.
     fn cut(&mut self, scissor: &Scissor) -> CutReport {
         let (mesh, positions) = (&mut self.mesh, &mut self.positions);
-        let report = scissor.cut(Method::Exact, mesh, positions, &mut self.edits);
+        let report = scissor.cut(CutMethod::Exact, mesh, positions, &mut self.edits);
         let report = report.expect("positions are in step");
         self.edits
             .replay(&mut (&mut self.masses, &mut self.corners));

@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use tearmesh::{
-    Edits, FaceId, Masses, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId, mend,
+    CutMethod, Edits, FaceId, Masses, Mesh, Point, Positions, Ray, Scissor, Vector, VertexId, mend,
     shapes, split,
 };
 
@@ -84,7 +84,7 @@ fn scissor(a: [f64; 2], b: [f64; 2]) -> Scissor {
 /// Cuts a fan in all ways, and mends it.
 fn cut(faces: u32, closed: bool, clock: &mut Clock) {
     let (mesh, positions) = clock.time("build", || shapes::fan(faces, closed));
-    for method in [Method::Exact, Method::Partition] {
+    for method in [CutMethod::Exact, CutMethod::Partition] {
         for (place, y) in [("the hub", 0.0), ("near", 0.001), ("beside", 0.1)] {
             for (extent, x) in [("finite", 0.5), ("through", 2.0)] {
                 let what = format!("{method:?}, {place}, {extent}");
@@ -102,7 +102,7 @@ fn cut(faces: u32, closed: bool, clock: &mut Clock) {
                 let report = report.expect("all is in step");
                 assert!(report.faces_crossed > 0, "{what}");
                 sheet.check_and_sew(&what, clock);
-                assert!(method == Method::Exact || sheet.mesh == mesh, "{what}");
+                assert!(method == CutMethod::Exact || sheet.mesh == mesh, "{what}");
             }
         }
     }
@@ -121,7 +121,7 @@ fn crown(faces: u32, closed: bool, clock: &mut Clock) {
     let scissor = Scissor::new(&ray(-3.0), &ray(3.0))
         .expect("two rays")
         .through(true);
-    for method in [Method::Exact, Method::Partition] {
+    for method in [CutMethod::Exact, CutMethod::Partition] {
         let what = format!("{method:?}, a crown");
         let mut sheet = Sheet::new(&mesh, &positions);
         let Sheet {
@@ -162,7 +162,10 @@ fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
         }
     });
     let refused = split::vertex(&mut sheet.mesh, hub, &[last], &mut sheet.edits);
-    assert!(matches!(refused, Err(split::Refusal::Everything { .. })));
+    assert!(matches!(
+        refused,
+        Err(split::SplitRefusal::Everything { .. })
+    ));
     assert_eq!(sheet.mesh.half_edge_of(hub).map(|h| h.face()), Some(last));
     let torn = sheet.mesh.clone();
     sheet.edits.replay(&mut sheet.positions);
@@ -189,7 +192,7 @@ fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
         let scissor = scissor([-2.0, y], [2.0, 1.1 * y]).through(true);
         let mut edits = Edits::new();
         let report = clock.time(format!("torn: cut {what}"), || {
-            scissor.cut(Method::Exact, &mut mesh, &mut positions, &mut edits)
+            scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
         });
         assert!(report.expect("all is in step").faces_crossed > 0);
         assert_eq!(

@@ -5,12 +5,16 @@
 //! al. 2014 §V). Both sentences are held here as measurements, so that nobody makes the
 //! paper's methods kinder than they are.
 
-use tearmesh::{CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, Vector, shapes};
+use tearmesh::{CutMethod, CutReport, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
 use crate::pieces::pieces_by_vertices;
 use crate::random::{self, Random};
 
-const METHODS: [Method; 3] = [Method::Uniform, Method::Alternating, Method::Partition];
+const METHODS: [CutMethod; 3] = [
+    CutMethod::Uniform,
+    CutMethod::Alternating,
+    CutMethod::Partition,
+];
 
 /// How many random cuts each mesh gets.
 const CUTS: usize = 40;
@@ -179,11 +183,11 @@ fn figure_4_a_waving_flag_is_cut_between_two_picked_points() {
         // A slit: one piece still, with a hole, unless the method leaves crumbs.
         assert_eq!((report.pieces_expected, report.lost), (1, 0));
         assert!(
-            method == Method::Alternating || report.crumbs == 0,
+            method == CutMethod::Alternating || report.crumbs == 0,
             "{report:?}"
         );
         assert!(
-            report.separated == (method != Method::Uniform),
+            report.separated == (method != CutMethod::Uniform),
             "{method:?}: {report:?}"
         );
         assert!(report.splits > 10);
@@ -230,7 +234,7 @@ fn the_report_knows_the_worst_face_and_the_mean_edge() {
     let mean_edge = edges.values().sum::<f64>() / edges.len() as f64;
     let report = scissor
         .cut(
-            Method::Partition,
+            CutMethod::Partition,
             &mut mesh,
             &mut positions,
             &mut Edits::new(),

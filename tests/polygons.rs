@@ -1,6 +1,6 @@
 //! Closed polylines: what they go round comes out.
 
-use tearmesh::{Edits, Method, Scissor};
+use tearmesh::{CutMethod, Edits, Scissor};
 
 use crate::cases::cases_of;
 use crate::exact::ray;
@@ -40,7 +40,7 @@ fn pieces(sheet: &Surface, corners: &[[f64; 2]], snap: f64) -> usize {
             _ => Scissor::new(from, to).map(|scissor| scissor.snap(snap)),
         };
         let scissor = scissor.expect("a plane");
-        let report = scissor.cut(Method::Exact, &mut mesh, &mut positions, &mut edits);
+        let report = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
         last = Some((scissor, report.expect("positions are in step")));
         first = first.or_else(|| last.clone());
     }

@@ -7,8 +7,8 @@ use std::ops::Neg as _;
 
 use tearmesh::script::Script;
 use tearmesh::{
-    COORDINATE_MAX, Cursor, CutError, CutReport, Edits, Masses, Mesh, Method, Point, Positions,
-    Ray, Scissor, ScissorError, Tips, Vector,
+    COORDINATE_MAX, Cursor, CutError, CutMethod, CutReport, CutTips, Edits, Masses, Mesh, Point,
+    Positions, Ray, Scissor, ScissorError, Vector,
 };
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -19,7 +19,7 @@ pub(crate) struct Case {
     /// Each the origin and the direction.
     rays: [[Vector; 2]; 2],
     through: bool,
-    tips: Tips,
+    tips: CutTips,
     mesh: Mesh,
     points: Vec<Point>,
 }
@@ -50,9 +50,9 @@ impl Case {
             rays,
             through: flags & 1 == 1,
             tips: if flags & 2 == 2 {
-                Tips::Midpoint
+                CutTips::Midpoint
             } else {
-                Tips::Vertex
+                CutTips::Vertex
             },
             mesh,
             points,
@@ -86,7 +86,7 @@ impl Case {
             Masses::half(&mesh, &positions, 1.0),
         ];
         let report = scissor
-            .cut(Method::Partition, &mut mesh, &mut positions, &mut edits)
+            .cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)
             .expect("positions are in step");
         assert_eq!(mesh.check(), [], "no invariant is broken");
         assert_eq!(
@@ -249,7 +249,12 @@ fn a_refused_cut_changes_nothing(scissor: &Scissor, mesh: &Mesh, positions: &Pos
         Positions::new(positions.as_slice()[1..].iter().copied()).expect("they were usable"),
     ] {
         let mut after = refused.clone();
-        let error = scissor.cut(Method::Partition, &mut mesh_after, &mut after, &mut edits);
+        let error = scissor.cut(
+            CutMethod::Partition,
+            &mut mesh_after,
+            &mut after,
+            &mut edits,
+        );
         assert!(matches!(
             error,
             Err(CutError::Unreplayed { .. } | CutError::Positions { .. })

@@ -5,8 +5,8 @@
 
 use proptest::prelude::*;
 use tearmesh::{
-    Cursor, CutError, CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, ScissorError,
-    Tips, Vector, shapes,
+    Cursor, CutError, CutMethod, CutReport, CutTips, Edits, Mesh, Point, Positions, Ray, Scissor,
+    ScissorError, Vector, shapes,
 };
 
 use crate::pieces::pieces_by_vertices;
@@ -27,7 +27,7 @@ fn between(a: [f64; 2], b: [f64; 2]) -> Scissor {
 
 fn cut(scissor: &Scissor, mesh: &mut Mesh, positions: &mut Positions) -> CutReport {
     *positions = positions.clone().starting_at(Cursor::START);
-    let report = scissor.cut(Method::Partition, mesh, positions, &mut Edits::new());
+    let report = scissor.cut(CutMethod::Partition, mesh, positions, &mut Edits::new());
     assert_eq!(mesh.check(), []);
     report.expect("positions are in step")
 }
@@ -239,7 +239,7 @@ fn a_finite_cut_splits_only_vertices_between_the_side_planes() {
 #[test]
 fn midpoint_tips_cut_fewer_edges() {
     let ghost_pairs = |slit: Scissor| {
-        [Tips::Vertex, Tips::Midpoint].map(|tips| {
+        [CutTips::Vertex, CutTips::Midpoint].map(|tips| {
             let (mut mesh, mut positions) = shapes::grid(10, 10);
             cut(&slit.clone().tips(tips), &mut mesh, &mut positions).ghost_pairs
         })
@@ -254,7 +254,7 @@ fn vertices_on_a_side_plane_are_not_strictly_between() {
     // By midpoints the edges from y = 0.3 to 0.7 are cut; the two vertices at their ends, which lie
     // on the side planes, stay shared.
     let (mut mesh, mut positions) = shapes::grid(10, 10);
-    let slit = between([0.52, 0.3], [0.52, 0.7]).tips(Tips::Midpoint);
+    let slit = between([0.52, 0.3], [0.52, 0.7]).tips(CutTips::Midpoint);
     let report = cut(&slit, &mut mesh, &mut positions);
     assert_eq!(
         (report.splits, report.ghost_pairs, report.separated),
@@ -262,7 +262,7 @@ fn vertices_on_a_side_plane_are_not_strictly_between() {
     );
     // A hair further out, they lie between.
     let (mut mesh, mut positions) = shapes::grid(10, 10);
-    let slit = between([0.52, 0.299], [0.52, 0.701]).tips(Tips::Midpoint);
+    let slit = between([0.52, 0.299], [0.52, 0.701]).tips(CutTips::Midpoint);
     assert!(!cut(&slit, &mut mesh, &mut positions).separated);
 }
 
@@ -417,7 +417,7 @@ fn later_cuts_cross_earlier_ones() {
         between([0.4, 2.0], [0.4, -2.0]),
         between([2.0, 0.6], [-2.0, 0.6]),
     ] {
-        let report = slit.cut(Method::Partition, &mut mesh, &mut positions, &mut edits);
+        let report = slit.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits);
         pieces.push(report.expect("in step").pieces);
         assert_eq!(mesh.check(), []);
     }
@@ -433,17 +433,17 @@ fn positions_of_another_mesh_are_refused() {
     let slit = between([0.5, 2.0], [0.5, -2.0]);
     let mut edits = Edits::new();
     assert_eq!(
-        slit.cut(Method::Partition, &mut mesh, &mut others, &mut edits),
+        slit.cut(CutMethod::Partition, &mut mesh, &mut others, &mut edits),
         Err(CutError::Positions {
             vertices: 9,
             positions: 16
         })
     );
     let mut late = positions.clone();
-    slit.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)
+    slit.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)
         .expect("in step");
     assert_eq!(
-        slit.cut(Method::Partition, &mut mesh, &mut late, &mut edits),
+        slit.cut(CutMethod::Partition, &mut mesh, &mut late, &mut edits),
         Err(CutError::Unreplayed {
             seen: Cursor::START,
             made: edits.cursor()

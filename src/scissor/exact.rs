@@ -38,7 +38,7 @@ use super::{pieces, unshare};
 use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-use crate::insert::{Plan, Refusal};
+use crate::insert::{InsertRefusal, Plan};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use planner::{Chain, Planner};
@@ -147,7 +147,7 @@ pub(super) fn cut(
         let (plan, slit) = Slit::plan(&trace, mesh);
         match plan.prepare(mesh) {
             Ok(insertion) => break (slit, (!plan.is_empty()).then_some(insertion)),
-            Err(Refusal::Crowded { face }) => trace.leave_out(mesh, face),
+            Err(InsertRefusal::Crowded { face }) => trace.leave_out(mesh, face),
             Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
         }
     };

@@ -14,7 +14,7 @@
 //! Neither method promises to divide. On irregular meshes `uniform` leaves bridges ("the mesh
 //! not being completely divided"); `alternating` mostly divides, and leaves crumbs and a
 //! longer seam, because it may split the same vertex several times. They are here to be
-//! compared with: [`Method::Partition`](super::Method::Partition) is the one to use.
+//! compared with: [`CutMethod::Partition`](super::CutMethod::Partition) is the one to use.
 
 use super::outcome::{Ends, Outcome};
 use super::strip::Strip;

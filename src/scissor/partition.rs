@@ -26,7 +26,7 @@ use crate::place::Positions;
 
 /// Where a finite cut ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Tips {
+pub enum CutTips {
     /// The paper's rule: a vertex is split if it lies between the side planes. Separates
     /// everything strictly between them; overshoots each tip by half an edge on average.
     #[default]
@@ -38,7 +38,7 @@ pub enum Tips {
 
 pub(super) fn cut(
     strip: &Strip,
-    tips: Tips,
+    tips: CutTips,
     mesh: &mut Mesh,
     positions: &Positions,
     offsets: &Offsets,
@@ -133,7 +133,7 @@ struct Seam {
 
 impl Seam {
     fn new(
-        tips: Tips,
+        tips: CutTips,
         mesh: &Mesh,
         positions: &Positions,
         labels: &[Side],
@@ -147,8 +147,8 @@ impl Seam {
                 return false;
             }
             match tips {
-                Tips::Vertex => true,
-                Tips::Midpoint => {
+                CutTips::Vertex => true,
+                CutTips::Midpoint => {
                     let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
                     // A sum does not depend on the order of two, so both half-edges agree.
                     inside(Point::from((a + b) / 2.0))
@@ -167,7 +167,7 @@ impl Seam {
     /// The vertices to unshare, ascending.
     fn vertices(
         &self,
-        tips: Tips,
+        tips: CutTips,
         mesh: &Mesh,
         positions: &Positions,
         inside: impl Fn(Point) -> bool,
@@ -177,7 +177,7 @@ impl Seam {
             on_seam[mesh.origin(h).index()] = true;
         }
         let unshared = |&v: &VertexId| {
-            on_seam[v.index()] && (tips == Tips::Midpoint || inside(positions.at(v)))
+            on_seam[v.index()] && (tips == CutTips::Midpoint || inside(positions.at(v)))
         };
         mesh.vertices().filter(unshared).collect()
     }

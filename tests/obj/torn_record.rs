@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Edit, Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector,
+    CutMethod, Edit, Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, Ray, Scissor, Vector,
     VertexId, mend, split,
 };
 use tearmesh_obj::{Document, ReadError, Simplified, TornDocument};
@@ -479,7 +479,7 @@ fn straight_cuts_are_undone_to_the_byte() {
             scissor
                 .snap_move(slides)
                 .cut(
-                    Method::Exact,
+                    CutMethod::Exact,
                     &mut work.mesh,
                     &mut work.positions,
                     &mut work.edits,
@@ -619,12 +619,12 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
                 let rays = [p, q].map(|p| Ray::new(eye, p - eye).expect("a ray"));
                 let scissor = Scissor::new(&rays[0], &rays[1]).expect("a plane");
                 let method = if (seed + i) % 3 == 0 {
-                    Method::Partition
+                    CutMethod::Partition
                 } else {
-                    Method::Exact
+                    CutMethod::Exact
                 };
                 let through = seed % 2 == 0;
-                let slides = seed % 4 < 2 && method == Method::Exact;
+                let slides = seed % 4 < 2 && method == CutMethod::Exact;
                 let report = scissor
                     .through(through)
                     .snap(if slides { 0.3 } else { Scissor::SNAP })

@@ -423,22 +423,22 @@ impl Method {
         cut_name(self.of_library())
     }
 
-    pub(crate) fn of_library(self) -> tearmesh::Method {
+    pub(crate) fn of_library(self) -> tearmesh::CutMethod {
         match self {
-            Method::Exact => tearmesh::Method::Exact,
-            Method::Partition => tearmesh::Method::Partition,
-            Method::Uniform => tearmesh::Method::Uniform,
-            Method::Alternating => tearmesh::Method::Alternating,
+            Method::Exact => tearmesh::CutMethod::Exact,
+            Method::Partition => tearmesh::CutMethod::Partition,
+            Method::Uniform => tearmesh::CutMethod::Uniform,
+            Method::Alternating => tearmesh::CutMethod::Alternating,
         }
     }
 }
 
 /// [`Method::name`] of a method of the library.
-pub(crate) fn cut_name(method: tearmesh::Method) -> &'static str {
+pub(crate) fn cut_name(method: tearmesh::CutMethod) -> &'static str {
     match method {
-        tearmesh::Method::Partition => "partition",
-        tearmesh::Method::Uniform => "uniform",
-        tearmesh::Method::Alternating => "alternating",
+        tearmesh::CutMethod::Partition => "partition",
+        tearmesh::CutMethod::Uniform => "uniform",
+        tearmesh::CutMethod::Alternating => "alternating",
         _ => "exact",
     }
 }

@@ -157,8 +157,8 @@ fn scissor(
     };
     let scissor = scissor.map_err(|error| no_plane(pair, error))?;
     let tips = match args.tips {
-        Tips::Vertex => tearmesh::Tips::Vertex,
-        Tips::Midpoint => tearmesh::Tips::Midpoint,
+        Tips::Vertex => tearmesh::CutTips::Vertex,
+        Tips::Midpoint => tearmesh::CutTips::Midpoint,
     };
     let scissor = scissor.through(args.through).tips(tips);
     Ok(scissor.snap(args.snap).snap_move(args.snap_move))

@@ -286,8 +286,8 @@ impl Play<'_> {
             method: cut_name(cut.method),
             through: cut.through,
             tips: "vertex",
-            snap: (cut.method == tearmesh::Method::Exact).then_some(Scissor::SNAP),
-            snap_move: (cut.method == tearmesh::Method::Exact).then_some(false),
+            snap: (cut.method == tearmesh::CutMethod::Exact).then_some(Scissor::SNAP),
+            snap_move: (cut.method == tearmesh::CutMethod::Exact).then_some(false),
         };
         let mut entry = report::Cut::new(&cut.rays, &scissor, how, done);
         entry.stable_step_s = made.stability.map(words::stable_step);
@@ -298,7 +298,7 @@ impl Play<'_> {
         let stability = made.stability.as_ref().map(words::shortened);
         let stability = stability.unwrap_or_default();
         session.words.push(format!("{line} · at {at} s{stability}"));
-        let kind = (cut.through, cut.method == tearmesh::Method::Exact);
+        let kind = (cut.through, cut.method == tearmesh::CutMethod::Exact);
         // The cloth has moved since, and there is no snap to choose.
         let why = Obstacle::Unknown;
         let warnings = crate::cut::words::warnings(many, kind, done, why);

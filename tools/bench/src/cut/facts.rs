@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use tearmesh::{
-    CutReport, Edit, Edits, ExactSum, HalfEdgeId, Masses, Mesh, Method, PerCorner, Point,
+    CutMethod, CutReport, Edit, Edits, ExactSum, HalfEdgeId, Masses, Mesh, PerCorner, Point,
     Positions, Scissor, VertexId,
 };
 
@@ -30,7 +30,7 @@ pub(super) struct Facts {
 impl Facts {
     pub(super) fn new(
         scissor: &Scissor,
-        method: Method,
+        method: CutMethod,
         (mesh, positions): &(Mesh, Positions),
     ) -> Facts {
         let before = (mesh, positions);
@@ -46,7 +46,7 @@ impl Facts {
         let area_before = areas(before.0, before.1).collect::<ExactSum>().to_f64();
         let mut growth: ExactSum = areas(&mesh, &positions).collect();
         growth.extend(areas(before.0, before.1).map(|area| -area));
-        let off = |h| (texture[h] - corner(&mesh, &positions, h)).norm();
+        let off = |h| (texture.at(h) - corner(&mesh, &positions, h)).norm();
         let mean_edge = mean_edge(before);
         let children = altitudes(before, &positions, &edits);
         let divided = report.pieces == report.pieces_expected

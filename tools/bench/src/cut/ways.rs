@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use tearmesh::{Edits, Method, Scissor};
+use tearmesh::{CutMethod, Edits, Scissor};
 
 use crate::irregular::Sheet;
 use crate::measure::timed_on_cpu;
@@ -10,7 +10,7 @@ use crate::measure::timed_on_cpu;
 /// A way in which we cut.
 pub(super) struct Way {
     pub(super) name: &'static str,
-    pub(super) method: Method,
+    pub(super) method: CutMethod,
     pub(super) snap: f64,
     pub(super) form: Form,
 }
@@ -36,7 +36,7 @@ impl Form {
     }
 }
 
-const fn way(name: &'static str, method: Method, snap: f64, form: Form) -> Way {
+const fn way(name: &'static str, method: CutMethod, snap: f64, form: Form) -> Way {
     Way {
         name,
         method,
@@ -46,26 +46,26 @@ const fn way(name: &'static str, method: Method, snap: f64, form: Form) -> Way {
 }
 
 pub(super) const WAYS: [Way; 9] = [
-    way("exact, snap 0", Method::Exact, 0.0, Form::First),
-    way("exact, snap 0.05", Method::Exact, 0.05, Form::First),
-    way("partition", Method::Partition, 0.0, Form::First),
-    way("exact, snap 0, room", Method::Exact, 0.0, Form::Room),
-    way("exact, snap 0.05, room", Method::Exact, 0.05, Form::Room),
-    way("partition, room", Method::Partition, 0.0, Form::Room),
-    way("exact, snap 0, report", Method::Exact, 0.0, Form::Report),
+    way("exact, snap 0", CutMethod::Exact, 0.0, Form::First),
+    way("exact, snap 0.05", CutMethod::Exact, 0.05, Form::First),
+    way("partition", CutMethod::Partition, 0.0, Form::First),
+    way("exact, snap 0, room", CutMethod::Exact, 0.0, Form::Room),
+    way("exact, snap 0.05, room", CutMethod::Exact, 0.05, Form::Room),
+    way("partition, room", CutMethod::Partition, 0.0, Form::Room),
+    way("exact, snap 0, report", CutMethod::Exact, 0.0, Form::Report),
     way(
         "exact, snap 0.05, report",
-        Method::Exact,
+        CutMethod::Exact,
         0.05,
         Form::Report,
     ),
-    way("partition, report", Method::Partition, 0.0, Form::Report),
+    way("partition, report", CutMethod::Partition, 0.0, Form::Report),
 ];
 
 /// How long a cut takes on a copy. The copy, and what becomes of it, are not part of it.
 pub(super) fn time(
     scissor: &Scissor,
-    method: Method,
+    method: CutMethod,
     form: Form,
     (mesh, positions): &Sheet,
 ) -> Duration {

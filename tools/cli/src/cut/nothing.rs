@@ -1,6 +1,6 @@
 //! Why a cut split nothing.
 
-use tearmesh::{CutReport, Edits, HalfEdgeId, Mesh, Method, Point, Positions, Scissor, Side};
+use tearmesh::{CutMethod, CutReport, Edits, HalfEdgeId, Mesh, Point, Positions, Scissor, Side};
 
 /// What kept a cut from splitting anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +21,12 @@ pub(crate) enum Obstacle {
 /// Whether it was the snap is tried on a copy and not concluded, so that the advice to cut without
 /// one works when it is typed.
 pub(super) fn obstacle(
-    (scissor, method, snap): (&Scissor, Method, f64),
+    (scissor, method, snap): (&Scissor, CutMethod, f64),
     through: bool,
     (mesh, positions): (&Mesh, &Positions),
     done: &CutReport,
 ) -> Obstacle {
-    let is_exact = method == Method::Exact;
+    let is_exact = method == CutMethod::Exact;
     let slit = Slit {
         scissor,
         near: is_exact.then_some(snap.max(ROUNDING)),
@@ -59,11 +59,12 @@ const ROUNDING: f64 = 1e-6;
 fn splits_without_snap(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> bool {
     let (mut mesh, points) = (mesh.clone(), positions.as_slice().iter().copied());
     let mut positions = Positions::new(points).expect("points of a mesh that is being cut");
-    let tried =
-        scissor
-            .clone()
-            .snap(0.0)
-            .cut(Method::Exact, &mut mesh, &mut positions, &mut Edits::new());
+    let tried = scissor.clone().snap(0.0).cut(
+        CutMethod::Exact,
+        &mut mesh,
+        &mut positions,
+        &mut Edits::new(),
+    );
     tried.is_ok_and(|done| done.splits > 0)
 }
 

@@ -85,7 +85,7 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
             at_s: args.cut_at.unwrap_or(0.0),
             rays: pair,
             through: false,
-            method: tearmesh::Method::Exact,
+            method: tearmesh::CutMethod::Exact,
         });
     }
     Ok(cuts)
