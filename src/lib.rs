@@ -48,7 +48,9 @@
 //! let eye = Point::new(0.5, 0.5, 3.0);
 //! let a = Ray::new(eye, Vector::new(-0.6, 0.1, -3.0))?;
 //! let b = Ray::new(eye, Vector::new(0.6, -0.1, -3.0))?;
-//! let report = Scissor::new(&a, &b)?.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
+//! let scissor = Scissor::new(a, b)?;
+//! let (_, report) =
+//!     scissor.cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
 //! edits.replay(&mut (&mut uv, &mut masses));
 //!
 //! assert_eq!((report.pieces, report.lost, report.crumbs), (2, 0, 0));
@@ -66,7 +68,7 @@
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
-//! | scissor | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) | 3,100 |
+//! | scissor | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
 //!
 //! The solver layer stands on all of this, in a crate of its own, `tearmesh-cloth` (14,100 lines).
@@ -128,7 +130,10 @@ pub use mesh::{
     TornError, Violation,
 };
 pub use place::{Place, PositionError, Positions};
-pub use scissor::{CutError, CutMethod, CutReport, CutTips, Scissor, ScissorError};
+pub use scissor::{
+    Cut, CutEnd, CutError, CutLayers, CutMethod, CutPieces, CutReport, CutTips, LayerHit, Scissor,
+    ScissorError, SeamLine,
+};
 pub use sets::DisjointSets;
 pub use slide::SlideRefusal;
 pub use split::SplitRefusal;

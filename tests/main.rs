@@ -5,6 +5,7 @@
 mod allocation;
 mod cases;
 mod cut_mend;
+mod cuts;
 mod exact;
 mod exhaustive;
 mod figures;

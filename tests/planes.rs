@@ -48,10 +48,10 @@ fn check(foretold: &Foretold, what: &str) {
     let (pieces, is_folded) = (*pieces, *is_folded);
     for (method, snap, snap_move) in cuts() {
         let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
-        let scissor = Scissor::new(&rays[0], &rays[1]).expect("a plane");
+        let scissor = Scissor::new(rays[0], rays[1]).expect("a plane");
         let scissor = scissor.through(true).snap(snap).snap_move(snap_move);
-        let report: CutReport = scissor
-            .cut(method, &mut mesh, &mut positions, &mut Edits::new())
+        let (_, report): (_, CutReport) = scissor
+            .cut_measured(method, &mut mesh, &mut positions, &mut Edits::new())
             .expect("positions are in step");
         assert_eq!(mesh.check(), []);
         let said = format!("{what}, {method:?} with snap {snap}, moved {snap_move}: {report:?}");

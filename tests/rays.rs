@@ -85,8 +85,8 @@ impl Case {
             Masses::area(&mesh, &positions, 1.0),
             Masses::half(&mesh, &positions, 1.0),
         ];
-        let report = scissor
-            .cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)
+        let (_, report) = scissor
+            .cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)
             .expect("positions are in step");
         assert_eq!(mesh.check(), [], "no invariant is broken");
         assert_eq!(
@@ -156,7 +156,7 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     let angle = length(along_a.cross(&along_b));
     // Below, products with a distance vanish, and nothing is known of the plane.
     let is_normal = reach == 0.0 || reach > 1e-290;
-    let scissor = match Scissor::new(a, b) {
+    let scissor = match Scissor::new(*a, *b) {
         Ok(scissor) => scissor,
         Err(error) => {
             assert_eq!(error, ScissorError::OneLine);
@@ -197,7 +197,12 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     // Near the smallest numbers a bound that is a part of them vanishes.
     let out = -128.0 * EPSILON * reach - f64::MIN_POSITIVE;
     let origins = [a.origin(), b.origin()];
-    for (i, side) in scissor.sides().into_iter().enumerate() {
+    for (i, side) in scissor
+        .sides()
+        .expect("there are rays")
+        .into_iter()
+        .enumerate()
+    {
         assert_eq!(side.point(), origins[i], "a side plane holds its origin");
         assert!(
             (side.normal().norm() - 1.0).abs() <= 8.0 * EPSILON,
@@ -216,7 +221,7 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     }
     if angle == 0.0 {
         let middle = Point::from((a.origin().coords + b.origin().coords) / 2.0);
-        for side in scissor.sides() {
+        for side in scissor.sides().into_iter().flatten() {
             let inside = side.distance(middle);
             assert!(inside >= out, "the middle is out: {inside:e}");
             if length(spanned) > 1024.0 * EPSILON * reach && reach > 1e-290 {

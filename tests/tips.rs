@@ -24,8 +24,8 @@ fn cut(sheet: &Surface, scissor: &Scissor) -> Cut {
     let (mut mesh, mut positions) = built(sheet);
     let before = altitudes(&mesh, &positions);
     let mut edits = Edits::new();
-    let report = scissor
-        .cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
+    let (_, report) = scissor
+        .cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
         .expect("positions are in step");
     assert_eq!(mesh.check(), []);
     Cut {
@@ -226,9 +226,13 @@ fn rays_exactly_on_the_boundary_cut_off_a_piece() {
         let ends = [[hundredth(), 1.0], [hundredth(), 0.0]];
         for method in [CutMethod::Exact, CutMethod::Partition] {
             let (mut mesh, mut positions) = built(&sheet);
-            let done =
-                scissor(ends.map(down)).cut(method, &mut mesh, &mut positions, &mut Edits::new());
-            let report = done.expect("positions are in step");
+            let done = scissor(ends.map(down)).cut_measured(
+                method,
+                &mut mesh,
+                &mut positions,
+                &mut Edits::new(),
+            );
+            let (_, report) = done.expect("positions are in step");
             let counts = (
                 report.pieces_expected,
                 report.pieces,

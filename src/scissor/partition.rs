@@ -13,9 +13,9 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
+use super::exact::Way;
 use super::offsets::Offsets;
-use super::outcome::{Ends, Outcome};
-use super::strip::Strip;
+use super::outcome::{Judged, Outcome, faces_at};
 use super::unshare;
 use crate::classify;
 use crate::edit::Edits;
@@ -37,34 +37,41 @@ pub enum CutTips {
 }
 
 pub(super) fn cut(
-    strip: &Strip,
+    way: &Way<'_>,
     tips: CutTips,
     mesh: &mut Mesh,
     positions: &Positions,
-    offsets: &Offsets,
+    judged: Judged<'_>,
     edits: &mut Edits,
 ) -> Outcome {
+    let offsets = way.offsets;
     let mut labels: Vec<Side> = mesh
         .faces()
         .map(|f| classify::side(mesh, f, |v| offsets.of(v)))
         .collect();
     smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
-    let inside = |p: Point| strip.depth(p, offsets.bound()) >= 0.0;
-    let seam = Seam::new(tips, mesh, positions, &labels, inside);
+    let inside = |p: Point| way.strip.depth(p, offsets.bound()) >= 0.0;
+    let may_cut = |h: HalfEdgeId| !way.is_choice || way.among.binary_search(&h.face()).is_ok();
+    let seam = Seam::new(tips, mesh, positions, &labels, may_cut, inside);
     let vertices = seam.vertices(tips, mesh, positions, inside);
+    let labelled = |faces: Vec<FaceId>| {
+        let faces = faces.into_iter();
+        faces.map(|f| (f, Some(labels[f.index()]))).collect()
+    };
+    let outcome = Outcome {
+        touched: labelled(faces_at(mesh, &vertices)),
+        judged: labelled(judged(mesh, edits)),
+        ..Outcome::default()
+    };
     unshare::by_fan(mesh, &vertices, |h| seam.cuts(h), edits);
-    Outcome {
-        labels: labels.into_iter().map(Some).collect(),
-        refused: 0,
-        ends: Ends::default(),
-        off_plane: Vec::new(),
-    }
+    outcome
 }
 
 fn smooth(mesh: &Mesh, offsets: &Offsets, labels: &mut [Side]) {
     let crossed = |f: FaceId| offsets.cross(mesh, f);
-    let mut queue: VecDeque<FaceId> = mesh.faces().filter(|&f| crossed(f)).collect();
+    let touched = offsets.touched().iter().copied();
+    let mut queue: VecDeque<FaceId> = touched.filter(|&f| crossed(f)).collect();
     let mut queued = vec![false; mesh.face_count()];
     for f in &queue {
         queued[f.index()] = true;
@@ -137,13 +144,15 @@ impl Seam {
         mesh: &Mesh,
         positions: &Positions,
         labels: &[Side],
+        may_cut: impl Fn(HalfEdgeId) -> bool,
         inside: impl Fn(Point) -> bool,
     ) -> Seam {
         let is_cut = |h: HalfEdgeId| {
             let Some(pair) = mesh.pair(h) else {
                 return false;
             };
-            if labels[h.face().index()] == labels[pair.face().index()] {
+            let [one, other] = [h, pair].map(|h| labels[h.face().index()]);
+            if one == other || !(may_cut(h) || may_cut(pair)) {
                 return false;
             }
             match tips {

@@ -358,14 +358,14 @@ impl World {
         let (Ok(a), Ok(b)) = (a, b) else {
             return observe(self, &Step::Nothing);
         };
-        let Ok(scissor) = Scissor::new(&a, &b) else {
+        let Ok(scissor) = Scissor::new(a, b) else {
             return observe(self, &Step::Nothing);
         };
         let first = self.edits.cursor();
-        let report = scissor
+        let (_, report) = scissor
             .through(through)
             .tips(tips)
-            .cut(
+            .cut_measured(
                 CutMethod::Partition,
                 &mut self.mesh,
                 &mut self.positions,

@@ -29,7 +29,7 @@ impl Work<'_> {
         let [p, q]: [Point; 2] = [near(random), near(random)];
         let down = Vector::new(0.0, 0.0, -1.0);
         let rays = [p, q].map(|p| Ray::new(p - down * 50.0, down).expect("a ray"));
-        let Ok(scissor) = Scissor::new(&rays[0], &rays[1]) else {
+        let Ok(scissor) = Scissor::new(rays[0], rays[1]) else {
             return Vec::new();
         };
         let scissor = scissor.snap(0.2).snap_move(true);

@@ -7,7 +7,7 @@ pub(crate) mod words;
 use std::ffi::OsString;
 use std::path::Path;
 
-use tearmesh::{Cursor, CutReport, Edit, Edits, Masses, Positions, Ray, Scissor};
+use tearmesh::{Cursor, Cut, CutEnd, Edit, Edits, Masses, Positions, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
 use self::nothing::Obstacle;
@@ -32,7 +32,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let pairs = scissors::pairs(args, streams)?;
     for pair in &pairs {
         // Rays that span no plane are refused before a large file is read.
-        let scissor = Scissor::new(&pair[0], &pair[1]).map_err(|error| no_plane(pair, error))?;
+        let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
     }
     let Opened {
@@ -55,15 +55,16 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     for (i, pair) in pairs.iter().enumerate() {
         let number = (pairs.len() > 1).then_some(i + 1);
         let scissor = scissor(args, pair, &line, &positions)?;
-        let done = scissor.cut(
+        let made = scissor.cut_measured(
             args.method.of_library(),
             &mut mesh,
             &mut positions,
             &mut edits,
         );
-        let done = done.expect("positions that follow every cut are in step");
+        let (cut, done) = made.expect("what follows every cut is in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
+        line.go_on(&edits, &cut);
         edits.clear();
         torn.next_cut();
         let entry = report::Cut::new(pair, &scissor, how(args), &done);
@@ -78,7 +79,6 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         };
         let warnings = words::warnings(number, (args.through, is_exact), &done, obstacle);
         session.faults.extend(warnings);
-        line.push(pair, scissor, done);
     }
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
@@ -98,43 +98,29 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     Ok(())
 }
 
-/// The cuts of which each begins with the ray that ended the one before: the first and the last.
+/// Cuts of which each begins with the ray that ended the one before: where the first began, and where
+/// the last ended.
 #[derive(Default)]
 struct Polyline {
-    first: Option<Made>,
-    last: Option<Made>,
-}
-
-/// A cut that was made, and its rays.
-#[derive(Clone)]
-struct Made {
-    rays: [Ray; 2],
-    scissor: Scissor,
-    report: CutReport,
+    ends: Option<[CutEnd; 2]>,
 }
 
 impl Polyline {
-    /// The last cut, if a pair of rays goes on from there.
-    fn goes_on(&self, pair: &Pair) -> Option<&Made> {
-        self.last.as_ref().filter(|last| last.rays[1] == pair[0])
-    }
-
-    /// The first cut, if a pair of rays that goes on comes back to where that began.
-    fn comes_back(&self, pair: &Pair) -> Option<&Made> {
-        self.first.as_ref().filter(|first| first.rays[0] == pair[1])
-    }
-
-    fn push(&mut self, pair: &Pair, scissor: Scissor, report: CutReport) {
-        let goes_on = self.goes_on(pair).is_some();
-        let made = Made {
-            rays: *pair,
-            scissor,
-            report,
+    /// Notes a cut. The log is that of this cut alone.
+    fn go_on(&mut self, edits: &Edits, cut: &Cut) {
+        let Some([begin, end]) = cut.ends() else {
+            self.ends = None;
+            return;
         };
-        if !goes_on {
-            self.first = Some(made.clone());
-        }
-        self.last = Some(made);
+        let first = self
+            .ends
+            .take()
+            .filter(|[_, last]| last.ray() == begin.ray());
+        let first = first.map(|[mut first, _]| {
+            edits.replay(&mut first);
+            first
+        });
+        self.ends = Some([first.unwrap_or_else(|| begin.clone()), end.clone()]);
     }
 }
 
@@ -146,14 +132,11 @@ fn scissor(
     line: &Polyline,
     positions: &Positions,
 ) -> Result<Scissor, Stop> {
-    let last = line.goes_on(pair).filter(|_| !args.through);
-    let scissor = match (last, line.comes_back(pair)) {
-        (Some(last), Some(first)) => {
-            let first = (&first.scissor, &first.report);
-            last.scissor.closed(&last.report, first, positions)
-        }
-        (Some(last), None) => last.scissor.continued(&last.report, positions, &pair[1]),
-        (None, _) => Scissor::new(&pair[0], &pair[1]),
+    let goes_on = |[_, last]: &&[CutEnd; 2]| last.ray() == pair[0] && !args.through;
+    let scissor = match line.ends.as_ref().filter(goes_on) {
+        Some([first, last]) if first.ray() == pair[1] => Scissor::closed(last, first, positions),
+        Some([_, last]) => Scissor::continued(last, pair[1], positions),
+        None => Scissor::new(pair[0], pair[1]),
     };
     let scissor = scissor.map_err(|error| no_plane(pair, error))?;
     let tips = match args.tips {

@@ -279,7 +279,7 @@ impl Play<'_> {
 
     fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_>) {
         let (cut, done) = (&scene.cuts[made.number], &made.report);
-        let Ok(scissor) = Scissor::new(&cut.rays[0], &cut.rays[1]) else {
+        let Ok(scissor) = Scissor::new(cut.rays[0], cut.rays[1]) else {
             return; // It was made with these rays.
         };
         let how = report::How {

@@ -38,8 +38,8 @@ impl Facts {
         let mut masses = Masses::area(&mesh, &positions, 1.0).expect("a sheet has an area");
         let corners = mesh.half_edges().map(|h| corner(&mesh, &positions, h));
         let mut texture = PerCorner::new(corners.collect::<Vec<Point>>());
-        let report = scissor
-            .cut(method, &mut mesh, &mut positions, &mut edits)
+        let (_, report) = scissor
+            .cut_measured(method, &mut mesh, &mut positions, &mut edits)
             .expect("positions are in step");
         edits.replay(&mut (&mut masses, &mut texture));
         assert!(mesh.check().is_empty(), "a cut leaves a mesh");

@@ -59,13 +59,13 @@ const ROUNDING: f64 = 1e-6;
 fn splits_without_snap(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> bool {
     let (mut mesh, points) = (mesh.clone(), positions.as_slice().iter().copied());
     let mut positions = Positions::new(points).expect("points of a mesh that is being cut");
-    let tried = scissor.clone().snap(0.0).cut(
+    let tried = scissor.clone().snap(0.0).cut_measured(
         CutMethod::Exact,
         &mut mesh,
         &mut positions,
         &mut Edits::new(),
     );
-    tried.is_ok_and(|done| done.splits > 0)
+    tried.is_ok_and(|(_, done)| done.splits > 0)
 }
 
 /// Where the cut was to go.
@@ -90,7 +90,8 @@ impl Slit<'_> {
         let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.positions.at(v));
         let middle = ends[0] + (ends[1] - ends[0]) * 0.5;
         let sides = self.scissor.sides();
-        let is_between = self.through || sides.iter().all(|side| side.offset(middle) >= 0.0);
+        let mut sides = sides.iter().flatten();
+        let is_between = self.through || sides.all(|side| side.offset(middle) >= 0.0);
         let is_near = self.near.is_none_or(|near| {
             let far = near * self.longest(h).max(self.longest(ghost));
             ends.iter().all(|&end| plane.distance(end).abs() <= far)
