@@ -16,6 +16,7 @@ mod geometry;
 mod house;
 mod hub;
 mod insert;
+mod layers;
 mod lockstep;
 mod mass;
 mod methods;

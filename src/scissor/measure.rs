@@ -8,7 +8,7 @@
 
 use super::exact::Way;
 use super::outcome::{Outcome, side_of};
-use super::pieces::{Census, round};
+use super::pieces::Census;
 use super::seam::Nodes;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, altitude, angle, cross, dot, length};
@@ -188,7 +188,7 @@ impl<'w> Survey<'w> {
 
     /// The faces whose sides a report asks for.
     pub(super) fn judged(&self, mesh: &Mesh, edits: &Edits, first_edit: Cursor) -> Vec<FaceId> {
-        round(mesh, &self.slit_now(edits, first_edit))
+        self.census.round(mesh, &self.slit_now(edits, first_edit))
     }
 
     /// The side of a face that is not crossed; one that lies on the plane is in front.
@@ -387,21 +387,28 @@ fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
 
 /// How far the vertex nearest to the slit is from it.
 fn nearest_vertex(way: &Way<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
+    let plane = way.strip.plane;
     let mut least = f64::INFINITY;
-    for v in mesh.vertices() {
-        let p = positions.at(v);
-        let off = way.strip.plane.distance(p);
-        if off.abs() >= least || mesh.half_edge_of(v).is_none() {
+    // Beyond this the distance from the plane is more than the least.
+    let mut offset_max = f64::INFINITY;
+    for (v, offset) in mesh.vertices().zip(way.offsets.all()) {
+        if offset.abs() > offset_max || mesh.half_edge_of(v).is_none() {
             continue;
         }
+        let p = positions.at(v);
+        let off = plane.distance(p);
         let outside = way
             .strip
             .bounds()
             .map_or(0.0, |[a, b]| (-a.distance(p)).max(-b.distance(p)).max(0.0));
         least = least.min((off * off + outside * outside).sqrt());
+        offset_max = least * plane.offset_of_unit() * (1.0 + MARGIN);
     }
     least
 }
+
+/// By what part rounding makes nothing larger that was not: far more than it does.
+const MARGIN: f64 = 1e-6;
 
 /// The smallest angle in degrees and the smallest altitude of any face; zeros for a
 /// mesh without faces.
@@ -412,28 +419,26 @@ fn quality(mesh: &Mesh, positions: &Positions) -> (f64, f64) {
     for f in mesh.faces() {
         let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         let sides = [b - a, c - b, a - c];
-        let normal = cross(sides[0], -sides[2]);
+        // Roots and quotients are for the few faces that could be the worst, and for those that are
+        // so small that their squares vanish.
+        let normal = cross(sides[0], sides[2]);
         let twice_area = dot(normal, normal);
-        // Roots and quotients are for the few faces that could be the worst. A part of a million is
-        // far beyond what rounding makes of squares that do not vanish.
-        let is_larger = |a: f64, b: f64| a > 1.000_001 * b;
-        let is_plain = twice_area > f64::MIN_POSITIVE * 1e16;
-        let longest = sides
-            .into_iter()
-            .map(|side| dot(side, side))
-            .fold(0.0, f64::max);
-        if !is_plain || !is_larger(twice_area, altitude_min * altitude_min * longest) {
-            altitude_min = altitude_min.min(altitude([a, b, c]));
-        }
+        let squares = sides.map(|side| dot(side, side));
+        let longest = squares[0].max(squares[1]).max(squares[2]);
+        let shortest = squares[0].min(squares[1]).min(squares[2]);
+        let sum = squares[0] + squares[1] + squares[2];
+        // The product of the two longer sides, by the law of cosines.
+        let along_max = sum * (0.5 + MARGIN) - shortest;
         let steepest = cotangent_max.0.max(0.0);
+        if twice_area > f64::MIN_POSITIVE / f64::EPSILON
+            && twice_area > altitude_min * altitude_min * longest * (1.0 + MARGIN)
+            && twice_area * steepest * steepest > along_max * along_max
+        {
+            continue;
+        }
+        altitude_min = altitude_min.min(altitude([a, b, c]));
         for (one, other) in [(0, 2), (1, 0), (2, 1)] {
             let along = dot(sides[one], -sides[other]);
-            if is_plain
-                && (along < 0.0 || is_larger(steepest * steepest * twice_area, along * along))
-                && cotangent_max.0 >= 0.0
-            {
-                continue;
-            }
             let across = length(cross(sides[one], -sides[other]));
             let cotangent = if across > 0.0 {
                 along / across

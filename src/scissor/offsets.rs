@@ -72,6 +72,11 @@ impl Offsets {
         }
     }
 
+    /// The offset of each vertex, also where rounding cannot vouch for its sign.
+    pub(super) fn all(&self) -> &[f64] {
+        &self.of
+    }
+
     /// Whether a face has vertices strictly on both sides of the plane.
     pub(super) fn cross(&self, mesh: &Mesh, f: FaceId) -> bool {
         let offsets = mesh.face_vertices(f).map(|v| self.of(v));

@@ -34,7 +34,7 @@ impl Census {
         // An insertion divides the faces on both sides of a torn edge.
         let across = |h: HalfEdgeId| mesh.ghost_pair(h).map(HalfEdgeId::face);
         let half_edges = touched.iter().flat_map(|f| f.half_edges());
-        let mut near = round(mesh, touched);
+        let mut near = round(mesh, touched, mesh.faces());
         near.extend(half_edges.filter_map(across));
         near.sort_unstable();
         near.dedup();
@@ -64,6 +64,13 @@ impl Census {
             census.parts += 1;
         }
         census
+    }
+
+    /// The faces that share a vertex with some that the cut met, once vertices are inserted;
+    /// ascending.
+    pub(super) fn round(&self, mesh: &Mesh, met: &[FaceId]) -> Vec<FaceId> {
+        let new = (self.part.len()..mesh.face_count()).filter_map(FaceId::new);
+        round(mesh, met, self.near.iter().copied().chain(new))
     }
 
     /// The pieces of the mesh as it was looked at.
@@ -152,18 +159,13 @@ impl Census {
     }
 }
 
-/// The faces that share a vertex with some of these, ascending. Linear in the mesh, since walks
-/// round a hub that is torn would cost the square of its faces.
-pub(super) fn round(mesh: &Mesh, faces: &[FaceId]) -> Vec<FaceId> {
+/// Those of some faces that share a vertex with some others. Walks round a hub that is torn would
+/// cost the square of its faces.
+fn round(mesh: &Mesh, others: &[FaceId], of: impl Iterator<Item = FaceId>) -> Vec<FaceId> {
     let mut marked = vec![false; mesh.vertex_count()];
-    for v in faces.iter().flat_map(|&f| mesh.face_vertices(f)) {
+    for v in others.iter().flat_map(|&f| mesh.face_vertices(f)) {
         marked[v.index()] = true;
     }
-    let corners = mesh.indices().as_chunks::<3>().0.iter();
-    let is_round = |triangle: &[u32; 3]| triangle.iter().any(|&v| marked[v as usize]);
-    let faces = mesh.faces().zip(corners);
-    faces
-        .filter(|(_, triangle)| is_round(triangle))
-        .map(|(f, _)| f)
-        .collect()
+    let is_round = |&f: &FaceId| mesh.face_vertices(f).iter().any(|v| marked[v.index()]);
+    of.filter(is_round).collect()
 }
