@@ -16,11 +16,13 @@ use crate::random::Random;
 /// How near a special case a cut may be, in edges, for the oracle to judge it.
 const NEAR: f64 = 1e-6;
 
+/// An end of a piece, and the edge (as sorted vertices) on which it is; none at a ray.
+type End = (Point, Option<[u32; 2]>);
+
 /// What plane and strip have in common with the triangles of a mesh.
 struct Oracle {
-    /// For each crossed face the ends of what lies between the rays, with the edges (as sorted
-    /// vertices) on which they are.
-    pieces: BTreeMap<usize, [(Point, Option<[u32; 2]>); 2]>,
+    /// For each crossed face the ends of what lies between the rays.
+    pieces: BTreeMap<usize, [End; 2]>,
     /// The number of each piece's chain.
     chain: BTreeMap<usize, usize>,
 }

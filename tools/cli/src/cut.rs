@@ -2,23 +2,25 @@
 
 pub(crate) mod nothing;
 pub(crate) mod scissors;
+mod seam;
 pub(crate) mod words;
 
 use std::ffi::OsString;
 use std::path::Path;
 
-use tearmesh::{Cursor, Cut, CutEnd, Edit, Edits, Masses, Positions, Scissor};
+use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
 use self::nothing::Obstacle;
-use self::scissors::{no_plane, warn_of_skew};
-use crate::args::{CutArgs, Mass, Method, Tips};
+use self::scissors::{Along, no_plane, warn_of_skew};
+use self::seam::Seam;
+use crate::args::{CutArgs, Layers, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
 use crate::rays::Pair;
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, report};
+use crate::{files, output, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -29,8 +31,8 @@ pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>)
 }
 
 fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
-    let pairs = scissors::pairs(args, streams)?;
-    for pair in &pairs {
+    let cuts = scissors::cuts(args, streams)?;
+    for pair in cuts.iter().filter_map(Along::rays) {
         // Rays that span no plane are refused before a large file is read.
         let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
@@ -52,9 +54,11 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let is_exact = args.method == Method::Exact;
     let mut slid = false;
     let mut line = Polyline::default();
-    for (i, pair) in pairs.iter().enumerate() {
-        let number = (pairs.len() > 1).then_some(i + 1);
-        let scissor = scissor(args, pair, &line, &positions)?;
+    let through = args.through || !args.plane.is_empty();
+    let mut seams = Vec::new();
+    for (i, along) in cuts.iter().enumerate() {
+        let number = (cuts.len() > 1).then_some(i + 1);
+        let scissor = scissor(args, along, &line, &positions)?;
         let made = scissor.cut_measured(
             args.method.of_library(),
             &mut mesh,
@@ -67,18 +71,21 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         line.go_on(&edits, &cut);
         edits.clear();
         torn.next_cut();
-        let entry = report::Cut::new(pair, &scissor, how(args), &done);
+        let chosen = (args.layers == Layers::First).then_some(&cut);
+        let entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
         session.report.cuts.push(entry);
         session.words.push(words::cut(number, &done));
         let method = args.method.of_library();
         let obstacle = if done.splits == 0 {
             let how = (&scissor, method, args.snap);
-            nothing::obstacle(how, args.through, (&mesh, &positions), &done)
+            nothing::obstacle(how, through, (&mesh, &positions), &done)
         } else {
             Obstacle::Unknown
         };
-        let warnings = words::warnings(number, (args.through, is_exact), &done, obstacle);
+        let warnings = words::warnings(number, (through, is_exact), &done, obstacle);
         session.faults.extend(warnings);
+        session.faults.extend(words::of_layers(number, &cut));
+        seams.push(Seam::new(&cut, &mesh, &positions));
     }
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
@@ -93,6 +100,10 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
+    if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
+        let written = output::write(path, |out| seam::write(&seams, out));
+        written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+    }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
@@ -124,9 +135,32 @@ impl Polyline {
     }
 }
 
+/// The scissor of a cut, by the options.
+fn scissor(
+    args: &CutArgs,
+    along: &Along,
+    line: &Polyline,
+    positions: &Positions,
+) -> Result<Scissor, Stop> {
+    let scissor = match along {
+        Along::Rays(pair) => between(args, pair, line, positions)?,
+        Along::Plane(plane) => Scissor::by_plane(*plane),
+    };
+    let tips = match args.tips {
+        Tips::Vertex => tearmesh::CutTips::Vertex,
+        Tips::Midpoint => tearmesh::CutTips::Midpoint,
+    };
+    let layers = match args.layers {
+        Layers::All => CutLayers::All,
+        Layers::First => CutLayers::First,
+    };
+    let scissor = scissor.through(args.through).tips(tips).layers(layers);
+    Ok(scissor.snap(args.snap).snap_move(args.snap_move))
+}
+
 /// The scissor of two rays, which goes on from where the last cut ended if that ended with the
 /// first of them, and ends where the first of those cuts began if it comes back there.
-fn scissor(
+fn between(
     args: &CutArgs,
     pair: &Pair,
     line: &Polyline,
@@ -138,13 +172,7 @@ fn scissor(
         Some([_, last]) => Scissor::continued(last, pair[1], positions),
         None => Scissor::new(pair[0], pair[1]),
     };
-    let scissor = scissor.map_err(|error| no_plane(pair, error))?;
-    let tips = match args.tips {
-        Tips::Vertex => tearmesh::CutTips::Vertex,
-        Tips::Midpoint => tearmesh::CutTips::Midpoint,
-    };
-    let scissor = scissor.through(args.through).tips(tips);
-    Ok(scissor.snap(args.snap).snap_move(args.snap_move))
+    scissor.map_err(|error| no_plane(pair, error))
 }
 
 /// The options that the report repeats.
@@ -152,7 +180,7 @@ fn how(args: &CutArgs) -> report::How {
     let is_exact = args.method == Method::Exact;
     report::How {
         method: args.method.name(),
-        through: args.through,
+        through: args.through || !args.plane.is_empty(),
         tips: args.tips.name(),
         snap: is_exact.then_some(args.snap),
         snap_move: is_exact.then_some(args.snap_move),
@@ -173,6 +201,20 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
         );
     }
     files::keep(&args.files, args.rays_file.as_deref(), "the rays")?;
+    if let Some(seam) = &args.seam {
+        let read = [Some(&args.files.input), args.rays_file.as_ref()];
+        let is_read = read
+            .into_iter()
+            .flatten()
+            .any(|path| files::is_same(path, seam));
+        if seam == Path::new("-") || is_read {
+            return usage(
+                "`--seam` takes the name of a file of its own",
+                "write the seam to another file",
+            );
+        }
+        files::keep(&args.files, Some(seam), "the seam")?;
+    }
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(
             "`--tips midpoint` is for the method partition, not {}",

@@ -289,7 +289,7 @@ impl Play<'_> {
             snap: (cut.method == tearmesh::CutMethod::Exact).then_some(Scissor::SNAP),
             snap_move: (cut.method == tearmesh::CutMethod::Exact).then_some(false),
         };
-        let mut entry = report::Cut::new(&cut.rays, &scissor, how, done);
+        let mut entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
         entry.stable_step_s = made.stability.map(words::stable_step);
         session.report.cuts.push(entry);
         let many = (scene.cuts.len() > 1).then_some(made.number + 1);

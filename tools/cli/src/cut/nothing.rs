@@ -57,13 +57,14 @@ const ROUNDING: f64 = 1e-6;
 
 /// Whether the cut would split something with `--snap 0`.
 fn splits_without_snap(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> bool {
-    let (mut mesh, points) = (mesh.clone(), positions.as_slice().iter().copied());
-    let mut positions = Positions::new(points).expect("points of a mesh that is being cut");
+    // A scissor that goes on from a cut knows the place in the log.
+    let mut edits = Edits::starting_at(positions.seen());
+    let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
     let tried = scissor.clone().snap(0.0).cut_measured(
         CutMethod::Exact,
         &mut mesh,
         &mut positions,
-        &mut Edits::new(),
+        &mut edits,
     );
     tried.is_ok_and(|(_, done)| done.splits > 0)
 }
