@@ -3,7 +3,7 @@
 //! A [`Mesh`] is built from triangles and split at its vertices. A split that separates two
 //! faces turns the pair between them into a *ghost pair*, so that all faces of a vertex are
 //! found however torn the mesh is, also where it is no longer a 2-manifold. On this stand a
-//! [`Scissor`] that cuts along two rays, and exact [`Masses`]. The technique is that of
+//! [`Scissor`] that cuts along two rays or a plane, and exact [`Masses`]. The technique is that of
 //! M. S. Souza, A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC
 //! Journal on Interactive Systems 5(1), 2014; where this library differs, the module
 //! concerned says why.
@@ -68,7 +68,7 @@
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
-//! | scissor | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
+//! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
 //!
 //! The solver layer stands on all of this, in a crate of its own, `tearmesh-cloth` (14,100 lines).

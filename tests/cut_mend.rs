@@ -192,6 +192,7 @@ impl World {
                 let Ok(scissor) = scissor else { return };
                 let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
                 let first = self.edits.cursor();
+                let pieces_before = self.mesh.components().count();
                 let before = self.positions.clone();
                 let torn_before: Vec<VertexId> = self.mesh.vertices().collect();
                 let (cut, report) = scissor
@@ -210,6 +211,7 @@ impl World {
                 self.done.told.cuts += 1;
                 self.done.told.splits += report.splits;
                 self.done.told.inserted += report.vertices_inserted;
+                assert_eq!(report.pieces_before, pieces_before);
                 assert_eq!(report.pieces, self.mesh.components().count());
                 *last = cut.ends().map(|[_, end]| end.clone());
             }

@@ -232,6 +232,57 @@ fn lent_memory_and_measuring_change_nothing() {
     }
 }
 
+#[test]
+fn what_is_measured_of_all_faces_and_vertices_is_so() {
+    for (i, case) in cases(67).into_iter().enumerate() {
+        let ((mut mesh, mut positions), scissor) = (built(&case.before), case.scissor());
+        let plane = scissor.plane();
+        let sides = scissor.sides().filter(|_| !case.cut.sides.is_empty());
+        let off = |&p: &Point| {
+            let sides = sides.as_slice().as_flattened();
+            let outside = sides
+                .iter()
+                .map(|side| -side.distance(p))
+                .fold(0.0, f64::max);
+            plane.distance(p).hypot(outside)
+        };
+        let nearest = positions
+            .as_slice()
+            .iter()
+            .map(off)
+            .fold(f64::INFINITY, f64::min);
+        let method = METHODS[i % 4];
+        let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut Edits::new());
+        let (_, report) = made.expect("in step");
+        assert!(
+            (report.nearest_vertex - nearest).abs() < 1e-12,
+            "{}",
+            case.name
+        );
+        let (mut angle, mut altitude) = (f64::INFINITY, f64::INFINITY);
+        for f in mesh.faces() {
+            let corners = mesh.face_vertices(f).map(|v| positions.at(v));
+            for i in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3]);
+                angle = angle.min((b - a).angle(&(c - a)).to_degrees());
+                let (along, across) = ((b - a).normalize(), c - a);
+                altitude = altitude.min((across - along * across.dot(&along)).norm());
+            }
+        }
+        let told = [report.angle_min_deg, report.altitude_min];
+        assert!(
+            (told[0] - angle).abs() < 1e-5,
+            "{}: {told:?}, {angle}",
+            case.name
+        );
+        assert!(
+            (told[1] - altitude).abs() < 1e-9,
+            "{}: {told:?}, {altitude}",
+            case.name
+        );
+    }
+}
+
 /// A sheet with a slit in it, and the log so far.
 fn slit_sheet() -> (Mesh, Positions, Edits, Cut) {
     let (mut mesh, mut positions) = shapes::grid(8, 8);
