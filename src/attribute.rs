@@ -101,8 +101,8 @@ impl Blend for Point {
 /// let v = VertexId::new(0).unwrap();
 /// split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?;
 /// edits.replay(&mut speeds);
-/// assert_eq!(speeds[VertexId::new(4).unwrap()], 0.5);
-/// # Ok::<(), tearmesh::split::Refusal>(())
+/// assert_eq!(speeds.at(VertexId::new(4).unwrap()), &0.5);
+/// # Ok::<(), tearmesh::SplitRefusal>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerVertex<T> {
@@ -136,6 +136,26 @@ impl<T: Blend> PerVertex<T> {
         self.values.reserve(vertices);
     }
 
+    /// The value of a vertex.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn at(&self, v: VertexId) -> &T {
+        v.of(&self.values)
+    }
+
+    /// The value of a vertex, to be changed.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn at_mut(&mut self, v: VertexId) -> &mut T {
+        &mut self.values[v.index()]
+    }
+
     /// The values of all vertices, by id.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
@@ -146,20 +166,6 @@ impl<T: Blend> PerVertex<T> {
     #[must_use]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.values
-    }
-}
-
-impl<T> std::ops::Index<VertexId> for PerVertex<T> {
-    type Output = T;
-
-    fn index(&self, v: VertexId) -> &T {
-        v.of(&self.values)
-    }
-}
-
-impl<T> std::ops::IndexMut<VertexId> for PerVertex<T> {
-    fn index_mut(&mut self, v: VertexId) -> &mut T {
-        &mut self.values[v.index()]
     }
 }
 
@@ -192,7 +198,7 @@ impl<T: Blend> Follower for PerVertex<T> {
 /// plan.apply(&mut mesh, &mut edits)?;
 /// edits.replay(&mut uv);
 /// assert_eq!(uv.as_slice().iter().filter(|uv| **uv == [0.25, 0.0]).count(), 2);
-/// # Ok::<(), tearmesh::insert::Refusal>(())
+/// # Ok::<(), tearmesh::InsertRefusal>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerCorner<T> {
@@ -214,18 +220,20 @@ impl<T: Blend> PerCorner<T> {
         PerCorner { seen, ..self }
     }
 
+    /// The value of a corner.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such corner.
+    #[must_use]
+    pub fn at(&self, h: HalfEdgeId) -> &T {
+        h.of(&self.values)
+    }
+
     /// The values of all corners, by half-edge.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
         &self.values
-    }
-}
-
-impl<T> std::ops::Index<HalfEdgeId> for PerCorner<T> {
-    type Output = T;
-
-    fn index(&self, h: HalfEdgeId) -> &T {
-        h.of(&self.values)
     }
 }
 
@@ -255,7 +263,7 @@ impl<T: Blend> Follower for PerCorner<T> {
 /// plan.apply(&mut mesh, &mut edits)?;
 /// edits.replay(&mut materials);
 /// assert_eq!(materials.as_slice(), ["silk", "wool", "silk"]);
-/// # Ok::<(), tearmesh::insert::Refusal>(())
+/// # Ok::<(), tearmesh::InsertRefusal>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PerFace<T> {
@@ -277,18 +285,20 @@ impl<T: Clone> PerFace<T> {
         PerFace { seen, ..self }
     }
 
+    /// The value of a face.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such face.
+    #[must_use]
+    pub fn at(&self, f: FaceId) -> &T {
+        f.of(&self.values)
+    }
+
     /// The values of all faces, by id.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
         &self.values
-    }
-}
-
-impl<T> std::ops::Index<FaceId> for PerFace<T> {
-    type Output = T;
-
-    fn index(&self, f: FaceId) -> &T {
-        f.of(&self.values)
     }
 }
 

@@ -12,7 +12,7 @@
 //!
 //! A record has two faces. [`Edit`] is what happened, for those who need structure: constraints, the
 //! record in a file, masses. For values there is a normal form ([`VertexOp`], [`CornerOp`],
-//! [`Family`]): [`Edits::replay_vertices`] and its like bring a list of any type up to date.
+//! [`FaceFamily`]): [`Edits::replay_vertices`] and its like bring a list of any type up to date.
 //!
 //! The log is flat: lists of all records lie one after the other in a few vectors, which
 //! [`Edits::reserve`] can make room in beforehand, so that splits do not allocate.
@@ -22,9 +22,10 @@ mod form;
 mod record;
 
 pub use cursor::Cursor;
-pub use form::{CornerOp, Family, Mix, VertexOp};
+pub use form::{CornerOp, FaceFamily, Mix, VertexOp};
 pub use record::{
-    Child, Edit, Insert, InsertedPoint, Location, Merge, Renumbered, Slide, Source, Split, TornLink,
+    ChildFace, CornerSource, Edit, Insert, InsertLocation, InsertedPoint, Merge, Renumbered, Slide,
+    Split, TornLink,
 };
 
 use crate::id::{HalfEdgeId, VertexId};
@@ -51,7 +52,7 @@ pub struct Edits {
     corners: Vec<HalfEdgeId>,
     links: Vec<TornLink>,
     points: Vec<InsertedPoint>,
-    children: Vec<Child>,
+    children: Vec<ChildFace>,
     /// What few records have: the rest of insertions, merges and slides.
     inserts: Vec<InsertEnds>,
     merges: Vec<MergeRest>,
@@ -217,7 +218,7 @@ impl Edits {
     /// plan.apply(&mut mesh, &mut edits)?;
     /// edits.replay_vertices(&mut seen, &mut bones, |mix| *mix.nearest());
     /// assert_eq!(bones.len(), mesh.vertex_count());
-    /// # Ok::<(), tearmesh::insert::Refusal>(())
+    /// # Ok::<(), tearmesh::InsertRefusal>(())
     /// ```
     ///
     /// # Panics
@@ -439,7 +440,7 @@ impl Edits {
     pub(crate) fn finish_insert(
         &mut self,
         points: impl IntoIterator<Item = InsertedPoint>,
-        children: impl IntoIterator<Item = Child>,
+        children: impl IntoIterator<Item = ChildFace>,
     ) -> Insert<'_> {
         self.points.extend(points);
         self.children.extend(children);

@@ -122,6 +122,11 @@ impl Plane {
         self.offset(p) / self.length
     }
 
+    /// How large an offset is for each unit of distance.
+    pub(crate) fn offset_of_unit(&self) -> f64 {
+        self.length
+    }
+
     /// The parallel plane through another point, which has to be usable.
     pub(crate) fn through(&self, point: Point) -> Plane {
         debug_assert!(check_point(point).is_ok());

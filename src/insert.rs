@@ -23,7 +23,7 @@ use std::fmt;
 
 pub use plan::{ChordEnd, Plan, PointId};
 
-use crate::edit::{Child, Edits, Insert, InsertedPoint, Location};
+use crate::edit::{ChildFace, Edits, Insert, InsertLocation, InsertedPoint};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use face::{Fault, Retriangulation};
@@ -52,18 +52,22 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// [`Refusal`] says why nothing was changed.
+    /// [`InsertRefusal`] says why nothing was changed.
     ///
     /// # Panics
     ///
     /// If an id is not one of this mesh (I2) or of this plan.
-    pub fn apply<'e>(&self, mesh: &mut Mesh, edits: &'e mut Edits) -> Result<Insert<'e>, Refusal> {
+    pub fn apply<'e>(
+        &self,
+        mesh: &mut Mesh,
+        edits: &'e mut Edits,
+    ) -> Result<Insert<'e>, InsertRefusal> {
         Ok(self.prepare(mesh)?.carry_out(mesh, edits))
     }
 
     /// All that inserting the points takes, which changes nothing yet. Positions may change before
     /// it is carried out, and the mesh may not.
-    pub(crate) fn prepare(&self, mesh: &Mesh) -> Result<Work, Refusal> {
+    pub(crate) fn prepare(&self, mesh: &Mesh) -> Result<Work, InsertRefusal> {
         self.expect_known(mesh);
         Work::new(self, mesh)
     }
@@ -111,7 +115,7 @@ struct OnEdge {
 /// All that is to be done, worked out before anything is changed.
 pub(crate) struct Work {
     placed: Vec<InsertedPoint>,
-    children: Vec<Child>,
+    children: Vec<ChildFace>,
     touched: Vec<Touched>,
     /// The half-edges along the edges of touched faces, after the insertion: edge by
     /// edge, each in the direction of the face.
@@ -131,7 +135,7 @@ struct Touched {
 }
 
 impl Work {
-    fn new(plan: &Plan, mesh: &Mesh) -> Result<Work, Refusal> {
+    fn new(plan: &Plan, mesh: &Mesh) -> Result<Work, InsertRefusal> {
         let mut work = Work {
             placed: Vec::with_capacity(plan.points.len()),
             children: Vec::new(),
@@ -164,19 +168,19 @@ impl Work {
             for chord in chords[here..].iter().take_while(|chord| chord.f == f) {
                 let ends = chord.ends.map(|end| end_of(end, f, &face));
                 let [Some(one), Some(other)] = ends else {
-                    return Err(Refusal::Chord { face: f });
+                    return Err(InsertRefusal::Chord { face: f });
                 };
                 face.chord(one, other);
             }
             face.run().map_err(|fault| match fault {
-                Fault::Chord => Refusal::Chord { face: f },
-                Fault::Crowded => Refusal::Crowded { face: f },
-                Fault::Share(share) => Refusal::Share { face: f, share },
+                Fault::Chord => InsertRefusal::Chord { face: f },
+                Fault::Crowded => InsertRefusal::Crowded { face: f },
+                Fault::Share(share) => InsertRefusal::Share { face: f, share },
             })?;
             work.divide(mesh, f, &face, &mut next_face);
         }
         if next_face > Mesh::MAX_FACES {
-            return Err(Refusal::Full { faces: next_face });
+            return Err(InsertRefusal::Full { faces: next_face });
         }
         Ok(work)
     }
@@ -188,7 +192,7 @@ impl Work {
         &mut self,
         plan: &Plan,
         mesh: &Mesh,
-    ) -> Result<(Vec<OnEdge>, Vec<(FaceId, VertexId, [f64; 3])>), Refusal> {
+    ) -> Result<(Vec<OnEdge>, Vec<(FaceId, VertexId, [f64; 3])>), InsertRefusal> {
         let mut next = mesh.next_vertex().to_u32();
         let mut new_vertex = || {
             next += 1;
@@ -199,9 +203,9 @@ impl Work {
             match point {
                 Point::Edge { h, t, forward } => {
                     if !(t > 0.0 && t < 1.0) {
-                        return Err(Refusal::Parameter { half_edge: h, t });
+                        return Err(InsertRefusal::Parameter { half_edge: h, t });
                     }
-                    let at = |from: VertexId, to: VertexId| Location::Edge {
+                    let at = |from: VertexId, to: VertexId| InsertLocation::Edge {
                         ends: if forward { [from, to] } else { [to, from] },
                         t,
                     };
@@ -230,12 +234,12 @@ impl Work {
                     let [a, b, c] = weights;
                     let sum = a + b + c;
                     if !(a > 0.0 && b > 0.0 && c > 0.0 && sum.is_finite()) {
-                        return Err(Refusal::Weights { face: f, weights });
+                        return Err(InsertRefusal::Weights { face: f, weights });
                     }
                     let weights = weights.map(|w| w / sum);
                     let vertices = mesh.face_vertices(f);
                     let vertex = new_vertex();
-                    let at = Location::Face { vertices, weights };
+                    let at = InsertLocation::Face { vertices, weights };
                     self.placed.push(InsertedPoint { vertex, at });
                     in_faces.push((f, vertex, weights));
                 }
@@ -249,7 +253,7 @@ impl Work {
         for two in on_edges.windows(2) {
             if two[0].edge == two[1].edge && two[0].along == two[1].along {
                 let OnEdge { given, t, .. } = two[1];
-                return Err(Refusal::Repeated {
+                return Err(InsertRefusal::Repeated {
                     half_edge: given,
                     t,
                 });
@@ -275,7 +279,7 @@ impl Work {
                 FaceId::from_u32((*next_face - 1) as u32)
             };
             let nodes = triangle.map(|n| face.node(n));
-            self.children.push(Child {
+            self.children.push(ChildFace {
                 parent: f,
                 face: id,
                 vertices: nodes.map(|node| node.vertex),
@@ -310,7 +314,7 @@ impl Work {
     }
 
     /// The children of the faces that are to be divided.
-    pub(crate) fn children(&self) -> &[Child] {
+    pub(crate) fn children(&self) -> &[ChildFace] {
         &self.children
     }
 
@@ -371,7 +375,7 @@ impl Work {
 
     /// Gives every vertex of a divided face, and every new one, its smallest half-edge (I9).
     fn find_half_edges(&self, mesh: &mut Mesh) {
-        let corner_of = |child: &Child| {
+        let corner_of = |child: &ChildFace| {
             let half_edges = child.face.half_edges();
             child.vertices.into_iter().zip(half_edges)
         };
@@ -446,7 +450,7 @@ fn end_of(end: ChordEnd, f: FaceId, face: &Retriangulation) -> Option<usize> {
 /// Why nothing was inserted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum InsertRefusal {
     /// A parameter on an edge is not strictly between 0 and 1.
     Parameter {
         /// The half-edge.
@@ -494,33 +498,33 @@ pub enum Refusal {
     },
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for InsertRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("nothing was inserted: ")?;
         match self {
-            Refusal::Parameter { half_edge, t } => {
+            InsertRefusal::Parameter { half_edge, t } => {
                 write!(f, "the parameter {t} on {half_edge} is not between 0 and 1")
             }
-            Refusal::Weights {
+            InsertRefusal::Weights {
                 face,
                 weights: [a, b, c],
             } => write!(
                 f,
                 "the weights {a}, {b}, {c} are not those of a point in {face}"
             ),
-            Refusal::Repeated { half_edge, t } => {
+            InsertRefusal::Repeated { half_edge, t } => {
                 write!(f, "two points are on {half_edge} at {t}")
             }
-            Refusal::Chord { face } => write!(f, "a chord does not cross {face}"),
-            Refusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
-            Refusal::Share { face, share } => {
+            InsertRefusal::Chord { face } => write!(f, "a chord does not cross {face}"),
+            InsertRefusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
+            InsertRefusal::Share { face, share } => {
                 write!(f, "a part of {face} would have the share {share} of it")
             }
-            Refusal::Full { faces } => {
+            InsertRefusal::Full { faces } => {
                 write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)
             }
         }
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for InsertRefusal {}

@@ -3,7 +3,7 @@
 //! A [`Mesh`] is built from triangles and split at its vertices. A split that separates two
 //! faces turns the pair between them into a *ghost pair*, so that all faces of a vertex are
 //! found however torn the mesh is, also where it is no longer a 2-manifold. On this stand a
-//! [`Scissor`] that cuts along two rays, and exact [`Masses`]. The technique is that of
+//! [`Scissor`] that cuts along two rays or a plane, and exact [`Masses`]. The technique is that of
 //! M. S. Souza, A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC
 //! Journal on Interactive Systems 5(1), 2014; where this library differs, the module
 //! concerned says why.
@@ -37,7 +37,7 @@
 //! # Cut by two rays; texture coordinates and masses follow
 //!
 //! ```
-//! use tearmesh::{shapes, Edits, Masses, Method, PerCorner, Point, Ray, Scissor, Vector};
+//! use tearmesh::{shapes, CutMethod, Edits, Masses, PerCorner, Point, Ray, Scissor, Vector};
 //!
 //! let (mut mesh, mut positions) = shapes::grid(16, 16);
 //! let mut masses = Masses::area(&mesh, &positions, 0.15)?;
@@ -48,7 +48,9 @@
 //! let eye = Point::new(0.5, 0.5, 3.0);
 //! let a = Ray::new(eye, Vector::new(-0.6, 0.1, -3.0))?;
 //! let b = Ray::new(eye, Vector::new(0.6, -0.1, -3.0))?;
-//! let report = Scissor::new(&a, &b)?.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)?;
+//! let scissor = Scissor::new(a, b)?;
+//! let (_, report) =
+//!     scissor.cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
 //! edits.replay(&mut (&mut uv, &mut masses));
 //!
 //! assert_eq!((report.pieces, report.lost, report.crumbs), (2, 0, 0));
@@ -66,7 +68,7 @@
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
-//! | scissor | `scissor` (two rays to a cut; `exact`, `partition` and the paper's two methods) | 3,100 |
+//! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
 //!
 //! The solver layer stands on all of this, in a crate of its own, `tearmesh-cloth` (14,100 lines).
@@ -80,7 +82,7 @@
 //! # Errors
 //!
 //! Bad input is an error with ids, one type for each operation. "There is nothing to do" is a
-//! value: `None`, or [`split::Refusal`]. A panic is a bug, of ours or in the caller's ids, and
+//! value: `None`, or [`SplitRefusal`]. A panic is a bug, of ours or in the caller's ids, and
 //! names the invariant.
 
 #![cfg_attr(
@@ -113,17 +115,25 @@ pub mod tear;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
 pub use edit::{
-    Child, CornerOp, Cursor, Edit, Edits, Family, Follower, Followers, Insert, InsertedPoint,
-    Location, Merge, Mix, Renumbered, Slide, Source, Split, TornLink, VertexOp,
+    ChildFace, CornerOp, CornerSource, Cursor, Edit, Edits, FaceFamily, Follower, Followers,
+    Insert, InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink,
+    VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
 pub use id::{FaceId, HalfEdgeId, VertexId};
-pub use mass::{Ledger, MassError, Masses};
+pub use insert::InsertRefusal;
+pub use mass::{MassError, MassLedger, Masses};
+pub use mend::MergeRefusal;
 pub use mesh::{
     BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
     TornError, Violation,
 };
 pub use place::{Place, PositionError, Positions};
-pub use scissor::{CutError, CutReport, Method, Scissor, ScissorError, Tips};
+pub use scissor::{
+    Cut, CutEnd, CutError, CutLayers, CutMethod, CutPieces, CutReport, CutTips, LayerHit, Scissor,
+    ScissorError, SeamLine,
+};
 pub use sets::DisjointSets;
+pub use slide::SlideRefusal;
+pub use split::SplitRefusal;

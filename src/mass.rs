@@ -1,6 +1,6 @@
 //! Masses of vertices, conserved exactly.
 //!
-//! Two rules, both followers of the log and both with the same [`Ledger`]:
+//! Two rules, both followers of the log and both with the same [`MassLedger`]:
 //!
 //! * **area** (the default choice): a vertex weighs a third of each of its faces, so
 //!   after a split each half weighs what its faces weigh. In plain floats
@@ -20,7 +20,7 @@
 
 use std::fmt;
 
-use crate::edit::{Child, Cursor, Edit, Follower, Source};
+use crate::edit::{ChildFace, CornerSource, Cursor, Edit, Follower};
 use crate::exact::{ExactSum, exponent_above, power_of_two};
 use crate::geometry::area;
 use crate::id::{FaceId, VertexId};
@@ -292,8 +292,8 @@ impl Masses {
 
     /// What there was when the masses were made, and what there is now.
     #[must_use]
-    pub fn ledger(&self) -> Ledger {
-        Ledger {
+    pub fn ledger(&self) -> MassLedger {
+        MassLedger {
             before: self.opening.clone(),
             after: self.total(),
         }
@@ -421,11 +421,11 @@ impl Follower for Masses {
 /// Shares the units of a divided face among its children, by area and without losing one.
 ///
 /// Every corner gets at least one unit where there are enough for all.
-fn divide(family: &[Child], corners: &mut Vec<u64>, vertices: &mut [u64]) {
+fn divide(family: &[ChildFace], corners: &mut Vec<u64>, vertices: &mut [u64]) {
     let mut units = 0;
     for child in family {
         for (vertex, source) in child.vertices.iter().zip(child.sources) {
-            if let Source::Corner(h) = source {
+            if let CornerSource::Corner(h) = source {
                 // Several children may have it; what is taken once is gone.
                 let taken = std::mem::take(&mut corners[h.index()]);
                 vertices[vertex.index()] -= taken;
@@ -463,14 +463,14 @@ fn divide(family: &[Child], corners: &mut Vec<u64>, vertices: &mut [u64]) {
 
 /// Exact sums of masses, before and after.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Ledger {
+pub struct MassLedger {
     /// When the masses were made.
     pub before: ExactSum,
     /// Now.
     pub after: ExactSum,
 }
 
-impl Ledger {
+impl MassLedger {
     /// Whether nothing was lost or made: exactly, without a tolerance.
     #[must_use]
     pub fn is_balanced(&self) -> bool {

@@ -41,7 +41,7 @@ use crate::place::Place;
 ///
 /// # Errors
 ///
-/// [`Refusal`] says why nothing was changed.
+/// [`MergeRefusal`] says why nothing was changed.
 ///
 /// # Panics
 ///
@@ -66,11 +66,11 @@ pub fn merge<'e>(
     other: VertexId,
     weights: [f64; 2],
     edits: &'e mut Edits,
-) -> Result<Merge<'e>, Refusal> {
+) -> Result<Merge<'e>, MergeRefusal> {
     let corners = [one.min(other), one.max(other)].map(|v| mesh.half_edge_of(v));
-    let share = share_of_first(weights).ok_or(Refusal::Weights { given: weights })?;
+    let share = share_of_first(weights).ok_or(MergeRefusal::Weights { given: weights })?;
     if one == other {
-        return Err(Refusal::Same { vertex: one });
+        return Err(MergeRefusal::Same { vertex: one });
     }
     let (kept, gone, share) = if one < other {
         (one, other, share)
@@ -78,7 +78,7 @@ pub fn merge<'e>(
         (other, one, 1.0 - share)
     };
     let [Some(_), Some(first)] = corners else {
-        return Err(Refusal::Roots { one, other });
+        return Err(MergeRefusal::Roots { one, other });
     };
     let mut of_kept = false;
     for h in mesh.orbit(first) {
@@ -89,7 +89,7 @@ pub fn merge<'e>(
     }
     if !of_kept {
         edits.discard_noted();
-        return Err(Refusal::Roots { one, other });
+        return Err(MergeRefusal::Roots { one, other });
     }
     let note_corners = |mesh: &Mesh, v, edits: &mut Edits| {
         mesh.corners_of(v).for_each(|h| edits.note_corner(h));
@@ -364,7 +364,7 @@ impl Copies {
 
 /// Why a merge was refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refusal {
+pub enum MergeRefusal {
     /// Both vertices are one already.
     Same {
         /// The vertex.
@@ -384,17 +384,17 @@ pub enum Refusal {
     },
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for MergeRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Same { vertex } => write!(f, "{vertex} was not merged with itself"),
-            Refusal::Roots { one, other } => {
+            MergeRefusal::Same { vertex } => write!(f, "{vertex} was not merged with itself"),
+            MergeRefusal::Roots { one, other } => {
                 write!(
                     f,
                     "{one} and {other} were not merged: they were never one vertex"
                 )
             }
-            Refusal::Weights {
+            MergeRefusal::Weights {
                 given: [one, other],
             } => {
                 write!(
@@ -406,7 +406,7 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for MergeRefusal {}
 
 /// Why a seam was not sewn. Nothing has changed.
 #[derive(Clone, Debug, PartialEq)]

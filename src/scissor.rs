@@ -1,11 +1,14 @@
-//! The scissor: two rays, a plane between them, and a cut along it.
+//! The scissor: two rays or a plane, and a cut along it.
 //!
 //! A user picks two points on the screen; each gives a ray. The rays span a plane and a strip of it
-//! (Souza et al. 2014 §V, with two errata of the paper mended: see `scissor/strip.rs`).
+//! (Souza et al. 2014 §V, with two errata of the paper mended: see `scissor/strip.rs`). A plane alone
+//! cuts wherever it goes.
 //!
-//! Methods differ in what they split: see [`Method`]. Each returns a [`CutReport`] that says
-//! what was done and what was not.
+//! Methods differ in what they split: see [`CutMethod`]. Each returns a [`Cut`] that tells what was
+//! made: sides, seam, tips, and ends from which another cut can go on. A [`CutReport`] that measures
+//! it has to be asked for.
 
+mod cut;
 mod exact;
 mod measure;
 mod offsets;
@@ -13,52 +16,80 @@ mod outcome;
 mod paper;
 mod partition;
 mod pieces;
+mod seam;
 mod strip;
 mod unshare;
 
 use std::fmt;
 
+pub use cut::{Cut, CutEnd, CutPieces, SeamLine};
+pub use exact::layers::{CutLayers, LayerHit};
 pub use measure::CutReport;
-pub use partition::Tips;
+pub use partition::CutTips;
 
 use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Ray, max_abs};
-use crate::id::VertexId;
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use exact::Trace;
+use exact::{Way, layers};
 use measure::Survey;
-use offsets::Offsets;
 use outcome::Outcome;
 use paper::Form;
 use strip::Strip;
 
-/// A cut to be made: a plane, and two planes that bound it at the sides.
+/// A cut to be made: a plane, and between rays two planes that bound it at the sides.
 ///
 /// ```
-/// use tearmesh::{shapes, Edits, Method, Point, Positions, Ray, Scissor, Vector};
+/// use tearmesh::{shapes, CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(8, 8);
 /// let down = Vector::new(0.0, 0.0, -1.0);
 /// let a = Ray::new(Point::new(0.4, -1.0, 5.0), down)?;
 /// let b = Ray::new(Point::new(0.4, 2.0, 5.0), down)?;
 /// let mut edits = Edits::new();
-/// let report = Scissor::new(&a, &b)?.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)?;
+/// let scissor = Scissor::new(a, b)?;
+/// let (cut, report) =
+///     scissor.cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
 /// assert_eq!((report.splits, report.pieces, report.separated), (9, 2, true));
+/// assert_eq!(cut.seam().map(|line| line.lips.len()).sum::<usize>(), 8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// A slit follows a mouse: each call goes on from the vertex where the one before ended.
+///
+/// ```
+/// use tearmesh::{shapes, Cut, CutMethod, Edits, Point, Ray, Scissor, Vector};
+///
+/// let (mut mesh, mut positions) = shapes::grid(8, 8);
+/// let mouse = |x: f64, y: f64| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+/// let (mut edits, mut cut) = (Edits::new(), Cut::default());
+/// let mut scissor = Scissor::new(mouse(0.2, 0.3)?, mouse(0.4, 0.35)?)?;
+/// for to in [mouse(0.6, 0.5)?, mouse(0.7, 0.7)?] {
+///     scissor.cut_into(CutMethod::Exact, &mut mesh, &mut positions, &mut edits, &mut cut)?;
+///     let [_, end] = cut.ends().expect("there are rays");
+///     scissor = Scissor::continued(end, to, &positions)?;
+///     edits.clear(); // whatever follows has followed
+/// }
+/// scissor.cut_into(CutMethod::Exact, &mut mesh, &mut positions, &mut edits, &mut cut)?;
+/// assert_eq!(mesh.boundary_loops().len(), 2); // the sheet's, and that of one slit
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scissor {
     strip: Strip,
-    rays: [Ray; 2],
-    tips: Tips,
+    /// None where a plane was given.
+    rays: Option<[Ray; 2]>,
+    tips: CutTips,
+    layers: CutLayers,
     exact: exact::Settings,
+    /// Where the cut goes on from another, and where it comes back to one.
+    joints: [Option<CutEnd>; 2],
 }
 
 /// How a cut is made. All methods share the rays, the report and the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Method {
+pub enum CutMethod {
     /// Insert vertices where the plane crosses edges, so that the seam is straight. Adds faces,
     /// always divides; with a snap ([`Scissor::snap`]) no face gets thin, and the seam is as far
     /// from the plane as that allows.
@@ -87,18 +118,40 @@ impl Scissor {
     /// # Errors
     ///
     /// [`ScissorError::OneLine`] if both rays lie on one line, up to rounding.
-    pub fn new(a: &Ray, b: &Ray) -> Result<Scissor, ScissorError> {
-        let strip = Strip::between(a, b).ok_or(ScissorError::OneLine)?;
-        Ok(Scissor {
+    pub fn new(a: Ray, b: Ray) -> Result<Scissor, ScissorError> {
+        let strip = Strip::between(&a, &b).ok_or(ScissorError::OneLine)?;
+        Ok(Scissor::along(strip, Some([a, b])))
+    }
+
+    /// The scissor that cuts wherever a plane goes.
+    ///
+    /// ```
+    /// use tearmesh::{shapes, CutMethod, Edits, Plane, Point, Scissor, Vector};
+    ///
+    /// let (mut mesh, mut positions) = shapes::grid(8, 8);
+    /// let plane = Plane::new(Point::new(0.3, 0.0, 0.0), Vector::new(1.0, 0.2, 0.0))?;
+    /// let mut edits = Edits::new();
+    /// Scissor::by_plane(plane).cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
+    /// assert_eq!(mesh.components().count(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn by_plane(plane: Plane) -> Scissor {
+        Scissor::along(Strip::whole(plane), None)
+    }
+
+    fn along(strip: Strip, rays: Option<[Ray; 2]>) -> Scissor {
+        Scissor {
             strip,
-            rays: [*a, *b],
-            tips: Tips::default(),
+            rays,
+            tips: CutTips::default(),
+            layers: CutLayers::default(),
             exact: exact::Settings {
                 snap: Scissor::SNAP,
                 snap_move: false,
-                joints: Default::default(),
             },
-        })
+            joints: [None, None],
+        }
     }
 
     /// The default of [`Scissor::snap`].
@@ -136,15 +189,13 @@ impl Scissor {
         self
     }
 
-    /// The scissor that goes on from where a cut by this one ended, at its second ray, to
-    /// another ray.
+    /// The scissor that goes on from an end of a cut to another ray.
     ///
     /// After a cut by the method `exact` the two cuts meet in one vertex (on each sheet of
     /// the mesh that both rays meet): the new plane passes through its actual position, and the
     /// vertex counts as lying on it. (Where tips on several sheets moved, to leave no thin face, the
     /// plane may pass too far from some.) After another method, and where the cut had no end at the
-    /// second ray, this is the scissor of the two rays. Whether it cuts through, its tips and
-    /// its snap are those of this one.
+    /// ray, this is the scissor of the two rays.
     ///
     /// # Errors
     ///
@@ -152,22 +203,21 @@ impl Scissor {
     ///
     /// # Panics
     ///
-    /// If the report is of another mesh than the positions.
+    /// If the end is of another mesh than the positions.
     pub fn continued(
-        &self,
-        report: &CutReport,
+        from: &CutEnd,
+        to: Ray,
         positions: &Positions,
-        to: &Ray,
     ) -> Result<Scissor, ScissorError> {
-        self.joined(to, [report.ends_at_second_ray(), &[]], positions)
+        Scissor::joined([from.ray, to], [Some(from), None], positions)
     }
 
-    /// The scissor that goes on from where a cut by this one ended, back to where the first cut of
-    /// a polyline began, and closes it.
+    /// The scissor that goes on from an end of a cut and comes back to another: a polyline's last cut,
+    /// which closes it where its first one began.
     ///
     /// As [`Scissor::continued`] finds the vertex where the cut goes on, so this finds that where it
-    /// ends: the first cut's end at its first ray. Going back to the same *place* would leave
-    /// the slit open wherever the first tip is not exactly on its ray.
+    /// ends. Going back to the same *place* would leave the slit open wherever the first tip is not
+    /// exactly on its ray.
     ///
     /// # Errors
     ///
@@ -175,66 +225,78 @@ impl Scissor {
     ///
     /// # Panics
     ///
-    /// If a report is of another mesh than the positions.
+    /// If an end is of another mesh than the positions.
     pub fn closed(
-        &self,
-        report: &CutReport,
-        first: (&Scissor, &CutReport),
+        from: &CutEnd,
+        to: &CutEnd,
         positions: &Positions,
     ) -> Result<Scissor, ScissorError> {
-        let (first, first_report) = first;
-        let joints = [
-            report.ends_at_second_ray(),
-            first_report.ends_at_first_ray(),
-        ];
-        self.joined(&first.rays[0], joints, positions)
+        Scissor::joined([from.ray, to.ray], [Some(from), Some(to)], positions)
     }
 
-    /// The scissor from the second ray of this one to another, through the nearest of the joints at
-    /// each.
+    /// The scissor from one ray to another, through the nearest of the joints at each.
     fn joined(
-        &self,
-        to: &Ray,
-        joints: [&[VertexId]; 2],
+        rays: [Ray; 2],
+        joints: [Option<&CutEnd>; 2],
         positions: &Positions,
     ) -> Result<Scissor, ScissorError> {
-        let rays = [self.rays[1], *to];
         let [begin, end] = [0, 1].map(|side| {
-            let distance = |&&v: &&VertexId| max_abs(positions.at(v) - rays[side].origin());
-            let joints = joints[side].iter();
-            let nearest = joints.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            let at_joint = Ray::new(positions.at(*nearest), rays[side].direction());
+            let vertices = joints[side]?.vertices.iter().copied();
+            let distance = |v| max_abs(positions.at(v) - rays[side].origin());
+            let nearest = vertices.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
+            let at_joint = Ray::new(positions.at(nearest), rays[side].direction());
             Some(at_joint.expect("a position and a direction that were accepted"))
         });
+        let end = end.unwrap_or(rays[1]);
         let mut scissor = match begin {
-            None => Scissor::new(&rays[0], end.as_ref().unwrap_or(to))?,
+            None => Scissor::new(rays[0], end)?,
             Some(begin) => {
                 // The plane holds all of the first ray given, and the origin of the second.
-                let mut joined = Scissor::new(end.as_ref().unwrap_or(to), &begin)?;
-                joined.strip.sides.reverse();
+                let mut joined = Scissor::new(end, begin)?;
+                if let Some(sides) = &mut joined.strip.sides {
+                    sides.reverse();
+                }
                 joined
             }
         };
-        scissor.exact.joints = joints.map(<[VertexId]>::to_vec);
-        scissor.rays = rays;
-        scissor.strip.through = self.strip.through;
-        scissor.tips = self.tips;
-        scissor.exact.snap = self.exact.snap;
-        scissor.exact.snap_move = self.exact.snap_move;
+        scissor.rays = Some(rays);
+        scissor.joints = joints.map(Option::<&CutEnd>::cloned);
         Ok(scissor)
     }
 
-    /// Whether to ignore the side planes, and cut wherever the plane goes.
+    /// Whether to ignore the side planes, and cut wherever the plane goes. A plane alone always does.
     #[must_use]
     pub fn through(mut self, through: bool) -> Scissor {
-        self.strip.through = through;
+        self.strip.through = through || self.rays.is_none();
         self
     }
 
     /// Where a finite cut of the method `partition` ends; the paper's methods know one rule.
     #[must_use]
-    pub fn tips(self, tips: Tips) -> Scissor {
+    pub fn tips(self, tips: CutTips) -> Scissor {
         Scissor { tips, ..self }
+    }
+
+    /// Which layers of the mesh are cut, where the plane meets several between the rays.
+    ///
+    /// ```
+    /// use tearmesh::{CutLayers, CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector};
+    ///
+    /// // A square, and another behind it.
+    /// let sheet = |z: f64| [[0., 0., z], [1., 0., z], [1., 1., z], [0., 1., z]];
+    /// let mut positions = Positions::new([sheet(1.0), sheet(0.0)].concat())?;
+    /// let mut mesh = Mesh::build(8, &[[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])?;
+    /// let down = |x, y| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+    /// let scissor = Scissor::new(down(0.4, -1.0)?, down(0.7, 2.0)?)?.layers(CutLayers::First);
+    /// let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut Edits::new())?;
+    /// assert_eq!(mesh.components().count(), 3);
+    /// let [a, b] = cut.layers().map(|hit| hit.expect("the rays pass beside the sheet"));
+    /// assert_eq!((a.chain, a.at.z), (b.chain, 1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn layers(self, layers: CutLayers) -> Scissor {
+        Scissor { layers, ..self }
     }
 
     /// The cutting plane.
@@ -243,10 +305,10 @@ impl Scissor {
         self.strip.plane
     }
 
-    /// The side planes, through the origins of the first and second ray. What lies
-    /// in front of both is between the rays.
+    /// The side planes, through the origins of the first and second ray; none where a plane was
+    /// given. What lies in front of both is between the rays.
     #[must_use]
-    pub fn sides(&self) -> [Plane; 2] {
+    pub fn sides(&self) -> Option<[Plane; 2]> {
         self.strip.sides
     }
 
@@ -260,8 +322,8 @@ impl Scissor {
     /// Cuts a mesh.
     ///
     /// Positions follow at once, because later cuts read points that earlier ones
-    /// made; everything else beside the mesh replays the log. Linear in the mesh (expected
-    /// and actual pieces are counted over all of it).
+    /// made; everything else beside the mesh replays the log. To find where the plane passes, all
+    /// vertices and faces are looked at once; the rest costs what the cut touches.
     ///
     /// # Errors
     ///
@@ -272,34 +334,41 @@ impl Scissor {
     /// If `edits` was cleared before `positions` replayed it.
     pub fn cut(
         &self,
-        method: Method,
+        method: CutMethod,
         mesh: &mut Mesh,
         positions: &mut Positions,
         edits: &mut Edits,
-    ) -> Result<CutReport, CutError> {
-        in_step(mesh, positions, edits)?;
-        let offsets = self.offsets(method, positions);
-        let ready = self.ready(method, mesh, positions, &offsets);
-        let strip = &self.strip;
-        let expected = match &ready {
-            Ready::Exact(trace) => Some(exact::pieces_expected(
-                strip,
-                &self.exact,
-                trace,
-                mesh,
-                positions,
-                &offsets,
-            )),
-            Ready::Partition | Ready::Paper(_) => None,
-        };
-        let survey = Survey::new(strip, mesh, positions, &offsets, expected);
-        let first_edit = edits.cursor();
-        let outcome = self.make(ready, mesh, positions, &offsets, true, edits);
-        Ok(survey.report(strip, mesh, positions, outcome, edits, first_edit))
+    ) -> Result<Cut, CutError> {
+        let mut cut = Cut::default();
+        self.cut_into(method, mesh, positions, edits, &mut cut)?;
+        Ok(cut)
     }
 
-    /// Cuts a mesh like [`Scissor::cut`], and measures nothing: what takes most of the time there
-    /// is to look at the whole mesh before and after. The log tells what was done.
+    /// Cuts a mesh like [`Scissor::cut`], and tells of it in the place of another cut, whose memory it
+    /// takes over: for many cuts of one mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`CutError`]; then nothing has changed, `cut` included.
+    ///
+    /// # Panics
+    ///
+    /// If `edits` was cleared before `positions` replayed it.
+    pub fn cut_into(
+        &self,
+        method: CutMethod,
+        mesh: &mut Mesh,
+        positions: &mut Positions,
+        edits: &mut Edits,
+        cut: &mut Cut,
+    ) -> Result<(), CutError> {
+        self.in_step(mesh, positions, edits)?;
+        self.make(method, mesh, positions, edits, cut, false);
+        Ok(())
+    }
+
+    /// Cuts a mesh like [`Scissor::cut`], and measures what was done: that looks at the whole mesh
+    /// before and after, and takes about as long as the cut and a walk over all components together.
     ///
     /// # Errors
     ///
@@ -308,94 +377,135 @@ impl Scissor {
     /// # Panics
     ///
     /// If `edits` was cleared before `positions` replayed it.
-    pub fn cut_only(
+    pub fn cut_measured(
         &self,
-        method: Method,
+        method: CutMethod,
         mesh: &mut Mesh,
         positions: &mut Positions,
         edits: &mut Edits,
-    ) -> Result<(), CutError> {
-        in_step(mesh, positions, edits)?;
-        let offsets = self.offsets(method, positions);
-        let ready = self.ready(method, mesh, positions, &offsets);
-        self.make(ready, mesh, positions, &offsets, false, edits);
-        Ok(())
+    ) -> Result<(Cut, CutReport), CutError> {
+        self.in_step(mesh, positions, edits)?;
+        let mut cut = Cut::default();
+        let report = self.make(method, mesh, positions, edits, &mut cut, true);
+        Ok((cut, report.expect("a report that is asked for is made")))
     }
 
-    fn offsets(&self, method: Method, positions: &Positions) -> Offsets {
-        let offsets = Offsets::new(&self.strip.plane, positions);
-        match method {
-            Method::Exact => offsets.rounded(),
-            _ => offsets,
-        }
-    }
-
-    /// Decides what can be decided before anything is changed.
-    fn ready(
-        &self,
-        method: Method,
-        mesh: &Mesh,
-        positions: &Positions,
-        offsets: &Offsets,
-    ) -> Ready {
-        match method {
-            Method::Exact => {
-                let trace = exact::trace(&self.strip, &self.exact, mesh, positions, offsets);
-                Ready::Exact(trace)
-            }
-            Method::Partition => Ready::Partition,
-            Method::Uniform => Ready::Paper(Form::Uniform),
-            Method::Alternating => Ready::Paper(Form::Alternating),
-        }
-    }
-
-    /// Cuts. `label` asks for the side of every face.
+    /// Cuts, and makes a report if one is wanted.
     fn make(
         &self,
-        ready: Ready,
+        method: CutMethod,
         mesh: &mut Mesh,
         positions: &mut Positions,
-        offsets: &Offsets,
-        label: bool,
         edits: &mut Edits,
-    ) -> Outcome {
-        let strip = &self.strip;
-        let outcome = match ready {
-            Ready::Exact(trace) => {
-                let (snap_move, labels) = (self.exact.snap_move, label.then_some(offsets));
-                exact::cut(strip, trace, snap_move, mesh, positions, labels, edits)
+        cut: &mut Cut,
+        is_measured: bool,
+    ) -> Option<CutReport> {
+        let is_exact = method == CutMethod::Exact;
+        let (vertices_before, first) = (mesh.vertex_count(), edits.cursor());
+        let Cut { offsets, .. } = cut;
+        offsets.measure(&self.strip.plane, is_exact, mesh, positions);
+        let joints = self.joints.each_ref().map(|end| match end {
+            Some(end) if is_exact => end.vertices.clone(),
+            _ => Vec::new(),
+        });
+        let mut way = Way {
+            strip: &self.strip,
+            among: offsets.touched(),
+            is_choice: false,
+            joints: &joints,
+            offsets,
+        };
+        let choice;
+        let mut hits = [None; 2];
+        if let (CutLayers::First, Some(rays)) = (self.layers, &self.rays) {
+            choice = layers::first(&way, rays, mesh, positions);
+            hits = choice.hits;
+            way = Way {
+                among: &choice.faces,
+                is_choice: true,
+                joints: &choice.joints,
+                ..way
+            };
+        }
+        let trace = is_exact.then(|| way.trace_snapped(self.exact.snap, mesh, positions));
+        let survey = is_measured.then(|| {
+            let expected = trace.as_ref().map(|trace| {
+                |census: &pieces::Census| way.pieces_expected(trace, census, mesh, positions)
+            });
+            let expected = expected
+                .as_ref()
+                .map(|expected| expected as &dyn Fn(&_) -> _);
+            Survey::new(&way, mesh, positions, expected)
+        });
+        let judged = |mesh: &Mesh, edits: &Edits| {
+            let survey = survey.as_ref();
+            survey.map_or_else(Vec::new, |survey| survey.judged(mesh, edits, first))
+        };
+        let outcome: Outcome = match (method, trace) {
+            (CutMethod::Uniform, _) => {
+                paper::cut(&way, Form::Uniform, mesh, positions, &judged, edits)
             }
-            Ready::Partition => partition::cut(strip, self.tips, mesh, positions, offsets, edits),
-            Ready::Paper(form) => paper::cut(strip, form, mesh, positions, edits),
+            (CutMethod::Alternating, _) => {
+                paper::cut(&way, Form::Alternating, mesh, positions, &judged, edits)
+            }
+            (CutMethod::Exact, Some(trace)) => {
+                let snap_move = self.exact.snap_move;
+                way.cut(trace, snap_move, mesh, positions, &judged, edits)
+            }
+            (CutMethod::Exact | CutMethod::Partition, _) => {
+                partition::cut(&way, self.tips, mesh, positions, &judged, edits)
+            }
         };
         edits.replay(positions);
-        outcome
-    }
-}
-
-/// A method, with what it has found out before it cuts.
-enum Ready {
-    Exact(Trace),
-    Partition,
-    Paper(Form),
-}
-
-/// Whether positions have seen every edit, and are those of this mesh.
-fn in_step(mesh: &Mesh, positions: &Positions, edits: &Edits) -> Result<(), CutError> {
-    if positions.seen() != edits.cursor() {
-        return Err(CutError::Unreplayed {
-            seen: positions.seen(),
-            made: edits.cursor(),
+        let report = survey.map(|survey| survey.report(mesh, positions, &outcome, edits, first));
+        cut.hits = hits;
+        cut.lines
+            .collect(edits, first, mesh, vertices_before, &outcome.touched);
+        cut.tips.clear();
+        let lines = cut.lines.spans();
+        cut.tips.extend(lines.map(|lips| {
+            let ends = lips.first().zip(lips.last());
+            let ([begin, across_begin], [end, across_end]) = ends.expect("a line has an edge");
+            let [begin, end] = [
+                [mesh.origin(*begin), mesh.target(*across_begin)],
+                [mesh.target(*end), mesh.origin(*across_end)],
+            ];
+            [begin, end].map(|[one, other]| (one == other).then_some(one))
+        }));
+        cut.touched = outcome.touched;
+        cut.ends = self.rays.map(|rays| {
+            let mut vertices = outcome.ends.into_iter();
+            rays.map(|ray| CutEnd {
+                ray,
+                vertices: vertices.next().unwrap_or_default(),
+                seen: edits.cursor(),
+            })
         });
+        report
     }
-    if positions.len() != mesh.vertex_count() {
-        let (vertices, positions) = (mesh.vertex_count(), positions.len());
-        return Err(CutError::Positions {
-            vertices,
-            positions,
-        });
+
+    /// Whether positions and ends have seen every edit, and the positions are those of this mesh.
+    fn in_step(&self, mesh: &Mesh, positions: &Positions, edits: &Edits) -> Result<(), CutError> {
+        let made = edits.cursor();
+        if positions.seen() != made {
+            let seen = positions.seen();
+            return Err(CutError::Unreplayed { seen, made });
+        }
+        if positions.len() != mesh.vertex_count() {
+            let (vertices, positions) = (mesh.vertex_count(), positions.len());
+            return Err(CutError::Positions {
+                vertices,
+                positions,
+            });
+        }
+        for end in self.joints.iter().flatten() {
+            if end.seen != made {
+                let seen = end.seen;
+                return Err(CutError::End { seen, made });
+            }
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Why two rays make no scissor.
@@ -432,6 +542,13 @@ pub enum CutError {
         /// The end of this one.
         made: Cursor,
     },
+    /// The end from which the cut was to go on has not seen all edits.
+    End {
+        /// Up to where it has seen a log.
+        seen: Cursor,
+        /// The end of this one.
+        made: Cursor,
+    },
 }
 
 impl fmt::Display for CutError {
@@ -443,22 +560,21 @@ impl fmt::Display for CutError {
             } => {
                 write!(f, "{positions} positions for a mesh of {vertices} vertices")
             }
-            CutError::Unreplayed { seen, made } => {
-                let (seen, made) = (seen.number(), made.number());
-                if seen == made {
-                    write!(
-                        f,
-                        "the positions have followed another log, of {seen} edits too"
-                    )
-                } else {
-                    write!(
-                        f,
-                        "the positions have seen {seen} edits, and the log has {made}: replay first"
-                    )
-                }
-            }
+            CutError::Unreplayed { seen, made } => unreplayed(f, "positions have", *seen, *made),
+            CutError::End { seen, made } => unreplayed(f, "end of a cut has", *seen, *made),
         }
     }
+}
+
+fn unreplayed(f: &mut fmt::Formatter<'_>, who: &str, seen: Cursor, made: Cursor) -> fmt::Result {
+    let (seen, made) = (seen.number(), made.number());
+    if seen == made {
+        return write!(f, "the {who} followed another log, of {seen} edits too");
+    }
+    write!(
+        f,
+        "the {who} seen {seen} edits, and the log has {made}: replay first"
+    )
 }
 
 impl std::error::Error for CutError {}

@@ -47,7 +47,7 @@
 //! ```
 //! use tearmesh::script::Script;
 //! use std::collections::BTreeSet;
-//! use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Source};
+//! use tearmesh::{CornerSource, Cursor, Edit, Follower, HalfEdgeId};
 //!
 //! /// How many faces each vertex has: what you keep beside the mesh.
 //! struct Valences { of: Vec<usize>, seen: Cursor, divided: BTreeSet<HalfEdgeId> }
@@ -71,7 +71,7 @@
 //!                 for child in insert.children {
 //!                     for (v, source) in child.vertices.iter().zip(child.sources) {
 //!                         self.of[v.index()] += 1;
-//!                         if let Source::Corner(h) = source {
+//!                         if let CornerSource::Corner(h) = source {
 //!                             if self.divided.insert(h) {
 //!                                 self.of[v.index()] -= 1; // that of the divided face
 //!                             }
@@ -124,7 +124,7 @@ pub use text::ScriptError;
 pub use triangles::Triangles;
 pub use world::{Asked, AskedEnd, Step, World};
 
-use crate::scissor::Tips;
+use crate::scissor::CutTips;
 
 /// A mesh to start with, and what is done to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -167,7 +167,7 @@ pub enum Operation {
         /// Whether the cut goes on beyond the rays.
         through: bool,
         /// Where it ends if not.
-        tips: Tips,
+        tips: CutTips,
         /// The rays: each the origin, in units of 1/32, and the direction.
         rays: [[[i8; 3]; 2]; 2],
     },

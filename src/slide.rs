@@ -27,7 +27,7 @@ use crate::mesh::Mesh;
 ///
 /// # Errors
 ///
-/// [`Refusal`]; then nothing has changed.
+/// [`SlideRefusal`]; then nothing has changed.
 ///
 /// # Panics
 ///
@@ -42,7 +42,7 @@ use crate::mesh::Mesh;
 /// slide::toward(&mesh, v, w, 0.25, &mut edits)?;
 /// edits.replay(&mut positions);
 /// assert_eq!(positions.at(v).x, 0.125);
-/// # Ok::<(), slide::Refusal>(())
+/// # Ok::<(), slide::SlideRefusal>(())
 /// ```
 pub fn toward<'e>(
     mesh: &Mesh,
@@ -50,10 +50,10 @@ pub fn toward<'e>(
     toward: VertexId,
     t: f64,
     edits: &'e mut Edits,
-) -> Result<Slide<'e>, Refusal> {
+) -> Result<Slide<'e>, SlideRefusal> {
     let _known = [vertex, toward].map(|v| mesh.half_edge_of(v));
     if !(t > 0.0 && t < 1.0) {
-        return Err(Refusal::Parameter { t });
+        return Err(SlideRefusal::Parameter { t });
     }
     let mut along = [None; 2];
     for h in mesh.corners_of(vertex) {
@@ -65,7 +65,7 @@ pub fn toward<'e>(
         }
     }
     if along == [None; 2] {
-        return Err(Refusal::Apart { vertex, toward });
+        return Err(SlideRefusal::Apart { vertex, toward });
     }
     for h in mesh.corners_of(vertex) {
         edits.note_corner(h);
@@ -76,7 +76,7 @@ pub fn toward<'e>(
 /// Why a vertex was not slid. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum SlideRefusal {
     /// The parameter is not strictly between 0 and 1.
     Parameter {
         /// The parameter.
@@ -91,17 +91,17 @@ pub enum Refusal {
     },
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for SlideRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Parameter { t } => {
+            SlideRefusal::Parameter { t } => {
                 write!(f, "nothing slid: {t} is not between 0 and 1")
             }
-            Refusal::Apart { vertex, toward } => {
+            SlideRefusal::Apart { vertex, toward } => {
                 write!(f, "{vertex} did not slide: no edge joins it to {toward}")
             }
         }
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for SlideRefusal {}

@@ -40,7 +40,7 @@ use crate::place::Place;
 ///
 /// # Errors
 ///
-/// [`Refusal`] says why nothing was changed.
+/// [`SplitRefusal`] says why nothing was changed.
 ///
 /// # Panics
 ///
@@ -62,7 +62,7 @@ pub fn vertex<'e>(
     v: VertexId,
     moving: &[FaceId],
     edits: &'e mut Edits,
-) -> Result<Split<'e>, Refusal> {
+) -> Result<Split<'e>, SplitRefusal> {
     // A foreign id is found before anything is changed.
     let start = mesh.half_edge_of(v);
     for &face in moving {
@@ -76,14 +76,14 @@ pub fn vertex<'e>(
             let repeated = corner_at(mesh, face, new).is_some();
             give_back(mesh, v, &moving[..i]);
             return Err(if repeated {
-                Refusal::Repeated { vertex: v, face }
+                SplitRefusal::Repeated { vertex: v, face }
             } else {
-                Refusal::Foreign { vertex: v, face }
+                SplitRefusal::Foreign { vertex: v, face }
             });
         }
     }
     if moving.is_empty() {
-        return Err(Refusal::Empty { vertex: v });
+        return Err(SplitRefusal::Empty { vertex: v });
     }
     let start = start.expect("I9: a vertex with a face has a half-edge");
     // Corners are noted in the order of a walk from the start; one alone is in order.
@@ -98,7 +98,7 @@ pub fn vertex<'e>(
     let Some(stays) = smallest_from(mesh, v, start) else {
         edits.discard_noted();
         give_back(mesh, v, moving);
-        return Err(Refusal::Everything { vertex: v });
+        return Err(SplitRefusal::Everything { vertex: v });
     };
     Ok(commit(mesh, v, stays, edits))
 }
@@ -237,7 +237,7 @@ fn corner_at(mesh: &Mesh, face: FaceId, v: VertexId) -> Option<HalfEdgeId> {
 
 /// Why a split was refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
+pub enum SplitRefusal {
     /// No face was to move.
     Empty {
         /// The vertex that was to be split.
@@ -264,23 +264,23 @@ pub enum Refusal {
     },
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for SplitRefusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Empty { vertex } => {
+            SplitRefusal::Empty { vertex } => {
                 write!(f, "{vertex} was not split: no face was to move")
             }
-            Refusal::Everything { vertex } => {
+            SplitRefusal::Everything { vertex } => {
                 write!(f, "{vertex} was not split: all its faces were to move")
             }
-            Refusal::Foreign { vertex, face } => {
+            SplitRefusal::Foreign { vertex, face } => {
                 write!(f, "{vertex} was not split: {face} does not have it")
             }
-            Refusal::Repeated { vertex, face } => {
+            SplitRefusal::Repeated { vertex, face } => {
                 write!(f, "{vertex} was not split: {face} was named twice")
             }
         }
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for SplitRefusal {}

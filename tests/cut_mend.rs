@@ -6,8 +6,8 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Cursor, Edits, FaceId, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector,
-    VertexId, mend,
+    Cursor, CutEnd, CutMethod, Edits, FaceId, Masses, Mesh, PerCorner, Point, Positions, Ray,
+    Scissor, Vector, VertexId, mend,
 };
 
 /// A mesh, and what is done to it.
@@ -22,7 +22,7 @@ pub(crate) struct Case {
 enum Step {
     Cut {
         rays: [[Point; 2]; 2],
-        method: Method,
+        method: CutMethod,
         snap: f64,
         snap_move: bool,
         through: bool,
@@ -116,13 +116,13 @@ impl Step {
         Step::Cut {
             rays,
             method: [
-                Method::Exact,
-                Method::Exact,
-                Method::Exact,
-                Method::Exact,
-                Method::Partition,
-                Method::Uniform,
-                Method::Alternating,
+                CutMethod::Exact,
+                CutMethod::Exact,
+                CutMethod::Exact,
+                CutMethod::Exact,
+                CutMethod::Partition,
+                CutMethod::Uniform,
+                CutMethod::Alternating,
             ][usize::from(kind % 7)],
             snap: SNAPS[usize::from(k / 3) % SNAPS.len()],
             snap_move: l % 4 == 3,
@@ -170,7 +170,7 @@ impl World {
         }
     }
 
-    fn apply(&mut self, step: Step, last: &mut Option<(Scissor, tearmesh::CutReport)>) {
+    fn apply(&mut self, step: Step, last: &mut Option<CutEnd>) {
         match step {
             Step::Cut {
                 rays,
@@ -183,18 +183,20 @@ impl World {
                 let rays = rays.map(|[from, to]| Ray::new(from, to - from));
                 let [Ok(a), Ok(b)] = rays else { return };
                 let scissor = match last {
-                    Some((scissor, report)) if continued => {
-                        scissor.continued(report, &self.positions, &b)
+                    Some(end) if continued => {
+                        self.edits.replay(end);
+                        Scissor::continued(end, b, &self.positions)
                     }
-                    _ => Scissor::new(&a, &b),
+                    _ => Scissor::new(a, b),
                 };
                 let Ok(scissor) = scissor else { return };
                 let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
                 let first = self.edits.cursor();
+                let pieces_before = self.mesh.components().count();
                 let before = self.positions.clone();
                 let torn_before: Vec<VertexId> = self.mesh.vertices().collect();
-                let report = scissor
-                    .cut(method, &mut self.mesh, &mut self.positions, &mut self.edits)
+                let (cut, report) = scissor
+                    .cut_measured(method, &mut self.mesh, &mut self.positions, &mut self.edits)
                     .expect("positions are in step");
                 if snap_move {
                     // With a large snap, on a mesh of a few faces, that may be half of it.
@@ -209,15 +211,15 @@ impl World {
                 self.done.told.cuts += 1;
                 self.done.told.splits += report.splits;
                 self.done.told.inserted += report.vertices_inserted;
+                assert_eq!(report.pieces_before, pieces_before);
                 assert_eq!(report.pieces, self.mesh.components().count());
-                *last = Some((scissor, report));
+                *last = cut.ends().map(|[_, end]| end.clone());
             }
             Step::Mend { near, radius } => {
                 let points = self.positions.as_slice();
                 let centre = points[usize::from(near) % points.len()];
                 let positions = self.positions.clone();
                 self.mend(|v| (positions.at(v) - centre).norm() <= radius);
-                *last = None;
             }
         }
         self.edits

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use tearmesh::{
-    CutReport, Edits, Masses, Mesh, Method, PerCorner, Point, Positions, Ray, Scissor, Vector, mend,
+    CutEnd, CutMethod, CutReport, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray, Scissor,
+    Vector, mend,
 };
 
 use crate::oracle::straight::{Cut, Surface, judge, judge_polyline};
@@ -20,6 +21,8 @@ struct Cutting {
     /// For each corner where it is: linear data, which has to stay so.
     corners: PerCorner<[f64; 3]>,
     edits: Edits,
+    /// Where the last cut ended.
+    end: Option<CutEnd>,
 }
 
 impl Cutting {
@@ -34,14 +37,16 @@ impl Cutting {
             mesh,
             positions,
             edits: Edits::new(),
+            end: None,
         }
     }
 
     /// Cuts, and checks what holds of every cut.
     fn cut(&mut self, scissor: &Scissor) -> CutReport {
         let (mesh, positions) = (&mut self.mesh, &mut self.positions);
-        let report = scissor.cut(Method::Exact, mesh, positions, &mut self.edits);
-        let report = report.expect("positions are in step");
+        let report = scissor.cut_measured(CutMethod::Exact, mesh, positions, &mut self.edits);
+        let (cut, report) = report.expect("positions are in step");
+        self.end = cut.ends().map(|[_, end]| end.clone());
         self.edits
             .replay(&mut (&mut self.masses, &mut self.corners));
         assert_eq!(self.mesh.check(), []);
@@ -196,7 +201,7 @@ fn cuts_across_cuts_satisfy_the_oracle_and_can_be_mended() {
 }
 
 pub(crate) fn scissor([a, b]: Rays) -> Scissor {
-    Scissor::new(&ray(a), &ray(b)).expect("a plane")
+    Scissor::new(ray(a), ray(b)).expect("a plane")
 }
 
 pub(crate) fn ray((origin, along): ([f64; 3], [f64; 3])) -> Ray {
@@ -206,17 +211,13 @@ pub(crate) fn ray((origin, along): ([f64; 3], [f64; 3])) -> Ray {
 /// Cuts along a polyline of points of the plane z = 0, seen from above.
 fn along_polyline(cutting: &mut Cutting, corners: &[[f64; 2]], snap: f64) -> Vec<CutReport> {
     let mut reports: Vec<CutReport> = Vec::new();
-    let mut last: Option<Scissor> = None;
     for two in corners.windows(2) {
         let [from, to] = [two[0], two[1]].map(crate::straight::down);
-        let scissor = match (&last, reports.last()) {
-            (Some(last), Some(report)) => last
-                .continued(report, &cutting.positions, &ray(to))
-                .expect("a plane"),
-            _ => scissor([from, to]).snap(snap),
+        let scissor = match &cutting.end {
+            Some(end) => Scissor::continued(end, ray(to), &cutting.positions).expect("a plane"),
+            None => scissor([from, to]),
         };
-        reports.push(cutting.cut(&scissor));
-        last = Some(scissor);
+        reports.push(cutting.cut(&scissor.snap(snap)));
     }
     reports
 }

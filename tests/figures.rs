@@ -326,7 +326,7 @@ fn a_vertex_without_a_face_keeps_its_number_and_cannot_be_split() {
     assert_eq!((mesh.vertex_count(), mesh.half_edge_of(v(2))), (5, None));
     let mut edits = Edits::new();
     let refused = split::vertex(&mut mesh, v(2), &[], &mut edits);
-    assert_eq!(refused, Err(split::Refusal::Empty { vertex: v(2) }));
+    assert_eq!(refused, Err(split::SplitRefusal::Empty { vertex: v(2) }));
     assert_eq!(mesh.check(), []);
 }
 

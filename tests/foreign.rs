@@ -219,13 +219,11 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
         Some(half) => half.at(v),
         None => w.area.at(v),
     });
-    with!(h, "corner data", |w| w.corners[h]);
-    with!(v, "vertex data", |w| PerVertex::new(vec![
-        1.0;
-        w.mesh
-            .vertex_count(
-            )
-    ])[v]);
+    with!(h, "corner data", |w| *w.corners.at(h));
+    with!(v, "vertex data", |w| {
+        let values = vec![1.0; w.mesh.vertex_count()];
+        *PerVertex::new(values).at(v)
+    });
     cases
 }
 

@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use tearmesh::{
-    Edits, FaceId, Masses, Mesh, Method, Point, Positions, Ray, Scissor, Vector, VertexId, mend,
+    CutMethod, Edits, FaceId, Masses, Mesh, Point, Positions, Ray, Scissor, Vector, VertexId, mend,
     shapes, split,
 };
 
@@ -78,13 +78,13 @@ impl Sheet {
 fn scissor(a: [f64; 2], b: [f64; 2]) -> Scissor {
     let down = Vector::new(0.0, 0.0, -1.0);
     let ray = |[x, y]: [f64; 2]| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
-    Scissor::new(&ray(a), &ray(b)).expect("two rays")
+    Scissor::new(ray(a), ray(b)).expect("two rays")
 }
 
 /// Cuts a fan in all ways, and mends it.
 fn cut(faces: u32, closed: bool, clock: &mut Clock) {
     let (mesh, positions) = clock.time("build", || shapes::fan(faces, closed));
-    for method in [Method::Exact, Method::Partition] {
+    for method in [CutMethod::Exact, CutMethod::Partition] {
         for (place, y) in [("the hub", 0.0), ("near", 0.001), ("beside", 0.1)] {
             for (extent, x) in [("finite", 0.5), ("through", 2.0)] {
                 let what = format!("{method:?}, {place}, {extent}");
@@ -97,12 +97,13 @@ fn cut(faces: u32, closed: bool, clock: &mut Clock) {
                 } = &mut sheet;
                 let scissor = scissor([-x, y - 0.3 * x], [x, y + 0.3 * x]);
                 let scissor = scissor.through(extent == "through");
-                let report =
-                    clock.time(what.clone(), || scissor.cut(method, cut, positions, edits));
-                let report = report.expect("all is in step");
+                let report = clock.time(what.clone(), || {
+                    scissor.cut_measured(method, cut, positions, edits)
+                });
+                let (_, report) = report.expect("all is in step");
                 assert!(report.faces_crossed > 0, "{what}");
                 sheet.check_and_sew(&what, clock);
-                assert!(method == Method::Exact || sheet.mesh == mesh, "{what}");
+                assert!(method == CutMethod::Exact || sheet.mesh == mesh, "{what}");
             }
         }
     }
@@ -118,10 +119,10 @@ fn crown(faces: u32, closed: bool, clock: &mut Clock) {
         .for_each(|p| p.z = up.next().expect("without end"));
     let positions = Positions::new(points).expect("they are finite");
     let ray = |y| Ray::new(Point::new(-5.0, y, 0.0), Vector::x()).expect("a ray");
-    let scissor = Scissor::new(&ray(-3.0), &ray(3.0))
+    let scissor = Scissor::new(ray(-3.0), ray(3.0))
         .expect("two rays")
         .through(true);
-    for method in [Method::Exact, Method::Partition] {
+    for method in [CutMethod::Exact, CutMethod::Partition] {
         let what = format!("{method:?}, a crown");
         let mut sheet = Sheet::new(&mesh, &positions);
         let Sheet {
@@ -130,9 +131,11 @@ fn crown(faces: u32, closed: bool, clock: &mut Clock) {
             edits,
             ..
         } = &mut sheet;
-        let report = clock.time(what.clone(), || scissor.cut(method, cut, positions, edits));
+        let report = clock.time(what.clone(), || {
+            scissor.cut_measured(method, cut, positions, edits)
+        });
         assert!(
-            report.expect("all is in step").splits as u32 > faces / 5,
+            report.expect("all is in step").1.splits as u32 > faces / 5,
             "{what}"
         );
         sheet.check_and_sew(&what, clock);
@@ -162,7 +165,10 @@ fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
         }
     });
     let refused = split::vertex(&mut sheet.mesh, hub, &[last], &mut sheet.edits);
-    assert!(matches!(refused, Err(split::Refusal::Everything { .. })));
+    assert!(matches!(
+        refused,
+        Err(split::SplitRefusal::Everything { .. })
+    ));
     assert_eq!(sheet.mesh.half_edge_of(hub).map(|h| h.face()), Some(last));
     let torn = sheet.mesh.clone();
     sheet.edits.replay(&mut sheet.positions);
@@ -189,9 +195,9 @@ fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
         let scissor = scissor([-2.0, y], [2.0, 1.1 * y]).through(true);
         let mut edits = Edits::new();
         let report = clock.time(format!("torn: cut {what}"), || {
-            scissor.cut(Method::Exact, &mut mesh, &mut positions, &mut edits)
+            scissor.cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
         });
-        assert!(report.expect("all is in step").faces_crossed > 0);
+        assert!(report.expect("all is in step").1.faces_crossed > 0);
         assert_eq!(
             clock.time(format!("torn: cut {what}: check"), || mesh.check()),
             []

@@ -1,6 +1,6 @@
 //! Insertions and merges: what they must leave as it was.
 
-use tearmesh::insert::{Plan, Refusal};
+use tearmesh::insert::{InsertRefusal, Plan};
 use tearmesh::mend::{Stitch, StitchError};
 use tearmesh::{
     Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, PerCorner, Point, Positions, VertexId, mend,
@@ -89,8 +89,9 @@ fn random_edits_keep_every_invariant_and_the_surface() {
                             }
                             Err(refusal) => {
                                 let known = match refusal {
-                                    Refusal::Share { share, .. } => share <= 0.0,
-                                    Refusal::Crowded { .. } | Refusal::Repeated { .. } => true,
+                                    InsertRefusal::Share { share, .. } => share <= 0.0,
+                                    InsertRefusal::Crowded { .. }
+                                    | InsertRefusal::Repeated { .. } => true,
                                     _ => false,
                                 };
                                 assert!(known, "{refusal}");
@@ -230,7 +231,10 @@ fn points_that_nearly_coincide_make_no_child_without_area() {
                 assert_eq!(mesh.check(), []);
             }
             Err(refusal) => {
-                let known = matches!(refusal, Refusal::Repeated { .. } | Refusal::Crowded { .. });
+                let known = matches!(
+                    refusal,
+                    InsertRefusal::Repeated { .. } | InsertRefusal::Crowded { .. }
+                );
                 assert!(known && mesh == before && edits.is_empty(), "{refusal}");
                 refused += 1;
             }
@@ -256,7 +260,7 @@ fn regression_a_child_whose_share_would_be_zero() {
         shares
     };
     for t in [1e-300, 1e-170, 5e-324] {
-        let refusal: Result<Vec<f64>, Refusal> = divided(t);
+        let refusal: Result<Vec<f64>, InsertRefusal> = divided(t);
         let told = refusal.map_err(|refusal| refusal.to_string());
         let expected = "nothing was inserted: a part of f0 would have the share 0 of it";
         assert_eq!(told, Err(expected.to_string()), "{t}");

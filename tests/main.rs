@@ -5,6 +5,7 @@
 mod allocation;
 mod cases;
 mod cut_mend;
+mod cuts;
 mod exact;
 mod exhaustive;
 mod figures;
@@ -15,6 +16,7 @@ mod geometry;
 mod house;
 mod hub;
 mod insert;
+mod layers;
 mod lockstep;
 mod mass;
 mod methods;

@@ -1,7 +1,7 @@
 //! Masses: what is refused, what they start from, and what is conserved; and the sums that tell.
 
 use tearmesh::{
-    Cursor, Edits, ExactSum, Ledger, MassError, Masses, Mesh, VertexId, mend, shapes, split,
+    Cursor, Edits, ExactSum, MassError, MassLedger, Masses, Mesh, VertexId, mend, shapes, split,
 };
 
 const USUAL: &str = "nothing unusual";
@@ -98,12 +98,12 @@ fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
 #[test]
 fn a_ledger_sees_the_smallest_difference() {
     let sum = |numbers: &[f64]| ExactSum::from_iter(numbers.iter().copied());
-    let balanced = Ledger {
+    let balanced = MassLedger {
         before: sum(&[1.0]),
         after: sum(&[0.25, 0.75]),
     };
     assert!(balanced.is_balanced());
-    let lost = Ledger {
+    let lost = MassLedger {
         before: sum(&[1.0, 5e-324]),
         after: sum(&[1.0]),
     };

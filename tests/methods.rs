@@ -5,12 +5,16 @@
 //! al. 2014 §V). Both sentences are held here as measurements, so that nobody makes the
 //! paper's methods kinder than they are.
 
-use tearmesh::{CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, Vector, shapes};
+use tearmesh::{CutMethod, CutReport, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
 use crate::pieces::pieces_by_vertices;
 use crate::random::{self, Random};
 
-const METHODS: [Method; 3] = [Method::Uniform, Method::Alternating, Method::Partition];
+const METHODS: [CutMethod; 3] = [
+    CutMethod::Uniform,
+    CutMethod::Alternating,
+    CutMethod::Partition,
+];
 
 /// How many random cuts each mesh gets.
 const CUTS: usize = 40;
@@ -59,12 +63,12 @@ fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Tally; 3] {
             let down = Vector::new(0.0, 0.0, -1.0);
             Ray::new(Point::new(x + t * cos, y + t * sin, 5.0), down).expect("a ray")
         };
-        let scissor = Scissor::new(&ray(-5.0), &ray(5.0)).expect("a plane");
+        let scissor = Scissor::new(ray(-5.0), ray(5.0)).expect("a plane");
         for (method, tally) in METHODS.into_iter().zip(&mut tallies) {
             let (mut mesh, mut positions) = sheet.clone();
-            let report = scissor.cut(method, &mut mesh, &mut positions, &mut Edits::new());
+            let report = scissor.cut_measured(method, &mut mesh, &mut positions, &mut Edits::new());
             assert_eq!(mesh.check(), []);
-            tally.count(&report.expect("in step"));
+            tally.count(&report.expect("in step").1);
             let mut pieces = pieces_by_vertices(&mesh);
             pieces.sort_unstable();
             pieces.dedup();
@@ -165,25 +169,25 @@ fn figure_4_a_waving_flag_is_cut_between_two_picked_points() {
     let points: Vec<_> = flat.as_slice().iter().map(wave).collect();
     let eye = Point::new(0.2, -0.3, 3.0);
     let pick = |x: f64, y: f64| Ray::new(eye, Point::new(x, y, 0.0) - eye).expect("a ray");
-    let segment = Scissor::new(&pick(0.31, 0.2), &pick(0.36, 0.8)).expect("one eye");
+    let segment = Scissor::new(pick(0.31, 0.2), pick(0.36, 0.8)).expect("one eye");
     for method in METHODS {
         let (mut mesh, mut positions) = (
             mesh.clone(),
             Positions::new(points.clone()).expect("finite"),
         );
         let vertices = mesh.vertex_count();
-        let report = segment
-            .cut(method, &mut mesh, &mut positions, &mut Edits::new())
+        let (_, report) = segment
+            .cut_measured(method, &mut mesh, &mut positions, &mut Edits::new())
             .expect("in step");
         assert_eq!(mesh.check(), []);
         // A slit: one piece still, with a hole, unless the method leaves crumbs.
         assert_eq!((report.pieces_expected, report.lost), (1, 0));
         assert!(
-            method == Method::Alternating || report.crumbs == 0,
+            method == CutMethod::Alternating || report.crumbs == 0,
             "{report:?}"
         );
         assert!(
-            report.separated == (method != Method::Uniform),
+            report.separated == (method != CutMethod::Uniform),
             "{method:?}: {report:?}"
         );
         assert!(report.splits > 10);
@@ -204,7 +208,7 @@ fn the_report_knows_the_worst_face_and_the_mean_edge() {
     let (mut mesh, mut positions) = delaunay(300, 9);
     let down = Vector::new(0.0, 0.0, -1.0);
     let ray = |x: f64, y: f64| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
-    let scissor = Scissor::new(&ray(0.3, -1.0), &ray(0.6, 2.0)).expect("a plane");
+    let scissor = Scissor::new(ray(0.3, -1.0), ray(0.6, 2.0)).expect("a plane");
     let (mut angle, mut altitude) = (f64::INFINITY, f64::INFINITY);
     let mut edges = std::collections::BTreeMap::new();
     for face in mesh.indices().chunks(3) {
@@ -228,9 +232,9 @@ fn the_report_knows_the_worst_face_and_the_mean_edge() {
         }
     }
     let mean_edge = edges.values().sum::<f64>() / edges.len() as f64;
-    let report = scissor
-        .cut(
-            Method::Partition,
+    let (_, report) = scissor
+        .cut_measured(
+            CutMethod::Partition,
             &mut mesh,
             &mut positions,
             &mut Edits::new(),

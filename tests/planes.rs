@@ -1,17 +1,29 @@
 //! Planes exactly through vertices, along edges and through whole faces: how many pieces there are
 //! is foretold from a row of whole numbers, or from a line in a square.
 
-use tearmesh::{CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, Vector, shapes};
+use tearmesh::{CutMethod, CutReport, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
 use crate::random::Random;
 
 /// Every method, the exact one with every kind of snap.
-fn cuts() -> Vec<(Method, f64, bool)> {
+fn cuts() -> Vec<(CutMethod, f64, bool)> {
     let mut cuts: Vec<_> = [0.0, 0.02, Scissor::SNAP, 0.2]
         .into_iter()
-        .flat_map(|snap| [(Method::Exact, snap, false), (Method::Exact, snap, true)])
+        .flat_map(|snap| {
+            [
+                (CutMethod::Exact, snap, false),
+                (CutMethod::Exact, snap, true),
+            ]
+        })
         .collect();
-    cuts.extend([Method::Partition, Method::Uniform, Method::Alternating].map(|m| (m, 0.0, false)));
+    cuts.extend(
+        [
+            CutMethod::Partition,
+            CutMethod::Uniform,
+            CutMethod::Alternating,
+        ]
+        .map(|m| (m, 0.0, false)),
+    );
     cuts
 }
 
@@ -36,23 +48,23 @@ fn check(foretold: &Foretold, what: &str) {
     let (pieces, is_folded) = (*pieces, *is_folded);
     for (method, snap, snap_move) in cuts() {
         let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
-        let scissor = Scissor::new(&rays[0], &rays[1]).expect("a plane");
+        let scissor = Scissor::new(rays[0], rays[1]).expect("a plane");
         let scissor = scissor.through(true).snap(snap).snap_move(snap_move);
-        let report: CutReport = scissor
-            .cut(method, &mut mesh, &mut positions, &mut Edits::new())
+        let (_, report): (_, CutReport) = scissor
+            .cut_measured(method, &mut mesh, &mut positions, &mut Edits::new())
             .expect("positions are in step");
         assert_eq!(mesh.check(), []);
         let said = format!("{what}, {method:?} with snap {snap}, moved {snap_move}: {report:?}");
         assert_eq!(report.pieces, mesh.components().count(), "{said}");
         match method {
-            Method::Exact => {
+            CutMethod::Exact => {
                 let counts = (report.pieces, report.pieces_expected, report.separated);
                 assert_eq!(counts, (pieces, pieces, true), "{said}");
                 assert_eq!((report.crumbs, report.lost), (0, 0), "{said}");
             }
             // Along edges, and with what lies on the plane in front. Triangles that bridge a fold may
             // come loose; they are counted.
-            Method::Partition => assert!(report.crumbs == 0 || is_folded, "{said}"),
+            CutMethod::Partition => assert!(report.crumbs == 0 || is_folded, "{said}"),
             _ => {}
         }
     }

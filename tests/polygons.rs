@@ -1,6 +1,6 @@
 //! Closed polylines: what they go round comes out.
 
-use tearmesh::{Edits, Method, Scissor};
+use tearmesh::{CutEnd, CutMethod, Edits, Scissor};
 
 use crate::cases::cases_of;
 use crate::exact::ray;
@@ -28,21 +28,22 @@ fn pieces(sheet: &Surface, corners: &[[f64; 2]], snap: f64) -> usize {
     let (mut mesh, mut positions) = built(sheet);
     let mut edits = Edits::new();
     let rays: Vec<_> = corners.iter().map(|&corner| ray(down(corner))).collect();
-    let mut first = None;
-    let mut last = None;
+    let mut ends: Option<[CutEnd; 2]> = None;
     for i in 0..rays.len() {
-        let (from, to) = (&rays[i], &rays[(i + 1) % rays.len()]);
-        let scissor: Result<Scissor, _> = match (&first, &last) {
-            (Some((begun, report)), Some((scissor, done))) if i + 1 == rays.len() => {
-                Scissor::closed(scissor, done, (begun, report), &positions)
+        let to = rays[(i + 1) % rays.len()];
+        let scissor = match &mut ends {
+            Some([first, last]) if i + 1 == rays.len() => {
+                edits.replay(first);
+                Scissor::closed(last, first, &positions)
             }
-            (_, Some((scissor, report))) => Scissor::continued(scissor, report, &positions, to),
-            _ => Scissor::new(from, to).map(|scissor| scissor.snap(snap)),
+            Some([_, last]) => Scissor::continued(last, to, &positions),
+            None => Scissor::new(rays[i], to),
         };
-        let scissor = scissor.expect("a plane");
-        let report = scissor.cut(Method::Exact, &mut mesh, &mut positions, &mut edits);
-        last = Some((scissor, report.expect("positions are in step")));
-        first = first.or_else(|| last.clone());
+        let scissor = scissor.expect("a plane").snap(snap);
+        let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+        let made = cut.expect("positions are in step").ends().cloned();
+        let [begin, end] = made.expect("there are rays");
+        ends = Some([ends.map_or(begin, |[first, _]| first), end]);
     }
     assert_eq!(mesh.check(), []);
     mesh.components().count()

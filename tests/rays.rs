@@ -7,8 +7,8 @@ use std::ops::Neg as _;
 
 use tearmesh::script::Script;
 use tearmesh::{
-    COORDINATE_MAX, Cursor, CutError, CutReport, Edits, Masses, Mesh, Method, Point, Positions,
-    Ray, Scissor, ScissorError, Tips, Vector,
+    COORDINATE_MAX, Cursor, CutError, CutMethod, CutReport, CutTips, Edits, Masses, Mesh, Point,
+    Positions, Ray, Scissor, ScissorError, Vector,
 };
 
 const EPSILON: f64 = f64::EPSILON / 2.0;
@@ -19,7 +19,7 @@ pub(crate) struct Case {
     /// Each the origin and the direction.
     rays: [[Vector; 2]; 2],
     through: bool,
-    tips: Tips,
+    tips: CutTips,
     mesh: Mesh,
     points: Vec<Point>,
 }
@@ -50,9 +50,9 @@ impl Case {
             rays,
             through: flags & 1 == 1,
             tips: if flags & 2 == 2 {
-                Tips::Midpoint
+                CutTips::Midpoint
             } else {
-                Tips::Vertex
+                CutTips::Vertex
             },
             mesh,
             points,
@@ -85,8 +85,8 @@ impl Case {
             Masses::area(&mesh, &positions, 1.0),
             Masses::half(&mesh, &positions, 1.0),
         ];
-        let report = scissor
-            .cut(Method::Partition, &mut mesh, &mut positions, &mut edits)
+        let (_, report) = scissor
+            .cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)
             .expect("positions are in step");
         assert_eq!(mesh.check(), [], "no invariant is broken");
         assert_eq!(
@@ -156,7 +156,7 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     let angle = length(along_a.cross(&along_b));
     // Below, products with a distance vanish, and nothing is known of the plane.
     let is_normal = reach == 0.0 || reach > 1e-290;
-    let scissor = match Scissor::new(a, b) {
+    let scissor = match Scissor::new(*a, *b) {
         Ok(scissor) => scissor,
         Err(error) => {
             assert_eq!(error, ScissorError::OneLine);
@@ -197,7 +197,12 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     // Near the smallest numbers a bound that is a part of them vanishes.
     let out = -128.0 * EPSILON * reach - f64::MIN_POSITIVE;
     let origins = [a.origin(), b.origin()];
-    for (i, side) in scissor.sides().into_iter().enumerate() {
+    for (i, side) in scissor
+        .sides()
+        .expect("there are rays")
+        .into_iter()
+        .enumerate()
+    {
         assert_eq!(side.point(), origins[i], "a side plane holds its origin");
         assert!(
             (side.normal().norm() - 1.0).abs() <= 8.0 * EPSILON,
@@ -216,7 +221,7 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
     }
     if angle == 0.0 {
         let middle = Point::from((a.origin().coords + b.origin().coords) / 2.0);
-        for side in scissor.sides() {
+        for side in scissor.sides().into_iter().flatten() {
             let inside = side.distance(middle);
             assert!(inside >= out, "the middle is out: {inside:e}");
             if length(spanned) > 1024.0 * EPSILON * reach && reach > 1e-290 {
@@ -249,7 +254,12 @@ fn a_refused_cut_changes_nothing(scissor: &Scissor, mesh: &Mesh, positions: &Pos
         Positions::new(positions.as_slice()[1..].iter().copied()).expect("they were usable"),
     ] {
         let mut after = refused.clone();
-        let error = scissor.cut(Method::Partition, &mut mesh_after, &mut after, &mut edits);
+        let error = scissor.cut(
+            CutMethod::Partition,
+            &mut mesh_after,
+            &mut after,
+            &mut edits,
+        );
         assert!(matches!(
             error,
             Err(CutError::Unreplayed { .. } | CutError::Positions { .. })

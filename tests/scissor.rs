@@ -5,8 +5,8 @@
 
 use proptest::prelude::*;
 use tearmesh::{
-    Cursor, CutError, CutReport, Edits, Mesh, Method, Point, Positions, Ray, Scissor, ScissorError,
-    Tips, Vector, shapes,
+    Cursor, CutError, CutMethod, CutReport, CutTips, Edits, Mesh, Point, Positions, Ray, Scissor,
+    ScissorError, Vector, shapes,
 };
 
 use crate::pieces::pieces_by_vertices;
@@ -16,7 +16,7 @@ fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
 }
 
 fn scissor(a: ([f64; 3], [f64; 3]), b: ([f64; 3], [f64; 3])) -> Scissor {
-    Scissor::new(&ray(a.0, a.1), &ray(b.0, b.1)).expect("the rays span a plane")
+    Scissor::new(ray(a.0, a.1), ray(b.0, b.1)).expect("the rays span a plane")
 }
 
 /// A vertical cut through the plane z = 0 between two points of it.
@@ -27,14 +27,15 @@ fn between(a: [f64; 2], b: [f64; 2]) -> Scissor {
 
 fn cut(scissor: &Scissor, mesh: &mut Mesh, positions: &mut Positions) -> CutReport {
     *positions = positions.clone().starting_at(Cursor::START);
-    let report = scissor.cut(Method::Partition, mesh, positions, &mut Edits::new());
+    let report = scissor.cut_measured(CutMethod::Partition, mesh, positions, &mut Edits::new());
     assert_eq!(mesh.check(), []);
-    report.expect("positions are in step")
+    report.expect("positions are in step").1
 }
 
 fn is_between(scissor: &Scissor, p: [f64; 3]) -> bool {
     scissor
         .sides()
+        .expect("there are rays")
         .iter()
         .all(|side| side.offset(p.into()) >= 0.0)
 }
@@ -106,7 +107,7 @@ fn erratum_2_two_rays_from_one_eye_span_a_wedge() {
 fn erratum_2_an_eye_that_rounding_moved_is_still_one_eye() {
     let a = ray([0.1 + 0.2, 0.0, 1.0], [1.0, 0.0, -1.0]);
     let b = ray([0.3, 0.0, 1.0], [0.0, 1.0, -1.0]);
-    let normal = Scissor::new(&a, &b).expect("a plane").plane().normal();
+    let normal = Scissor::new(a, b).expect("a plane").plane().normal();
     let truth = Vector::new(1.0, 1.0, 1.0) / 3f64.sqrt();
     assert!((normal - truth).norm() < 1e-15, "{normal}");
 }
@@ -129,7 +130,7 @@ fn rays_on_one_line_span_no_plane() {
         ray([1.1, 2.2, 3.3], [1.0, 2.0, 3.0]),
         ray([0.1 - 7e5, 0.2 - 14e5, 0.3 - 21e5], [-1e-9, -2e-9, -3e-9]),
     ] {
-        assert_eq!(Scissor::new(&a, &b), Err(ScissorError::OneLine), "{b:?}");
+        assert_eq!(Scissor::new(a, b), Err(ScissorError::OneLine), "{b:?}");
     }
 }
 
@@ -139,7 +140,7 @@ fn directions_of_any_length_give_the_same_scissor() {
     for size in [1e-300, 1e-9, 1024.0, 1e300] {
         let a = ray([0.3, 2.0, 5.0], [0.0, 0.0, -size]);
         let b = ray([0.3, -2.0, 5.0], [0.0, 0.0, -1.0 / size]);
-        let scissor = Scissor::new(&a, &b).expect("a plane");
+        let scissor = Scissor::new(a, b).expect("a plane");
         assert_eq!(
             scissor.plane().normal(),
             reference.plane().normal(),
@@ -239,7 +240,7 @@ fn a_finite_cut_splits_only_vertices_between_the_side_planes() {
 #[test]
 fn midpoint_tips_cut_fewer_edges() {
     let ghost_pairs = |slit: Scissor| {
-        [Tips::Vertex, Tips::Midpoint].map(|tips| {
+        [CutTips::Vertex, CutTips::Midpoint].map(|tips| {
             let (mut mesh, mut positions) = shapes::grid(10, 10);
             cut(&slit.clone().tips(tips), &mut mesh, &mut positions).ghost_pairs
         })
@@ -254,7 +255,7 @@ fn vertices_on_a_side_plane_are_not_strictly_between() {
     // By midpoints the edges from y = 0.3 to 0.7 are cut; the two vertices at their ends, which lie
     // on the side planes, stay shared.
     let (mut mesh, mut positions) = shapes::grid(10, 10);
-    let slit = between([0.52, 0.3], [0.52, 0.7]).tips(Tips::Midpoint);
+    let slit = between([0.52, 0.3], [0.52, 0.7]).tips(CutTips::Midpoint);
     let report = cut(&slit, &mut mesh, &mut positions);
     assert_eq!(
         (report.splits, report.ghost_pairs, report.separated),
@@ -262,7 +263,7 @@ fn vertices_on_a_side_plane_are_not_strictly_between() {
     );
     // A hair further out, they lie between.
     let (mut mesh, mut positions) = shapes::grid(10, 10);
-    let slit = between([0.52, 0.299], [0.52, 0.701]).tips(Tips::Midpoint);
+    let slit = between([0.52, 0.299], [0.52, 0.701]).tips(CutTips::Midpoint);
     assert!(!cut(&slit, &mut mesh, &mut positions).separated);
 }
 
@@ -417,8 +418,8 @@ fn later_cuts_cross_earlier_ones() {
         between([0.4, 2.0], [0.4, -2.0]),
         between([2.0, 0.6], [-2.0, 0.6]),
     ] {
-        let report = slit.cut(Method::Partition, &mut mesh, &mut positions, &mut edits);
-        pieces.push(report.expect("in step").pieces);
+        let report = slit.cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits);
+        pieces.push(report.expect("in step").1.pieces);
         assert_eq!(mesh.check(), []);
     }
     assert_eq!(pieces, [2, 4]);
@@ -433,18 +434,20 @@ fn positions_of_another_mesh_are_refused() {
     let slit = between([0.5, 2.0], [0.5, -2.0]);
     let mut edits = Edits::new();
     assert_eq!(
-        slit.cut(Method::Partition, &mut mesh, &mut others, &mut edits),
-        Err(CutError::Positions {
+        slit.cut(CutMethod::Partition, &mut mesh, &mut others, &mut edits)
+            .err(),
+        Some(CutError::Positions {
             vertices: 9,
             positions: 16
         })
     );
     let mut late = positions.clone();
-    slit.cut(Method::Partition, &mut mesh, &mut positions, &mut edits)
+    slit.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)
         .expect("in step");
     assert_eq!(
-        slit.cut(Method::Partition, &mut mesh, &mut late, &mut edits),
-        Err(CutError::Unreplayed {
+        slit.cut(CutMethod::Partition, &mut mesh, &mut late, &mut edits)
+            .err(),
+        Some(CutError::Unreplayed {
             seen: Cursor::START,
             made: edits.cursor()
         })

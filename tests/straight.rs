@@ -153,7 +153,7 @@ impl Case {
         let [a, b] = self.rays.map(|(origin, along)| {
             Ray::new(Point::from(origin), Vector::from(along)).expect("a ray")
         });
-        let scissor = Scissor::new(&a, &b).expect("a plane");
+        let scissor = Scissor::new(a, b).expect("a plane");
         scissor.through(self.cut.sides.is_empty())
     }
 }
@@ -330,7 +330,8 @@ fn oracle_and_scissor_read_rays_alike() {
     for case in cases(CUTS) {
         let scissor = case.scissor();
         let cut = Cut::between(case.rays);
-        let planes = [scissor.plane(), scissor.sides()[0], scissor.sides()[1]];
+        let [one, other] = scissor.sides().expect("there are rays");
+        let planes = [scissor.plane(), one, other];
         for (flat, plane) in [cut.plane, cut.sides[0], cut.sides[1]].iter().zip(planes) {
             for p in &case.before.points {
                 let apart = flat.distance(*p) - plane.distance(Point::from(*p));

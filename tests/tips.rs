@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use tearmesh::{Edit, Edits, Mesh, Method, Point, Positions, Scissor, VertexId, shapes};
+use tearmesh::{CutMethod, Edit, Edits, Mesh, Point, Positions, Scissor, VertexId, shapes};
 
 use crate::exact::{altitudes, parents, scissor};
 use crate::oracle::straight::Surface;
@@ -24,8 +24,8 @@ fn cut(sheet: &Surface, scissor: &Scissor) -> Cut {
     let (mut mesh, mut positions) = built(sheet);
     let before = altitudes(&mesh, &positions);
     let mut edits = Edits::new();
-    let report = scissor
-        .cut(Method::Exact, &mut mesh, &mut positions, &mut edits)
+    let (_, report) = scissor
+        .cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
         .expect("positions are in step");
     assert_eq!(mesh.check(), []);
     Cut {
@@ -224,11 +224,15 @@ fn rays_exactly_on_the_boundary_cut_off_a_piece() {
         let sheet = crate::straight::surface(&shapes::grid(n, n));
         let mut hundredth = || (1.0 + (99.0 * random.next()).floor()) / 100.0;
         let ends = [[hundredth(), 1.0], [hundredth(), 0.0]];
-        for method in [Method::Exact, Method::Partition] {
+        for method in [CutMethod::Exact, CutMethod::Partition] {
             let (mut mesh, mut positions) = built(&sheet);
-            let done =
-                scissor(ends.map(down)).cut(method, &mut mesh, &mut positions, &mut Edits::new());
-            let report = done.expect("positions are in step");
+            let done = scissor(ends.map(down)).cut_measured(
+                method,
+                &mut mesh,
+                &mut positions,
+                &mut Edits::new(),
+            );
+            let (_, report) = done.expect("positions are in step");
             let counts = (
                 report.pieces_expected,
                 report.pieces,
@@ -237,7 +241,7 @@ fn rays_exactly_on_the_boundary_cut_off_a_piece() {
             );
             // The seam of `partition` may end at a vertex beside the strip; then it says so.
             let is_right = match method {
-                Method::Exact => counts == (2, 2, 0, 0),
+                CutMethod::Exact => counts == (2, 2, 0, 0),
                 _ => report.pieces_expected == 2 && report.crumbs == 0,
             };
             if !is_right {

@@ -3,7 +3,7 @@
 //! There are four kinds of [`Edit`], and each says why something changed. Someone who keeps one
 //! value for each vertex, corner or face need not know why: a value is pushed, set, or taken out,
 //! and a new one comes from up to three others. That is what [`VertexOp`], [`CornerOp`] and
-//! [`Family`] say. They are derived from a record without allocation, and a new kind of edit would
+//! [`FaceFamily`] say. They are derived from a record without allocation, and a new kind of edit would
 //! be made of the same operations.
 //!
 //! | edit | vertices | corners | faces |
@@ -16,7 +16,7 @@
 //! What is *shared out* rather than copied, such as mass, is not a value in this sense: the halves
 //! of a split vertex do not weigh what the whole did. [`Masses`](crate::Masses) reads the records.
 
-use super::record::{Child, Edit, Insert, Location, Source};
+use super::record::{ChildFace, CornerSource, Edit, Insert, InsertLocation};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// Where a value comes from: one, two or three others.
@@ -97,11 +97,11 @@ impl<I> Mix<I> {
     }
 }
 
-impl From<Location> for Mix<VertexId> {
-    fn from(at: Location) -> Mix<VertexId> {
+impl From<InsertLocation> for Mix<VertexId> {
+    fn from(at: InsertLocation) -> Mix<VertexId> {
         match at {
-            Location::Edge { ends, t } => Mix::Between { ends, t },
-            Location::Face { vertices, weights } => Mix::Weighted {
+            InsertLocation::Edge { ends, t } => Mix::Between { ends, t },
+            InsertLocation::Face { vertices, weights } => Mix::Weighted {
                 of: vertices,
                 weights,
             },
@@ -168,11 +168,11 @@ impl VertexOp {
 /// The first child has the id of its parent; all others are new faces, in the order in which they
 /// are to be pushed. So what the parent had is to be read before anything is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Family<'e> {
-    children: &'e [Child],
+pub struct FaceFamily<'e> {
+    children: &'e [ChildFace],
 }
 
-impl<'e> Family<'e> {
+impl<'e> FaceFamily<'e> {
     /// The face that was divided.
     #[must_use]
     pub fn parent(&self) -> FaceId {
@@ -181,7 +181,7 @@ impl<'e> Family<'e> {
 
     /// The faces that took its place: at least two.
     #[must_use]
-    pub fn children(&self) -> &'e [Child] {
+    pub fn children(&self) -> &'e [ChildFace] {
         self.children
     }
 
@@ -221,13 +221,13 @@ fn push_at<T>(place: usize, values: &mut Vec<T>, value: T) {
     values.push(value);
 }
 
-impl Source {
+impl CornerSource {
     /// The corners of the parent that a corner of a child lies between.
     fn in_parent(self, parent: [HalfEdgeId; 3]) -> Mix<HalfEdgeId> {
         match self {
-            Source::Corner(h) => Mix::Copy(h),
-            Source::Edge { ends, t } => Mix::Between { ends, t },
-            Source::Face { weights } => Mix::Weighted {
+            CornerSource::Corner(h) => Mix::Copy(h),
+            CornerSource::Edge { ends, t } => Mix::Between { ends, t },
+            CornerSource::Face { weights } => Mix::Weighted {
                 of: parent,
                 weights,
             },
@@ -235,7 +235,7 @@ impl Source {
     }
 }
 
-impl Child {
+impl ChildFace {
     /// The corners of the parent, as they were before, that each corner of this child lies between.
     #[must_use]
     pub fn corner_mixes(&self) -> [Mix<HalfEdgeId>; 3] {
@@ -255,8 +255,8 @@ pub enum CornerOp<'e> {
         /// The vertex that they are of now.
         to: VertexId,
     },
-    /// A face is divided. See [`Child::corner_mixes`].
-    Divide(Family<'e>),
+    /// A face is divided. See [`ChildFace::corner_mixes`].
+    Divide(FaceFamily<'e>),
     /// A vertex slides, and takes with it the values of its corners.
     Carry {
         /// For each face of the edge along which it slides, up to two, its corner at the vertex and
@@ -400,7 +400,7 @@ impl<'e> Edit<'e> {
     }
 
     /// The faces that this edit divides, and their children; none but of an insertion.
-    pub fn families(&self) -> impl Iterator<Item = Family<'e>> + use<'e> {
+    pub fn families(&self) -> impl Iterator<Item = FaceFamily<'e>> + use<'e> {
         families(match self {
             Edit::Insert(insert) => insert.children,
             Edit::Split(_) | Edit::Merge(_) | Edit::Slide(_) => &[],
@@ -410,12 +410,12 @@ impl<'e> Edit<'e> {
 
 impl<'e> Insert<'e> {
     /// The divided faces and their children.
-    pub fn families(&self) -> impl Iterator<Item = Family<'e>> + use<'e> {
+    pub fn families(&self) -> impl Iterator<Item = FaceFamily<'e>> + use<'e> {
         families(self.children)
     }
 }
 
-fn families(children: &[Child]) -> impl Iterator<Item = Family<'_>> {
+fn families(children: &[ChildFace]) -> impl Iterator<Item = FaceFamily<'_>> {
     let families = children.chunk_by(|one, next| one.parent == next.parent);
-    families.map(|children| Family { children })
+    families.map(|children| FaceFamily { children })
 }

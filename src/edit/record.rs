@@ -64,11 +64,11 @@ impl Insert<'_> {
         hash.add_pair([self.points.len() as u32, self.children.len() as u32]);
         for point in self.points {
             match point.at {
-                Location::Edge { ends, t } => {
+                InsertLocation::Edge { ends, t } => {
                     hash.add_pair(ends.map(u32::from));
                     hash.add(t.to_bits());
                 }
-                Location::Face { vertices, weights } => {
+                InsertLocation::Face { vertices, weights } => {
                     hash.add_pair([vertices[0].into(), vertices[1].into()]);
                     hash.add(weights[0].to_bits());
                     hash.add(weights[1].to_bits());
@@ -142,7 +142,7 @@ pub struct Insert<'e> {
     /// there are two for each point, one after the other.
     pub points: &'e [InsertedPoint],
     /// The faces that took the place of others, those of one parent together.
-    pub children: &'e [Child],
+    pub children: &'e [ChildFace],
 }
 
 /// A new vertex and where it is.
@@ -151,12 +151,12 @@ pub struct InsertedPoint {
     /// The new vertex.
     pub vertex: VertexId,
     /// Where it is, between vertices that were there before.
-    pub at: Location,
+    pub at: InsertLocation,
 }
 
 /// A place on an edge or in a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Location {
+pub enum InsertLocation {
     /// At `ends[0] + t (ends[1] − ends[0])`.
     Edge {
         /// The ends of the edge.
@@ -175,7 +175,7 @@ pub enum Location {
 
 /// A face that took the place of (a part of) another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Child {
+pub struct ChildFace {
     /// The face that was divided.
     pub parent: FaceId,
     /// This child; the first of a family has the id of the parent.
@@ -183,7 +183,7 @@ pub struct Child {
     /// The vertices of the child.
     pub vertices: [VertexId; 3],
     /// Where each of its corners lies in the parent.
-    pub sources: [Source; 3],
+    pub sources: [CornerSource; 3],
     /// The part of the parent's area that the child covers. Those of a family add up to one, up
     /// to rounding.
     pub share: f64,
@@ -192,7 +192,7 @@ pub struct Child {
 /// Where a corner of a child lies in its parent: half-edges are corners of the parent, as
 /// they were before the insertion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
+pub enum CornerSource {
     /// At a corner.
     Corner(HalfEdgeId),
     /// On an edge, at `ends[0] + t (ends[1] − ends[0])`. Both faces of the edge have the same

@@ -14,7 +14,7 @@
 //!   which no altitude is smaller than r (1 − r) of the parent's where r <= s, t <= 1 − r.
 
 use super::plan::PointId;
-use crate::edit::Source;
+use crate::edit::CornerSource;
 use crate::exact::ROUNDING;
 use crate::id::{HalfEdgeId, VertexId};
 
@@ -22,7 +22,7 @@ use crate::id::{HalfEdgeId, VertexId};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) vertex: VertexId,
-    pub(super) source: Source,
+    pub(super) source: CornerSource,
     /// The point of the plan, for one on an edge.
     pub(super) point: Option<PointId>,
     /// The weights of the corners.
@@ -67,7 +67,7 @@ impl Retriangulation {
         let mut at = [0.0; 3];
         at[h.corner()] = 1.0;
         self.corners[h.corner()] = self.nodes.len();
-        self.outline(vertex, Source::Corner(h), None, at);
+        self.outline(vertex, CornerSource::Corner(h), None, at);
     }
 
     /// Adds the next point on the edge `h` to the outline, at `t` from the origin of `h`
@@ -88,10 +88,16 @@ impl Retriangulation {
         let mut at = [0.0; 3];
         at[ends[0].corner()] = 1.0 - t;
         at[ends[1].corner()] = t;
-        self.outline(vertex, Source::Edge { ends, t }, Some(point), at);
+        self.outline(vertex, CornerSource::Edge { ends, t }, Some(point), at);
     }
 
-    fn outline(&mut self, vertex: VertexId, source: Source, point: Option<PointId>, at: [f64; 3]) {
+    fn outline(
+        &mut self,
+        vertex: VertexId,
+        source: CornerSource,
+        point: Option<PointId>,
+        at: [f64; 3],
+    ) {
         self.nodes.push(Node {
             vertex,
             source,
@@ -105,7 +111,7 @@ impl Retriangulation {
     pub(super) fn inside(&mut self, vertex: VertexId, weights: [f64; 3]) {
         self.nodes.push(Node {
             vertex,
-            source: Source::Face { weights },
+            source: CornerSource::Face { weights },
             point: None,
             at: weights,
         });

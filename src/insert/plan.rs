@@ -18,7 +18,7 @@ use crate::id::{FaceId, HalfEdgeId};
 /// assert_eq!((mesh.vertex_count(), mesh.face_count()), (5, 4));
 /// assert_eq!(positions.as_slice()[4], [0.5, 0.5, 0.0].into());
 /// assert!(mesh.check().is_empty());
-/// # Ok::<(), tearmesh::insert::Refusal>(())
+/// # Ok::<(), tearmesh::InsertRefusal>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Plan {

@@ -25,6 +25,7 @@
 //! both sides, and the passive twin is not on the plane.
 
 mod label;
+pub(super) mod layers;
 mod planner;
 mod slip;
 mod tips;
@@ -32,15 +33,17 @@ mod trace;
 mod tracer;
 
 use super::offsets::Offsets;
-use super::outcome::{Ends, Outcome};
+use super::outcome::{Judged, Outcome, Sides, faces_at};
+use super::pieces::Census;
 use super::strip::Strip;
-use super::{pieces, unshare};
+use super::unshare;
 use crate::edit::{Cursor, Edit, Edits};
-use crate::geometry::{Point, Side, between};
+use crate::geometry::{Point, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-use crate::insert::{Plan, Refusal};
+use crate::insert::{InsertRefusal, Plan};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use label::Patches;
 use planner::{Chain, Planner};
 pub(super) use trace::Trace;
 use trace::{Place, Site};
@@ -53,178 +56,194 @@ pub(super) struct Settings {
     pub(super) snap: f64,
     /// Whether what was taken for a crossing slides onto the plane.
     pub(super) snap_move: bool,
+}
+
+/// Where a cut may go.
+pub(super) struct Way<'w> {
+    pub(super) strip: &'w Strip,
+    /// The faces that it may cross, ascending.
+    pub(super) among: &'w [FaceId],
+    /// Whether these are not all that the plane meets there.
+    pub(super) is_choice: bool,
     /// Where this cut goes on from another, and where it comes back to one: vertices on the plane and
     /// on the first side plane, and on the second.
-    pub(super) joints: [Vec<VertexId>; 2],
+    pub(super) joints: &'w [Vec<VertexId>; 2],
+    pub(super) offsets: &'w Offsets,
 }
 
-/// Finds where the slit runs, and where it has to end so that no face gets thin.
-pub(super) fn trace(
-    strip: &Strip,
-    settings: &Settings,
-    mesh: &Mesh,
-    positions: &Positions,
-    offsets: &Offsets,
-) -> Trace {
-    let Settings { snap, joints, .. } = settings;
-    // Nodes that the slit does not meet but has to go on to. Each round adds one that was not there.
-    let mut met: Vec<Site> = Vec::new();
-    loop {
+impl Way<'_> {
+    /// Where the slit runs, as the plane does.
+    pub(super) fn trace_of_plane(&self, mesh: &Mesh, positions: &Positions) -> Trace {
+        self.trace(0.0, &[], mesh, positions)
+    }
+
+    fn trace(&self, snap: f64, met: &[Site], mesh: &Mesh, positions: &Positions) -> Trace {
         let aim = Aim {
-            snap: *snap,
-            joints,
-            met: &met,
+            among: self.among,
+            snap,
+            joints: self.joints,
+            met,
         };
-        let mut trace = tracer::trace(strip, &aim, mesh, positions, offsets);
-        let beyond = tips::settle(&mut trace, *snap, mesh, positions);
-        let known = met.len();
-        met.extend(beyond);
-        met.sort_unstable();
-        met.dedup();
-        if met.len() == known {
-            return trace;
+        tracer::trace(self.strip, &aim, mesh, positions, self.offsets)
+    }
+
+    /// Finds where the slit runs, and where it has to end so that no face gets thin.
+    pub(super) fn trace_snapped(&self, snap: f64, mesh: &Mesh, positions: &Positions) -> Trace {
+        // Nodes that the slit does not meet but has to go on to. Each round adds one that was not
+        // there.
+        let mut met: Vec<Site> = Vec::new();
+        loop {
+            let mut trace = self.trace(snap, &met, mesh, positions);
+            let beyond = tips::settle(&mut trace, snap, mesh, positions);
+            let known = met.len();
+            met.extend(beyond);
+            met.sort_unstable();
+            met.dedup();
+            if met.len() == known {
+                return trace;
+            }
         }
     }
-}
 
-/// The pieces that a cut along a trace should leave: those of the slit as it is, or more where the
-/// trace ends nearer than the snap to a boundary, which it opens.
-pub(super) fn pieces_expected(
-    strip: &Strip,
-    settings: &Settings,
-    trace: &Trace,
-    mesh: &Mesh,
-    positions: &Positions,
-    offsets: &Offsets,
-) -> usize {
-    let joints = &settings.joints;
-    let unsnapped = Aim {
-        snap: 0.0,
-        joints,
-        met: &[],
-    };
-    let unsnapped = tracer::trace(strip, &unsnapped, mesh, positions, offsets);
-    let pieces = |trace: &Trace| pieces_of(trace, joints, mesh, offsets);
-    pieces(&unsnapped).max(pieces(trace))
-}
+    /// The pieces that a cut along a trace should leave: those of the slit as it is, or more where
+    /// the trace ends nearer than the snap to a boundary, which it opens.
+    pub(super) fn pieces_expected(
+        &self,
+        trace: &Trace,
+        census: &Census,
+        mesh: &Mesh,
+        positions: &Positions,
+    ) -> usize {
+        let unsnapped = self.trace_of_plane(mesh, positions);
+        let pieces = |trace: &Trace| self.pieces_of(trace, census, mesh);
+        pieces(&unsnapped).max(pieces(trace))
+    }
 
-fn pieces_of(trace: &Trace, joints: &[Vec<VertexId>; 2], mesh: &Mesh, offsets: &Offsets) -> usize {
-    let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
-    on_plane.extend(joints.iter().flatten());
-    on_plane.sort_unstable();
-    let sign = |v: VertexId| match on_plane.binary_search(&v) {
-        Ok(_) => 0.0,
-        Err(_) => offsets.of(v),
-    };
-    let mut faces = vec![false; mesh.face_count()];
-    let mut edges = Vec::new();
-    let pieces = trace.pieces.iter();
-    for piece in pieces.filter(|piece| piece.ends_at_nodes() == [true; 2]) {
-        match piece.place {
-            Place::Face(f) => faces[f.index()] = true,
-            Place::Edge { h, .. } => edges.push(h),
+    fn pieces_of(&self, trace: &Trace, census: &Census, mesh: &Mesh) -> usize {
+        let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
+        on_plane.extend(self.joints.iter().flatten());
+        on_plane.sort_unstable();
+        let sign = |v: VertexId| match on_plane.binary_search(&v) {
+            Ok(_) => 0.0,
+            Err(_) => self.offsets.of(v),
+        };
+        let (mut faces, mut edges) = (Vec::new(), Vec::new());
+        let pieces = trace.pieces.iter();
+        for piece in pieces.filter(|piece| piece.ends_at_nodes() == [true; 2]) {
+            match piece.place {
+                Place::Face(f) => faces.push(f),
+                Place::Edge { h, .. } => edges.push(h),
+            }
+        }
+        faces.sort_unstable();
+        edges.sort_unstable();
+        let is_slit = |f: FaceId| faces.binary_search(&f).is_ok();
+        let is_slit_along = |h: HalfEdgeId| {
+            let pair = mesh.pair(h).unwrap_or(h);
+            edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
+        };
+        census.expected(mesh, sign, is_slit, is_slit_along)
+    }
+
+    /// Cuts along a trace.
+    pub(super) fn cut(
+        &self,
+        mut trace: Trace,
+        snap_move: bool,
+        mesh: &mut Mesh,
+        positions: &mut Positions,
+        judged: Judged<'_>,
+        edits: &mut Edits,
+    ) -> Outcome {
+        let faces_before = mesh.face_count();
+        let (slit, insertion) = loop {
+            let (plan, slit) = Slit::plan(&trace, mesh);
+            match plan.prepare(mesh) {
+                Ok(insertion) => break (slit, (!plan.is_empty()).then_some(insertion)),
+                Err(InsertRefusal::Crowded { face }) => trace.leave_out(mesh, face),
+                Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
+            }
+        };
+        if snap_move {
+            slip::onto_plane(&trace, mesh, positions, edits);
+        }
+        if let Some(insertion) = insertion {
+            insertion.carry_out(mesh, edits);
+        }
+        edits.replay(positions);
+        let [touched, judged] = [faces_at(mesh, &slit.nodes), judged(mesh, edits)]
+            .map(|faces| self.sides(faces, faces_before, mesh, positions, &trace, &slit));
+        let before = edits.cursor();
+        let mut torn: Vec<HalfEdgeId> = slit.half_edges(mesh).collect();
+        torn.sort_unstable();
+        unshare::by_fan(mesh, &slit.nodes, |h| torn.binary_search(&h).is_ok(), edits);
+        Outcome {
+            touched,
+            judged,
+            refused: 0,
+            ends: slit.tips.map(|tips| with_copies(tips, edits, before)),
+            off_plane: with_copies(slit.off_plane, edits, before),
         }
     }
-    edges.sort_unstable();
-    let is_slit_along = |h: HalfEdgeId| {
-        let pair = mesh.pair(h).unwrap_or(h);
-        edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
-    };
-    pieces::expected(mesh, sign, |f| faces[f.index()], is_slit_along)
-}
 
-/// Cuts along a trace. The offsets are for whoever wants the side of every face, for a report.
-pub(super) fn cut(
-    strip: &Strip,
-    mut trace: Trace,
-    snap_move: bool,
-    mesh: &mut Mesh,
-    positions: &mut Positions,
-    offsets: Option<&Offsets>,
-    edits: &mut Edits,
-) -> Outcome {
-    let (slit, insertion) = loop {
-        let (plan, slit) = Slit::plan(&trace, mesh);
-        match plan.prepare(mesh) {
-            Ok(insertion) => break (slit, (!plan.is_empty()).then_some(insertion)),
-            Err(Refusal::Crowded { face }) => trace.leave_out(mesh, face),
-            Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
+    /// The sides of faces, once all vertices are inserted. A face that still lies on both sides
+    /// has none: it is round a tip, beside a piece that leaves the plane, or where nothing was to be
+    /// cut.
+    fn sides(
+        &self,
+        faces: Vec<FaceId>,
+        faces_before: usize,
+        mesh: &Mesh,
+        positions: &Positions,
+        trace: &Trace,
+        slit: &Slit,
+    ) -> Sides {
+        let snapped = trace.snapped.iter().map(|one| one.vertex);
+        let mut on_plane: Vec<VertexId> = snapped.chain(slit.nodes.iter().copied()).collect();
+        on_plane.sort_unstable();
+        // Only the passive twin of a crossing is new and not on the plane.
+        let offset = |v: VertexId| match v.index() < self.offsets.len() {
+            true => self.offsets.of(v),
+            false => self.strip.plane.offset(positions.at(v)),
+        };
+        let sign = |v: VertexId| match on_plane.binary_search(&v) {
+            Ok(_) => 0.0,
+            Err(_) => offset(v),
+        };
+        let is_uncut = |f: FaceId| {
+            let corners = mesh.face_vertices(f);
+            let mut ends = slit.tips.iter().chain([&slit.off_plane]);
+            ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)))
+                || !self.meets(corners.map(|v| positions.at(v)))
+                || (self.is_choice
+                    && f.index() < faces_before
+                    && self.among.binary_search(&f).is_err())
+        };
+        let lies_on_both = |f: FaceId| {
+            let signs = mesh.face_vertices(f).map(sign);
+            signs.iter().any(|&d| d < 0.0) && signs.iter().any(|&d| d > 0.0)
+        };
+        let patches = Patches::new(mesh, faces.iter().copied(), &sign, &offset);
+        let side = |f: FaceId| {
+            let goes_on = lies_on_both(f) && is_uncut(f);
+            (!goes_on).then(|| patches.side(mesh, f, &sign))
+        };
+        faces.into_iter().map(|f| (f, side(f))).collect()
+    }
+
+    /// Whether the plane crosses a triangle between the side planes.
+    fn meets(&self, corners: [Point; 3]) -> bool {
+        let crossing = |i: usize| {
+            let (p, q) = (corners[i], corners[(i + 1) % 3]);
+            let plane = self.strip.plane;
+            let (from, to) = (plane.offset(p), plane.offset(q));
+            ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
+        };
+        let mut ends = (0..3).filter_map(crossing);
+        match (ends.next(), ends.next()) {
+            (Some(p), Some(q)) => self.strip.clip(p, q, self.offsets.bound()).is_some(),
+            _ => false,
         }
-    };
-    if snap_move {
-        slip::onto_plane(&trace, mesh, positions, edits);
-    }
-    if let Some(insertion) = insertion {
-        insertion.carry_out(mesh, edits);
-    }
-    edits.replay(positions);
-    let labels = match offsets {
-        Some(offsets) => labels(strip, mesh, positions, offsets, &trace, &slit),
-        None => Vec::new(),
-    };
-    let before = edits.cursor();
-    let mut is_cut = vec![false; mesh.half_edge_count()];
-    for h in slit.half_edges(mesh) {
-        is_cut[h.index()] = true;
-    }
-    unshare::by_fan(mesh, &slit.nodes, |h| is_cut[h.index()], edits);
-    Outcome {
-        labels,
-        refused: 0,
-        ends: Ends(slit.tips.map(|tips| with_copies(tips, edits, before))),
-        off_plane: with_copies(slit.off_plane, edits, before),
-    }
-}
-
-/// The side of every face, once all vertices are inserted. A face that still lies on both sides
-/// has none: it is round a tip, beside a piece that leaves the plane, or outside the strip.
-fn labels(
-    strip: &Strip,
-    mesh: &Mesh,
-    positions: &Positions,
-    offsets: &Offsets,
-    trace: &Trace,
-    slit: &Slit,
-) -> Vec<Option<Side>> {
-    // Only the passive twin of a crossing is new and not on the plane.
-    let offset = |v: VertexId| match v.index() < offsets.len() {
-        true => offsets.of(v),
-        false => strip.plane.offset(positions.at(v)),
-    };
-    // Asked for at every corner, so looked up and not searched for.
-    let mut signs: Vec<f64> = mesh.vertices().map(offset).collect();
-    let snapped = trace.snapped.iter().map(|one| one.vertex);
-    for v in snapped.chain(slit.nodes.iter().copied()) {
-        signs[v.index()] = 0.0;
-    }
-    let sign = |v: VertexId| signs[v.index()];
-    let goes_on = |f: FaceId| {
-        let corners = mesh.face_vertices(f);
-        let on_both =
-            corners.iter().any(|&v| sign(v) < 0.0) && corners.iter().any(|&v| sign(v) > 0.0);
-        let mut ends = slit.tips.iter().chain([&slit.off_plane]);
-        let at_end = ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)));
-        on_both
-            && (at_end || !meets_strip(strip, offsets.bound(), corners.map(|v| positions.at(v))))
-    };
-    let sides = label::all(mesh, sign, offset);
-    let sides = mesh.faces().zip(sides);
-    sides
-        .map(|(f, side)| (!goes_on(f)).then_some(side))
-        .collect()
-}
-
-/// Whether the plane crosses a triangle between the side planes.
-fn meets_strip(strip: &Strip, bound: f64, corners: [Point; 3]) -> bool {
-    let crossing = |i: usize| {
-        let (p, q) = (corners[i], corners[(i + 1) % 3]);
-        let (from, to) = (strip.plane.offset(p), strip.plane.offset(q));
-        ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
-    };
-    let mut ends = (0..3).filter_map(crossing);
-    match (ends.next(), ends.next()) {
-        (Some(p), Some(q)) => strip.clip(p, q, bound).is_some(),
-        _ => false,
     }
 }
 

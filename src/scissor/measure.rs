@@ -1,4 +1,4 @@
-//! What a cut should do, and what it did.
+//! What a cut should do, and what it did: for a report that is asked for.
 //!
 //! A [`Survey`] looks at the mesh before a cut: where the slit (the part of the plane
 //! between the side planes) meets it, how long it is there, and into how many pieces an ideal
@@ -6,11 +6,11 @@
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
-use super::offsets::Offsets;
-use super::outcome::{Ends, Outcome};
-use super::pieces;
-use super::strip::Strip;
-use crate::edit::{Cursor, Edit, Edits};
+use super::exact::Way;
+use super::outcome::{Outcome, side_of};
+use super::pieces::Census;
+use super::seam::Nodes;
+use crate::edit::{ChildFace, Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, altitude, angle, cross, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -69,30 +69,14 @@ pub struct CutReport {
     /// How far each tip of the seam lies beyond the nearer side plane; negative for one that
     /// falls short. Ascending by vertex. A tip is an end of the seam inside the mesh.
     pub tip_overshoots: Vec<f64>,
-    ends: Ends,
-}
-
-impl CutReport {
-    /// The vertices at which the first side plane ended a cut of the method `exact`: there a
-    /// polyline that began with it is closed ([`Scissor::closed`](super::Scissor::closed)).
-    #[must_use]
-    pub fn ends_at_first_ray(&self) -> &[VertexId] {
-        &self.ends.0[0]
-    }
-
-    /// The vertices at which the second side plane ended a cut of the method `exact`: there
-    /// the next cut of a polyline goes on.
-    #[must_use]
-    pub fn ends_at_second_ray(&self) -> &[VertexId] {
-        &self.ends.0[1]
-    }
 }
 
 /// The mesh before a cut, as the slit sees it.
-pub(super) struct Survey<'o> {
-    offsets: &'o Offsets,
-    /// Whether the slit meets each face.
-    in_slit: Vec<bool>,
+pub(super) struct Survey<'w> {
+    way: &'w Way<'w>,
+    census: Census,
+    /// The faces that the slit meets, ascending.
+    slit: Vec<FaceId>,
     faces_crossed: usize,
     slit_length: f64,
     pieces_before: usize,
@@ -101,94 +85,128 @@ pub(super) struct Survey<'o> {
     nearest_vertex: f64,
 }
 
-impl<'o> Survey<'o> {
+impl<'w> Survey<'w> {
     /// `pieces_expected` is for a method that decides where the slit runs before it cuts.
     pub(super) fn new(
-        strip: &Strip,
+        way: &'w Way<'w>,
         mesh: &Mesh,
         positions: &Positions,
-        offsets: &'o Offsets,
-        pieces_expected: Option<usize>,
-    ) -> Survey<'o> {
+        pieces_expected: Option<&dyn Fn(&Census) -> usize>,
+    ) -> Survey<'w> {
+        let mut touched = way.offsets.touched().to_vec();
+        let joints = way.joints.iter().flatten();
+        touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
+        let census = Census::new(mesh, &touched);
         let mut survey = Survey {
-            offsets,
-            in_slit: vec![false; mesh.face_count()],
+            way,
+            pieces_before: census.before(mesh),
+            census,
+            slit: Vec::new(),
             faces_crossed: 0,
             slit_length: 0.0,
-            pieces_before: mesh.components().count(),
             pieces_expected: 0,
             mean_edge: mean_edge(mesh, positions),
-            nearest_vertex: nearest_vertex(strip, mesh, positions),
+            nearest_vertex: nearest_vertex(way, mesh, positions),
         };
-        survey.follow_slit(strip, mesh, positions);
-        survey.pieces_expected =
-            pieces_expected.unwrap_or_else(|| survey.pieces_expected(strip, mesh, positions));
+        survey.follow_slit(mesh, positions);
+        survey.pieces_expected = match pieces_expected {
+            Some(expected) => expected(&survey.census),
+            None => survey.pieces_expected(mesh, positions),
+        };
         survey
     }
 
     /// Measures the slit: where the plane runs between the side planes.
-    fn follow_slit(&mut self, strip: &Strip, mesh: &Mesh, positions: &Positions) {
-        for f in mesh.faces() {
+    fn follow_slit(&mut self, mesh: &Mesh, positions: &Positions) {
+        let among = self.way.among;
+        for &f in among {
             let crossing = self.crossing(mesh, positions, f);
-            if let Some(length) = crossing.and_then(|ends| self.length_inside(strip, ends)) {
+            if let Some(length) = crossing.and_then(|ends| self.length_inside(ends)) {
                 self.faces_crossed += 1;
-                self.in_slit[f.index()] = true;
+                self.slit.push(f);
                 self.slit_length += length;
             }
         }
-        for h in mesh.edges() {
-            if let Some([f, g]) = self.faces_apart(mesh, h)
-                && let Some(length) = self.length_inside(strip, ends_of(mesh, positions, h))
+        for h in among.iter().flat_map(|f| f.half_edges()) {
+            if mesh.pair(h).is_some_and(|pair| h < pair)
+                && let Some(faces) = self.faces_apart(mesh, h)
+                && let Some(length) = self.length_inside(ends_of(mesh, positions, h))
             {
-                self.in_slit[f.index()] = true;
-                self.in_slit[g.index()] = true;
+                self.slit.extend(faces);
                 self.slit_length += length;
             }
         }
+        self.slit.sort_unstable();
+        self.slit.dedup();
     }
 
     /// The length of a segment inside the strip; `None` if it lies outside.
-    fn length_inside(&self, strip: &Strip, [p, q]: [Point; 2]) -> Option<f64> {
-        let (from, to) = strip.clip(p, q, self.offsets.bound())?;
+    fn length_inside(&self, [p, q]: [Point; 2]) -> Option<f64> {
+        let (from, to) = self.way.strip.clip(p, q, self.way.offsets.bound())?;
         Some((to - from) * length(q - p))
     }
 
     /// The faces of an edge on the plane that lie on different sides, and are slit apart there.
     fn faces_apart(&self, mesh: &Mesh, h: HalfEdgeId) -> Option<[FaceId; 2]> {
         let faces = [h, mesh.pair(h)?].map(HalfEdgeId::face);
-        let on_plane = [mesh.origin(h), mesh.target(h)].map(|v| self.offsets.of(v)) == [0.0; 2];
+        let ends = [mesh.origin(h), mesh.target(h)];
+        let on_plane = ends.map(|v| self.way.offsets.of(v)) == [0.0; 2];
         let [one, other] = faces.map(|f| self.lone_side(mesh, f));
         (on_plane && one != other).then_some(faces)
     }
 
     /// The pieces that a cut leaves which divides every face that the slit crosses.
-    fn pieces_expected(&self, strip: &Strip, mesh: &Mesh, positions: &Positions) -> usize {
-        let is_whole =
-            |[p, q]: [Point; 2]| strip.clip(p, q, self.offsets.bound()) == Some((0.0, 1.0));
-        pieces::expected(
-            mesh,
-            |v| self.offsets.of(v),
-            |f| self.crossing(mesh, positions, f).is_some_and(is_whole),
-            |h| self.faces_apart(mesh, h).is_some() && is_whole(ends_of(mesh, positions, h)),
-        )
+    fn pieces_expected(&self, mesh: &Mesh, positions: &Positions) -> usize {
+        let is_met = |f: FaceId| self.slit.binary_search(&f).is_ok();
+        let bound = self.way.offsets.bound();
+        let is_whole = |[p, q]: [Point; 2]| self.way.strip.clip(p, q, bound) == Some((0.0, 1.0));
+        let is_slit =
+            |f: FaceId| is_met(f) && self.crossing(mesh, positions, f).is_some_and(is_whole);
+        let is_slit_along = |h: HalfEdgeId| {
+            self.faces_apart(mesh, h)
+                .is_some_and(|faces| faces.into_iter().all(is_met))
+                && is_whole(ends_of(mesh, positions, h))
+        };
+        self.census
+            .expected(mesh, |v| self.way.offsets.of(v), is_slit, is_slit_along)
+    }
+
+    /// The faces that the slit meets and the children of those, once they are inserted; ascending.
+    fn slit_now(&self, edits: &Edits, first_edit: Cursor) -> Vec<FaceId> {
+        let mut slit = self.slit.clone();
+        for edit in edits.since(first_edit) {
+            if let Edit::Insert(insert) = edit {
+                let is_new = |child: &&ChildFace| child.face != child.parent;
+                let children = insert.children.iter().filter(is_new);
+                let met = |child: &&ChildFace| self.slit.binary_search(&child.parent).is_ok();
+                slit.extend(children.filter(met).map(|child| child.face));
+            }
+        }
+        slit.sort_unstable();
+        slit
+    }
+
+    /// The faces whose sides a report asks for.
+    pub(super) fn judged(&self, mesh: &Mesh, edits: &Edits, first_edit: Cursor) -> Vec<FaceId> {
+        self.census.round(mesh, &self.slit_now(edits, first_edit))
     }
 
     /// The side of a face that is not crossed; one that lies on the plane is in front.
     fn lone_side(&self, mesh: &Mesh, f: FaceId) -> Side {
-        let offsets = mesh.face_vertices(f).map(|v| self.offsets.of(v));
+        let offsets = mesh.face_vertices(f).map(|v| self.way.offsets.of(v));
         Side::of(offsets.into_iter().fold(0.0, f64::min))
     }
 
     /// Where the plane enters and leaves a crossed face: at a vertex, or on an edge.
     fn crossing(&self, mesh: &Mesh, positions: &Positions, f: FaceId) -> Option<[Point; 2]> {
-        if !self.offsets.cross(mesh, f) {
+        if !self.way.offsets.cross(mesh, f) {
             return None;
         }
         let mut ends = [Point::origin(); 2];
         let mut found = 0;
         for h in f.half_edges() {
             let (a, b) = (mesh.origin(h), mesh.target(h));
-            let (da, db) = (self.offsets.of(a), self.offsets.of(b));
+            let (da, db) = (self.way.offsets.of(a), self.way.offsets.of(b));
             let point = if da == 0.0 {
                 positions.at(a)
             } else if (da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0) {
@@ -217,20 +235,17 @@ impl<'o> Survey<'o> {
     /// records from `first_edit` on are those of the cut.
     pub(super) fn report(
         &self,
-        strip: &Strip,
         mesh: &Mesh,
         positions: &Positions,
-        outcome: Outcome,
+        outcome: &Outcome,
         edits: &Edits,
         first_edit: Cursor,
     ) -> CutReport {
-        let mut in_slit = self.in_slit.clone();
-        let mut tips = Tips::default();
-        let roots = mesh.all_roots();
-        let pieces = mesh.components().count();
+        let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
+        let mut ends: Vec<VertexId> = Vec::new();
+        let pieces = self.census.after(mesh);
         let (angle_min_deg, altitude_min) = quality(mesh, positions);
         let mut splits = 0;
-        let mut ghost_pairs = 0;
         let mut vertices_inserted = 0;
         let mut seam_length = 0.0;
         let mut seam_deviation_max = 0.0f64;
@@ -239,25 +254,16 @@ impl<'o> Survey<'o> {
                 Edit::Split(split) => {
                     splits += 1;
                     for link in split.torn {
-                        let h = link.stayed;
-                        let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
-                        ghost_pairs += 2;
-                        seam_length += length(q - p);
-                        for end in [p, q] {
-                            let deviation = strip.plane.distance(end).abs();
+                        let at = ends_of(mesh, positions, link.stayed);
+                        seam_length += length(at[1] - at[0]);
+                        for end in at {
+                            let deviation = self.way.strip.plane.distance(end).abs();
                             seam_deviation_max = seam_deviation_max.max(deviation);
                         }
-                        tips.add([mesh.origin(h), mesh.target(h)].map(|v| roots[v.index()]));
+                        ends.extend(nodes.of_edge(mesh, link.stayed));
                     }
                 }
-                Edit::Insert(insert) => {
-                    vertices_inserted += insert.points.len();
-                    // A child is where its parent was.
-                    let children = insert.children.iter();
-                    for child in children.filter(|child| child.face != child.parent) {
-                        in_slit.push(in_slit[child.parent.index()]);
-                    }
-                }
+                Edit::Insert(insert) => vertices_inserted += insert.points.len(),
                 Edit::Merge(_) | Edit::Slide(_) => {}
             }
         }
@@ -270,20 +276,16 @@ impl<'o> Survey<'o> {
             faces_crossed: self.faces_crossed,
             splits,
             refused: outcome.refused,
-            ghost_pairs,
+            ghost_pairs: ends.len(),
             pieces_before: self.pieces_before,
             pieces,
             pieces_expected: self.pieces_expected,
             crumbs: pieces.saturating_sub(self.pieces_expected),
             lost: self.pieces_expected.saturating_sub(pieces),
-            separated: separated(
-                strip,
-                self.offsets.bound(),
-                mesh,
-                positions,
-                &in_slit,
-                &outcome,
-            ),
+            separated: {
+                let slit = self.slit_now(edits, first_edit);
+                self.separated(mesh, positions, &slit, outcome)
+            },
             seam_length,
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,
@@ -291,99 +293,83 @@ impl<'o> Survey<'o> {
             vertices_inserted,
             angle_min_deg,
             altitude_min,
-            missed: !self.in_slit.contains(&true),
+            missed: self.slit.is_empty(),
             nearest_vertex: self.nearest_vertex,
-            tip_overshoots: tips.overshoots(strip, mesh, positions),
-            ends: outcome.ends,
+            tip_overshoots: self.overshoots(mesh, positions, ends),
         }
-    }
-}
-
-/// The ends of a seam.
-#[derive(Default)]
-struct Tips {
-    /// The roots of the ends of each edge of the seam.
-    ends: Vec<VertexId>,
-}
-
-impl Tips {
-    fn add(&mut self, roots: [VertexId; 2]) {
-        self.ends.extend(roots);
     }
 
     /// Of each vertex with one edge of the seam that has not been split: how far beyond the
-    /// nearer side plane it is.
-    fn overshoots(mut self, strip: &Strip, mesh: &Mesh, positions: &Positions) -> Vec<f64> {
-        if strip.through {
+    /// nearer side plane it is. `ends` are those of all edges of the seam, as before any was split.
+    fn overshoots(&self, mesh: &Mesh, positions: &Positions, mut ends: Vec<VertexId>) -> Vec<f64> {
+        let Some(sides) = self.way.strip.bounds() else {
             return Vec::new();
-        }
-        self.ends.sort_unstable();
-        let ends = self.ends.chunk_by(|a, b| a == b);
+        };
+        ends.sort_unstable();
+        let ends = ends.chunk_by(|a, b| a == b);
         let tips = ends
-            .filter(|of_root| of_root.len() == 1)
-            .map(|of_root| of_root[0]);
-        let joined = |&root: &VertexId| mesh.copies(root).all(|v| v == root);
-        let depth = |root: VertexId| {
-            let depths = strip.sides.map(|side| side.distance(positions.at(root)));
+            .filter(|of_vertex| of_vertex.len() == 1)
+            .map(|one| one[0]);
+        let joined = |&v: &VertexId| mesh.copies(v).all(|copy| copy == v);
+        let depth = |v: VertexId| {
+            let depths = sides.map(|side| side.distance(positions.at(v)));
             depths[0].min(depths[1])
         };
-        tips.filter(joined).map(|root| -depth(root)).collect()
+        tips.filter(joined).map(|v| -depth(v)).collect()
     }
-}
 
-fn separated(
-    strip: &Strip,
-    bound: f64,
-    mesh: &Mesh,
-    positions: &Positions,
-    in_slit: &[bool],
-    outcome: &Outcome,
-) -> bool {
-    let Outcome {
-        labels,
-        ends: Ends(ends),
-        off_plane,
-        ..
-    } = outcome;
-    // `tip_overshoots` tells of tips.
-    // Beside what leaves the plane, its sides are not those of the seam.
-    let mut unjudged: Vec<VertexId> = ends.concat();
-    unjudged.extend(off_plane);
-    unjudged.sort_unstable();
-    let is_tip = |v: VertexId| unjudged.binary_search(&v).is_ok();
-    let label = |h: HalfEdgeId| labels[h.face().index()];
-    // A walk round each vertex would cost a hub the square of its faces.
-    let mut has = vec![[false; 2]; mesh.vertex_count()];
-    for h in mesh.half_edges() {
-        if let Some(side) = label(h) {
-            has[mesh.origin(h).index()][side as usize] = true;
-        }
+    /// Whether both sides share no vertex and no edge where the slit was; see
+    /// [`CutReport::separated`].
+    fn separated(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        slit: &[FaceId],
+        outcome: &Outcome,
+    ) -> bool {
+        let (strip, bound) = (self.way.strip, self.way.offsets.bound());
+        // `tip_overshoots` tells of tips.
+        // Beside what leaves the plane, its sides are not those of the seam.
+        let mut unjudged: Vec<VertexId> = outcome.ends.concat();
+        unjudged.extend(&outcome.off_plane);
+        unjudged.sort_unstable();
+        let is_tip = |v: VertexId| unjudged.binary_search(&v).is_ok();
+        let label = |h: HalfEdgeId| side_of(&outcome.judged, h.face());
+        // A walk round each vertex would cost a hub the square of its faces.
+        let judged = outcome.judged.iter();
+        let sides = judged.filter_map(|&(f, side)| Some((f, side?)));
+        let corners = sides.flat_map(|(f, side)| mesh.face_vertices(f).map(|v| (v, side)));
+        let mut corners: Vec<(VertexId, Side)> = corners.collect();
+        corners.sort_unstable();
+        corners.dedup();
+        let of_both = corners.windows(2).filter(|two| two[0].0 == two[1].0);
+        let of_both: Vec<VertexId> = of_both.map(|two| two[0].0).collect();
+        let shared_vertex = |v: VertexId| {
+            of_both.binary_search(&v).is_ok()
+                && !is_tip(v)
+                && strip.depth(positions.at(v), bound) > 0.0
+        };
+        let shared_edge = |h: HalfEdgeId| {
+            let Some(pair) = mesh.pair(h) else {
+                return false;
+            };
+            let differ = label(h)
+                .zip(label(pair))
+                .is_some_and(|(one, other)| one != other);
+            // From the smaller, so that it does not matter which of the two was asked.
+            let [p, q] = ends_of(mesh, positions, h.min(pair));
+            let inside = |(from, to): (f64, f64)| {
+                let middle = (from + to) / 2.0;
+                from < to && strip.depth(p + (q - p) * middle, bound) > 0.0
+            };
+            differ
+                && !is_tip(mesh.origin(h))
+                && !is_tip(mesh.target(h))
+                && strip.clip(p, q, bound).is_some_and(inside)
+        };
+        let mut corners = slit.iter().flat_map(|f| f.half_edges());
+        !corners.any(|h| shared_vertex(mesh.origin(h)) || shared_edge(h))
     }
-    let shared_vertex = |v: VertexId| {
-        has[v.index()] == [true; 2] && !is_tip(v) && strip.depth(positions.at(v), bound) > 0.0
-    };
-    let shared_edge = |h: HalfEdgeId| {
-        let Some(pair) = mesh.pair(h) else {
-            return false;
-        };
-        // From the smaller, so that it does not matter which of the two was asked.
-        let h_min = h.min(pair);
-        let [p, q] = [mesh.origin(h_min), mesh.target(h_min)].map(|v| positions.at(v));
-        let inside = |(from, to): (f64, f64)| {
-            let middle = (from + to) / 2.0;
-            from < to && strip.depth(p + (q - p) * middle, bound) > 0.0
-        };
-        let differ = label(h)
-            .zip(label(pair))
-            .is_some_and(|(one, other)| one != other);
-        differ
-            && !is_tip(mesh.origin(h))
-            && !is_tip(mesh.target(h))
-            && strip.clip(p, q, bound).is_some_and(inside)
-    };
-    let faces = mesh.faces().filter(|f| in_slit[f.index()]);
-    let mut corners = faces.flat_map(FaceId::half_edges);
-    !corners.any(|h| shared_vertex(mesh.origin(h)) || shared_edge(h))
 }
 
 fn ends_of(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> [Point; 2] {
@@ -399,21 +385,30 @@ fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-fn nearest_vertex(strip: &Strip, mesh: &Mesh, positions: &Positions) -> f64 {
-    let [a, b] = strip.sides;
-    let distance = |v: VertexId| {
+/// How far the vertex nearest to the slit is from it.
+fn nearest_vertex(way: &Way<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
+    let plane = way.strip.plane;
+    let mut least = f64::INFINITY;
+    // Beyond this the distance from the plane is more than the least.
+    let mut offset_max = f64::INFINITY;
+    for (v, offset) in mesh.vertices().zip(way.offsets.all()) {
+        if offset.abs() > offset_max || mesh.half_edge_of(v).is_none() {
+            continue;
+        }
         let p = positions.at(v);
-        let off = strip.plane.distance(p);
-        let outside = if strip.through {
-            0.0
-        } else {
-            (-a.distance(p)).max(-b.distance(p)).max(0.0)
-        };
-        (off * off + outside * outside).sqrt()
-    };
-    let used = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
-    used.map(distance).fold(f64::INFINITY, f64::min)
+        let off = plane.distance(p);
+        let outside = way
+            .strip
+            .bounds()
+            .map_or(0.0, |[a, b]| (-a.distance(p)).max(-b.distance(p)).max(0.0));
+        least = least.min((off * off + outside * outside).sqrt());
+        offset_max = least * plane.offset_of_unit() * (1.0 + MARGIN);
+    }
+    least
 }
+
+/// By what part rounding makes nothing larger that was not: far more than it does.
+const MARGIN: f64 = 1e-6;
 
 /// The smallest angle in degrees and the smallest altitude of any face; zeros for a
 /// mesh without faces.
@@ -424,6 +419,23 @@ fn quality(mesh: &Mesh, positions: &Positions) -> (f64, f64) {
     for f in mesh.faces() {
         let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
         let sides = [b - a, c - b, a - c];
+        // Roots and quotients are for the few faces that could be the worst, and for those that are
+        // so small that their squares vanish.
+        let normal = cross(sides[0], sides[2]);
+        let twice_area = dot(normal, normal);
+        let squares = sides.map(|side| dot(side, side));
+        let longest = squares[0].max(squares[1]).max(squares[2]);
+        let shortest = squares[0].min(squares[1]).min(squares[2]);
+        let sum = squares[0] + squares[1] + squares[2];
+        // The product of the two longer sides, by the law of cosines.
+        let along_max = sum * (0.5 + MARGIN) - shortest;
+        let steepest = cotangent_max.0.max(0.0);
+        if twice_area > f64::MIN_POSITIVE / f64::EPSILON
+            && twice_area > altitude_min * altitude_min * longest * (1.0 + MARGIN)
+            && twice_area * steepest * steepest > along_max * along_max
+        {
+            continue;
+        }
         altitude_min = altitude_min.min(altitude([a, b, c]));
         for (one, other) in [(0, 2), (1, 0), (2, 1)] {
             let along = dot(sides[one], -sides[other]);

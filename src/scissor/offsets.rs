@@ -6,9 +6,15 @@ use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
-/// For each vertex a number with the sign of its signed distance from the plane.
+/// For each vertex a number with the sign of its signed distance from the plane. Reused from cut to
+/// cut, so that a second one asks for no memory.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Offsets {
     of: Vec<f64>,
+    /// By vertex, whether it is behind the plane and whether it is in front: an eighth of the
+    /// offsets, so that what is looked up for every corner fits the cache.
+    sides: Vec<u8>,
+    touched: Vec<FaceId>,
     /// What rounding alone explains of a distance.
     bound: f64,
     /// What counts as zero.
@@ -16,26 +22,35 @@ pub(super) struct Offsets {
 }
 
 impl Offsets {
-    pub(super) fn new(plane: &Plane, positions: &Positions) -> Offsets {
+    /// Measures all vertices. If `rounded`, what rounding cannot vouch for is zero.
+    pub(super) fn measure(
+        &mut self,
+        plane: &Plane,
+        rounded: bool,
+        mesh: &Mesh,
+        positions: &Positions,
+    ) {
         let mut reach = max_abs(plane.point().coords);
         let offset = |&p: &Point| {
             reach = reach.max(max_abs(p.coords));
             plane.offset(p)
         };
-        let of = positions.as_slice().iter().map(offset).collect();
-        Offsets {
-            of,
-            bound: ROUNDING * reach,
-            zero: 0.0,
-        }
-    }
-
-    /// The same, and zero where rounding cannot vouch for the sign.
-    pub(super) fn rounded(self) -> Offsets {
-        Offsets {
-            zero: self.bound,
-            ..self
-        }
+        self.of.clear();
+        self.of.extend(positions.as_slice().iter().map(offset));
+        self.bound = ROUNDING * reach;
+        self.zero = if rounded { self.bound } else { 0.0 };
+        let side = |&d: &f64| u8::from(d < -self.zero) | u8::from(d > self.zero) << 1;
+        self.sides.clear();
+        self.sides.extend(self.of.iter().map(side));
+        let corners = mesh.indices().as_chunks::<3>().0.iter();
+        let touches = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|v| self.sides[v as usize]);
+            a & b & c == 0
+        };
+        let faces = mesh.faces().zip(corners);
+        let touched = faces.filter(|(_, triangle)| touches(triangle));
+        self.touched.clear();
+        self.touched.extend(touched.map(|(f, _)| f));
     }
 
     pub(super) fn bound(&self) -> f64 {
@@ -57,26 +72,19 @@ impl Offsets {
         }
     }
 
+    /// The offset of each vertex, also where rounding cannot vouch for its sign.
+    pub(super) fn all(&self) -> &[f64] {
+        &self.of
+    }
+
     /// Whether a face has vertices strictly on both sides of the plane.
     pub(super) fn cross(&self, mesh: &Mesh, f: FaceId) -> bool {
         let offsets = mesh.face_vertices(f).map(|v| self.of(v));
         offsets.iter().any(|&d| d < 0.0) && offsets.iter().any(|&d| d > 0.0)
     }
 
-    /// The faces that the plane meets at all, if only in a corner.
-    pub(super) fn touched(&self, mesh: &Mesh) -> Vec<FaceId> {
-        // An eighth of the offsets: what is looked up for every corner should fit the cache.
-        let side = |&d: &f64| u8::from(d < -self.zero) | u8::from(d > self.zero) << 1;
-        let sides: Vec<u8> = self.of.iter().map(side).collect();
-        let corners = mesh.indices().as_chunks::<3>().0.iter();
-        let touches = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|v| sides[v as usize]);
-            a & b & c == 0
-        };
-        let faces = mesh.faces().zip(corners);
-        faces
-            .filter(|(_, triangle)| touches(triangle))
-            .map(|(f, _)| f)
-            .collect()
+    /// The faces that the plane meets at all, if only in a corner; ascending.
+    pub(super) fn touched(&self) -> &[FaceId] {
+        &self.touched
     }
 }

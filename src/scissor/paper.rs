@@ -14,13 +14,13 @@
 //! Neither method promises to divide. On irregular meshes `uniform` leaves bridges ("the mesh
 //! not being completely divided"); `alternating` mostly divides, and leaves crumbs and a
 //! longer seam, because it may split the same vertex several times. They are here to be
-//! compared with: [`Method::Partition`](super::Method::Partition) is the one to use.
+//! compared with: [`CutMethod::Partition`](super::CutMethod::Partition) is the one to use.
 
-use super::outcome::{Ends, Outcome};
-use super::strip::Strip;
+use super::exact::Way;
+use super::outcome::{Judged, Outcome, faces_at};
 use crate::edit::Edits;
 use crate::geometry::{Plane, Side, Vector, cross};
-use crate::id::{FaceId, HalfEdgeId};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::split;
@@ -33,14 +33,15 @@ pub(super) enum Form {
 }
 
 pub(super) fn cut(
-    strip: &Strip,
+    way: &Way<'_>,
     form: Form,
     mesh: &mut Mesh,
     positions: &mut Positions,
+    judged: Judged<'_>,
     edits: &mut Edits,
 ) -> Outcome {
     let is_positive = |mesh: &Mesh, positions: &Positions, h: HalfEdgeId| {
-        Side::of(strip.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
+        Side::of(way.strip.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
     };
     let positive = |mesh: &Mesh, positions: &Positions, f: FaceId| {
         f.half_edges()
@@ -48,22 +49,27 @@ pub(super) fn cut(
             .filter(|&h| is_positive(mesh, positions, h))
             .count()
     };
-    // The crossed faces go with the negative side: the splits are on the positive one.
-    let labels = mesh
-        .faces()
-        .map(|f| {
-            Some(if positive(mesh, positions, f) == 3 {
-                Side::Front
-            } else {
-                Side::Back
-            })
-        })
-        .collect();
-    let crossed: Vec<FaceId> = mesh
-        .faces()
+    let among = way.among.iter().copied();
+    let crossed: Vec<FaceId> = among
         .filter(|&f| matches!(positive(mesh, positions, f), 1 | 2))
         .collect();
-    let mut refused = 0;
+    // The crossed faces go with the negative side: the splits are on the positive one.
+    let labelled = |faces: Vec<FaceId>| {
+        let side = |f: FaceId| match positive(mesh, positions, f) {
+            3 => Side::Front,
+            _ => Side::Back,
+        };
+        faces.into_iter().map(|f| (f, Some(side(f)))).collect()
+    };
+    let corners = crossed.iter().flat_map(|&f| mesh.face_vertices(f));
+    let mut vertices: Vec<VertexId> = corners.collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    let mut outcome = Outcome {
+        touched: labelled(faces_at(mesh, &vertices)),
+        judged: labelled(judged(mesh, edits)),
+        ..Outcome::default()
+    };
     for f in crossed {
         let corners = f.half_edges();
         let along_edge = match form {
@@ -78,25 +84,20 @@ pub(super) fn cut(
         for h in corners {
             let v = mesh.origin(h);
             let at = positions.at(v);
-            if !is_positive(mesh, positions, h) || strip.depth(at, 0.0) < 0.0 {
+            if !is_positive(mesh, positions, h) || way.strip.depth(at, 0.0) < 0.0 {
                 continue;
             }
             let plane = match along_edge {
                 Some(normal) => Plane::new(at, normal).ok(),
-                None => Some(strip.plane.through(at)),
+                None => Some(way.strip.plane.through(at)),
             };
             match plane.and_then(|plane| split::by_plane(mesh, v, &plane, &*positions, edits)) {
                 Some(_) => edits.replay(positions),
-                None => refused += 1,
+                None => outcome.refused += 1,
             }
         }
     }
-    Outcome {
-        labels,
-        refused,
-        ends: Ends::default(),
-        off_plane: Vec::new(),
-    }
+    outcome
 }
 
 /// `N_tri × (D − C)` for the half-edge from C to D: in the plane of the face, pointing away from

@@ -13,9 +13,9 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
+use super::exact::Way;
 use super::offsets::Offsets;
-use super::outcome::{Ends, Outcome};
-use super::strip::Strip;
+use super::outcome::{Judged, Outcome, faces_at};
 use super::unshare;
 use crate::classify;
 use crate::edit::Edits;
@@ -26,7 +26,7 @@ use crate::place::Positions;
 
 /// Where a finite cut ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Tips {
+pub enum CutTips {
     /// The paper's rule: a vertex is split if it lies between the side planes. Separates
     /// everything strictly between them; overshoots each tip by half an edge on average.
     #[default]
@@ -37,34 +37,41 @@ pub enum Tips {
 }
 
 pub(super) fn cut(
-    strip: &Strip,
-    tips: Tips,
+    way: &Way<'_>,
+    tips: CutTips,
     mesh: &mut Mesh,
     positions: &Positions,
-    offsets: &Offsets,
+    judged: Judged<'_>,
     edits: &mut Edits,
 ) -> Outcome {
+    let offsets = way.offsets;
     let mut labels: Vec<Side> = mesh
         .faces()
         .map(|f| classify::side(mesh, f, |v| offsets.of(v)))
         .collect();
     smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
-    let inside = |p: Point| strip.depth(p, offsets.bound()) >= 0.0;
-    let seam = Seam::new(tips, mesh, positions, &labels, inside);
+    let inside = |p: Point| way.strip.depth(p, offsets.bound()) >= 0.0;
+    let may_cut = |h: HalfEdgeId| !way.is_choice || way.among.binary_search(&h.face()).is_ok();
+    let seam = Seam::new(tips, mesh, positions, &labels, may_cut, inside);
     let vertices = seam.vertices(tips, mesh, positions, inside);
+    let labelled = |faces: Vec<FaceId>| {
+        let faces = faces.into_iter();
+        faces.map(|f| (f, Some(labels[f.index()]))).collect()
+    };
+    let outcome = Outcome {
+        touched: labelled(faces_at(mesh, &vertices)),
+        judged: labelled(judged(mesh, edits)),
+        ..Outcome::default()
+    };
     unshare::by_fan(mesh, &vertices, |h| seam.cuts(h), edits);
-    Outcome {
-        labels: labels.into_iter().map(Some).collect(),
-        refused: 0,
-        ends: Ends::default(),
-        off_plane: Vec::new(),
-    }
+    outcome
 }
 
 fn smooth(mesh: &Mesh, offsets: &Offsets, labels: &mut [Side]) {
     let crossed = |f: FaceId| offsets.cross(mesh, f);
-    let mut queue: VecDeque<FaceId> = mesh.faces().filter(|&f| crossed(f)).collect();
+    let touched = offsets.touched().iter().copied();
+    let mut queue: VecDeque<FaceId> = touched.filter(|&f| crossed(f)).collect();
     let mut queued = vec![false; mesh.face_count()];
     for f in &queue {
         queued[f.index()] = true;
@@ -133,22 +140,24 @@ struct Seam {
 
 impl Seam {
     fn new(
-        tips: Tips,
+        tips: CutTips,
         mesh: &Mesh,
         positions: &Positions,
         labels: &[Side],
+        may_cut: impl Fn(HalfEdgeId) -> bool,
         inside: impl Fn(Point) -> bool,
     ) -> Seam {
         let is_cut = |h: HalfEdgeId| {
             let Some(pair) = mesh.pair(h) else {
                 return false;
             };
-            if labels[h.face().index()] == labels[pair.face().index()] {
+            let [one, other] = [h, pair].map(|h| labels[h.face().index()]);
+            if one == other || !(may_cut(h) || may_cut(pair)) {
                 return false;
             }
             match tips {
-                Tips::Vertex => true,
-                Tips::Midpoint => {
+                CutTips::Vertex => true,
+                CutTips::Midpoint => {
                     let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
                     // A sum does not depend on the order of two, so both half-edges agree.
                     inside(Point::from((a + b) / 2.0))
@@ -167,7 +176,7 @@ impl Seam {
     /// The vertices to unshare, ascending.
     fn vertices(
         &self,
-        tips: Tips,
+        tips: CutTips,
         mesh: &Mesh,
         positions: &Positions,
         inside: impl Fn(Point) -> bool,
@@ -177,7 +186,7 @@ impl Seam {
             on_seam[mesh.origin(h).index()] = true;
         }
         let unshared = |&v: &VertexId| {
-            on_seam[v.index()] && (tips == Tips::Midpoint || inside(positions.at(v)))
+            on_seam[v.index()] && (tips == CutTips::Midpoint || inside(positions.at(v)))
         };
         mesh.vertices().filter(unshared).collect()
     }

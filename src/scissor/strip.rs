@@ -1,4 +1,5 @@
-//! The strip that two rays span: the cutting plane, and the two planes that bound it at the sides.
+//! The strip that two rays span: the cutting plane, and the two planes that bound it at the sides. A
+//! plane alone has no such bounds.
 //!
 //! The plane holds the origins of both rays and the direction of the first, and two side planes bound
 //! the cut (Souza et al. 2014 §V). Two errata of the paper are handled here:
@@ -20,8 +21,8 @@ use crate::geometry::{Plane, Point, Ray, Vector, cross, dot, length, max_abs, sc
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Strip {
     pub(super) plane: Plane,
-    /// What lies in front of both is between the rays.
-    pub(super) sides: [Plane; 2],
+    /// What lies in front of both is between the rays; none where a plane was given.
+    pub(super) sides: Option<[Plane; 2]>,
     /// How far the second ray leaves the plane for each unit of its length.
     pub(super) skew: f64,
     /// Whether the side planes bound nothing.
@@ -29,6 +30,29 @@ pub(super) struct Strip {
 }
 
 impl Strip {
+    /// All of a plane.
+    pub(super) fn whole(plane: Plane) -> Strip {
+        Strip {
+            plane,
+            sides: None,
+            skew: 0.0,
+            through: true,
+        }
+    }
+
+    /// The side planes, as far as they bound the cut.
+    pub(super) fn bounds(&self) -> Option<[Plane; 2]> {
+        self.sides.filter(|_| !self.through)
+    }
+
+    /// The strip, bounded by its side planes.
+    pub(super) fn bounded(&self) -> Strip {
+        Strip {
+            through: false,
+            ..self.clone()
+        }
+    }
+
     /// The strip between two rays; `None` if both lie on one line, up to rounding.
     pub(super) fn between(a: &Ray, b: &Ray) -> Option<Strip> {
         let (along_a, along_b) = (unit_scale(a), unit_scale(b));
@@ -62,7 +86,7 @@ impl Strip {
         let skew = if skew <= ROUNDING { 0.0 } else { skew };
         Some(Strip {
             plane,
-            sides,
+            sides: Some(sides),
             skew,
             through: false,
         })
@@ -71,10 +95,10 @@ impl Strip {
     /// How far inside each side plane a point lies; negative outside, infinite for a cut through
     /// everything, and zero where rounding cannot vouch for the sign: up to `bound`.
     pub(super) fn depths(&self, p: Point, bound: f64) -> [f64; 2] {
-        if self.through {
+        let Some(sides) = self.bounds() else {
             return [f64::INFINITY; 2];
-        }
-        self.sides.map(|side| {
+        };
+        sides.map(|side| {
             let depth = side.offset(p);
             if depth.abs() <= bound { 0.0 } else { depth }
         })

@@ -1,7 +1,7 @@
 //! Scripts as bytes: every byte string is one.
 
 use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot};
-use crate::scissor::Tips;
+use crate::scissor::CutTips;
 
 impl Script {
     /// The script that these bytes stand for: at most [`Script::OPERATIONS_MAX`] operations on
@@ -121,9 +121,9 @@ impl Bytes<'_> {
                 Operation::Cut {
                     through: flags & 1 == 1,
                     tips: if flags & 2 == 2 {
-                        Tips::Midpoint
+                        CutTips::Midpoint
                     } else {
-                        Tips::Vertex
+                        CutTips::Vertex
                     },
                     rays: [(); 2].map(|()| [self.vector(), self.vector()]),
                 }
@@ -247,7 +247,7 @@ fn write_operation(operation: &Operation, bytes: &mut Vec<u8>) {
         } => {
             bytes.extend([
                 13,
-                u8::from(through) | u8::from(tips == Tips::Midpoint) << 1,
+                u8::from(through) | u8::from(tips == CutTips::Midpoint) << 1,
             ]);
             bytes.extend(
                 rays.as_flattened()

@@ -26,7 +26,7 @@ use std::fmt;
 use std::str::{FromStr, SplitWhitespace};
 
 use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot};
-use crate::scissor::Tips;
+use crate::scissor::CutTips;
 
 impl fmt::Display for Script {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -96,7 +96,7 @@ impl fmt::Display for Operation {
                 rays,
             } => {
                 let through = if *through { " through" } else { "" };
-                let midpoint = if *tips == Tips::Midpoint {
+                let midpoint = if *tips == CutTips::Midpoint {
                     " midpoint"
                 } else {
                     ""
@@ -350,9 +350,9 @@ impl<'t> Line<'t> {
             "cut" => Operation::Cut {
                 through: self.takes("through"),
                 tips: if self.takes("midpoint") {
-                    Tips::Midpoint
+                    CutTips::Midpoint
                 } else {
-                    Tips::Vertex
+                    CutTips::Vertex
                 },
                 rays: [
                     [self.vector()?, self.vector()?],

@@ -10,9 +10,9 @@ use crate::mass::Masses;
 use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::{CutReport, Method, Scissor, Tips};
+use crate::scissor::{CutMethod, CutReport, CutTips, Scissor};
 use crate::slide;
-use crate::split::{self, Refusal};
+use crate::split::{self, SplitRefusal};
 
 /// A mesh and everything that can follow it.
 #[derive(Clone, Debug)]
@@ -79,7 +79,7 @@ pub enum Step<'s> {
         /// The faces that were to move.
         faces: &'s [FaceId],
         /// The edit, or why there was none.
-        outcome: Result<Cursor, Refusal>,
+        outcome: Result<Cursor, SplitRefusal>,
     },
     /// A split by a plane through the vertex was tried.
     Plane {
@@ -104,7 +104,7 @@ pub enum Step<'s> {
         /// The chord that was demanded, and across which face.
         chord: Option<(FaceId, [AskedEnd; 2])>,
         /// The edit, or why there was none.
-        outcome: Result<Cursor, insert::Refusal>,
+        outcome: Result<Cursor, insert::InsertRefusal>,
     },
     /// A merge was tried.
     Merge {
@@ -115,7 +115,7 @@ pub enum Step<'s> {
         /// The weights of both.
         weights: [f64; 2],
         /// The edit, or why there was none.
-        outcome: Result<Cursor, mend::Refusal>,
+        outcome: Result<Cursor, mend::MergeRefusal>,
     },
     /// A slide was tried.
     Slide {
@@ -126,7 +126,7 @@ pub enum Step<'s> {
         /// How far.
         t: f64,
         /// The edit, or why there was none.
-        outcome: Result<Cursor, slide::Refusal>,
+        outcome: Result<Cursor, slide::SlideRefusal>,
     },
     /// Copies were sewn together.
     Sewn {
@@ -347,7 +347,7 @@ impl World {
     fn cut(
         &mut self,
         through: bool,
-        tips: Tips,
+        tips: CutTips,
         rays: [[[i8; 3]; 2]; 2],
         observe: &mut impl FnMut(&World, &Step<'_>),
     ) {
@@ -358,15 +358,15 @@ impl World {
         let (Ok(a), Ok(b)) = (a, b) else {
             return observe(self, &Step::Nothing);
         };
-        let Ok(scissor) = Scissor::new(&a, &b) else {
+        let Ok(scissor) = Scissor::new(a, b) else {
             return observe(self, &Step::Nothing);
         };
         let first = self.edits.cursor();
-        let report = scissor
+        let (_, report) = scissor
             .through(through)
             .tips(tips)
-            .cut(
-                Method::Partition,
+            .cut_measured(
+                CutMethod::Partition,
                 &mut self.mesh,
                 &mut self.positions,
                 &mut self.edits,

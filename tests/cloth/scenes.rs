@@ -171,7 +171,7 @@ fn a_cut_is_told_of_though_its_step_fails() {
             at_s: 0.01,
             rays: [ray([0.524, -1.0]), ray([0.488, 2.0])],
             through: true,
-            method: tearmesh::Method::Exact,
+            method: tearmesh::CutMethod::Exact,
         }],
         tearing: None,
         ..Scene::fall(frame.up)
@@ -301,7 +301,7 @@ fn copies_of_what_is_held_are_held_and_let_go_with_it() {
             at_s: 0.1,
             rays: [ray(-1.0), ray(2.0)],
             through: true,
-            method: tearmesh::Method::Partition,
+            method: tearmesh::CutMethod::Partition,
         }],
         tearing: None,
         ..Scene::fall(frame.up)

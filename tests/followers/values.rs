@@ -1,6 +1,6 @@
 //! Values beside a mesh, kept by reading what each kind of record says, and nothing derived from it.
 
-use tearmesh::{Edit, Location, Source, VertexId};
+use tearmesh::{CornerSource, Edit, InsertLocation, VertexId};
 
 pub(crate) type Value = [f64; 2];
 
@@ -33,8 +33,10 @@ impl Values {
             Edit::Insert(insert) => {
                 let at = |v: VertexId| self.vertices[v.index()];
                 let new = insert.points.iter().map(|point| match point.at {
-                    Location::Edge { ends: [a, b], t } => between(at(a), at(b), t),
-                    Location::Face { vertices, weights } => weighted(vertices.map(at), weights),
+                    InsertLocation::Edge { ends: [a, b], t } => between(at(a), at(b), t),
+                    InsertLocation::Face { vertices, weights } => {
+                        weighted(vertices.map(at), weights)
+                    }
                 });
                 let new: Vec<Value> = new.collect();
                 self.vertices.extend(new);
@@ -51,11 +53,11 @@ impl Values {
                         let of = |h: usize| before.corners[h];
                         let parent = child.parent.index();
                         self.corners[3 * face + i] = match child.sources[i] {
-                            Source::Corner(h) => of(h.index()),
-                            Source::Edge { ends: [a, b], t } => {
+                            CornerSource::Corner(h) => of(h.index()),
+                            CornerSource::Edge { ends: [a, b], t } => {
                                 between(of(a.index()), of(b.index()), t)
                             }
-                            Source::Face { weights } => {
+                            CornerSource::Face { weights } => {
                                 weighted([0, 1, 2].map(|j| of(3 * parent + j)), weights)
                             }
                         };

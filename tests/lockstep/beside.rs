@@ -2,8 +2,8 @@
 
 use tearmesh::script::World;
 use tearmesh::{
-    Child, Cursor, Edit, HalfEdgeId, Location, Masses, Mesh, PerCorner, PerVertex, Point,
-    Positions, Slide, Source, VertexId,
+    ChildFace, CornerSource, Cursor, Edit, HalfEdgeId, InsertLocation, Masses, Mesh, PerCorner,
+    PerVertex, Point, Positions, Slide, VertexId,
 };
 
 use crate::oracle::{Soup, WHOLE, between};
@@ -115,15 +115,17 @@ pub(super) fn new_values_come_from_the_right_places(mesh: &Mesh, edit: &Edit<'_>
 
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} is not {b} after {edit:?}");
     for v in mesh.vertices() {
-        assert_eq!((positions.at(v), speeds[v]), (old.at(v), speed(v)));
+        assert_eq!((positions.at(v), *speeds.at(v)), (old.at(v), speed(v)));
     }
     for point in insert.points {
         let weights: Vec<(VertexId, f64)> = match point.at {
-            Location::Edge { ends: [a, b], t } => vec![(a, 1.0 - t), (b, t)],
-            Location::Face { vertices, weights } => vertices.into_iter().zip(weights).collect(),
+            InsertLocation::Edge { ends: [a, b], t } => vec![(a, 1.0 - t), (b, t)],
+            InsertLocation::Face { vertices, weights } => {
+                vertices.into_iter().zip(weights).collect()
+            }
         };
         let sum = |of: &dyn Fn(VertexId) -> f64| weights.iter().map(|&(v, w)| w * of(v)).sum();
-        close(speeds[point.vertex], sum(&speed));
+        close(*speeds.at(point.vertex), sum(&speed));
         for i in 0..3 {
             let mean = sum(&|v| coordinates(old.at(v))[i]);
             close(coordinates(positions.at(point.vertex))[i], mean);
@@ -135,31 +137,35 @@ pub(super) fn new_values_come_from_the_right_places(mesh: &Mesh, edit: &Edit<'_>
             let weights = weights_in_parent(child, &source);
             let parent = child.parent.half_edges().map(|h| scattered(h.index()));
             let mean = (0..3).map(|i| weights[i] * parent[i]).sum();
-            close(values[h], mean);
+            close(*values.at(h), mean);
             if h.index() < divided.len() {
                 divided[h.index()] = true;
             }
         }
     }
     for h in mesh.half_edges().filter(|h| !divided[h.index()]) {
-        assert_eq!(values[h], scattered(h.index()), "{h} is of no divided face");
+        assert_eq!(
+            *values.at(h),
+            scattered(h.index()),
+            "{h} is of no divided face"
+        );
     }
 }
 
 /// The weights of the corners of the parent in a corner of a child.
-pub(super) fn weights_in_parent(child: &Child, source: &Source) -> [f64; 3] {
+pub(super) fn weights_in_parent(child: &ChildFace, source: &CornerSource) -> [f64; 3] {
     let mut weights = [0.0; 3];
     let mut add = |h: HalfEdgeId, weight: f64| {
         assert_eq!(h.face(), child.parent, "a source is a corner of the parent");
         weights[h.corner()] += weight;
     };
     match *source {
-        Source::Corner(h) => add(h, 1.0),
-        Source::Edge { ends: [a, b], t } => {
+        CornerSource::Corner(h) => add(h, 1.0),
+        CornerSource::Edge { ends: [a, b], t } => {
             add(a, 1.0 - t);
             add(b, t);
         }
-        Source::Face { weights: given } => weights = given,
+        CornerSource::Face { weights: given } => weights = given,
     }
     weights
 }
@@ -188,11 +194,11 @@ pub(super) fn merged_values_are_joined_by_weight(mesh: &Mesh, edit: &Edit<'_>) {
                     "{v} after {merge:?}"
                 );
             }
-            assert!((speeds[v] - mean(speed(v), speed(merge.gone))).abs() < 1e-9);
+            assert!((*speeds.at(v) - mean(speed(v), speed(merge.gone))).abs() < 1e-9);
         } else {
             let was = if v == merge.gone { last } else { v };
             assert_eq!(
-                (positions.at(v), speeds[v]),
+                (positions.at(v), *speeds.at(v)),
                 (old.at(was), speed(was)),
                 "{v}"
             );
@@ -223,9 +229,13 @@ pub(super) fn slid_values_lie_along_the_edge(mesh: &Mesh, edit: &Edit<'_>) {
                     "{v} after {slide:?}"
                 );
             }
-            assert!((speeds[v] - mean(speed(v), speed(slide.toward))).abs() < 1e-9);
+            assert!((*speeds.at(v) - mean(speed(v), speed(slide.toward))).abs() < 1e-9);
         } else {
-            assert_eq!((positions.at(v), speeds[v]), (old.at(v), speed(v)), "{v}");
+            assert_eq!(
+                (positions.at(v), *speeds.at(v)),
+                (old.at(v), speed(v)),
+                "{v}"
+            );
         }
     }
 }

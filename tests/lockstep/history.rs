@@ -1,6 +1,8 @@
 //! What the log told, and how to undo it.
 
-use tearmesh::{Child, Edit, Edits, HalfEdgeId, InsertedPoint, Mesh, Source, TornLink, VertexId};
+use tearmesh::{
+    ChildFace, CornerSource, Edit, Edits, HalfEdgeId, InsertedPoint, Mesh, TornLink, VertexId,
+};
 
 /// A record of the log.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +15,7 @@ pub(crate) enum Told {
     },
     Insert {
         points: Vec<InsertedPoint>,
-        children: Vec<Child>,
+        children: Vec<ChildFace>,
     },
     Merge {
         kept: VertexId,
@@ -106,7 +108,7 @@ pub(super) fn undone(history: &[Told], mesh: &Mesh) -> (usize, Vec<[u32; 3]>) {
                         faces.pop();
                     }
                     for (source, vertex) in child.sources.iter().zip(child.vertices) {
-                        if let Source::Corner(h) = source {
+                        if let CornerSource::Corner(h) = source {
                             parents.push((*h, vertex));
                         }
                     }

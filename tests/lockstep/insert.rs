@@ -1,8 +1,8 @@
 //! What an insertion must do, and what it must leave as it was.
 
-use tearmesh::insert::Refusal;
+use tearmesh::insert::InsertRefusal;
 use tearmesh::script::{Asked, AskedEnd};
-use tearmesh::{Cursor, Edit, FaceId, HalfEdgeId, Insert, Location, Mesh};
+use tearmesh::{Cursor, Edit, FaceId, HalfEdgeId, Insert, InsertLocation, Mesh};
 
 use super::beside::weights_in_parent;
 use super::mesh::euler;
@@ -50,14 +50,18 @@ impl Request {
         }
     }
 
-    pub(super) fn is_refused_where_it_should(&self, soup: &Soup, outcome: Result<Cursor, Refusal>) {
+    pub(super) fn is_refused_where_it_should(
+        &self,
+        soup: &Soup,
+        outcome: Result<Cursor, InsertRefusal>,
+    ) {
         let unfit = soup.unfit(&self.spots, self.chord);
         let refused = outcome.err().map(|refusal| match refusal {
-            Refusal::Parameter { .. } => Unfit::Parameter,
-            Refusal::Weights { .. } => Unfit::Weights,
-            Refusal::Repeated { .. } => Unfit::Repeated,
-            Refusal::Chord { .. } => Unfit::Chord,
-            Refusal::Crowded { .. } => Unfit::Crowded,
+            InsertRefusal::Parameter { .. } => Unfit::Parameter,
+            InsertRefusal::Weights { .. } => Unfit::Weights,
+            InsertRefusal::Repeated { .. } => Unfit::Repeated,
+            InsertRefusal::Chord { .. } => Unfit::Chord,
+            InsertRefusal::Crowded { .. } => Unfit::Crowded,
             other => panic!("no small mesh is {other}"),
         });
         match refused {
@@ -90,11 +94,11 @@ impl Request {
             .iter()
             .map(|point| {
                 let place = match point.at {
-                    Location::Edge { ends, t } => Place::Edge {
+                    InsertLocation::Edge { ends, t } => Place::Edge {
                         ends: ends.map(u32::from),
                         t,
                     },
-                    Location::Face { vertices, weights } => Place::Face {
+                    InsertLocation::Face { vertices, weights } => Place::Face {
                         vertices: vertices.map(u32::from),
                         weights,
                     },

@@ -1,6 +1,6 @@
 //! What a merge must do, and what it must leave as it was.
 
-use tearmesh::mend::{self, Refusal, Stitch};
+use tearmesh::mend::{self, MergeRefusal, Stitch};
 use tearmesh::{Cursor, Edit, Edits, HalfEdgeId, Merge, Mesh, Split, VertexId};
 
 use super::history::Told;
@@ -27,11 +27,11 @@ pub(super) fn is_refused_where_it_should(
     one: VertexId,
     other: VertexId,
     weights: [f64; 2],
-    outcome: Result<Cursor, Refusal>,
+    outcome: Result<Cursor, MergeRefusal>,
 ) {
     let expected = soup.clone().merge(one.index(), other.index(), 0.5);
     match outcome {
-        Err(Refusal::Weights { given }) => {
+        Err(MergeRefusal::Weights { given }) => {
             assert_eq!(given, weights);
             assert!(
                 weights.iter().any(|&weight| weight < 0.0),
@@ -40,7 +40,7 @@ pub(super) fn is_refused_where_it_should(
         }
         Err(refusal) => {
             let refused = match refusal {
-                Refusal::Same { .. } => Unmerged::Same,
+                MergeRefusal::Same { .. } => Unmerged::Same,
                 _ => Unmerged::Apart,
             };
             assert_eq!(expected, Err(refused));

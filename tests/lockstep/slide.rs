@@ -1,16 +1,16 @@
 //! What a slide must do, and what it must leave as it was.
 
 use tearmesh::script::World;
-use tearmesh::slide::Refusal;
+use tearmesh::slide::SlideRefusal;
 use tearmesh::{HalfEdgeId, Slide, VertexId};
 
 use crate::oracle::Unslid;
 
 /// A refusal, in the words of the oracle.
-pub(super) fn plain(refusal: Refusal) -> Unslid {
+pub(super) fn plain(refusal: SlideRefusal) -> Unslid {
     match refusal {
-        Refusal::Parameter { .. } => Unslid::Parameter,
-        Refusal::Apart { .. } => Unslid::Apart,
+        SlideRefusal::Parameter { .. } => Unslid::Parameter,
+        SlideRefusal::Apart { .. } => Unslid::Apart,
         other => panic!("no slide of a script is {other}"),
     }
 }

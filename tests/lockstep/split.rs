@@ -1,18 +1,18 @@
 //! What a split must leave as it was.
 
-use tearmesh::split::Refusal;
+use tearmesh::split::SplitRefusal;
 use tearmesh::{HalfEdgeId, Masses, Mesh, Split, VertexId};
 
 use super::mesh::euler;
 use crate::oracle::Refused;
 
 /// A refusal, in the words of the oracle.
-pub(super) fn plain(refusal: Refusal) -> Refused {
+pub(super) fn plain(refusal: SplitRefusal) -> Refused {
     match refusal {
-        Refusal::Empty { .. } => Refused::Empty,
-        Refusal::Everything { .. } => Refused::Everything,
-        Refusal::Foreign { face, .. } => Refused::Foreign(face.index()),
-        Refusal::Repeated { face, .. } => Refused::Repeated(face.index()),
+        SplitRefusal::Empty { .. } => Refused::Empty,
+        SplitRefusal::Everything { .. } => Refused::Everything,
+        SplitRefusal::Foreign { face, .. } => Refused::Foreign(face.index()),
+        SplitRefusal::Repeated { face, .. } => Refused::Repeated(face.index()),
     }
 }
 

@@ -127,8 +127,8 @@ impl Followed {
             Edit::Insert(insert) => {
                 for point in insert.points {
                     let sources = match point.at {
-                        tearmesh::Location::Edge { ends, .. } => ends.to_vec(),
-                        tearmesh::Location::Face { vertices, .. } => vertices.to_vec(),
+                        tearmesh::InsertLocation::Edge { ends, .. } => ends.to_vec(),
+                        tearmesh::InsertLocation::Face { vertices, .. } => vertices.to_vec(),
                     };
                     let anchors = sources.into_iter().map(|v| root(self, v));
                     let last = anchors.max().expect("sources");

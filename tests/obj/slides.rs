@@ -2,7 +2,7 @@
 //! bit when the cut is undone.
 
 use tearmesh::{
-    Edit, FaceId, HalfEdgeId, Method, Point, Ray, Scissor, Vector, VertexId, insert::Plan, mend,
+    CutMethod, Edit, FaceId, HalfEdgeId, Point, Ray, Scissor, Vector, VertexId, insert::Plan, mend,
     slide, split,
 };
 
@@ -29,13 +29,13 @@ impl Work<'_> {
         let [p, q]: [Point; 2] = [near(random), near(random)];
         let down = Vector::new(0.0, 0.0, -1.0);
         let rays = [p, q].map(|p| Ray::new(p - down * 50.0, down).expect("a ray"));
-        let Ok(scissor) = Scissor::new(&rays[0], &rays[1]) else {
+        let Ok(scissor) = Scissor::new(rays[0], rays[1]) else {
             return Vec::new();
         };
         let scissor = scissor.snap(0.2).snap_move(true);
         self.edit(|mesh, positions, edits| {
             let seen = edits.cursor();
-            let done = scissor.cut(Method::Exact, mesh, positions, edits);
+            let done = scissor.cut(CutMethod::Exact, mesh, positions, edits);
             done.expect("positions are in step");
             let slides = edits.since(seen).filter_map(|edit| match edit {
                 Edit::Slide(slide) => Some(slide.vertex.index()),

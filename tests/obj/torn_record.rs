@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Edit, Edits, FaceId, HalfEdgeId, Mesh, Method, Point, Positions, Ray, Scissor, Vector,
+    CutMethod, Edit, Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, Ray, Scissor, Vector,
     VertexId, mend, split,
 };
 use tearmesh_obj::{Document, ReadError, Simplified, TornDocument};
@@ -474,12 +474,12 @@ fn straight_cuts_are_undone_to_the_byte() {
         let mut inserted = 0;
         for ends in [[[0.31, 1.5], [0.37, 0.4]], [[0.1, 0.63], [0.8, 0.71]]] {
             let [a, b] = ends.map(|[x, y]| ray(of(0, x), of(1, y)));
-            let scissor = Scissor::new(&a, &b).expect("a plane");
+            let scissor = Scissor::new(a, b).expect("a plane");
             let before = work.mesh.face_count();
             scissor
                 .snap_move(slides)
                 .cut(
-                    Method::Exact,
+                    CutMethod::Exact,
                     &mut work.mesh,
                     &mut work.positions,
                     &mut work.edits,
@@ -617,19 +617,19 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
                 };
                 let [eye, p, q] = [near() + Vector::new(0.0, 0.0, 3.0), near(), near()];
                 let rays = [p, q].map(|p| Ray::new(eye, p - eye).expect("a ray"));
-                let scissor = Scissor::new(&rays[0], &rays[1]).expect("a plane");
+                let scissor = Scissor::new(rays[0], rays[1]).expect("a plane");
                 let method = if (seed + i) % 3 == 0 {
-                    Method::Partition
+                    CutMethod::Partition
                 } else {
-                    Method::Exact
+                    CutMethod::Exact
                 };
                 let through = seed % 2 == 0;
-                let slides = seed % 4 < 2 && method == Method::Exact;
-                let report = scissor
+                let slides = seed % 4 < 2 && method == CutMethod::Exact;
+                let (_, report) = scissor
                     .through(through)
                     .snap(if slides { 0.3 } else { Scissor::SNAP })
                     .snap_move(slides)
-                    .cut(method, &mut mesh, &mut at, &mut edits)
+                    .cut_measured(method, &mut mesh, &mut at, &mut edits)
                     .expect("positions are in step");
                 edits.replay(&mut torn);
                 slid += edits

@@ -9,17 +9,6 @@ use crate::geometry::Side;
 use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;
 
-/// The side of every face. `sign` is zero for vertices on the plane; `offset` tells the
-/// centres of faces apart.
-pub(super) fn all(
-    mesh: &Mesh,
-    sign: impl Fn(VertexId) -> f64,
-    offset: impl Fn(VertexId) -> f64,
-) -> Vec<Side> {
-    let patches = Patches::new(mesh, mesh.faces(), &sign, &offset);
-    mesh.faces().map(|f| patches.side(mesh, f, &sign)).collect()
-}
-
 /// The sides of faces that lie on the plane as a whole.
 pub(super) struct Patches {
     /// By face.
@@ -27,7 +16,8 @@ pub(super) struct Patches {
 }
 
 impl Patches {
-    /// Looks at those of `among` and at whatever they are joined to.
+    /// Looks at those of `among` and at whatever they are joined to. `sign` is zero for vertices on the
+    /// plane; `offset` tells the centres of faces apart.
     pub(super) fn new(
         mesh: &Mesh,
         among: impl Iterator<Item = FaceId>,
@@ -81,7 +71,7 @@ impl Patches {
             .extend(patch.into_iter().map(|face| (face, side(face))));
     }
 
-    /// The side of a face.
+    /// The side of a face among these.
     pub(super) fn side(&self, mesh: &Mesh, f: FaceId, sign: &impl Fn(VertexId) -> f64) -> Side {
         by_vertex(mesh, f, sign).unwrap_or_else(|| {
             let at = self.faces.binary_search_by_key(&f, |&(face, _)| face);

@@ -12,7 +12,7 @@
 
 use super::planner::Planner;
 use super::trace::{Piece, Place, Site, Trace, is_closed};
-use crate::edit::{Child, Source};
+use crate::edit::{ChildFace, CornerSource};
 use crate::geometry::{Point, altitude, between, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -241,7 +241,7 @@ impl<'t> Trial<'t> {
         let Ok(insertion) = planner.plan.prepare(self.mesh) else {
             return false; // Crowded.
         };
-        let divided = |child: &&Child| match piece.place {
+        let divided = |child: &&ChildFace| match piece.place {
             Place::Face(f) => child.parent == f,
             Place::Edge { h, .. } => {
                 let across = self.mesh.pair(h).map(HalfEdgeId::face);
@@ -261,11 +261,11 @@ impl<'t> Trial<'t> {
         altitude(f.half_edges().map(|h| self.corner(h)))
     }
 
-    fn altitude_of(&self, child: &Child) -> f64 {
+    fn altitude_of(&self, child: &ChildFace) -> f64 {
         altitude(child.sources.map(|source| match source {
-            Source::Corner(h) => self.corner(h),
-            Source::Edge { ends: [a, b], t } => between(self.corner(a), self.corner(b), t),
-            Source::Face { weights } => self.weighted(child.parent, weights),
+            CornerSource::Corner(h) => self.corner(h),
+            CornerSource::Edge { ends: [a, b], t } => between(self.corner(a), self.corner(b), t),
+            CornerSource::Face { weights } => self.weighted(child.parent, weights),
         }))
     }
 }

@@ -14,7 +14,9 @@ use crate::place::Positions;
 const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// What a slit is to pass.
-pub(super) struct Aim<'t> {
+pub(in crate::scissor) struct Aim<'t> {
+    /// The faces that it may cross, those of joints besides; ascending.
+    pub(super) among: &'t [FaceId],
     /// How near an end of its edge a crossing is taken for that end.
     pub(super) snap: f64,
     /// Vertices on the plane and on the first side plane, and on the second.
@@ -42,7 +44,7 @@ pub(super) fn trace(
         snapped: Vec::new(),
         passed: Vec::new(),
     };
-    let mut touched = offsets.touched(mesh);
+    let mut touched = aim.among.to_vec();
     touched.extend(aim.joints.iter().flatten().flat_map(|&v| mesh.faces_of(v)));
     touched.sort_unstable();
     touched.dedup();
@@ -113,7 +115,8 @@ impl Tracer<'_> {
         let round = [0, 1].map(|side| {
             let mut round = Vec::new();
             for &v in &self.aim.joints[side] {
-                let depth = self.strip.sides[side].offset(self.positions.at(v));
+                let sides = self.strip.sides.expect("what has a joint has rays");
+                let depth = sides[side].offset(self.positions.at(v));
                 let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
                 round.extend(faces.flatten().map(|node| (node.site, depth)));
             }

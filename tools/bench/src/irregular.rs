@@ -55,7 +55,7 @@ pub(crate) fn through(at: [f64; 2], angle: f64) -> Scissor {
         let origin = Point::new(at[0] + along * cos, at[1] + along * sin, 5.0);
         Ray::new(origin, Vector::new(0.0, 0.0, -1.0)).expect("a direction")
     };
-    let scissor = Scissor::new(&ray(-2.0), &ray(2.0)).expect("two lines");
+    let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("two lines");
     scissor.through(true)
 }
 

@@ -76,7 +76,7 @@ Examples:
   tearmesh cut flag.obj --rays 0,0,9@-1,0.2,0 0,0,9@1,0.2,0 --format json
       cuts between two points seen from the eye 0,0,9, and prints the report only";
 
-/// Cut a mesh along the plane between two rays.
+/// Cut a mesh along the plane between two rays, or along a plane.
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct CutArgs {
@@ -93,6 +93,38 @@ pub(crate) struct CutArgs {
     /// A file of rays: two a line, `#` begins a comment.
     #[arg(long, value_name = "FILE")]
     pub(crate) rays_file: Option<PathBuf>,
+
+    /// A plane in the place of rays, as point:normal; may be given repeatedly.
+    ///
+    /// `px,py,pz:nx,ny,nz`, the normal of any length. The mesh is cut wherever the plane goes.
+    #[arg(
+        long,
+        value_name = "P:N",
+        allow_hyphen_values = true,
+        conflicts_with_all = ["rays", "rays_file", "through"]
+    )]
+    pub(crate) plane: Vec<String>,
+
+    /// Cut all layers between the rays, or those that the rays meet first.
+    ///
+    /// first: of what hangs together where the plane meets the mesh, the part that the first ray
+    /// hits first, and that of the second; where a ray misses, the part that comes next to it. A slit
+    /// in the front of a garment leaves its back whole.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "all|first",
+        hide_possible_values = true,
+        default_value_t,
+        conflicts_with = "plane"
+    )]
+    pub(crate) layers: Layers,
+
+    /// Write the seam into this file, as lines of OBJ.
+    ///
+    /// For each cut an object of `v` and `l` statements: the edges that it tore, in order.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) seam: Option<PathBuf>,
 
     /// How to cut.
     #[arg(long, value_enum, default_value_t)]
@@ -417,28 +449,35 @@ pub(crate) enum Tips {
     Midpoint,
 }
 
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Layers {
+    #[default]
+    All,
+    First,
+}
+
 impl Method {
     /// As it is typed, and as it stands in the report.
     pub(crate) fn name(self) -> &'static str {
         cut_name(self.of_library())
     }
 
-    pub(crate) fn of_library(self) -> tearmesh::Method {
+    pub(crate) fn of_library(self) -> tearmesh::CutMethod {
         match self {
-            Method::Exact => tearmesh::Method::Exact,
-            Method::Partition => tearmesh::Method::Partition,
-            Method::Uniform => tearmesh::Method::Uniform,
-            Method::Alternating => tearmesh::Method::Alternating,
+            Method::Exact => tearmesh::CutMethod::Exact,
+            Method::Partition => tearmesh::CutMethod::Partition,
+            Method::Uniform => tearmesh::CutMethod::Uniform,
+            Method::Alternating => tearmesh::CutMethod::Alternating,
         }
     }
 }
 
 /// [`Method::name`] of a method of the library.
-pub(crate) fn cut_name(method: tearmesh::Method) -> &'static str {
+pub(crate) fn cut_name(method: tearmesh::CutMethod) -> &'static str {
     match method {
-        tearmesh::Method::Partition => "partition",
-        tearmesh::Method::Uniform => "uniform",
-        tearmesh::Method::Alternating => "alternating",
+        tearmesh::CutMethod::Partition => "partition",
+        tearmesh::CutMethod::Uniform => "uniform",
+        tearmesh::CutMethod::Alternating => "alternating",
         _ => "exact",
     }
 }

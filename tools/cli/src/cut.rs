@@ -2,23 +2,25 @@
 
 pub(crate) mod nothing;
 pub(crate) mod scissors;
+mod seam;
 pub(crate) mod words;
 
 use std::ffi::OsString;
 use std::path::Path;
 
-use tearmesh::{Cursor, CutReport, Edit, Edits, Masses, Positions, Ray, Scissor};
+use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
 use self::nothing::Obstacle;
-use self::scissors::{no_plane, warn_of_skew};
-use crate::args::{CutArgs, Mass, Method, Tips};
+use self::scissors::{Along, no_plane, warn_of_skew};
+use self::seam::Seam;
+use crate::args::{CutArgs, Layers, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
 use crate::rays::Pair;
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, report};
+use crate::{files, output, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -29,10 +31,10 @@ pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>)
 }
 
 fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
-    let pairs = scissors::pairs(args, streams)?;
-    for pair in &pairs {
+    let cuts = scissors::cuts(args, streams)?;
+    for pair in cuts.iter().filter_map(Along::rays) {
         // Rays that span no plane are refused before a large file is read.
-        let scissor = Scissor::new(&pair[0], &pair[1]).map_err(|error| no_plane(pair, error))?;
+        let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
     }
     let Opened {
@@ -52,33 +54,38 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let is_exact = args.method == Method::Exact;
     let mut slid = false;
     let mut line = Polyline::default();
-    for (i, pair) in pairs.iter().enumerate() {
-        let number = (pairs.len() > 1).then_some(i + 1);
-        let scissor = scissor(args, pair, &line, &positions)?;
-        let done = scissor.cut(
+    let through = args.through || !args.plane.is_empty();
+    let mut seams = Vec::new();
+    for (i, along) in cuts.iter().enumerate() {
+        let number = (cuts.len() > 1).then_some(i + 1);
+        let scissor = scissor(args, along, &line, &positions)?;
+        let made = scissor.cut_measured(
             args.method.of_library(),
             &mut mesh,
             &mut positions,
             &mut edits,
         );
-        let done = done.expect("positions that follow every cut are in step");
+        let (cut, done) = made.expect("what follows every cut is in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
+        line.go_on(&edits, &cut);
         edits.clear();
         torn.next_cut();
-        let entry = report::Cut::new(pair, &scissor, how(args), &done);
+        let chosen = (args.layers == Layers::First).then_some(&cut);
+        let entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
         session.report.cuts.push(entry);
         session.words.push(words::cut(number, &done));
         let method = args.method.of_library();
         let obstacle = if done.splits == 0 {
             let how = (&scissor, method, args.snap);
-            nothing::obstacle(how, args.through, (&mesh, &positions), &done)
+            nothing::obstacle(how, through, (&mesh, &positions), &done)
         } else {
             Obstacle::Unknown
         };
-        let warnings = words::warnings(number, (args.through, is_exact), &done, obstacle);
+        let warnings = words::warnings(number, (through, is_exact), &done, obstacle);
         session.faults.extend(warnings);
-        line.push(pair, scissor, done);
+        session.faults.extend(words::of_layers(number, &cut));
+        seams.push(Seam::new(&cut, &mesh, &positions));
     }
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
@@ -93,75 +100,79 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
+    if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
+        let written = output::write(path, |out| seam::write(&seams, out));
+        written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+    }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
 }
 
-/// The cuts of which each begins with the ray that ended the one before: the first and the last.
+/// Cuts of which each begins with the ray that ended the one before: where the first began, and where
+/// the last ended.
 #[derive(Default)]
 struct Polyline {
-    first: Option<Made>,
-    last: Option<Made>,
-}
-
-/// A cut that was made, and its rays.
-#[derive(Clone)]
-struct Made {
-    rays: [Ray; 2],
-    scissor: Scissor,
-    report: CutReport,
+    ends: Option<[CutEnd; 2]>,
 }
 
 impl Polyline {
-    /// The last cut, if a pair of rays goes on from there.
-    fn goes_on(&self, pair: &Pair) -> Option<&Made> {
-        self.last.as_ref().filter(|last| last.rays[1] == pair[0])
-    }
-
-    /// The first cut, if a pair of rays that goes on comes back to where that began.
-    fn comes_back(&self, pair: &Pair) -> Option<&Made> {
-        self.first.as_ref().filter(|first| first.rays[0] == pair[1])
-    }
-
-    fn push(&mut self, pair: &Pair, scissor: Scissor, report: CutReport) {
-        let goes_on = self.goes_on(pair).is_some();
-        let made = Made {
-            rays: *pair,
-            scissor,
-            report,
+    /// Notes a cut. The log is that of this cut alone.
+    fn go_on(&mut self, edits: &Edits, cut: &Cut) {
+        let Some([begin, end]) = cut.ends() else {
+            self.ends = None;
+            return;
         };
-        if !goes_on {
-            self.first = Some(made.clone());
-        }
-        self.last = Some(made);
+        let first = self
+            .ends
+            .take()
+            .filter(|[_, last]| last.ray() == begin.ray());
+        let first = first.map(|[mut first, _]| {
+            edits.replay(&mut first);
+            first
+        });
+        self.ends = Some([first.unwrap_or_else(|| begin.clone()), end.clone()]);
     }
+}
+
+/// The scissor of a cut, by the options.
+fn scissor(
+    args: &CutArgs,
+    along: &Along,
+    line: &Polyline,
+    positions: &Positions,
+) -> Result<Scissor, Stop> {
+    let scissor = match along {
+        Along::Rays(pair) => between(args, pair, line, positions)?,
+        Along::Plane(plane) => Scissor::by_plane(*plane),
+    };
+    let tips = match args.tips {
+        Tips::Vertex => tearmesh::CutTips::Vertex,
+        Tips::Midpoint => tearmesh::CutTips::Midpoint,
+    };
+    let layers = match args.layers {
+        Layers::All => CutLayers::All,
+        Layers::First => CutLayers::First,
+    };
+    let scissor = scissor.through(args.through).tips(tips).layers(layers);
+    Ok(scissor.snap(args.snap).snap_move(args.snap_move))
 }
 
 /// The scissor of two rays, which goes on from where the last cut ended if that ended with the
 /// first of them, and ends where the first of those cuts began if it comes back there.
-fn scissor(
+fn between(
     args: &CutArgs,
     pair: &Pair,
     line: &Polyline,
     positions: &Positions,
 ) -> Result<Scissor, Stop> {
-    let last = line.goes_on(pair).filter(|_| !args.through);
-    let scissor = match (last, line.comes_back(pair)) {
-        (Some(last), Some(first)) => {
-            let first = (&first.scissor, &first.report);
-            last.scissor.closed(&last.report, first, positions)
-        }
-        (Some(last), None) => last.scissor.continued(&last.report, positions, &pair[1]),
-        (None, _) => Scissor::new(&pair[0], &pair[1]),
+    let goes_on = |[_, last]: &&[CutEnd; 2]| last.ray() == pair[0] && !args.through;
+    let scissor = match line.ends.as_ref().filter(goes_on) {
+        Some([first, last]) if first.ray() == pair[1] => Scissor::closed(last, first, positions),
+        Some([_, last]) => Scissor::continued(last, pair[1], positions),
+        None => Scissor::new(pair[0], pair[1]),
     };
-    let scissor = scissor.map_err(|error| no_plane(pair, error))?;
-    let tips = match args.tips {
-        Tips::Vertex => tearmesh::Tips::Vertex,
-        Tips::Midpoint => tearmesh::Tips::Midpoint,
-    };
-    let scissor = scissor.through(args.through).tips(tips);
-    Ok(scissor.snap(args.snap).snap_move(args.snap_move))
+    scissor.map_err(|error| no_plane(pair, error))
 }
 
 /// The options that the report repeats.
@@ -169,7 +180,7 @@ fn how(args: &CutArgs) -> report::How {
     let is_exact = args.method == Method::Exact;
     report::How {
         method: args.method.name(),
-        through: args.through,
+        through: args.through || !args.plane.is_empty(),
         tips: args.tips.name(),
         snap: is_exact.then_some(args.snap),
         snap_move: is_exact.then_some(args.snap_move),
@@ -190,6 +201,20 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
         );
     }
     files::keep(&args.files, args.rays_file.as_deref(), "the rays")?;
+    if let Some(seam) = &args.seam {
+        let read = [Some(&args.files.input), args.rays_file.as_ref()];
+        let is_read = read
+            .into_iter()
+            .flatten()
+            .any(|path| files::is_same(path, seam));
+        if seam == Path::new("-") || is_read {
+            return usage(
+                "`--seam` takes the name of a file of its own",
+                "write the seam to another file",
+            );
+        }
+        files::keep(&args.files, Some(seam), "the seam")?;
+    }
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(
             "`--tips midpoint` is for the method partition, not {}",

@@ -100,7 +100,7 @@ pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(
 }
 
 /// Whether two names are of one file, which need not exist yet.
-fn is_same(a: &Path, b: &Path) -> bool {
+pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a != Path::new("-") && b != Path::new("-") && (a == b || output::is_same_place(a, b))
 }
 

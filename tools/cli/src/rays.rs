@@ -1,11 +1,12 @@
-//! Rays as people write them.
+//! Rays and planes as people write them.
 //!
 //! `ox,oy,oz:dx,dy,dz` is an origin and a direction, `ox,oy,oz@tx,ty,tz` an origin and a target;
-//! `->` means the same as `@`. Two rays are separated by blanks or a semicolon.
+//! `->` means the same as `@`. Two rays are separated by blanks or a semicolon. A plane is a point and a
+//! normal, `px,py,pz:nx,ny,nz`.
 
 use std::ops::Range;
 
-use tearmesh::{Point, Ray, RayError, Vector};
+use tearmesh::{Plane, PlaneError, Point, Ray, RayError, Vector};
 
 use crate::say::{Excerpt, Fault};
 
@@ -114,8 +115,8 @@ pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
             label: "expected `:` and a direction, or `@` and a target",
         });
     };
-    let origin = triple(text, 0..at)?;
-    let second = triple(text, at + width..text.len())?;
+    let origin = triple(text, 0..at, "ray")?;
+    let second = triple(text, at + width..text.len(), "ray")?;
     let origin = Point::from(origin);
     let direction = if aimed {
         Point::from(second) - origin
@@ -143,7 +144,52 @@ pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
     })
 }
 
-fn triple(text: &str, part: Range<usize>) -> Result<[f64; 3], Unreadable> {
+/// Reads a plane; its text stood at `origin`.
+pub(crate) fn plane(text: &str, origin: &str) -> Result<Plane, Fault> {
+    let read = || {
+        let at = text.find(':').ok_or_else(|| Unreadable {
+            code: "E-PLANE-SYNTAX",
+            message: format!("cannot read the plane `{text}`"),
+            part: 0..text.len(),
+            label: "expected `:` and a normal",
+        })?;
+        let point = triple(text, 0..at, "plane")?;
+        let normal = triple(text, at + 1..text.len(), "plane")?;
+        Plane::new(point.into(), normal.into()).map_err(|error| {
+            let (part, label) = match error {
+                PlaneError::Point { .. } => (0..at, "expected a point that is not so far away"),
+                PlaneError::Normal { .. } => (at + 1..text.len(), "expected a normal"),
+            };
+            Unreadable {
+                code: "E-PLANE-ZERO",
+                message: error.to_string(),
+                part,
+                label,
+            }
+        })
+    };
+    read().map_err(|unreadable| Fault {
+        code: unreadable.code,
+        message: unreadable.message,
+        excerpt: Some(Box::new(Excerpt {
+            path: origin.to_owned(),
+            line: 1,
+            text: text.to_owned(),
+            first_column: 1,
+            span: unreadable.part,
+            label: unreadable.label.to_owned(),
+        })),
+        help: Some("write point:normal, as in --plane 0,0.5,0:0,1,0".to_owned()),
+        ..Fault::default()
+    })
+}
+
+fn triple(text: &str, part: Range<usize>, what: &str) -> Result<[f64; 3], Unreadable> {
+    let code = if what == "ray" {
+        "E-RAY-SYNTAX"
+    } else {
+        "E-PLANE-SYNTAX"
+    };
     let mut numbers = [0.0; 3];
     let mut count = 0;
     let mut at = part.start;
@@ -158,8 +204,8 @@ fn triple(text: &str, part: Range<usize>) -> Result<[f64; 3], Unreadable> {
                 "a fourth number"
             };
             return Err(Unreadable {
-                code: "E-RAY-SYNTAX",
-                message: format!("cannot read the ray `{text}`"),
+                code,
+                message: format!("cannot read the {what} `{text}`"),
                 part: span,
                 label,
             });
@@ -169,8 +215,8 @@ fn triple(text: &str, part: Range<usize>) -> Result<[f64; 3], Unreadable> {
     }
     if count < 3 {
         return Err(Unreadable {
-            code: "E-RAY-SYNTAX",
-            message: format!("cannot read the ray `{text}`"),
+            code,
+            message: format!("cannot read the {what} `{text}`"),
             part,
             label: "expected three numbers with commas between them",
         });
@@ -241,6 +287,21 @@ mod tests {
             read("0,1,1e99:0,1,5 0,1,5:0,1,1"),
             Err(("E-RAY-ZERO", 0, 8))
         );
+    }
+
+    #[test]
+    fn planes_are_read_and_what_cannot_be_is_pointed_at() {
+        let read = |text: &str| match plane(text, "--plane") {
+            Ok(plane) => Ok((plane.point().into(), plane.normal().into())),
+            Err(fault) => Err((fault.code, fault.excerpt.expect("an excerpt").span)),
+        };
+        let expected: ([f64; 3], [f64; 3]) = ([-1.0, 0.5, 2.0], [0.0, -1.0, 0.0]);
+        assert_eq!(read("-1,.5,2:0,-3,0"), Ok(expected));
+        assert_eq!(read("1,2,3"), Err(("E-PLANE-SYNTAX", 0..5)));
+        assert_eq!(read("1,2,3:1,x,0"), Err(("E-PLANE-SYNTAX", 8..9)));
+        assert_eq!(read("1,2,3@1,0,0"), Err(("E-PLANE-SYNTAX", 0..11)));
+        assert_eq!(read("1,2,3:0,0,0"), Err(("E-PLANE-ZERO", 6..11)));
+        assert_eq!(read("1,2e99,3:0,0,1"), Err(("E-PLANE-ZERO", 0..8)));
     }
 
     #[test]

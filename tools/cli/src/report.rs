@@ -75,7 +75,9 @@ impl File {
 
 #[derive(Debug, Serialize)]
 pub(crate) struct Cut {
-    rays: [RayEntry; 2],
+    /// Of a cut between rays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rays: Option<[RayEntry; 2]>,
     method: &'static str,
     through: bool,
     tips: &'static str,
@@ -84,6 +86,9 @@ pub(crate) struct Cut {
     #[serde(skip_serializing_if = "Option::is_none")]
     snap_move: Option<bool>,
     plane: PlaneEntry,
+    /// Where each ray hit the layer that was cut, of a cut through the first layers alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    layers: Option<[Option<LayerEntry>; 2]>,
     faces_crossed: usize,
     splits: usize,
     refused: usize,
@@ -277,12 +282,22 @@ pub(crate) struct Frames {
 }
 
 impl Cut {
-    pub(crate) fn new(rays: &[Ray; 2], scissor: &Scissor, how: How, report: &CutReport) -> Cut {
+    /// `rays` are those of a cut between two, and `cut` is given if it was to go through the first
+    /// layers alone.
+    pub(crate) fn new(
+        rays: Option<&[Ray; 2]>,
+        scissor: &Scissor,
+        how: How,
+        report: &CutReport,
+        cut: Option<&tearmesh::Cut>,
+    ) -> Cut {
         let plane = scissor.plane();
         Cut {
-            rays: rays.map(|ray| RayEntry {
-                origin: numbers(ray.origin().coords),
-                direction: numbers(ray.direction()),
+            rays: rays.map(|rays| {
+                rays.map(|ray| RayEntry {
+                    origin: numbers(ray.origin().coords),
+                    direction: numbers(ray.direction()),
+                })
             }),
             method: how.method,
             through: how.through,
@@ -293,6 +308,14 @@ impl Cut {
                 point: point(plane.point()),
                 normal: numbers(plane.normal()),
             },
+            layers: cut.map(|cut| {
+                cut.layers().map(|hit| {
+                    hit.map(|hit| LayerEntry {
+                        at: point(hit.at),
+                        chain: hit.chain.index(),
+                    })
+                })
+            }),
             faces_crossed: report.faces_crossed,
             splits: report.splits,
             refused: report.refused,
@@ -320,6 +343,13 @@ impl Cut {
 struct RayEntry {
     origin: [f64; 3],
     direction: [f64; 3],
+}
+
+/// The place of a hit, and the smallest triangle of what hangs together there, from 0.
+#[derive(Debug, Serialize)]
+struct LayerEntry {
+    at: [f64; 3],
+    chain: usize,
 }
 
 #[derive(Debug, Serialize)]

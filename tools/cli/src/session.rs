@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use tearmesh::{Ledger, MassError, Masses, Mesh, Point, Positions};
+use tearmesh::{MassError, MassLedger, Masses, Mesh, Point, Positions};
 use tearmesh_obj::{Document, Repair, WriteSummary};
 
 use crate::args::{FileArgs, Format};
@@ -131,7 +131,7 @@ impl<'a> Session<'a> {
     pub(crate) fn verify(
         &mut self,
         mesh: &Mesh,
-        ledger: &Ledger,
+        ledger: &MassLedger,
         unit: report::MassUnit,
         broken: Option<String>,
     ) -> Result<report::Mass, Stop> {
@@ -155,7 +155,7 @@ impl<'a> Session<'a> {
     }
 
     /// Notes the mass before and after for the report, and gives both.
-    pub(crate) fn say_mass(&mut self, ledger: &Ledger, unit: report::MassUnit) -> report::Mass {
+    pub(crate) fn say_mass(&mut self, ledger: &MassLedger, unit: report::MassUnit) -> report::Mass {
         let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
         let mass = report::Mass {
             before,

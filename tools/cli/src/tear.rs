@@ -279,17 +279,17 @@ impl Play<'_> {
 
     fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_>) {
         let (cut, done) = (&scene.cuts[made.number], &made.report);
-        let Ok(scissor) = Scissor::new(&cut.rays[0], &cut.rays[1]) else {
+        let Ok(scissor) = Scissor::new(cut.rays[0], cut.rays[1]) else {
             return; // It was made with these rays.
         };
         let how = report::How {
             method: cut_name(cut.method),
             through: cut.through,
             tips: "vertex",
-            snap: (cut.method == tearmesh::Method::Exact).then_some(Scissor::SNAP),
-            snap_move: (cut.method == tearmesh::Method::Exact).then_some(false),
+            snap: (cut.method == tearmesh::CutMethod::Exact).then_some(Scissor::SNAP),
+            snap_move: (cut.method == tearmesh::CutMethod::Exact).then_some(false),
         };
-        let mut entry = report::Cut::new(&cut.rays, &scissor, how, done);
+        let mut entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
         entry.stable_step_s = made.stability.map(words::stable_step);
         session.report.cuts.push(entry);
         let many = (scene.cuts.len() > 1).then_some(made.number + 1);
@@ -298,7 +298,7 @@ impl Play<'_> {
         let stability = made.stability.as_ref().map(words::shortened);
         let stability = stability.unwrap_or_default();
         session.words.push(format!("{line} · at {at} s{stability}"));
-        let kind = (cut.through, cut.method == tearmesh::Method::Exact);
+        let kind = (cut.through, cut.method == tearmesh::CutMethod::Exact);
         // The cloth has moved since, and there is no snap to choose.
         let why = Obstacle::Unknown;
         let warnings = crate::cut::words::warnings(many, kind, done, why);

@@ -7,8 +7,8 @@ pub(crate) use room::Room;
 
 use tearmesh::geometry::between;
 use tearmesh::{
-    Child, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Source, Split, VertexId,
-    VertexOp,
+    ChildFace, CornerSource, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Split,
+    VertexId, VertexOp,
 };
 
 use self::room::Piece;
@@ -368,14 +368,14 @@ impl Cloth {
     }
 
     /// The edge of a child that starts at this corner.
-    fn piece(&self, child: &Child, corner: usize) -> Piece {
+    fn piece(&self, child: &ChildFace, corner: usize) -> Piece {
         let [a, b, apex] = [0, 1, 2].map(|i| child.vertices[(corner + i) % 3].index());
         let sources = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
         let parent = child.parent.half_edges();
         let on = parent
             .into_iter()
             .find(|&h| sources.into_iter().all(|source| lies_on(source, h)));
-        let is_corner = |source: &Source| matches!(source, Source::Corner(_));
+        let is_corner = |source: &CornerSource| matches!(source, CornerSource::Corner(_));
         let by_length = |h: HalfEdgeId| {
             let constraint = self.system.model.stretch.get(self.stretch(h));
             constraint.stiffness_n_per_m * constraint.rest_length_m
@@ -413,11 +413,11 @@ impl Cloth {
 }
 
 /// Whether a corner of a child lies on this edge of its parent.
-pub(super) fn lies_on(source: &Source, h: HalfEdgeId) -> bool {
+pub(super) fn lies_on(source: &CornerSource, h: HalfEdgeId) -> bool {
     match *source {
-        Source::Corner(corner) => corner == h || corner == h.next(),
-        Source::Edge { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
-        Source::Face { .. } => false,
+        CornerSource::Corner(corner) => corner == h || corner == h.next(),
+        CornerSource::Edge { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
+        CornerSource::Face { .. } => false,
     }
 }
 

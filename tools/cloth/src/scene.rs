@@ -251,5 +251,5 @@ pub struct TimedCut {
     /// Whether the whole plane cuts, not only what lies between the rays.
     pub through: bool,
     /// How.
-    pub method: tearmesh::Method,
+    pub method: tearmesh::CutMethod,
 }

@@ -21,8 +21,8 @@ pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
 use tearmesh::{
-    Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Location, Mesh, Mix, Positions, Slide,
-    VertexId, VertexOp, mend::Stitch,
+    Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Mix, Positions,
+    Slide, VertexId, VertexOp, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
@@ -320,7 +320,7 @@ impl<'d> TornDocument<'d> {
     /// The cut since which the two sides of a torn edge are apart, if these two points are on
     /// both sides of one: the same place of an edge between the same roots.
     fn apart_as_twins(&mut self, one: &InsertedPoint, other: &InsertedPoint) -> Option<u32> {
-        let (Location::Edge { ends, t }, Location::Edge { ends: others, t: u }) =
+        let (InsertLocation::Edge { ends, t }, InsertLocation::Edge { ends: others, t: u }) =
             (one.at, other.at)
         else {
             return None;
@@ -334,14 +334,14 @@ impl<'d> TornDocument<'d> {
         Some(since[0].min(since[1]))
     }
 
-    fn place(&self, at: &Location) -> At {
+    fn place(&self, at: &InsertLocation) -> At {
         let class = |v: VertexId| self.ancestry.class(v.index());
         match *at {
-            Location::Edge { ends, t } => At::Edge {
+            InsertLocation::Edge { ends, t } => At::Edge {
                 ends: ends.map(class),
                 t,
             },
-            Location::Face { vertices, weights } => At::Face {
+            InsertLocation::Face { vertices, weights } => At::Face {
                 corners: vertices.map(class),
                 weights,
             },

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use tearmesh::{
-    CutReport, Edit, Edits, ExactSum, HalfEdgeId, Masses, Mesh, Method, PerCorner, Point,
+    CutMethod, CutReport, Edit, Edits, ExactSum, HalfEdgeId, Masses, Mesh, PerCorner, Point,
     Positions, Scissor, VertexId,
 };
 
@@ -30,7 +30,7 @@ pub(super) struct Facts {
 impl Facts {
     pub(super) fn new(
         scissor: &Scissor,
-        method: Method,
+        method: CutMethod,
         (mesh, positions): &(Mesh, Positions),
     ) -> Facts {
         let before = (mesh, positions);
@@ -38,15 +38,15 @@ impl Facts {
         let mut masses = Masses::area(&mesh, &positions, 1.0).expect("a sheet has an area");
         let corners = mesh.half_edges().map(|h| corner(&mesh, &positions, h));
         let mut texture = PerCorner::new(corners.collect::<Vec<Point>>());
-        let report = scissor
-            .cut(method, &mut mesh, &mut positions, &mut edits)
+        let (_, report) = scissor
+            .cut_measured(method, &mut mesh, &mut positions, &mut edits)
             .expect("positions are in step");
         edits.replay(&mut (&mut masses, &mut texture));
         assert!(mesh.check().is_empty(), "a cut leaves a mesh");
         let area_before = areas(before.0, before.1).collect::<ExactSum>().to_f64();
         let mut growth: ExactSum = areas(&mesh, &positions).collect();
         growth.extend(areas(before.0, before.1).map(|area| -area));
-        let off = |h| (texture[h] - corner(&mesh, &positions, h)).norm();
+        let off = |h| (texture.at(h) - corner(&mesh, &positions, h)).norm();
         let mean_edge = mean_edge(before);
         let children = altitudes(before, &positions, &edits);
         let divided = report.pieces == report.pieces_expected

@@ -2,7 +2,7 @@
 //!
 //! Beside our figures stand those of the experiments that the rules of the scissor come from.
 
-use tearmesh::Method;
+use tearmesh::CutMethod;
 
 use super::facts::Facts;
 use super::ways::{Form, time};
@@ -35,7 +35,7 @@ struct Series {
 }
 
 impl Series {
-    fn new(method: Method, snap: f64, sheet: &Sheet, options: &Options) -> Series {
+    fn new(method: CutMethod, snap: f64, sheet: &Sheet, options: &Options) -> Series {
         let mut random = Random(7);
         let mut times = Vec::new();
         let mut facts = Vec::new();
@@ -91,7 +91,7 @@ fn snaps(sheet: &Sheet, options: &Options) -> String {
         "ms",
     ])];
     for (snap, deviation, altitude, slivers) in SNAPS {
-        let series = Series::new(Method::Exact, snap, sheet, options);
+        let series = Series::new(CutMethod::Exact, snap, sheet, options);
         let least = series.facts.iter().map(|facts| facts.child_altitude);
         lines.push(line([
             &snap.to_string(),
@@ -115,12 +115,12 @@ fn snaps(sheet: &Sheet, options: &Options) -> String {
     table(&lines)
 }
 
-const METHODS: [(Method, f64, &str, &str, &str); 5] = [
-    (Method::Uniform, 0.0, "uniform", "0", ""),
-    (Method::Alternating, 0.0, "alternating", "29", "to 2.1"),
-    (Method::Partition, 0.0, "partition", "40", "1.04-1.15"),
-    (Method::Exact, 0.0, "exact, snap 0", "40", "1"),
-    (Method::Exact, 0.05, "exact, snap 0.05", "40", ""),
+const METHODS: [(CutMethod, f64, &str, &str, &str); 5] = [
+    (CutMethod::Uniform, 0.0, "uniform", "0", ""),
+    (CutMethod::Alternating, 0.0, "alternating", "29", "to 2.1"),
+    (CutMethod::Partition, 0.0, "partition", "40", "1.04-1.15"),
+    (CutMethod::Exact, 0.0, "exact, snap 0", "40", "1"),
+    (CutMethod::Exact, 0.05, "exact, snap 0.05", "40", ""),
 ];
 
 /// How many cuts divide, into as many pieces as there should be, and what that takes.

@@ -2,15 +2,15 @@
 
 use std::time::Duration;
 
-use tearmesh::{Edits, Method, Scissor};
+use tearmesh::{Cut, CutMethod, Edits, Scissor};
 
-use crate::irregular::Sheet;
+use crate::irregular::{self, Sheet};
 use crate::measure::timed_on_cpu;
 
 /// A way in which we cut.
 pub(super) struct Way {
     pub(super) name: &'static str,
-    pub(super) method: Method,
+    pub(super) method: CutMethod,
     pub(super) snap: f64,
     pub(super) form: Form,
 }
@@ -22,6 +22,8 @@ pub(super) enum Form {
     First,
     /// There is room in the arrays, as after a cut before, or by `reserve`.
     Room,
+    /// Another cut was made before, and its memory is lent.
+    Second,
     /// As built, and a report is made.
     Report,
 }
@@ -31,12 +33,13 @@ impl Form {
         match self {
             Form::First => "in place; a first cut, so arrays move to grow",
             Form::Room => "in place; room made before",
+            Form::Second => "in place; a second cut in the memory of one before",
             Form::Report => "as the first, and a report of the whole mesh",
         }
     }
 }
 
-const fn way(name: &'static str, method: Method, snap: f64, form: Form) -> Way {
+const fn way(name: &'static str, method: CutMethod, snap: f64, form: Form) -> Way {
     Way {
         name,
         method,
@@ -45,27 +48,34 @@ const fn way(name: &'static str, method: Method, snap: f64, form: Form) -> Way {
     }
 }
 
-pub(super) const WAYS: [Way; 9] = [
-    way("exact, snap 0", Method::Exact, 0.0, Form::First),
-    way("exact, snap 0.05", Method::Exact, 0.05, Form::First),
-    way("partition", Method::Partition, 0.0, Form::First),
-    way("exact, snap 0, room", Method::Exact, 0.0, Form::Room),
-    way("exact, snap 0.05, room", Method::Exact, 0.05, Form::Room),
-    way("partition, room", Method::Partition, 0.0, Form::Room),
-    way("exact, snap 0, report", Method::Exact, 0.0, Form::Report),
+pub(super) const WAYS: [Way; 11] = [
+    way("exact, snap 0", CutMethod::Exact, 0.0, Form::First),
+    way("exact, snap 0.05", CutMethod::Exact, 0.05, Form::First),
+    way("partition", CutMethod::Partition, 0.0, Form::First),
+    way("exact, snap 0, room", CutMethod::Exact, 0.0, Form::Room),
+    way("exact, snap 0.05, room", CutMethod::Exact, 0.05, Form::Room),
+    way("partition, room", CutMethod::Partition, 0.0, Form::Room),
+    way(
+        "exact, snap 0.05, second",
+        CutMethod::Exact,
+        0.05,
+        Form::Second,
+    ),
+    way("partition, second", CutMethod::Partition, 0.0, Form::Second),
+    way("exact, snap 0, report", CutMethod::Exact, 0.0, Form::Report),
     way(
         "exact, snap 0.05, report",
-        Method::Exact,
+        CutMethod::Exact,
         0.05,
         Form::Report,
     ),
-    way("partition, report", Method::Partition, 0.0, Form::Report),
+    way("partition, report", CutMethod::Partition, 0.0, Form::Report),
 ];
 
 /// How long a cut takes on a copy. The copy, and what becomes of it, are not part of it.
 pub(super) fn time(
     scissor: &Scissor,
-    method: Method,
+    method: CutMethod,
     form: Form,
     (mesh, positions): &Sheet,
 ) -> Duration {
@@ -76,11 +86,19 @@ pub(super) fn time(
         mesh.reserve_faces(room);
         positions.reserve(room);
     }
+    let mut lent = Cut::default();
+    if form == Form::Second {
+        let before = irregular::through([0.31, 0.62], 0.4).snap(Scissor::SNAP);
+        let made = before.cut_into(method, &mut mesh, &mut positions, &mut edits, &mut lent);
+        made.expect("positions are in step");
+    }
     let (result, time) = timed_on_cpu(|| match form {
-        Form::First | Form::Room => scissor.cut_only(method, &mut mesh, &mut positions, &mut edits),
+        Form::First | Form::Room | Form::Second => {
+            scissor.cut_into(method, &mut mesh, &mut positions, &mut edits, &mut lent)
+        }
         Form::Report => {
-            let report = scissor.cut(method, &mut mesh, &mut positions, &mut edits);
-            report.map(|report| assert_eq!(report.pieces, 2, "the sheet is in two"))
+            let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
+            made.map(|(_, report)| assert_eq!(report.pieces, 2, "the sheet is in two"))
         }
     });
     result.expect("positions are in step");

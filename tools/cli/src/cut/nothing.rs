@@ -1,6 +1,6 @@
 //! Why a cut split nothing.
 
-use tearmesh::{CutReport, Edits, HalfEdgeId, Mesh, Method, Point, Positions, Scissor, Side};
+use tearmesh::{CutMethod, CutReport, Edits, HalfEdgeId, Mesh, Point, Positions, Scissor, Side};
 
 /// What kept a cut from splitting anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +21,12 @@ pub(crate) enum Obstacle {
 /// Whether it was the snap is tried on a copy and not concluded, so that the advice to cut without
 /// one works when it is typed.
 pub(super) fn obstacle(
-    (scissor, method, snap): (&Scissor, Method, f64),
+    (scissor, method, snap): (&Scissor, CutMethod, f64),
     through: bool,
     (mesh, positions): (&Mesh, &Positions),
     done: &CutReport,
 ) -> Obstacle {
-    let is_exact = method == Method::Exact;
+    let is_exact = method == CutMethod::Exact;
     let slit = Slit {
         scissor,
         near: is_exact.then_some(snap.max(ROUNDING)),
@@ -57,14 +57,16 @@ const ROUNDING: f64 = 1e-6;
 
 /// Whether the cut would split something with `--snap 0`.
 fn splits_without_snap(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> bool {
-    let (mut mesh, points) = (mesh.clone(), positions.as_slice().iter().copied());
-    let mut positions = Positions::new(points).expect("points of a mesh that is being cut");
-    let tried =
-        scissor
-            .clone()
-            .snap(0.0)
-            .cut(Method::Exact, &mut mesh, &mut positions, &mut Edits::new());
-    tried.is_ok_and(|done| done.splits > 0)
+    // A scissor that goes on from a cut knows the place in the log.
+    let mut edits = Edits::starting_at(positions.seen());
+    let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
+    let tried = scissor.clone().snap(0.0).cut_measured(
+        CutMethod::Exact,
+        &mut mesh,
+        &mut positions,
+        &mut edits,
+    );
+    tried.is_ok_and(|(_, done)| done.splits > 0)
 }
 
 /// Where the cut was to go.
@@ -89,7 +91,8 @@ impl Slit<'_> {
         let ends = [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.positions.at(v));
         let middle = ends[0] + (ends[1] - ends[0]) * 0.5;
         let sides = self.scissor.sides();
-        let is_between = self.through || sides.iter().all(|side| side.offset(middle) >= 0.0);
+        let mut sides = sides.iter().flatten();
+        let is_between = self.through || sides.all(|side| side.offset(middle) >= 0.0);
         let is_near = self.near.is_none_or(|near| {
             let far = near * self.longest(h).max(self.longest(ghost));
             ends.iter().all(|&end| plane.distance(end).abs() <= far)

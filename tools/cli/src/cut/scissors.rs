@@ -1,6 +1,6 @@
 //! From what was typed to scissors.
 
-use tearmesh::{Scissor, ScissorError};
+use tearmesh::{Plane, Ray, Scissor, ScissorError};
 
 use crate::args::CutArgs;
 use crate::exit::{Exit, Stop};
@@ -9,16 +9,40 @@ use crate::rays::{self, Pair};
 use crate::say::{Fault, short};
 use crate::streams::Streams;
 
-/// The rays that were given, two for each cut.
-pub(super) fn pairs(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Pair>, Stop> {
+/// What a cut goes along.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Along {
+    Rays(Pair),
+    Plane(Plane),
+}
+
+impl Along {
+    pub(crate) fn rays(&self) -> Option<&[Ray; 2]> {
+        match self {
+            Along::Rays(pair) => Some(pair),
+            Along::Plane(_) => None,
+        }
+    }
+}
+
+/// What was given for each cut.
+pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Along>, Stop> {
     let refused = |fault: Fault| {
-        let exit = if fault.code == "E-RAY-ZERO" {
-            Exit::NoPlane
-        } else {
-            Exit::Usage
+        let exit = match fault.code {
+            "E-RAY-ZERO" | "E-PLANE-ZERO" => Exit::NoPlane,
+            _ => Exit::Usage,
         };
         Stop::new(exit, fault)
     };
+    if !args.plane.is_empty() {
+        let planes = args.plane.iter().map(|text| rays::plane(text, "--plane"));
+        let planes: Result<Vec<Plane>, Fault> = planes.collect();
+        return Ok(planes
+            .map_err(refused)?
+            .into_iter()
+            .map(Along::Plane)
+            .collect());
+    }
     let mut pairs = Vec::new();
     for text in &args.rays {
         pairs.push(rays::pair(text, "--rays", 1).map_err(refused)?);
@@ -37,7 +61,7 @@ pub(super) fn pairs(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Pai
             ..Fault::default()
         }));
     }
-    Ok(pairs)
+    Ok(pairs.into_iter().map(Along::Rays).collect())
 }
 
 /// Says that two rays span no plane, and what would.

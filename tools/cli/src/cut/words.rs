@@ -1,6 +1,6 @@
 //! What is said of a cut.
 
-use tearmesh::CutReport;
+use tearmesh::{Cut, CutReport};
 
 use super::nothing::Obstacle;
 use crate::say::{Fault, count, short};
@@ -20,6 +20,14 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
         count(cut.pieces_before, "piece", "pieces"),
         count(cut.pieces, "piece", "pieces"),
     )
+}
+
+/// That a cut through the first layers went through two, if it did.
+pub(crate) fn of_layers(number: Option<usize>, cut: &Cut) -> Option<Fault> {
+    let [one, other] = cut.layers().map(|hit| hit.map(|hit| hit.chain));
+    let of = number.map_or_else(String::new, |number| format!("cut {number}: "));
+    let message = format!("{of}the rays hit different layers of the mesh: both are cut");
+    (one != other).then(|| Fault::warning("W-CUT-LAYERS", message))
 }
 
 /// What a cut fell short of; where it split nothing, `obstacle` says why.

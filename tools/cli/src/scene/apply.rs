@@ -203,7 +203,7 @@ impl SceneFile {
         let Some(Content::Rays(rays)) = table.values.get("rays").map(|value| &value.content) else {
             return Err(self.missing(table, "cut", "rays"));
         };
-        Scissor::new(&rays[0], &rays[1])
+        Scissor::new(rays[0], rays[1])
             .map_err(|error| self.fault(table, "rays", "E-SCENE-RANGE", error.to_string()))?;
         let method = table.word("method");
         let method = method.and_then(|word| CutMethod::from_str(word, false).ok());

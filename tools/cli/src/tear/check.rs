@@ -79,13 +79,13 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
     let mut cuts = Vec::new();
     for text in &args.rays {
         let pair = rays::pair(text, "--rays", 1).map_err(|fault| Stop::new(Exit::Usage, fault))?;
-        let scissor = Scissor::new(&pair[0], &pair[1]).map_err(|error| no_plane(&pair, error))?;
+        let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(&pair, error))?;
         warn_of_skew(&scissor, faults);
         cuts.push(TimedCut {
             at_s: args.cut_at.unwrap_or(0.0),
             rays: pair,
             through: false,
-            method: tearmesh::Method::Exact,
+            method: tearmesh::CutMethod::Exact,
         });
     }
     Ok(cuts)

@@ -71,7 +71,7 @@ impl Scene {
             at_s: 1.5,
             rays: [a, b],
             through: true,
-            method: tearmesh::Method::Exact,
+            method: tearmesh::CutMethod::Exact,
         };
         Scene {
             duration_s: 3.0,
@@ -144,7 +144,7 @@ impl Scene {
             at_s: 0.0,
             rays: [a, b],
             through: false,
-            method: tearmesh::Method::Exact,
+            method: tearmesh::CutMethod::Exact,
         };
         let leg = |across: [f64; 2], side: f64| Hold {
             region: Region::Patch {

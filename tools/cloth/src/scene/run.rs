@@ -157,7 +157,7 @@ impl Run {
             .map(vertices)
             .collect::<Result<_, _>>()?;
         let scissor = |(number, cut): (usize, &TimedCut)| {
-            Scissor::new(&cut.rays[0], &cut.rays[1])
+            Scissor::new(cut.rays[0], cut.rays[1])
                 .map(|scissor| scissor.through(cut.through))
                 .map_err(|error| RunError::Cut { number, error })
         };
@@ -300,8 +300,9 @@ impl Run {
             let step_before_s = self.stable_step_s();
             let mut positions = self.places()?;
             let scissor = &self.scissors[self.next_cut];
-            let report = scissor.cut(cut.method, &mut self.mesh, &mut positions, &mut self.edits);
-            let report = report.expect("positions that follow every cut are in step");
+            let made =
+                scissor.cut_measured(cut.method, &mut self.mesh, &mut positions, &mut self.edits);
+            let (_, report) = made.expect("positions that follow every cut are in step");
             self.edits.replay(&mut self.cloth);
             if let Some(tear) = &mut self.tear {
                 self.edits.replay(tear);

@@ -172,7 +172,7 @@ impl Tear {
     /// If there is no such vertex.
     #[must_use]
     pub fn strength(&self, v: VertexId) -> f64 {
-        self.strengths[v]
+        *self.strengths.at(v)
     }
 
     /// Whether a vertex is the tip of a tear, which [`Tearing::weakening`] is for.
@@ -182,18 +182,18 @@ impl Tear {
     /// If there is no such vertex.
     #[must_use]
     pub fn is_tip(&self, v: VertexId) -> bool {
-        self.tips[v] != Vector::zeros()
+        *self.tips.at(v) != Vector::zeros()
     }
 
     /// The strength of a vertex against a pull along `edge` at rest: weakened at a tip, if that is
     /// within 45° of the direction across its tear.
     fn strength_along(&self, v: VertexId, edge: Vector) -> f64 {
-        let tip = self.tips[v];
+        let tip = *self.tips.at(v);
         let cosine = dot(tip, edge);
         let across = self.is_tip(v) && 2.0 * cosine * cosine >= dot(tip, tip) * dot(edge, edge);
         match self.tearing.weakening {
-            Some(factor) if across => self.strengths[v] * factor,
-            _ => self.strengths[v],
+            Some(factor) if across => *self.strengths.at(v) * factor,
+            _ => *self.strengths.at(v),
         }
     }
 
@@ -423,7 +423,7 @@ impl Tear {
         self.is_fresh.resize(mesh.vertex_count(), true);
         let tips = along_plane(cloth, vertex, &plane, &self.ahead);
         for tip in tips.take(if is_whole { 2 } else { 1 }) {
-            self.tips[tip] = across;
+            *self.tips.at_mut(tip) = across;
             self.has_tips = true;
         }
         length_m

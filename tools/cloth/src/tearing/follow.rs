@@ -19,8 +19,8 @@ impl Follower for Tear {
             // Both halves of a torn link go on with the clock of its edge. The tear has gone
             // through the vertex, which is a tip no more.
             Edit::Split(split) => {
-                self.tips[split.old] = Vector::zeros();
-                self.tips[split.new] = Vector::zeros();
+                *self.tips.at_mut(split.old) = Vector::zeros();
+                *self.tips.at_mut(split.new) = Vector::zeros();
             }
             Edit::Slide(_) => {}
             Edit::Insert(insert) => self.insert(insert),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::{Blend, Child, HalfEdgeId, Insert, Slide, Source, VertexId};
+use tearmesh::{Blend, ChildFace, CornerSource, HalfEdgeId, Insert, Slide, VertexId};
 
 use super::slots::Slots;
 use crate::document::Document;
@@ -171,19 +171,19 @@ impl<'d> Corners<'d> {
     /// have these.
     fn index(
         &mut self,
-        source: Source,
+        source: CornerSource,
         before: [u32; 3],
         class: u32,
         which: usize,
         made: &mut BTreeMap<Between, u32>,
     ) -> u32 {
         let (between, weights) = match source {
-            Source::Corner(h) => return before[h.corner()],
-            Source::Edge { ends, t } => {
+            CornerSource::Corner(h) => return before[h.corner()],
+            CornerSource::Edge { ends, t } => {
                 let [a, b] = ends.map(|h| before[h.corner()]);
                 ([a, b, b], [1.0 - t, t, 0.0])
             }
-            Source::Face { weights } => (before, weights),
+            CornerSource::Face { weights } => (before, weights),
         };
         if between.contains(&NONE) {
             return NONE;
@@ -196,7 +196,7 @@ impl<'d> Corners<'d> {
         if let Some(&index) = made.get(&(class, between)) {
             return index;
         }
-        let on_edge = matches!(source, Source::Edge { .. });
+        let on_edge = matches!(source, CornerSource::Edge { .. });
         let index = self.new_between(which, &between, between, weights, on_edge);
         made.insert((class, between), index);
         index
@@ -282,11 +282,11 @@ pub(super) fn length(normal: [f64; 3]) -> f64 {
 }
 
 /// The classes of the corners of a divided face: each corner is one of a child.
-fn original(family: &[Child], class: impl Fn(VertexId) -> u32) -> [u32; 3] {
+fn original(family: &[ChildFace], class: impl Fn(VertexId) -> u32) -> [u32; 3] {
     let mut corners = [NONE; 3];
     for child in family {
         for (source, &vertex) in child.sources.iter().zip(&child.vertices) {
-            if let Source::Corner(h) = source {
+            if let CornerSource::Corner(h) = source {
                 corners[h.corner()] = class(vertex);
             }
         }

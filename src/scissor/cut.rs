@@ -1,0 +1,185 @@
+//! What a cut made: sides, seam, tips, pieces, and the ends from which another can go on.
+
+use super::exact::layers::LayerHit;
+use super::offsets::Offsets;
+use super::outcome::{Sides, side_of};
+use super::seam::Lines;
+use crate::edit::{Cursor, Edit, Follower};
+use crate::geometry::{Ray, Side};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::mesh::{Components, Mesh};
+
+/// What a cut made. Which face became which, and where vertices are new, the log tells.
+///
+/// ```
+/// use tearmesh::{shapes, Cut, CutMethod, Edits, Plane, Point, Scissor, Side, Vector};
+///
+/// let (mut mesh, mut positions) = shapes::grid(8, 8);
+/// let plane = Plane::new(Point::new(0.3, 0.0, 0.0), Vector::new(1.0, 0.2, 0.0))?;
+/// let mut edits = Edits::new();
+/// let cut = Scissor::by_plane(plane).cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
+///
+/// let [line] = cut.seam().collect::<Vec<_>>()[..] else { panic!("one line across the sheet") };
+/// for &[front, back] in line.lips {
+///     assert_eq!(mesh.ghost_pair(front), Some(back)); // they were a pair before
+///     assert_eq!(cut.side(front.face()), Some(Side::Front));
+/// }
+/// assert_eq!(line.tips, [None, None]); // it goes from boundary to boundary
+///
+/// let pieces = cut.pieces(&mesh);
+/// assert_eq!(pieces.sides, [Some(Side::Back), Some(Side::Front)]);
+/// let front = mesh.faces().filter(|&f| pieces.components.of(f) == 1); // for a mesh of its own
+/// assert!(front.count() > 80);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Cut {
+    pub(super) touched: Sides,
+    pub(super) lines: Lines,
+    pub(super) tips: Vec<[Option<VertexId>; 2]>,
+    pub(super) hits: [Option<LayerHit>; 2],
+    pub(super) ends: Option<[CutEnd; 2]>,
+    /// Kept for the next cut.
+    pub(super) offsets: Offsets,
+}
+
+impl Cut {
+    /// The faces with a vertex on the seam, each with its side; ascending. A face that the end of a
+    /// slit leaves on both sides has none, nor has one that lies on both sides elsewhere, where nothing
+    /// was to be cut. Faces that lie on the plane as a whole have the side of those round them.
+    #[must_use]
+    pub fn sides(&self) -> &[(FaceId, Option<Side>)] {
+        &self.touched
+    }
+
+    /// The side of a face with a vertex on the seam: see [`Cut::sides`].
+    #[must_use]
+    pub fn side(&self, f: FaceId) -> Option<Side> {
+        side_of(&self.touched, f)
+    }
+
+    /// The lines of the seam: the edges that the cut tore. Lines end where the seam does, and where it
+    /// branches; those that go round come last.
+    #[must_use]
+    pub fn seam(&self) -> impl ExactSizeIterator<Item = SeamLine<'_>> {
+        let lines = self.lines.spans().zip(&self.tips);
+        lines.map(|(lips, &tips)| SeamLine { lips, tips })
+    }
+
+    /// The vertices at which the seam ends inside the mesh, line by line.
+    pub fn tips(&self) -> impl Iterator<Item = VertexId> {
+        self.tips.iter().flatten().flatten().copied()
+    }
+
+    /// Where each ray met the layer that was cut, of a cut through [`CutLayers::First`] ones. If the
+    /// two name different chains, both were cut.
+    ///
+    /// [`CutLayers::First`]: super::CutLayers::First
+    #[must_use]
+    pub fn layers(&self) -> [Option<LayerHit>; 2] {
+        self.hits
+    }
+
+    /// The ends of a cut between two rays, from which another can go on.
+    #[must_use]
+    pub fn ends(&self) -> Option<&[CutEnd; 2]> {
+        self.ends.as_ref()
+    }
+
+    /// The pieces that there are now. Linear in the mesh.
+    #[must_use]
+    pub fn pieces(&self, mesh: &Mesh) -> CutPieces {
+        let components = mesh.components();
+        let mut has = vec![[false; 2]; components.count()];
+        for &[front, back] in &self.lines.lips {
+            has[components.of(front.face())][0] = true;
+            has[components.of(back.face())][1] = true;
+        }
+        let side = |has: &[bool; 2]| match has {
+            [true, false] => Some(Side::Front),
+            [false, true] => Some(Side::Back),
+            _ => None,
+        };
+        CutPieces {
+            sides: has.iter().map(side).collect(),
+            components,
+        }
+    }
+}
+
+/// A line of the seam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SeamLine<'c> {
+    /// Its edges in order, each by its half-edges: that of the lip in front, which runs along the line,
+    /// and its ghost pair on the lip behind, which runs against it. What the paper's methods tear on
+    /// one side of the plane has one of its two lips first.
+    pub lips: &'c [[HalfEdgeId; 2]],
+    /// The vertices where the line begins and ends, if the lips are still joined there.
+    pub tips: [Option<VertexId>; 2],
+}
+
+/// The pieces of a mesh after a cut.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CutPieces {
+    /// Which face belongs to which piece.
+    pub components: Components,
+    /// By piece, the side of the seam on which it lies; none if it has both lips, or no part of the
+    /// seam.
+    pub sides: Vec<Option<Side>>,
+}
+
+/// An end of a cut, from which another can go on: see [`Scissor::continued`](super::Scissor::continued).
+///
+/// It names vertices, and so has to follow the log: if the mesh was edited since, replay the log on
+/// the end before it is used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutEnd {
+    pub(super) ray: Ray,
+    /// The vertices, one for each sheet that was cut up to the ray and copies of it.
+    pub(super) vertices: Vec<VertexId>,
+    pub(super) seen: Cursor,
+}
+
+impl CutEnd {
+    /// The ray up to which was cut.
+    #[must_use]
+    pub fn ray(&self) -> Ray {
+        self.ray
+    }
+
+    /// The vertices in which a cut that goes on from here begins; none where no cut of the method
+    /// `exact` ended at the ray.
+    #[must_use]
+    pub fn vertices(&self) -> &[VertexId] {
+        &self.vertices
+    }
+}
+
+impl Follower for CutEnd {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        match edit {
+            Edit::Split(split) if self.vertices.contains(&split.old) => {
+                self.vertices.push(split.new);
+            }
+            Edit::Merge(merge) => {
+                let now = |v: VertexId| match merge.renumbered {
+                    _ if v == merge.gone => merge.kept,
+                    Some(renumbered) if v == renumbered.from => renumbered.to,
+                    _ => v,
+                };
+                let mut vertices = Vec::new();
+                for v in self.vertices.drain(..).map(now) {
+                    if !vertices.contains(&v) {
+                        vertices.push(v);
+                    }
+                }
+                self.vertices = vertices;
+            }
+            Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! Which layers of a folded surface a cut goes through.
+//!
+//! Plane, mesh and strip have *chains* in common: pieces of the slit that follow one another from face
+//! to face. A sheet that the strip passes once gives one, the front and the back of a garment one
+//! each. They are those of the plane itself, before any vertex is snapped.
+
+use super::Way;
+use super::trace::{Piece, Place, Site, Trace};
+use crate::geometry::{Point, Ray, between, dot, length};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Positions;
+use crate::sets::DisjointSets;
+
+/// Which layers of the mesh a cut goes through.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CutLayers {
+    /// All that the plane meets between the rays.
+    #[default]
+    All,
+    /// Those that the rays meet first: the chain of crossed faces with the first hit of the first
+    /// ray, and that with the first hit of the second. Where a ray misses the mesh, it turns and moves
+    /// toward the other until it hits. If they hit different chains, both are cut. A cut by a plane
+    /// has no rays, and goes through all layers.
+    First,
+}
+
+/// Where a ray met a layer that was cut: see [`CutLayers::First`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LayerHit {
+    /// The place.
+    pub at: Point,
+    /// The smallest face of the chain, before the cut: where both rays hit one chain, both name one
+    /// face.
+    pub chain: FaceId,
+}
+
+/// What a cut is to go through.
+#[derive(Debug, Default)]
+pub(in crate::scissor) struct Choice {
+    pub(in crate::scissor) hits: [Option<LayerHit>; 2],
+    /// Ascending.
+    pub(in crate::scissor) faces: Vec<FaceId>,
+    /// The joints on these layers.
+    pub(in crate::scissor) joints: [Vec<VertexId>; 2],
+}
+
+/// Chooses the chains that the rays hit first.
+pub(in crate::scissor) fn first(
+    way: &Way<'_>,
+    rays: &[Ray; 2],
+    mesh: &Mesh,
+    positions: &Positions,
+) -> Choice {
+    let trace = way.trace_of_plane(mesh, positions);
+    let chains = chains(&trace);
+    let mut choice = Choice::default();
+    for side in 0..2 {
+        let pieces = trace.pieces.iter().zip(&chains);
+        let runs =
+            pieces.map(|(piece, &chain)| (Run::new(way, &trace, piece, mesh, positions), chain));
+        let runs: Vec<(Run, u32)> = runs.collect();
+        let Some((at, chain)) = hit(&runs, rays, side).or_else(|| beside(way, &runs, rays, side))
+        else {
+            continue;
+        };
+        let pieces = trace.pieces.iter().zip(&chains);
+        let of_chain = pieces.filter(|&(_, &other)| other == chain);
+        let faces = of_chain.flat_map(|(piece, _)| faces_of(piece, mesh));
+        let faces: Vec<FaceId> = faces.collect();
+        let least = faces.iter().min().copied();
+        choice.hits[side] = least.map(|chain| LayerHit { at, chain });
+        choice.faces.extend(faces);
+    }
+    choice.faces.sort_unstable();
+    choice.faces.dedup();
+    let faces = &choice.faces;
+    let is_chosen = |v: &VertexId| mesh.faces_of(*v).any(|f| faces.binary_search(&f).is_ok());
+    choice.joints = way.joints.each_ref().map(|of_side| {
+        let of_side = of_side.iter().copied();
+        of_side.filter(is_chosen).collect()
+    });
+    choice
+}
+
+/// The number of each piece's chain.
+fn chains(trace: &Trace) -> Vec<u32> {
+    let mut sets = DisjointSets::new(trace.pieces.len() as u32);
+    let mut ends: Vec<(Site, u32)> = Vec::new();
+    for (piece, i) in trace.pieces.iter().zip(0..) {
+        ends.extend(
+            piece
+                .end_nodes()
+                .into_iter()
+                .flatten()
+                .map(|site| (site, i)),
+        );
+    }
+    ends.sort_unstable();
+    for two in ends.windows(2).filter(|two| two[0].0 == two[1].0) {
+        sets.join(two[0].1, two[1].1);
+    }
+    sets.leaders().to_vec()
+}
+
+/// The faces of a piece: the one that it crosses, or the two between which it runs.
+fn faces_of(piece: &Piece, mesh: &Mesh) -> impl Iterator<Item = FaceId> {
+    let h = match piece.place {
+        Place::Face(f) => f.half_edges()[0],
+        Place::Edge { h, .. } => h,
+    };
+    let pair = mesh
+        .pair(h)
+        .filter(|_| matches!(piece.place, Place::Edge { .. }));
+    [Some(h), pair].into_iter().flatten().map(HalfEdgeId::face)
+}
+
+/// A piece, as a ray sees it.
+struct Run {
+    nodes: [Point; 2],
+    from: f64,
+    to: f64,
+    /// How far each node is inside each side plane.
+    depths: [[f64; 2]; 2],
+}
+
+impl Run {
+    fn new(way: &Way<'_>, trace: &Trace, piece: &Piece, mesh: &Mesh, positions: &Positions) -> Run {
+        let bounded = way.strip.bounded();
+        let node = |site: Site| {
+            let at = match site {
+                Site::Vertex(v) => positions.at(v),
+                Site::Edge(h) => {
+                    let crossing = trace.crossing(h).expect("the nodes of pieces are known");
+                    let ends = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+                    let [p, q] = if crossing.forward {
+                        ends
+                    } else {
+                        [ends[1], ends[0]]
+                    };
+                    between(p, q, crossing.t)
+                }
+            };
+            let mut depths = bounded.depths(at, way.offsets.bound());
+            for (depth, joints) in depths.iter_mut().zip(way.joints) {
+                if matches!(site, Site::Vertex(v) if joints.contains(&v)) {
+                    *depth = 0.0;
+                }
+            }
+            (at, depths)
+        };
+        let [one, other] = piece.nodes.map(node);
+        Run {
+            nodes: [one.0, other.0],
+            from: piece.from,
+            to: piece.to,
+            depths: [one.1, other.1],
+        }
+    }
+
+    fn at(&self, t: f64) -> Point {
+        between(self.nodes[0], self.nodes[1], t)
+    }
+}
+
+/// The first place where a ray meets a run, and its chain.
+fn hit(runs: &[(Run, u32)], rays: &[Ray; 2], side: usize) -> Option<(Point, u32)> {
+    let ray = rays[side];
+    let mut first: Option<(f64, Point, u32)> = None;
+    for (run, chain) in runs {
+        let [start, end] = run.depths.map(|depths| depths[side]);
+        let t = match (start == 0.0, end == 0.0) {
+            (true, true) => vec![0.0, 1.0], // The run lies on the ray.
+            (true, false) => vec![0.0],
+            (false, true) => vec![1.0],
+            (false, false) if (start < 0.0) != (end < 0.0) => vec![start / (start - end)],
+            (false, false) => continue,
+        };
+        for t in t.into_iter().filter(|&t| run.from <= t && t <= run.to) {
+            let far = dot(run.at(t) - ray.origin(), ray.direction());
+            if far >= 0.0 && first.is_none_or(|first| far < first.0) {
+                first = Some((far, run.at(t), *chain));
+            }
+        }
+    }
+    first.map(|(_, at, chain)| (at, chain))
+}
+
+/// Where the first ray from one to the other meets a run, and the chain of that: the place in the
+/// strip that is least far from the side plane of the ray as a part of the way to the other's.
+fn beside(
+    way: &Way<'_>,
+    runs: &[(Run, u32)],
+    rays: &[Ray; 2],
+    side: usize,
+) -> Option<(Point, u32)> {
+    let (bounded, bound) = (way.strip.bounded(), way.offsets.bound());
+    let sides = bounded.sides?;
+    let [ray, other] = [rays[side], rays[1 - side]];
+    let [along, other_along] = [ray, other].map(|ray| ray.direction() / length(ray.direction()));
+    let mut first: Option<(f64, Point, u32)> = None;
+    for (run, chain) in runs {
+        let [p, q] = [run.at(run.from), run.at(run.to)];
+        let Some((from, to)) = bounded.clip(p, q, bound) else {
+            continue;
+        };
+        for at in [from, to].map(|t| between(p, q, t)) {
+            let depths = [side, 1 - side].map(|side| sides[side].distance(at).max(0.0));
+            let whole = depths[0] + depths[1];
+            let part = if whole > 0.0 { depths[0] / whole } else { 0.0 };
+            let direction = along + (other_along - along) * part;
+            let is_ahead = dot(at - between(ray.origin(), other.origin(), part), direction) >= 0.0;
+            if is_ahead && first.is_none_or(|first| part < first.0) {
+                first = Some((part, at, *chain));
+            }
+        }
+    }
+    first.map(|(_, at, chain)| (at, chain))
+}

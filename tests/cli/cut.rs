@@ -1,0 +1,252 @@
+//! `cut` by planes, through the first layers, with its seam written, and along polylines.
+
+use std::collections::BTreeSet;
+
+use tearmesh::{Cut, CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
+use tearmesh_obj::{Document, TornDocument};
+
+use crate::harness::{Folder, seen};
+
+/// Runs a command that succeeds, and gives its report.
+fn report(folder: &Folder, line: &str) -> serde_json::Value {
+    let output = folder.run(&format!("{line} --format json"));
+    assert!(output.status.success(), "{}", seen(&output));
+    serde_json::from_slice(&output.stdout).expect("a report")
+}
+
+/// The points and the polylines of a file of lines, with indices from 0.
+fn lines(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+    let (mut points, mut lines) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let (keyword, rest) = line.split_once(' ').expect("a statement");
+        let words = rest.split(' ');
+        match keyword {
+            "v" => {
+                let numbers: Vec<f64> = words.map(|x| x.parse().expect("a number")).collect();
+                points.push([numbers[0], numbers[1], numbers[2]]);
+            }
+            "l" => lines.push(
+                words
+                    .map(|i| i.parse::<usize>().expect("an index") - 1)
+                    .collect(),
+            ),
+            _ => assert_eq!(keyword, "o"),
+        }
+    }
+    (points, lines)
+}
+
+#[test]
+fn a_plane_cuts_as_two_rays_through_everything_do() {
+    let folder = Folder::new();
+    let by_plane = report(
+        &folder,
+        "tearmesh cut flag.obj --plane 0.31,0,0:-4,0.12,0 -o plane.obj",
+    );
+    let rays = "--rays 0.31,0,5:0,0,-1 0.4,3,5:0,0,-1 --through";
+    let by_rays = report(
+        &folder,
+        &format!("tearmesh cut flag.obj {rays} -o rays.obj"),
+    );
+    let [one, other] = [&by_plane, &by_rays].map(|report| &report["cuts"][0]);
+    assert_eq!(one["through"], true);
+    assert_eq!((one.get("rays"), one.get("layers")), (None, None));
+    for key in ["splits", "pieces", "seam_length", "vertices_inserted"] {
+        assert!(one[key].as_f64() > Some(0.0), "{key}");
+        let off = one[key].as_f64().expect("a number") - other[key].as_f64().expect("a number");
+        assert!(off.abs() < 1e-9, "{key}");
+    }
+    // Planes one after another, the first with a negative coordinate.
+    let both = "tearmesh cut flag.obj --plane -0.2,0,0:1,0,0 --plane 0,0.03,0:0,1,0 -o both.obj";
+    assert_eq!(report(&folder, both)["cuts"][1]["pieces"], 4);
+}
+
+#[test]
+fn what_is_no_plane_is_told() {
+    let folder = Folder::new();
+    for (plane, said) in [
+        ("--plane 1,2:0,0,1", "error[E-PLANE-SYNTAX]"),
+        ("--plane 1,2,3:0,0,0", "error[E-PLANE-ZERO]"),
+        ("--plane 0,0,0:1,0,0 --through", "cannot be used with"),
+        ("--plane 0,0,0:1,0,0 --layers first", "cannot be used with"),
+        (
+            "--plane 0,0,0:1,0,0 --rays 0,0,1:0,0,1 1,0,1:0,0,1",
+            "cannot be used with",
+        ),
+        ("--plane 0,0,0:1,0,0 --seam flag.obj", "a file of its own"),
+        ("--plane 0,0,0:1,0,0 --seam out.obj", "would be replaced"),
+    ] {
+        let output = folder.run(&format!("tearmesh cut flag.obj {plane} -o out.obj"));
+        let text = seen(&output);
+        assert!(text.contains(said), "{plane}: {text}");
+        let exit = if said.contains("ZERO") { 4 } else { 2 };
+        assert_eq!(output.status.code(), Some(exit), "{text}");
+    }
+}
+
+/// Two sheets of squares, 1 and 0 high.
+fn two_sheets() -> String {
+    let mut text = String::new();
+    for z in [1, 0] {
+        for (x, y) in (0..5).flat_map(|x| (0..5).map(move |y| (x, y))) {
+            text += &format!("v {x}.03 {y} {z}\n");
+        }
+    }
+    for sheet in [0, 25] {
+        for v in (0..4).flat_map(|x| (1..5).map(move |y| sheet + 5 * x + y)) {
+            text += &format!("f {} {} {} {}\n", v, v + 5, v + 6, v + 1);
+        }
+    }
+    text
+}
+
+#[test]
+fn the_first_layers_alone_are_cut() {
+    let folder = Folder::new();
+    folder.write("sheets.obj", two_sheets());
+    let cut = |rays: &str, more: &str| {
+        let line = format!("tearmesh cut sheets.obj --rays {rays} {more} -o cut.obj");
+        let report = report(&folder, &line);
+        let text = folder.read("cut.obj");
+        let vertices = text.lines().filter_map(|line| line.strip_prefix("v "));
+        let heights = vertices.skip(50).map(|line| line.ends_with(" 0"));
+        let (below, above): (Vec<bool>, Vec<bool>) = heights.partition(|&is_below| is_below);
+        (report, above.len(), below.len())
+    };
+    let (all, above, below) = cut("0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1", "");
+    assert!(above > 4 && above == below, "{above} above, {below} below");
+    assert_eq!(all["cuts"][0].get("layers"), None);
+    let first = "--layers first";
+    let (front, again, none) = cut("0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1", first);
+    assert_eq!((again, none), (above, 0));
+    let [one, other] = [0, 1].map(|i| &front["cuts"][0]["layers"][i]);
+    assert_eq!(one["chain"], other["chain"]);
+    assert_eq!(
+        (one["at"][2].as_f64(), other["at"][1].as_f64()),
+        (Some(1.0), Some(2.3))
+    );
+    let told = |report: &serde_json::Value| {
+        let told = report["diagnostics"].as_array().expect("a list").iter();
+        told.filter(|one| one["code"] == "W-CUT-LAYERS").count()
+    };
+    assert_eq!((told(&all), told(&front)), (0, 0));
+    // One ray from above, the other from below: each hits a sheet of its own first.
+    let (both, one, other) = cut("0.5,1.4,9:0,0,-1 3.1,2.3,-9:0,0,1", first);
+    assert_eq!((one, other), (above, below));
+    assert_eq!(told(&both), 1);
+}
+
+#[test]
+fn the_seam_is_written_as_lines() {
+    let folder = Folder::new();
+    folder.write("sheets.obj", two_sheets());
+    let line = "tearmesh cut sheets.obj --rays 0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1 \
+                --rays 2.2,-1,9:0,0,-1 2.4,9,9:0,0,-1 --seam seam.obj -o cut.obj";
+    let report = report(&folder, line);
+    let text = folder.read("seam.obj");
+    assert_eq!(
+        text.lines().filter(|line| line.starts_with("o ")).count(),
+        2
+    );
+    let (points, polylines) = lines(&text);
+    // Two slits, and two cuts across that the slits divide.
+    assert_eq!(polylines.len(), 2 + 4);
+    let length = |[a, b]: [usize; 2]| {
+        let off = [0, 1, 2].map(|i| points[b][i] - points[a][i]);
+        off.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    let edges = polylines
+        .iter()
+        .flat_map(|line| line.windows(2).map(|two| [two[0], two[1]]));
+    let sum: f64 = edges.map(length).sum();
+    let cuts = report["cuts"].as_array().expect("cuts").iter();
+    let told: f64 = cuts
+        .map(|cut| cut["seam_length"].as_f64().expect("a length"))
+        .sum();
+    assert!((sum - told).abs() < 1e-9, "{sum} and {told}");
+    // Every point is a vertex of the mesh, to the letter.
+    let mesh = folder.read("cut.obj");
+    let vertices: BTreeSet<&str> = mesh.lines().filter(|line| line.starts_with("v ")).collect();
+    assert!(
+        text.lines()
+            .filter(|line| line.starts_with("v "))
+            .all(|v| vertices.contains(v))
+    );
+    // Read as it is written: a sphere cut in two has one line, which goes round.
+    let ball = "tearmesh cut ball.obj --plane 0,0,0.01:0,0.1,1 --seam round.obj -o half.obj";
+    let (mesh, positions) = tearmesh::shapes::octahedron();
+    let mut text = String::new();
+    for p in positions.as_slice() {
+        text += &format!("v {} {} {}\n", p.x, p.y, p.z);
+    }
+    for t in mesh.indices().chunks(3) {
+        text += &format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    }
+    folder.write("ball.obj", text);
+    assert_eq!(self::report(&folder, ball)["cuts"][0]["pieces"], 2);
+    let (_, round) = lines(&folder.read("round.obj"));
+    assert_eq!(
+        (round.len(), round[0][0]),
+        (1, round[0][round[0].len() - 1])
+    );
+}
+
+/// A mouse that draws a spiral, seen from above.
+fn mouse() -> Vec<[f64; 2]> {
+    let place = |i: i32| {
+        let (turn, far) = (0.11 * f64::from(i), 0.15 + 0.006 * f64::from(i));
+        [0.02 + far * turn.cos(), -0.01 + 0.7 * far * turn.sin()]
+    };
+    (0..=100).map(place).collect()
+}
+
+#[test]
+fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
+    let folder = Folder::new();
+    let places = mouse();
+    let down = |[x, y]: [f64; 2]| format!("{x},{y},5:0,0,-1");
+    let pairs = places
+        .windows(2)
+        .map(|two| format!("{} {}\n", down(two[0]), down(two[1])));
+    folder.write("mouse.txt", pairs.collect::<String>());
+    let line = "tearmesh cut flag.obj --rays-file mouse.txt -o line.obj";
+    let report = report(&folder, line);
+    assert_eq!(report["cuts"].as_array().map(Vec::len), Some(100));
+    assert_eq!(report["output"]["boundary_loops"], 2, "one slit");
+
+    let document = Document::read(folder.read("flag.obj").as_bytes());
+    let document = document.expect("a mesh");
+    let mut mesh = document.mesh().expect("a mesh");
+    let mut positions = Positions::new(document.positions().iter().copied()).expect("finite");
+    let mut torn = TornDocument::new(&document);
+    let (mut edits, mut cut) = (Edits::new(), Cut::default());
+    let mut end = None;
+    for two in places.windows(2) {
+        let [from, to] = [two[0], two[1]].map(|[x, y]| {
+            Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
+        });
+        let scissor = match end.take() {
+            Some(end) => Scissor::continued(&end, to, &positions),
+            None => Scissor::new(from, to),
+        };
+        let scissor = scissor.expect("a plane");
+        let made = scissor.cut_into(
+            CutMethod::Exact,
+            &mut mesh,
+            &mut positions,
+            &mut edits,
+            &mut cut,
+        );
+        made.expect("in step");
+        edits.replay(&mut torn);
+        edits.clear();
+        torn.next_cut();
+        end = cut.ends().map(|[_, end]| end.clone());
+    }
+    let mut bytes = Vec::new();
+    torn.write(&mesh, &positions, &mut bytes).expect("written");
+    assert!(
+        bytes == std::fs::read(folder.path("line.obj")).expect("a file"),
+        "the same bytes"
+    );
+}
