@@ -15,6 +15,7 @@ mod killed;
 mod memory;
 mod numbers;
 mod odd;
+mod pareto;
 mod places;
 mod tear;
 mod through;
