@@ -373,12 +373,13 @@ pub(crate) fn angle(x: f64, y: f64) -> f64 {
 
 /// The sine and the cosine of an angle in radians, of at most 8 in size: a turn and more.
 ///
-/// Our own, as [`angle`] is. The nearest multiple of π/2 is taken off in three parts, of which the
+/// In a fixed order of our own, so that it is the same on every machine. The nearest multiple of π/2 is taken off in three parts, of which the
 /// first two have so few bits that their multiples are exact (Cody and Waite, "Software Manual for
 /// the Elementary Functions", 1980). What is left is at most π/4, where eight terms of Taylor's
 /// series leave out less than 1e-17 of the result. Few enough operations round for each
 /// result to be less than two units in its last place off.
-pub(crate) fn sine_and_cosine(angle: f64) -> (f64, f64) {
+#[must_use]
+pub fn sine_and_cosine(angle: f64) -> (f64, f64) {
     debug_assert!(angle.abs() <= 8.0);
     // 33 bits of π/2, the next 33, and 53 of the rest.
     const HALF_PI: [u64; 3] = [

@@ -16,6 +16,7 @@ mod killed;
 mod memory;
 mod numbers;
 mod odd;
+mod pareto;
 mod places;
 mod tear;
 mod through;

@@ -12,14 +12,14 @@ mod run;
 pub use frame::{Axis, Frame};
 pub use run::{
     CutMade, Gain, Guarded, Limited, Names, Quality, Run, RunError, Shortened, Softness, Solved,
-    Step, Tally,
+    Step, Tally, suggested_step_s,
 };
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, VertexId};
 
 use crate::fabric::Fabric;
-use crate::implicit::Settings;
+use crate::implicit::{Settings, Tolerance};
 use crate::load::{Collider, Wind};
 use crate::pbd::Pbd;
 use crate::provot::Limiter;
@@ -71,6 +71,37 @@ pub enum Method {
     Xpbd(Xpbd),
     /// [`Implicit`](crate::Implicit).
     Implicit(Settings),
+}
+
+impl Method {
+    /// Provot's model as it stands in scenes that say no more of it.
+    #[must_use]
+    pub fn provot() -> Method {
+        Method::Provot(Limiter::default())
+    }
+
+    /// [`Pbd`] as it stands in scenes that say no more of it.
+    #[must_use]
+    pub fn pbd() -> Method {
+        Method::Pbd(Pbd::default())
+    }
+
+    /// [`Xpbd`] as it stands in scenes that say no more of it: a step is one sweep, so that tears are
+    /// looked for after each.
+    #[must_use]
+    pub fn xpbd() -> Method {
+        Method::Xpbd(Xpbd::new(1, 1))
+    }
+
+    /// [`Implicit`](crate::Implicit) as it stands in scenes that say no more of it: it may err by 0.2 mm/s
+    /// in a step of 1/240 s.
+    #[must_use]
+    pub fn implicit() -> Method {
+        Method::Implicit(Settings {
+            tolerance: Tolerance::Tied(10.0),
+            ..Settings::default()
+        })
+    }
 }
 
 /// Wind that may turn to and fro: u(t) = steady + sway · triangle(t / period), where the triangle

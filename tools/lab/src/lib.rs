@@ -1,7 +1,13 @@
 //! Experiments on tearmesh, and their charts.
 //!
-//! [`rk4`] is the method that references are made by. Each experiment gives its figures as plain
-//! data; [`tear`] also draws them as SVG and writes them as CSV. Nothing here reads a file or a clock, so the same experiment gives the same bytes.
+//! [`tear`] is about what it takes to tear, and [`pareto`] about what methods cost and how far they are
+//! off. Each experiment gives its figures as plain data, which are also drawn as SVG and written as
+//! CSV. Nothing here reads a file or a clock (one that is wanted comes in as an argument), so the same
+//! experiment gives the same bytes. [`rk4`] is a method for experiments alone.
 
+mod draw;
+pub mod pareto;
+pub mod pool;
+mod random;
 pub mod rk4;
 pub mod tear;

@@ -20,16 +20,13 @@ pub use self::first::{FirstTear, spread};
 pub use self::pulled::StudyError;
 pub use self::svg::svg;
 
-use std::num::NonZero;
-use std::sync::{Mutex, mpsc};
-use std::thread;
-
 use serde::Serialize;
 use tearmesh::{Mesh, Point, Positions};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
 use self::pulled::{Pulled, mean};
+use crate::pool::{side_by_side, workers};
 
 /// Width and height of the strip, in metres.
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];
@@ -107,9 +104,19 @@ pub fn study(
     let strips = rules
         .iter()
         .flat_map(|&rule| cells.iter().map(move |&cells| (cells, rule)));
-    let Some(tests) = side_by_side(&strips.collect::<Vec<_>>(), is_checked, &mut watch)? else {
+    let strips: Vec<(u32, Threshold)> = strips.collect();
+    let mut count = 0;
+    let done = |_| {
+        count += 1;
+        watch(count)
+    };
+    // The finest first, since it takes longest.
+    let finest = |(cells, _): &(u32, Threshold)| f64::from(*cells);
+    let tear = |&(cells, rule): &(u32, Threshold)| test(cells, rule, is_checked);
+    let Some(tests) = side_by_side(&strips, workers(), finest, tear, done) else {
         return Ok(None);
     };
+    let tests: Vec<Test> = tests.into_iter().collect::<Result<_, _>>()?;
     let (stretch, tough) = tests.split_at(cells.len());
     let slopes = |of: fn(&Test) -> f64| [slope(stretch, of), slope(tough, of)];
     let slopes_largest = slopes(|test| test.force_largest_n);
@@ -122,44 +129,6 @@ pub fn study(
         slopes_largest,
         slopes_mean,
     }))
-}
-
-/// Tears strips on all processors, the finest first, since it takes longest; results are in the order
-/// of the list.
-fn side_by_side(
-    strips: &[(u32, Threshold)],
-    is_checked: bool,
-    watch: &mut impl FnMut(usize) -> bool,
-) -> Result<Option<Vec<Test>>, StudyError> {
-    let workers = thread::available_parallelism().map_or(1, NonZero::get);
-    let mut order: Vec<usize> = (0..strips.len()).collect();
-    order.sort_by_key(|&i| strips[i].0);
-    let waiting = Mutex::new(order);
-    let (done, results) = mpsc::channel();
-    thread::scope(|scope| {
-        for _ in 0..workers.min(strips.len()) {
-            let (waiting, done) = (&waiting, done.clone());
-            scope.spawn(move || {
-                while let Some(i) = waiting.lock().ok().and_then(|mut list| list.pop()) {
-                    let (cells, rule) = strips[i];
-                    if done.send((i, test(cells, rule, is_checked))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(done);
-        let mut tests: Vec<Option<Test>> = strips.iter().map(|_| None).collect();
-        for (count, (i, test)) in (1..).zip(&results) {
-            tests[i] = Some(test?);
-            if !watch(count) {
-                // Nobody waits for what is left: those who are at work send it into the void.
-                drop(results);
-                return Ok(None);
-            }
-        }
-        Ok(tests.into_iter().collect())
-    })
 }
 
 /// How far apart the forces of a first tear may be by two methods and two steps.

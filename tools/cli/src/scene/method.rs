@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::scene::{Method, Scene};
-use tearmesh_cloth::{Limiter, Pbd, Xpbd};
+use tearmesh_cloth::{Limiter, Pbd};
 
 use super::file::{SceneFile, Table};
 use crate::say::Fault;
@@ -101,18 +101,14 @@ pub(crate) enum SolverName {
 }
 
 impl SolverName {
-    /// The method with its default settings. Of XPBD a step is one sweep, so that tears are looked
-    /// for after each; the implicit method may err by 0.2 mm/s in a step of 1/240 s.
+    /// The method with its default settings.
     pub(super) fn method(self) -> Method {
         match self {
-            SolverName::Provot => Method::Provot(Limiter::default()),
-            SolverName::Pbd => Method::Pbd(Pbd::default()),
+            SolverName::Provot => Method::provot(),
+            SolverName::Pbd => Method::pbd(),
             SolverName::Verlet => Method::Verlet,
-            SolverName::Xpbd => Method::Xpbd(Xpbd::new(1, 1)),
-            SolverName::Implicit => Method::Implicit(Settings {
-                tolerance: Tolerance::Tied(10.0),
-                ..Settings::default()
-            }),
+            SolverName::Xpbd => Method::xpbd(),
+            SolverName::Implicit => Method::implicit(),
         }
     }
 }

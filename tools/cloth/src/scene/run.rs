@@ -15,7 +15,7 @@ mod step_size;
 pub use self::error::{Names, RunError};
 pub use self::gain::Gain;
 pub use self::quality::{Guarded, Limited, Quality, Solved};
-pub use self::step_size::Softness;
+pub use self::step_size::{Softness, suggested_step_s};
 
 use tearmesh::geometry::{Vector, dot, length};
 use tearmesh::{CutReport, Edits, Masses, Mesh, Positions, Scissor, VertexId};
@@ -183,7 +183,11 @@ impl Run {
         let engine = Engine::new(&scene.solver);
         let step_s = match scene.step_s {
             Some(step_s) => step_s,
-            None => step_size::suggested_s(&scene, &engine, &mut cloth),
+            None => suggested_step_s(
+                &scene.solver,
+                cloth.system_mut(),
+                step_size::speed_m_per_s(&scene),
+            ),
         };
         let duration_s = scene.duration_s;
         let steps_planned = (duration_s / step_s).round();
@@ -430,7 +434,8 @@ impl Run {
     /// may tear falsely.
     #[must_use]
     pub fn step_wanted_s(&self) -> Option<f64> {
-        step_size::wanted_s(&self.scene, &self.cloth)
+        let speed_m_per_s = step_size::speed_m_per_s(&self.scene);
+        step_size::wanted_s(&self.scene.solver, self.cloth.system(), speed_m_per_s)
     }
 
     /// By how much XPBD leaves the cloth softer than its fabric at the step of this scene, estimated

@@ -1,14 +1,9 @@
 //! The chart of a study: force against displacement, and forces against the size of the mesh.
 
-use std::ops::Range;
-
-use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::{Study, Test};
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+use crate::draw::{Area, Drawn, drawn, round_numbers, wrapped};
 
 const SIZE: (u32, u32) = (1100, 560);
 const COLOURS: [RGBColor; 5] = [
@@ -23,16 +18,10 @@ const COLOURS: [RGBColor; 5] = [
 /// reason for.
 #[must_use]
 pub fn svg(study: &Study) -> Option<String> {
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        draw(study, &root).ok()?;
-    }
-    Some(text)
+    drawn(SIZE, |root| draw(study, root))
 }
 
 fn draw(study: &Study, root: &Area<'_>) -> Drawn {
-    root.fill(&WHITE)?;
     let title = "Trouser test: force to tear, by two thresholds";
     root.draw(&Text::new(title, (20, 14), ("sans-serif", 20)))?;
     let (top, words) = root.margin(44, 4, 8, 8).split_vertically(420);
@@ -48,7 +37,7 @@ fn draw(study: &Study, root: &Area<'_>) -> Drawn {
         let at = (12, 8 + 20 * i as i32);
         words.draw(&Text::new(line.clone(), at, ("sans-serif", 15)))?;
     }
-    root.present()
+    Ok(())
 }
 
 /// Force against displacement, a curve for each mesh.
@@ -152,29 +141,4 @@ fn sizes(study: &Study, panel: &Area<'_>) -> Drawn {
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .draw()
-}
-
-/// 1, 2 and 5 times the powers of ten, as far as they are in a range above zero.
-fn round_numbers(range: &Range<f64>) -> Vec<f64> {
-    let tens = |end: f64| end.log10().floor() as i32;
-    let powers = tens(range.start)..=tens(range.end);
-    let all = powers.flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10_f64.powi(power)));
-    all.filter(|number| range.contains(number)).collect()
-}
-
-/// Lines of at most so many letters.
-fn wrapped(text: &str, most: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(last) if last.len() + word.len() < most => {
-                if !last.is_empty() {
-                    last.push(' ');
-                }
-                last.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }

@@ -4,6 +4,7 @@ use super::engine::Engine;
 use crate::scene::{Method, Scene};
 use crate::sheet::Cloth;
 use crate::stability;
+use crate::system::System;
 
 /// Frames of films and screens are whole parts of this, in seconds.
 const FRAME_S: f64 = 1.0 / 60.0;
@@ -11,16 +12,20 @@ const FRAME_S: f64 = 1.0 / 60.0;
 /// The longest step in seconds that is chosen for any scene.
 const LONGEST_S: f64 = FRAME_S / 2.0;
 
-/// A step in seconds that suits the method, the fabric and the mesh: a whole part of 1/60 s.
-pub(super) fn suggested_s(scene: &Scene, engine: &Engine, cloth: &mut Cloth) -> f64 {
-    let system = cloth.system_mut();
+/// The step in seconds that a [`Run`](super::Run) chooses for a method where its scene names none: one
+/// that suits the method and a system through which a pull travels at so many metres a second,
+/// c = √(k/ρ); a whole part of 1/60 s.
+pub fn suggested_step_s(method: &Method, system: &mut System, speed_m_per_s: f64) -> f64 {
+    let engine = &Engine::new(method);
     let suited_s = stability::suited_s(system, engine);
     let stable_s = suited_s.or_else(|| Some(0.7 * stability::whole_step_s(system, engine)?));
     let stable_s = stable_s.unwrap_or(LONGEST_S);
-    let limit_s = match scene.solver {
+    let limit_s = match method {
         Method::Provot(_) | Method::Verlet => stable_s,
         Method::Implicit(_) => FRAME_S / 4.0,
-        Method::Pbd(_) | Method::Xpbd(_) => wanted_s(scene, cloth).unwrap_or(LONGEST_S),
+        Method::Pbd(_) | Method::Xpbd(_) => {
+            wanted_s(method, system, speed_m_per_s).unwrap_or(LONGEST_S)
+        }
     };
     FRAME_S
         / (FRAME_S / limit_s.min(stable_s).min(LONGEST_S))
@@ -28,22 +33,26 @@ pub(super) fn suggested_s(scene: &Scene, engine: &Engine, cloth: &mut Cloth) -> 
             .max(1.0)
 }
 
+/// The speed at which a pull travels through the fabric of a scene, c = √(k/ρ), in m/s.
+pub(super) fn speed_m_per_s(scene: &Scene) -> f64 {
+    (scene.fabric.stretch_n_per_m / scene.areal_density_kg_per_m2).sqrt()
+}
+
 /// The longest step at which a method that sweeps is about as stiff as the fabric. In a
 /// sweep a pull travels an edge or two of length h, and in the fabric it travels at the speed
 /// c = √(k/ρ); so the time for a sweep must not be much longer than h/c.
-pub(super) fn wanted_s(scene: &Scene, cloth: &Cloth) -> Option<f64> {
-    let sweeps = match scene.solver {
+pub(super) fn wanted_s(method: &Method, system: &System, speed_m_per_s: f64) -> Option<f64> {
+    let sweeps = match method {
         Method::Xpbd(xpbd) => f64::from(xpbd.substeps.max(1)) * reach(xpbd.sweeps, 1.0),
         Method::Pbd(pbd) => reach(pbd.sweeps, pbd.fractions()[0]),
         Method::Provot(_) | Method::Verlet | Method::Implicit(_) => return None,
     };
-    let stretches = cloth.system().stretches();
+    let stretches = system.stretches();
     if stretches.is_empty() {
         return None;
     }
     let lengths = stretches.iter().map(|id| stretches.get(id).rest_length_m);
     let edge_m = lengths.sum::<f64>() / stretches.len() as f64;
-    let speed_m_per_s = (scene.fabric.stretch_n_per_m / scene.areal_density_kg_per_m2).sqrt();
     Some(SWEEP * sweeps * edge_m / speed_m_per_s)
 }
 

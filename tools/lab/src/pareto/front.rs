@@ -1,0 +1,119 @@
+//! Fronts of work against error, and who is cheapest at a tolerance.
+
+/// By how much a point has to be better, as a part, to dominate.
+pub(super) const MARGIN: f64 = 0.1;
+
+/// What a run cost, and how far it was off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Any measure of work.
+    pub cost: f64,
+    /// Any measure of error.
+    pub error: f64,
+}
+
+impl Point {
+    /// Whether it is a tenth better in cost and a tenth better in error.
+    #[must_use]
+    pub fn dominates(self, other: Point) -> bool {
+        let better = |a: f64, b: f64| a <= (1.0 - MARGIN) * b;
+        better(self.cost, other.cost) && better(self.error, other.error)
+    }
+}
+
+/// Which points no other one dominates. Sorts: O(n log n).
+#[must_use]
+pub fn front(points: &[Point]) -> Vec<bool> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&i, &j| points[i].cost.total_cmp(&points[j].cost));
+    let mut is_on = vec![true; points.len()];
+    // The least error of all that cost a tenth less.
+    let (mut cheaper, mut least) = (0, f64::INFINITY);
+    for &i in &order {
+        let point = points[i];
+        while points[order[cheaper]].cost <= (1.0 - MARGIN) * point.cost {
+            least = least.min(points[order[cheaper]].error);
+            cheaper += 1;
+            if cheaper == order.len() {
+                break;
+            }
+        }
+        is_on[i] = least > (1.0 - MARGIN) * point.error;
+    }
+    is_on
+}
+
+/// The points of one series, from its longest step to its shortest, by the error that each of them
+/// vouches for: the largest of its own and those of all shorter steps. So nobody meets a tolerance by
+/// an error that happens to pass zero.
+#[must_use]
+pub(super) fn vouched(errors: &[f64]) -> Vec<f64> {
+    let mut vouched = errors.to_vec();
+    for i in (1..vouched.len()).rev() {
+        vouched[i - 1] = vouched[i - 1].max(vouched[i]);
+    }
+    vouched
+}
+
+/// Which errors of one series, from its longest step to its shortest, are more than a tenth larger than
+/// one of a longer step.
+#[must_use]
+pub(super) fn rising(errors: &[f64]) -> Vec<bool> {
+    let mut least = f64::INFINITY;
+    errors
+        .iter()
+        .map(|&error| {
+            let is_rising = error > (1.0 + MARGIN) * least;
+            least = least.min(error);
+            is_rising
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    #[test]
+    fn a_front_is_what_a_comparison_of_all_pairs_leaves() {
+        let mut random = Random(7);
+        for round in 0..400 {
+            let count = 1 + round % 40;
+            let points: Vec<Point> = (0..count)
+                .map(|_| {
+                    // On a coarse lattice, so that there are equals and points at the margin.
+                    let mut number = || [1.0, 0.9, 0.81, 0.5, 2.0][(random.next() * 5.0) as usize];
+                    let (a, b, c, d) = (number(), number(), number(), number());
+                    Point {
+                        cost: a * b,
+                        error: c * d,
+                    }
+                })
+                .collect();
+            let is_on = front(&points);
+            for (i, a) in points.iter().enumerate() {
+                let beats = |b: &Point| b.cost <= 0.9 * a.cost && b.error <= 0.9 * a.error;
+                assert_eq!(is_on[i], !points.iter().any(beats), "{a:?} of {points:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_better_by_less_than_a_tenth_dominates_nothing() {
+        let point = |cost, error| Point { cost, error };
+        assert!(!point(1.0, 1.0).dominates(point(1.05, 5.0)));
+        assert!(!point(1.0, 1.0).dominates(point(5.0, 1.05)));
+        assert!(point(1.0, 1.0).dominates(point(1.2, 1.2)));
+        assert!(!point(1.0, 1.0).dominates(point(1.0, 1.0)));
+    }
+
+    #[test]
+    fn an_error_counts_from_the_step_on_that_all_shorter_ones_keep_it() {
+        assert_eq!(vouched(&[4.0, 1e-9, 2.0, 1.0]), [4.0, 2.0, 2.0, 1.0]);
+        assert_eq!(
+            rising(&[4.0, 1.0, 1.05, 2.0, 0.5]),
+            [false, false, false, true, false]
+        );
+    }
+}

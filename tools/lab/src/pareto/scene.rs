@@ -1,0 +1,462 @@
+//! The scenes, as plain data, and the systems that they start with.
+
+use std::f64::consts::PI;
+
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::{Implicit, Loads, Path, System};
+
+use super::mesh::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
+use super::observable::Observable::{self, *};
+use crate::random::Random;
+
+/// A scene of the experiment.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene {
+    /// As it is typed, and as it stands in names of runs.
+    pub name: &'static str,
+    /// What happens, in a few words.
+    pub about: &'static str,
+    /// The stiffness of edges, in N/m.
+    pub stiffness_n_per_m: f64,
+    /// The length of a side of the sheet, in metres.
+    pub side_m: f64,
+    /// Gravity along the axes, in m/s².
+    pub gravity_m_per_s2: [f64; 3],
+    /// The rate at which velocities fade, in 1/s.
+    pub drag_per_s: f64,
+    /// How it starts.
+    pub start: Start,
+    /// Who is held.
+    pub held: Held,
+    /// When it ends.
+    pub until: Until,
+    /// What is asked of it.
+    pub observables: &'static [Observable],
+    /// Whether trajectories may be compared only if they pass the gate of conditioning.
+    pub is_gated: bool,
+}
+
+/// How a scene starts: at rest, in this shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// As it is.
+    Flat,
+    /// As it is, with edges stored in an order at random.
+    Shuffled,
+    /// Bulged out of its plane, at its middle by so much of its side: what is flat would buckle to either
+    /// side by chance when it is pulled.
+    Bulged(f64),
+    /// With edges that are this much longer than at rest, as a part, in the mean: as the sheet then lies
+    /// in its frame without gravity.
+    Taut(f64),
+    /// Turned out of its plane by 30° about its upper edge.
+    Turned,
+    /// The same, with one vertex in the middle of a hundredth of its mass.
+    TurnedSliver,
+    /// At so much of its size.
+    Crushed(f64),
+}
+
+/// Who is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Held {
+    /// Nobody.
+    Nobody,
+    /// The upper edge.
+    Top,
+    /// All of the border.
+    Frame,
+    /// The lower edge, and the upper edge that is led upward at so many metres a second.
+    Pulled(f64),
+}
+
+/// When a scene ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Until {
+    /// After so many seconds.
+    Time(f64),
+    /// When nothing moves faster than [`REST_M_PER_S`], at the latest after so many seconds.
+    Rest(f64),
+    /// When an edge has reached each threshold, at the latest after so many seconds.
+    Tears(f64),
+}
+
+impl Until {
+    /// The longest that it takes, in seconds.
+    #[must_use]
+    pub fn seconds(self) -> f64 {
+        match self {
+            Until::Time(s) | Until::Rest(s) | Until::Tears(s) => s,
+        }
+    }
+}
+
+/// What moves no faster is at rest.
+pub const REST_M_PER_S: f64 = 1e-6;
+
+/// The stretch ratio at which the strip tears.
+pub const TEAR_RATIO: f64 = 1.3;
+
+/// The toughness at which it tears, in J/m: that of a ratio of 1.3 where edges are as long as a
+/// sixteenth of the strip.
+pub const TOUGHNESS_J_PER_M: f64 = 0.28;
+
+const G: f64 = 9.81;
+
+/// The slowest mode of a strip that hangs by an end, ω₁ = πc/2 over its length of a metre, with c = √(k/ρ) at 1000 N/m.
+const SLOWEST_RAD_PER_S: f64 = PI / 2.0 * 81.649_658_092_772_6;
+
+const MOTION: &[Observable] = &[
+    Displacement,
+    StrainRms,
+    Strain99,
+    StrainLargest,
+    ForceRms,
+    Force99,
+    ForceLargest,
+    ReactionMean,
+    ReactionLargest,
+];
+
+const RINGING: &[Observable] = &[
+    Displacement,
+    StrainRms,
+    Strain99,
+    StrainLargest,
+    ForceRms,
+    Force99,
+    ForceLargest,
+    ReactionMean,
+    ReactionLargest,
+    Decay,
+    Frequency,
+];
+
+const REST: &[Observable] = &[
+    Displacement,
+    StrainRms,
+    Strain99,
+    StrainLargest,
+    ForceRms,
+    Force99,
+    ForceLargest,
+    ReactionMean,
+];
+
+const SWING: Scene = Scene {
+    name: "swing",
+    about: "S2: held by its upper edge, let go at 30°, drag 10 /s, 1 s",
+    stiffness_n_per_m: 1e3,
+    side_m: 1.0,
+    gravity_m_per_s2: [0.0, -G, 0.0],
+    drag_per_s: 10.0,
+    start: Start::Turned,
+    held: Held::Top,
+    until: Until::Time(1.0),
+    observables: MOTION,
+    is_gated: true,
+};
+
+/// All scenes.
+pub const SCENES: [Scene; 11] = [
+    Scene {
+        name: "hang",
+        about: "S1: hangs by its upper edge at rest, 400 m/s², drag 2ω₁",
+        gravity_m_per_s2: [0.0, -400.0, 0.0],
+        drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
+        start: Start::Flat,
+        until: Until::Rest(2.0),
+        observables: REST,
+        is_gated: false,
+        ..SWING
+    },
+    Scene {
+        name: "shuffled",
+        about: "S1r: the same with edges stored at random",
+        gravity_m_per_s2: [0.0, -400.0, 0.0],
+        drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
+        start: Start::Shuffled,
+        until: Until::Rest(2.0),
+        observables: REST,
+        is_gated: false,
+        ..SWING
+    },
+    SWING,
+    Scene {
+        name: "stiff",
+        about: "S3: the swing with 1e5 N/m",
+        stiffness_n_per_m: 1e5,
+        ..SWING
+    },
+    Scene {
+        name: "sliver",
+        about: "S4: the swing with one vertex of mass/100",
+        start: Start::TurnedSliver,
+        ..SWING
+    },
+    Scene {
+        name: "trampoline",
+        about: "S5: held all round, falls into its middle, drag 10 /s, 0.5 s",
+        gravity_m_per_s2: [0.0, 0.0, -G],
+        start: Start::Flat,
+        held: Held::Frame,
+        until: Until::Time(0.5),
+        ..SWING
+    },
+    Scene {
+        name: "taut",
+        about: "S6: a frame with 2 % pretension, drag 2 /s, 1 s",
+        gravity_m_per_s2: [0.0, 0.0, -G],
+        drag_per_s: 2.0,
+        start: Start::Taut(0.02),
+        held: Held::Frame,
+        observables: RINGING,
+        ..SWING
+    },
+    Scene {
+        name: "undamped",
+        about: "S7: the swing without drag, 10 s: energy alone",
+        drag_per_s: 0.0,
+        until: Until::Time(10.0),
+        observables: &[EnergyMade, EnergyLost],
+        is_gated: false,
+        ..SWING
+    },
+    Scene {
+        name: "crushed",
+        about: "S7: let go at half its size, 1 s: energy alone",
+        gravity_m_per_s2: [0.0; 3],
+        drag_per_s: 0.0,
+        start: Start::Crushed(0.5),
+        held: Held::Nobody,
+        observables: &[EnergyMade, EnergyLost],
+        is_gated: false,
+        ..SWING
+    },
+    Scene {
+        name: "drape",
+        about: "S8: held all round, sags until at rest, 1e6 N/m, drag 100 /s",
+        stiffness_n_per_m: 1e6,
+        gravity_m_per_s2: [0.0, 0.0, -G],
+        drag_per_s: 100.0,
+        start: Start::Flat,
+        held: Held::Frame,
+        until: Until::Rest(2.0),
+        observables: REST,
+        is_gated: false,
+        ..SWING
+    },
+    Scene {
+        name: "strip",
+        about: "S9: pulled at .1 m/s to its first tear, by stretch 1.3 and by toughness",
+        side_m: 0.1,
+        gravity_m_per_s2: [0.0; 3],
+        start: Start::Bulged(0.01),
+        held: Held::Pulled(0.1),
+        until: Until::Tears(0.5),
+        observables: &[TearTime, TearForce, ToughTime, ToughForce],
+        ..SWING
+    },
+];
+
+/// A scene on a mesh: what references, rows and fronts belong to.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The scene.
+    pub scene: Scene,
+    /// How the sheet is meshed.
+    pub mesh: MeshKind,
+    /// Cells a side.
+    pub cells: u32,
+    pub(super) sheet: Sheet,
+    /// Where particles start.
+    pub(super) start: Vec<Point>,
+    /// The edges in the order in which they become constraints.
+    pub(super) edges: Vec<[usize; 2]>,
+}
+
+impl Case {
+    /// Meshes the sheet of a scene.
+    ///
+    /// # Panics
+    ///
+    /// If there is no cell, or more than a mesh can have.
+    #[must_use]
+    pub fn new(scene: &Scene, mesh: MeshKind, cells: u32) -> Case {
+        let mut sheet = Sheet::new(mesh, cells, scene.side_m);
+        if scene.start == Start::TurnedSliver {
+            let middle = middle(&sheet);
+            sheet.masses[middle] /= 100.0;
+        }
+        let mut edges = sheet.edges.clone();
+        if scene.start == Start::Shuffled {
+            let mut random = Random(SEED);
+            for i in (1..edges.len()).rev() {
+                let j = (random.next() * (i + 1) as f64) as usize;
+                edges.swap(i, j);
+            }
+        }
+        let points = sheet.points.iter();
+        let start = points.map(|p| placed(p, scene)).collect();
+        let mut case = Case {
+            scene: *scene,
+            mesh,
+            cells,
+            sheet,
+            start,
+            edges,
+        };
+        if let Start::Taut(_) = scene.start {
+            case.start = relaxed(case.system());
+        }
+        case
+    }
+
+    /// Its name, before the slash in the names of runs.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}/{}-{}", self.scene.name, self.mesh.name(), self.cells)
+    }
+
+    /// The speed at which a pull travels, c = √(k/ρ), in m/s.
+    #[must_use]
+    pub fn speed_m_per_s(&self) -> f64 {
+        (self.scene.stiffness_n_per_m / DENSITY_KG_PER_M2).sqrt()
+    }
+
+    /// The time in which a pull travels an edge of mean length, h/c, in seconds.
+    #[must_use]
+    pub fn edge_s(&self) -> f64 {
+        self.sheet.edge_m() / self.speed_m_per_s()
+    }
+
+    /// Whether a particle is held or led.
+    pub(super) fn is_held(&self, p: &Point) -> bool {
+        let side = self.scene.side_m;
+        let (left, right) = (p.x == 0.0, p.x == side);
+        let (bottom, top) = (p.y == 0.0, p.y == side);
+        match self.scene.held {
+            Held::Nobody => false,
+            Held::Top => top,
+            Held::Frame => left || right || bottom || top,
+            Held::Pulled(_) => bottom || top,
+        }
+    }
+
+    /// The system as it starts.
+    ///
+    /// # Panics
+    ///
+    /// Never: the scenes are data of our own.
+    #[must_use]
+    pub fn system(&self) -> System {
+        let Case { scene, sheet, .. } = self;
+        let masses = sheet.masses.clone();
+        let system = System::new(sheet.points.iter().copied(), masses);
+        let mut system = system.expect("a sheet has usable points and masses");
+        let taut = match scene.start {
+            Start::Taut(part) => 1.0 + part,
+            _ => 1.0,
+        };
+        for &ends in &self.edges {
+            let rest_m = sheet.length_m(ends) / taut;
+            let made = system.stretch(ends, rest_m, scene.stiffness_n_per_m);
+            made.expect("an edge of a sheet has a length");
+        }
+        system.state_mut().0.copy_from_slice(&self.start);
+        for (i, p) in sheet.points.iter().enumerate() {
+            if !self.is_held(p) {
+                continue;
+            }
+            match scene.held {
+                Held::Pulled(speed) if p.y > 0.0 => {
+                    let seconds = scene.until.seconds();
+                    let to = p + Vector::y() * (speed * seconds);
+                    let path = Path::new([(0.0, *p), (seconds, to)]);
+                    system.grab(i, path.expect("seconds ascend"));
+                }
+                _ => system.hold(i),
+            }
+        }
+        let [x, y, z] = scene.gravity_m_per_s2;
+        let loads = Loads {
+            gravity_m_per_s2: Some(Vector::new(x, y, z)).filter(|g| *g != Vector::zeros()),
+            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag > 0.0),
+            ..Loads::default()
+        };
+        system.set_loads(loads).expect("a scene's loads are finite");
+        system
+    }
+
+    /// The same with its free particles moved at random, by up to so many metres along each axis.
+    ///
+    /// # Panics
+    ///
+    /// Never: the scenes are data of our own.
+    #[must_use]
+    pub fn disturbed(&self, noise_m: f64) -> System {
+        let mut random = Random(SEED);
+        let mut system = self.system();
+        let free: Vec<bool> = system.inverse_masses().iter().map(|w| *w > 0.0).collect();
+        let mut off = || noise_m * (2.0 * random.next() - 1.0);
+        for (x, is_free) in system.state_mut().0.iter_mut().zip(free) {
+            if is_free {
+                *x += Vector::new(off(), off(), off());
+            }
+        }
+        system
+    }
+}
+
+/// Where a particle starts that is at this point at rest.
+fn placed(p: &Point, scene: &Scene) -> Point {
+    let side = scene.side_m;
+    match scene.start {
+        Start::Turned | Start::TurnedSliver => {
+            let (sin, cos) = (0.5, 0.75_f64.sqrt());
+            let below = p.y - side;
+            Point::new(p.x, side + below * cos, below * sin)
+        }
+        Start::Crushed(part) => Point::from(p.coords * part),
+        Start::Bulged(part) => {
+            let [x, y] = [p.x / side, p.y / side].map(|x| 4.0 * x * (1.0 - x));
+            Point::new(p.x, p.y, part * side * x * y)
+        }
+        Start::Flat | Start::Shuffled | Start::Taut(_) => *p,
+    }
+}
+
+/// Where a system lies at rest without gravity: else it would ring from the start in ways that no
+/// reference resolves, as diagonals at random balance nowhere.
+fn relaxed(mut system: System) -> Vec<Point> {
+    let mut newton = Implicit::new(Settings {
+        tolerance: Tolerance::Fixed(1e-10),
+        newton_iterations_max: 40,
+        ..Settings::default()
+    });
+    let drag_per_s = Some(20.0);
+    let loads = Loads {
+        drag_per_s,
+        ..Loads::default()
+    };
+    system.set_loads(loads).expect("the loads are finite");
+    for _ in 0..400 {
+        let step = system.step(&mut newton, 0.02);
+        step.expect("a taut sheet in its frame is solved for");
+        let fastest = system.velocities().iter().map(|v| v.norm_squared());
+        if fastest.fold(0.0, f64::max).sqrt() < 1e-9 {
+            break;
+        }
+    }
+    system.positions().to_vec()
+}
+
+/// The particle nearest to the centre.
+fn middle(sheet: &Sheet) -> usize {
+    let centre = Point::new(0.5, 0.5, 0.0) * sheet.side_m;
+    let away = |p: &Point| (p - centre).norm_squared();
+    let points = sheet.points.iter().enumerate();
+    let nearest = points.min_by(|a, b| away(a.1).total_cmp(&away(b.1)));
+    nearest.map_or(0, |(i, _)| i)
+}

@@ -1,0 +1,50 @@
+//! Work on all processors, with results in the order of the list.
+
+use std::num::NonZero;
+use std::sync::{Mutex, mpsc};
+use std::thread;
+
+/// How many can work at a time here.
+#[must_use]
+pub fn workers() -> NonZero<usize> {
+    thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
+}
+
+/// Does `work` for each job with so many workers, the costliest first. `watch` hears of each that is
+/// done, by its place in the list, and may stop all by saying false: then there are no results, and
+/// what is under way ends unheard.
+pub(crate) fn side_by_side<J: Sync, R: Send>(
+    jobs: &[J],
+    workers: NonZero<usize>,
+    cost: impl Fn(&J) -> f64,
+    work: impl Fn(&J) -> R + Sync,
+    mut watch: impl FnMut(usize) -> bool,
+) -> Option<Vec<R>> {
+    let mut order: Vec<usize> = (0..jobs.len()).collect();
+    order.sort_by(|&i, &j| cost(&jobs[i]).total_cmp(&cost(&jobs[j])));
+    let waiting = Mutex::new(order);
+    let (done, results) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..workers.get().min(jobs.len()) {
+            let (waiting, done, work) = (&waiting, done.clone(), &work);
+            scope.spawn(move || {
+                while let Some(i) = waiting.lock().ok().and_then(|mut list| list.pop()) {
+                    if done.send((i, work(&jobs[i]))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(done);
+        let mut found: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
+        for (i, result) in &results {
+            found[i] = Some(result);
+            if !watch(i) {
+                // Nobody waits for what is left: those who are at work send it into the void.
+                drop(results);
+                return None;
+            }
+        }
+        found.into_iter().collect()
+    })
+}
