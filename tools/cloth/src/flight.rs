@@ -133,7 +133,7 @@ pub(crate) fn finish(system: &mut System, dt_s: f64) {
 /// asks for velocities in between.
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
     let model = &system.model;
-    let asks = system.scratch.is_metered || model.loads.wind.is_some();
+    let asks = system.meter.is_asked() || model.loads.wind.is_some();
     if asks || !model.loads.colliders.is_empty() {
         finish(system, dt_s);
         contact::push_out(system);

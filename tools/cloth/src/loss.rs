@@ -46,7 +46,8 @@ use crate::carry::Carry;
 use crate::constraint::Constraints;
 use crate::flight::force_scale;
 use crate::force;
-use crate::system::{Elastic, Model, System};
+use crate::meter::Energy;
+use crate::system::{Model, System};
 
 /// The account of a step of velocity Verlet, as far as it has got.
 #[derive(Clone, Copy, Debug)]
@@ -59,10 +60,11 @@ impl Account {
     /// Opens it, where someone asks: accelerations are those of now, and of the end of the last step
     /// where they are fresh.
     pub(crate) fn open(system: &mut System, is_fresh: bool, dt_s: f64) -> Option<Account> {
-        system.scratch.is_metered.then(|| {
+        system.meter.is_asked().then(|| {
             let elastic_j = elastic_before_j(system, |system| &system.positions);
             let hand_j = half_of_hands_j(system, dt_s);
-            let kept = left(system).and_then(|kept| kept.swing);
+            let kept = system.meter.left(system.state());
+            let kept = kept.and_then(|kept| kept.swing);
             let kept = kept.filter(|&(of_s, _)| is_fresh && of_s == dt_s);
             let swung_j = kept.map_or_else(|| swing_j(system, dt_s), |(_, swung_j)| swung_j);
             Account {
@@ -106,45 +108,31 @@ impl Account {
 
     /// Closes it, when the step is taken, and notes what was made.
     pub(crate) fn close(self, system: &mut System) {
-        let elastic_j = elastic_after_j(system);
         let swung_j = swing_j(system, self.dt_s);
-        if let Some(kept) = &mut system.scratch.elastic {
-            kept.swing = Some((self.dt_s, swung_j));
-        }
+        let elastic_j = elastic_after_j(system, Some((self.dt_s, swung_j)));
         let end_j = elastic_j + half_of_hands_j(system, self.dt_s) + swung_j;
-        note(system, self.made_j + end_j);
+        system.meter.note(self.made_j + end_j);
     }
 }
 
 /// The elastic energy where a step begins: as the last one left it, unless something has changed since.
 fn elastic_before_j(system: &mut System, from: fn(&System) -> &[Point]) -> f64 {
-    if let Some(kept) = left(system) {
-        return kept.joules;
+    let left = system.meter.left(system.state());
+    // Or an earlier part of this substep left it.
+    if let Some(left) = left.or_else(|| system.meter.left(system.next_state())) {
+        return left.elastic_j;
     }
     system.counters.visits.meter += system.model.constraint_count();
     system.model.elastic_j(from(system))
 }
 
-/// What the last step left, unless something has changed since.
-fn left(system: &System) -> Option<Elastic> {
-    let is_left = |kept: &Elastic| {
-        let last = system.counters.substeps - kept.substep <= 1;
-        last && kept.changes == system.changes && system.model.loads.colliders.is_empty()
-    };
-    system.scratch.elastic.filter(is_left)
-}
-
-/// The elastic energy where a step ends, kept for the next.
-fn elastic_after_j(system: &mut System) -> f64 {
+/// The elastic energy where a step ends, with the swing that is kept for the next.
+fn elastic_after_j(system: &mut System, swing: Option<(f64, f64)>) -> f64 {
     system.counters.visits.meter += system.model.constraint_count();
-    let joules = system.model.elastic_j(&system.positions);
-    system.scratch.elastic = Some(Elastic {
-        joules,
-        swing: None,
-        substep: system.counters.substeps,
-        changes: system.changes,
-    });
-    joules
+    let elastic_j = system.model.elastic_j(&system.positions);
+    let energy = Energy { elastic_j, swing };
+    system.meter.leave(system.next_state(), energy);
+    elastic_j
 }
 
 /// What is carried in the present accelerations.
@@ -214,7 +202,7 @@ impl Motion {
 /// Notes what a method that projects made in a substep, where someone asks: after its last sweep, and
 /// before velocities are taken from what was moved.
 pub(crate) fn note_projected(system: &mut System, dt_s: f64) {
-    if !system.scratch.is_metered {
+    if !system.meter.is_asked() {
         return;
     }
     let elastic_j = elastic_before_j(system, |system| &system.scratch.before);
@@ -241,8 +229,8 @@ pub(crate) fn note_projected(system: &mut System, dt_s: f64) {
             made_j += dot(pull, x[led as usize] - before[led as usize]);
         }
     }
-    made_j += elastic_after_j(system);
-    note(system, made_j);
+    made_j += elastic_after_j(system, None);
+    system.meter.note(made_j);
 }
 
 /// The pull of a family's springs at a particle by their multipliers, of which `scale` makes forces.
@@ -264,9 +252,4 @@ fn pull_n(model: &Model, family: &Constraints, x: &[Point], led: usize, scale: f
         };
         sum + line * (tension / length)
     })
-}
-
-/// Notes what a method made in a part of a step.
-pub(crate) fn note(system: &mut System, made_j: f64) {
-    *system.scratch.made_j.get_or_insert(0.0) += made_j;
 }

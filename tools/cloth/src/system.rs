@@ -21,7 +21,8 @@ use crate::element::Forces;
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
 use crate::lookout::Lookout;
-use crate::moment::{Identity, Moment};
+use crate::meter::Meter;
+use crate::moment::{Identity, Moment, State};
 use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
@@ -61,6 +62,7 @@ pub struct System {
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
     pub(crate) lookout: Lookout,
+    pub(crate) meter: Meter,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
     pub(crate) margin: f64,
@@ -81,12 +83,6 @@ pub(crate) struct Scratch {
     pub(crate) is_fresh: bool,
     /// The step in seconds whose carried and crushed particles are in them; zero without any.
     pub(crate) guarded_s: f64,
-    /// Whether someone asks what the method itself makes of energy in this step.
-    pub(crate) is_metered: bool,
-    /// What it made so far, in joules, with what it took from air; `None` unless it says.
-    pub(crate) made_j: Option<f64>,
-    /// The elastic energy that a step left, where someone asked.
-    pub(crate) elastic: Option<Elastic>,
     /// The part of a step's limit that wind takes in a second, as a step found it.
     pub(crate) air_per_s: f64,
     /// Where the step began: the last good state.
@@ -98,18 +94,6 @@ pub(crate) struct Scratch {
     pub(crate) foreseen: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
-}
-
-/// The elastic energy that a substep left.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Elastic {
-    pub(crate) joules: f64,
-    /// Of Verlet the swing against its shadow as well, for steps of so many seconds.
-    pub(crate) swing: Option<(f64, f64)>,
-    /// The number of the substep.
-    pub(crate) substep: u64,
-    /// How often the state was changed before, but by a step.
-    pub(crate) changes: u64,
 }
 
 /// What to do with a step beyond the stability limit of an explicit method.
@@ -192,6 +176,7 @@ impl System {
             guard: Guard::default(),
             scratch: Scratch::default(),
             lookout: Lookout::default(),
+            meter: Meter::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             margin: 0.95,
@@ -632,6 +617,22 @@ impl System {
             strain * strain
         });
         (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
+    }
+
+    /// The state that the system is in.
+    pub(crate) fn state(&self) -> State {
+        State {
+            moment: self.moment,
+            changes: self.changes,
+        }
+    }
+
+    /// The state that the present substep leads to.
+    pub(crate) fn next_state(&self) -> State {
+        State {
+            moment: Moment::After(self.counters.substeps),
+            changes: self.changes,
+        }
     }
 
     /// Gives the grabbed particles the velocity that leads them along their paths.

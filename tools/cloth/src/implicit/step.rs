@@ -53,7 +53,7 @@ use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
-use crate::loss::{self, Motion};
+use crate::loss::Motion;
 use crate::moment::{Identity, Moment, Note};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
@@ -435,6 +435,7 @@ impl Solver for Implicit {
             model,
             scratch,
             counters,
+            meter,
             ..
         } = system;
         scratch.is_fresh = false;
@@ -461,7 +462,7 @@ impl Solver for Implicit {
             model,
             outside: &outside,
         };
-        let step = self.step(problem, positions, velocities, dt_s, scratch.is_metered);
+        let step = self.step(problem, positions, velocities, dt_s, meter.is_asked());
         self.outside = outside;
         // What a step cost, whether it is taken or not.
         let work = self.equation.work;
@@ -483,7 +484,7 @@ impl Solver for Implicit {
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
         if let Some(made_j) = self.made_j {
-            loss::note(system, made_j);
+            system.meter.note(made_j);
         }
         Ok(())
     }
