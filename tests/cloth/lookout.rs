@@ -192,8 +192,8 @@ fn xpbd_tears_a_chain_by_the_weight_that_hangs_from_it() {
     }
 }
 
-/// Who never tears pays for no search, and the statistics of a run by Verlet are found on the way: after
-/// the first step a run looks at each edge once a step, for its energy.
+/// Who never tears pays for no search. The statistics of a run by Verlet are found on the way, and so is its
+/// energy: the first step alone does not know yet that the largest stretch will be asked for.
 #[test]
 fn a_run_that_never_tears_detects_nothing() {
     use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
@@ -216,7 +216,7 @@ fn a_run_that_never_tears_detects_nothing() {
     };
     let [projected, forces, detected, metered] = visits(Method::Verlet, None);
     assert_eq!([projected, detected], [0.0; 2]);
-    assert!(forces >= 30.0 && metered == 32.0, "{forces} {metered}");
+    assert!(forces >= 30.0 && metered == 1.0, "{forces} {metered}");
     let [projected, forces, detected, metered] = visits(Method::Xpbd(Xpbd::new(1, 1)), None);
     assert_eq!(
         [projected, forces, detected, metered],

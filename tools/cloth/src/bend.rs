@@ -168,6 +168,11 @@ impl Link for Bend {
         self.axial(length).force
     }
 
+    fn energy_and_force(self, length: f64) -> [f64; 2] {
+        let axial = self.axial(length);
+        [axial.energy, axial.force]
+    }
+
     /// A fold is where it is meant to be short.
     #[inline]
     fn damped_stiffness(self) -> f64 {

@@ -44,7 +44,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 
 use crate::carry::Carry;
 use crate::constraint::Constraints;
-use crate::flight::force_scale;
+use crate::flight::{Felt, force_scale};
 use crate::force;
 use crate::meter::Energy;
 use crate::system::{Model, System};
@@ -54,65 +54,87 @@ use crate::system::{Model, System};
 pub(crate) struct Account {
     dt_s: f64,
     made_j: f64,
+    /// Σ a M′a where the step ends.
+    square: f64,
 }
 
 impl Account {
-    /// Opens it, where someone asks: accelerations are those of now, and of the end of the last step
-    /// where they are fresh.
-    pub(crate) fn open(system: &mut System, is_fresh: bool, dt_s: f64) -> Option<Account> {
-        system.meter.is_asked().then(|| {
-            let elastic_j = elastic_before_j(system, |system| &system.positions);
-            let hand_j = half_of_hands_j(system, dt_s);
-            let kept = system.meter.left(system.state());
-            let kept = kept.and_then(|kept| kept.swing);
-            let kept = kept.filter(|&(of_s, _)| is_fresh && of_s == dt_s);
-            let swung_j = kept.map_or_else(|| swing_j(system, dt_s), |(_, swung_j)| swung_j);
-            Account {
-                dt_s,
-                made_j: hand_j - elastic_j - swung_j,
-            }
+    /// Opens it, where someone asks. Accelerations are those of now: taken just so, or in the last step.
+    pub(crate) fn open(system: &mut System, taken: Option<Felt>, dt_s: f64) -> Option<Account> {
+        if !system.meter.is_asked() {
+            return None;
+        }
+        let left = system.meter.left(system.state());
+        let swung = left.and_then(|left| left.swing);
+        let swung = swung.filter(|&(of_s, _)| taken.is_none() && of_s == dt_s);
+        let felt_j = taken.and_then(|felt| felt.elastic_j);
+        let elastic_j = match left.map(|left| left.elastic_j).or(felt_j) {
+            Some(elastic_j) => elastic_j,
+            None => elastic_now_j(system),
+        };
+        let hand_j = half_of_hands_j(system, dt_s);
+        let swung_j = match swung {
+            Some((_, swung_j)) => swung_j,
+            None => swing_j(system, dt_s, power_and_square(system)[1]),
+        };
+        Some(Account {
+            dt_s,
+            made_j: hand_j - elastic_j - swung_j,
+            square: 0.0,
         })
     }
 
-    /// Half of the work of the present accelerations at the velocities in the middle of the step.
+    /// Half of the work of the forces at the beginning, at the velocities in the middle of the step.
     pub(crate) fn fly(&mut self, system: &System) {
-        let (model, gravity) = (&system.model, system.model.gravity());
-        let (a, v) = (&system.scratch.accelerations, &system.velocities);
-        let power = match carried(system) {
-            Some(carry) => {
-                let particles = model.masses.iter().zip(&model.inverse_masses).zip(v);
-                let weight = particles.fold(0.0, |sum, ((m, &w), &v)| {
-                    sum + if w > 0.0 { m * dot(gravity, v) } else { 0.0 }
-                });
-                // Drag fades the velocities of M′.
-                let faded = match model.drag_per_s() {
-                    0.0 => 0.0,
-                    drag_per_s => drag_per_s * (carry.product(v, v) - twice_kinetic(model, v)),
-                };
-                carry.product(a, v) - weight - faded
-            }
-            None => {
-                let particles = model.masses.iter().zip(&model.inverse_masses);
-                let particles = particles.zip(a.iter().zip(v));
-                particles.fold(0.0, |sum, ((m, &w), (a, &v))| {
-                    sum + if w > 0.0 {
-                        m * dot(a - gravity, v)
-                    } else {
-                        0.0
-                    }
-                })
-            }
-        };
+        let (forces, v) = (&system.scratch.forces, &system.velocities);
+        let particles = forces.iter().zip(v).zip(&system.model.inverse_masses);
+        let power = particles.fold(0.0, |sum, ((&f, &v), &w)| {
+            sum + if w > 0.0 { dot(f, v) } else { 0.0 }
+        });
         self.made_j += 0.5 * self.dt_s * power;
+        // Drag fades the velocities of M′.
+        let drag_per_s = system.model.drag_per_s();
+        if drag_per_s > 0.0 {
+            let beyond = carried(system).map_or(0.0, |carry| carry.beyond(&system.velocities));
+            self.made_j -= self.dt_s * drag_per_s * beyond;
+        }
     }
 
-    /// Closes it, when the step is taken, and notes what was made.
-    pub(crate) fn close(self, system: &mut System) {
-        let swung_j = swing_j(system, self.dt_s);
-        let elastic_j = elastic_after_j(system, Some((self.dt_s, swung_j)));
+    /// The other half, of the forces at the end at the same velocities.
+    pub(crate) fn land(&mut self, system: &System) {
+        let [power, square] = power_and_square(system);
+        self.made_j += 0.5 * self.dt_s * power;
+        self.square = square;
+    }
+
+    /// Closes it, when the step is taken, and notes what was made. The elastic energy was felt with the
+    /// forces at the end.
+    pub(crate) fn close(self, system: &mut System, felt: Felt) {
+        let elastic_j = felt.elastic_j.unwrap_or(0.0);
+        let swung_j = swing_j(system, self.dt_s, self.square);
+        let swing = Some((self.dt_s, swung_j));
+        let energy = Energy { elastic_j, swing };
+        system.meter.leave(system.next_state(), energy);
         let end_j = elastic_j + half_of_hands_j(system, self.dt_s) + swung_j;
         system.meter.note(self.made_j + end_j);
     }
+}
+
+/// Over free particles, Σ f v of the forces beside weight and of the velocities, and Σ a M′a: M′a is
+/// what all forces are.
+fn power_and_square(system: &System) -> [f64; 2] {
+    let (model, scratch, gravity) = (&system.model, &system.scratch, system.model.gravity());
+    let particles = scratch.forces.iter().zip(&scratch.accelerations);
+    let particles = particles.zip(&system.velocities);
+    let weights = model.masses.iter().zip(&model.inverse_masses);
+    let mut sums = [0.0; 2];
+    for (((&f, &a), &v), (&m, &w)) in particles.zip(weights) {
+        if w > 0.0 {
+            sums[0] += dot(f, v);
+            sums[1] += dot(f + gravity * m, a);
+        }
+    }
+    sums
 }
 
 /// The elastic energy where a step begins: as the last one left it, unless something has changed since.
@@ -126,10 +148,16 @@ fn elastic_before_j(system: &mut System, from: fn(&System) -> &[Point]) -> f64 {
     system.model.elastic_j(from(system))
 }
 
-/// The elastic energy where a step ends, with the swing that is kept for the next.
-fn elastic_after_j(system: &mut System, swing: Option<(f64, f64)>) -> f64 {
+/// The elastic energy now.
+fn elastic_now_j(system: &mut System) -> f64 {
     system.counters.visits.meter += system.model.constraint_count();
-    let elastic_j = system.model.elastic_j(&system.positions);
+    system.model.elastic_j(&system.positions)
+}
+
+/// The elastic energy where a step ends, kept for the next.
+fn elastic_after_j(system: &mut System) -> f64 {
+    let elastic_j = elastic_now_j(system);
+    let swing = None;
     let energy = Energy { elastic_j, swing };
     system.meter.leave(system.next_state(), energy);
     elastic_j
@@ -141,26 +169,10 @@ fn carried(system: &System) -> Option<&Carry> {
     carry.filter(|_| system.scratch.guarded_s > 0.0)
 }
 
-/// S − (½ v M′v − K).
-fn swing_j(system: &System, dt_s: f64) -> f64 {
-    let (model, v) = (&system.model, &system.velocities[..]);
-    let a = &system.scratch.accelerations[..];
-    let share = dt_s * dt_s / 8.0;
-    match carried(system) {
-        Some(carry) => {
-            let more = carry.product(v, v) - twice_kinetic(model, v);
-            share * carry.product(a, a) - 0.5 * more
-        }
-        None => share * twice_kinetic(model, a),
-    }
-}
-
-/// Σ m|u|² over free particles.
-fn twice_kinetic(model: &Model, u: &[Vector]) -> f64 {
-    let particles = u.iter().zip(&model.masses).zip(&model.inverse_masses);
-    particles.fold(0.0, |sum, ((&u, m), &w)| {
-        sum + if w > 0.0 { m * dot(u, u) } else { 0.0 }
-    })
+/// S − (½ v M′v − K), by Σ a M′a.
+fn swing_j(system: &System, dt_s: f64, square: f64) -> f64 {
+    let beyond = carried(system).map_or(0.0, |carry| carry.beyond(&system.velocities));
+    dt_s * dt_s / 8.0 * square - 0.5 * beyond
 }
 
 /// The work of constraints on those who are led, in half a step, by their present lengths.
@@ -229,7 +241,7 @@ pub(crate) fn note_projected(system: &mut System, dt_s: f64) {
             made_j += dot(pull, x[led as usize] - before[led as usize]);
         }
     }
-    made_j += elastic_after_j(system, None);
+    made_j += elastic_after_j(system);
     system.meter.note(made_j);
 }
 

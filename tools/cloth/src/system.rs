@@ -79,6 +79,8 @@ pub struct System {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
+    /// The forces that these are by, without weight.
+    pub(crate) forces: Vec<Vector>,
     /// Whether these are the accelerations now.
     pub(crate) is_fresh: bool,
     /// The step in seconds whose carried and crushed particles are in them; zero without any.
