@@ -19,7 +19,7 @@
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
 //! | edits | [`EnergyLedger`](crate::EnergyLedger) | nothing |
-//! | the method | what its forces did on the way of particles, and what that stored | a pass over constraints and a few over particles each |
+//! | the method | what its forces did on the way of particles, and what that stored | two passes over particles (Verlet); one over constraints and one over particles (others) |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
@@ -34,6 +34,8 @@ use tearmesh::geometry::{Vector, dot};
 
 use crate::energy;
 use crate::force;
+use crate::meter::Energy;
+use crate::moment::State;
 use crate::step::{Observer, Substep};
 use crate::system::System;
 
@@ -84,7 +86,7 @@ pub struct EnergyBalance {
     /// What edits made: tears and cuts.
     pub edits_j: f64,
     /// What the method itself made, or took where negative: numerical damping. Each computes it from
-    /// its own steps, and none takes it for the rest of a sum. `None` where it does not say:
+    /// its own steps, and none takes it for what this balance lacks. `None` where it does not say:
     /// [`Provot`](crate::Provot), whose limiter works without bound as steps get shorter, and methods
     /// from outside this crate.
     pub method_j: Option<f64>,
@@ -238,7 +240,7 @@ impl Observer for Balance {
             self.spare_forces();
         }
         if system.model.drag_per_s() > 0.0 && self.kinetic_j.is_none() {
-            self.kinetic_j = Some(energy::free_kinetic_j(system));
+            self.kinetic_j = Some(free_kinetic_j(system, system.state()));
         }
         if is_leading(system) && self.forces.is_none() {
             let mut forces = std::mem::take(&mut self.spare);
@@ -259,7 +261,7 @@ impl Observer for Balance {
         self.account.is_silent |= substep.made_j.is_none();
         let drag_per_s = system.model.drag_per_s();
         if drag_per_s > 0.0 {
-            let now_j = energy::free_kinetic_j(system);
+            let now_j = free_kinetic_j(system, system.next_state());
             let before_j = self.kinetic_j.unwrap_or(now_j);
             self.account.drag_j -= drag_per_s * dt_s * (before_j + now_j);
             self.kinetic_j = Some(now_j);
@@ -301,6 +303,13 @@ impl Observer for Balance {
             self.account = self.taken;
         }
     }
+}
+
+/// The kinetic energy of free particles in a state, which the system is in: as the method left it, where
+/// it did.
+fn free_kinetic_j(system: &System, state: State) -> f64 {
+    let left = system.meter.left(state).and_then(Energy::kinetic_j);
+    left.unwrap_or_else(|| energy::free_kinetic_j(system))
 }
 
 /// Whether someone is led, and not at rest.

@@ -10,6 +10,7 @@ pub(crate) fn push_out(system: &mut System) {
         return;
     }
     system.meter.forget();
+    system.lookout.forget();
     if system.contact_j.is_some() {
         return push_out_and_sum(system);
     }

@@ -20,8 +20,9 @@ pub(crate) trait Element {
     /// How many there are.
     fn len(&self) -> usize;
 
-    /// The elastic energy in joules, added to a sum one after the other.
-    fn energy(&self, x: &[Point], sum: f64) -> f64;
+    /// The elastic energy in joules, added to a sum one after the other. The lookout is told of those
+    /// that are as long as it asks for.
+    fn energy(&self, x: &[Point], lookout: Option<&mut Lookout>, sum: f64) -> f64;
 
     /// That of the constraints of a particle.
     fn energy_at(&self, x: &[Point], particle: usize) -> f64;

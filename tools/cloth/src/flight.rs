@@ -6,6 +6,9 @@ use tearmesh::geometry::{Point, Vector};
 use crate::contact;
 use crate::crush::Crush;
 use crate::element::Also;
+use crate::lookout::Strains;
+use crate::meter::{Free, FreeSum};
+use crate::moment::State;
 use crate::system::{Model, System};
 
 /// What was felt when accelerations were taken.
@@ -19,10 +22,16 @@ pub(crate) struct Felt {
     pub(crate) elastic_j: Option<f64>,
 }
 
-/// Takes the accelerations now, with wind at the velocities of now or at those that were
+/// Takes the accelerations now, in the state that positions are of, with wind at the velocities of now or at those that were
 /// [`foreseen`](foresee): in a step of so many seconds with the guards of
 /// [`Verlet`](crate::Verlet), or without any.
-pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Option<f64>) -> Felt {
+pub(crate) fn accelerate(
+    system: &mut System,
+    state: State,
+    is_foreseen: bool,
+    guarded_s: Option<f64>,
+) -> Felt {
+    system.lookout.turn_to(Strains::Lengths, state);
     let System {
         positions,
         velocities,
@@ -158,12 +167,26 @@ pub(crate) fn finish(system: &mut System, dt_s: f64) {
     }
 }
 
+/// [`finish`], with the energy that free particles have then.
+pub(crate) fn finish_metered(system: &mut System, dt_s: f64) -> Free {
+    let per_s = 1.0 / dt_s;
+    let model = &system.model;
+    let moves = system.positions.iter().zip(&system.scratch.before);
+    let weights = model.masses.iter().zip(&model.inverse_masses);
+    let mut sum = FreeSum::default();
+    let particles = system.velocities.iter_mut().zip(moves).zip(weights);
+    for ((v, (&x, before)), (&mass, &inverse_mass)) in particles {
+        *v = (x - before) * per_s;
+        sum.add([mass, inverse_mass], x, *v);
+    }
+    sum.energy(model.gravity())
+}
+
 /// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody
 /// asks for velocities in between.
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
     let model = &system.model;
-    let asks = system.meter.is_asked() || model.loads.wind.is_some();
-    if asks || !model.loads.colliders.is_empty() {
+    if model.loads.wind.is_some() || !model.loads.colliders.is_empty() {
         finish(system, dt_s);
         contact::push_out(system);
         predict(system, dt_s);

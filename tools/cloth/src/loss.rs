@@ -1,5 +1,5 @@
 //! What a method itself makes of energy in a step, or takes where negative: computed from the forces that
-//! it used and the way that particles went, and never as the rest of a sum.
+//! it used and the way that particles went, and not from what the balance of energy lacks.
 //!
 //! A method moves particles by forces of its own choice, at times of its own choice, and each has an
 //! identity that says what this makes of energy. K is ½ Σ m|v|² over free particles, E the elastic
@@ -16,7 +16,8 @@
 //! *shadow* (Hairer, Lubich and Wanner 2003 §3, and 2006 §IX.3); it comes and goes. T, the error of a
 //! trapezoid, is none in a spring that does not turn, and O(Δt³) in one that does. And f has the damping
 //! of what is crushed in it, which takes. What is carried weighs M′ to the method: then a = M′⁻¹ f, and
-//! it is ½ v M′v that gains by those forces, so ½ v M′v − K is a part of S.
+//! it is ½ v M′v that gains by those forces, so ½ v M′v − K is a part of S. M′a is never multiplied out: it
+//! is what the forces are. E is summed up with them, and costs no pass of its own.
 //!
 //! **Methods that move by the forces at the end** ([`Motion`]) solve M (v₁ − v*) = h (f − c M v₁). Of
 //! backward Euler, PBD and XPBD v* = v₀ and h = Δt, so that δ = h v₁. With n = M (v₁ − v*)/h
@@ -33,6 +34,12 @@
 //! that projects is the impulse M (x₁ − x̃)/Δt² of its corrections to the predicted x̃ (Macklin, Müller and
 //! Chentanez 2016 §4), and with few sweeps it is not the force which lengths stand for.
 //!
+//! In the sum of both brackets n·δ drops out, whichever f a method used, as n is f with drag and weight.
+//! What is left is the change of K + E + P, with P the potential of gravity, and what drag took,
+//! c Δt (K₀ + K₁), and what hands got. Sums over states are those that the last step left, and so the account
+//! takes one look at lengths a step, which finds the longest on the way. It also means that of
+//! these methods the remainder tells how meter and method differ about drag and hands, and no more.
+//!
 //! What air does is in those forces, as the method feels it; the balance of energy takes away what air
 //! does on the way as it was. So what drag and wind do wrong in a step is the method's too, but for
 //! the drag of Verlet, of second order. Gravity is exact.
@@ -44,9 +51,10 @@ use tearmesh::geometry::{Point, Vector, dot};
 
 use crate::carry::Carry;
 use crate::constraint::Constraints;
+use crate::contact;
 use crate::flight::{Felt, force_scale};
 use crate::force;
-use crate::meter::Energy;
+use crate::meter::{Energy, Free, FreeSum, More};
 use crate::system::{Model, System};
 
 /// The account of a step of velocity Verlet, as far as it has got.
@@ -65,16 +73,18 @@ impl Account {
             return None;
         }
         let left = system.meter.left(system.state());
-        let swung = left.and_then(|left| left.swing);
-        let swung = swung.filter(|&(of_s, _)| taken.is_none() && of_s == dt_s);
+        let swung_j = left.and_then(|left| match left.more {
+            More::Swing { of_s, joules } if of_s == dt_s && taken.is_none() => Some(joules),
+            More::Swing { .. } | More::Free(_) => None,
+        });
         let felt_j = taken.and_then(|felt| felt.elastic_j);
         let elastic_j = match left.map(|left| left.elastic_j).or(felt_j) {
             Some(elastic_j) => elastic_j,
-            None => elastic_now_j(system),
+            None => system.elastic_j(system.state()),
         };
-        let hand_j = half_of_hands_j(system, dt_s);
-        let swung_j = match swung {
-            Some((_, swung_j)) => swung_j,
+        let hand_j = hands_j(system, 0.5 * dt_s);
+        let swung_j = match swung_j {
+            Some(swung_j) => swung_j,
             None => swing_j(system, dt_s, power_and_square(system)[1]),
         };
         Some(Account {
@@ -112,10 +122,13 @@ impl Account {
     pub(crate) fn close(self, system: &mut System, felt: Felt) {
         let elastic_j = felt.elastic_j.unwrap_or(0.0);
         let swung_j = swing_j(system, self.dt_s, self.square);
-        let swing = Some((self.dt_s, swung_j));
-        let energy = Energy { elastic_j, swing };
+        let more = More::Swing {
+            of_s: self.dt_s,
+            joules: swung_j,
+        };
+        let energy = Energy { elastic_j, more };
         system.meter.leave(system.next_state(), energy);
-        let end_j = elastic_j + half_of_hands_j(system, self.dt_s) + swung_j;
+        let end_j = elastic_j + hands_j(system, 0.5 * self.dt_s) + swung_j;
         system.meter.note(self.made_j + end_j);
     }
 }
@@ -137,32 +150,6 @@ fn power_and_square(system: &System) -> [f64; 2] {
     sums
 }
 
-/// The elastic energy where a step begins: as the last one left it, unless something has changed since.
-fn elastic_before_j(system: &mut System, from: fn(&System) -> &[Point]) -> f64 {
-    let left = system.meter.left(system.state());
-    // Or an earlier part of this substep left it.
-    if let Some(left) = left.or_else(|| system.meter.left(system.next_state())) {
-        return left.elastic_j;
-    }
-    system.counters.visits.meter += system.model.constraint_count();
-    system.model.elastic_j(from(system))
-}
-
-/// The elastic energy now.
-fn elastic_now_j(system: &mut System) -> f64 {
-    system.counters.visits.meter += system.model.constraint_count();
-    system.model.elastic_j(&system.positions)
-}
-
-/// The elastic energy where a step ends, kept for the next.
-fn elastic_after_j(system: &mut System) -> f64 {
-    let elastic_j = elastic_now_j(system);
-    let swing = None;
-    let energy = Energy { elastic_j, swing };
-    system.meter.leave(system.next_state(), energy);
-    elastic_j
-}
-
 /// What is carried in the present accelerations.
 fn carried(system: &System) -> Option<&Carry> {
     let carry = Some(system.guard.carry()).filter(|carry| carry.len() > 0);
@@ -175,74 +162,99 @@ fn swing_j(system: &System, dt_s: f64, square: f64) -> f64 {
     dt_s * dt_s / 8.0 * square - 0.5 * beyond
 }
 
-/// The work of constraints on those who are led, in half a step, by their present lengths.
-fn half_of_hands_j(system: &System, dt_s: f64) -> f64 {
+/// The work of constraints on those who are led, in so many seconds, by their present lengths.
+fn hands_j(system: &System, dt_s: f64) -> f64 {
     let led = system.model.grabbed.iter().map(|&(led, _)| led as usize);
     let watts = led.map(|led| {
         let weight = system.model.gravity() * system.model.masses[led];
         dot(force::inner_n(system, led) - weight, system.velocities[led])
     });
-    0.5 * dt_s * watts.sum::<f64>()
+    dt_s * watts.sum::<f64>()
 }
 
-/// A step of a method that moves by the forces at its end.
+/// The account of a step of a method that moves by the forces at the end, as far as it has got.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
-    /// The length of the step, in seconds.
-    pub(crate) dt_s: f64,
-    /// h.
-    pub(crate) h: f64,
-    /// c.
-    pub(crate) drag_per_s: f64,
-    pub(crate) gravity: Vector,
+    made_j: f64,
+    /// K where the present part of the step began.
+    kinetic_j: f64,
 }
 
 impl Motion {
-    /// What a free particle of this mass has to do with it: v*, the velocities before and after, and the
-    /// way.
-    #[inline]
-    pub(crate) fn made_j(self, mass: f64, from: Vector, [v, u]: [Vector; 2], way: Vector) -> f64 {
-        let used = (u - from) / self.h;
-        let squares = [dot(v, v), dot(u, u)];
-        let motion = 0.5 * (squares[1] - squares[0]) - dot(used, way);
-        let drag = 0.5 * self.dt_s * (squares[0] + squares[1]);
-        let beside_gravity = dot(used - self.gravity, way);
-        mass * (motion + beside_gravity + self.drag_per_s * drag)
+    /// Opens it where the step begins, where someone asks.
+    pub(crate) fn open(system: &mut System) -> Option<Motion> {
+        if !system.meter.is_asked() {
+            return None;
+        }
+        let left = system.meter.left(system.state());
+        let elastic_j = match left {
+            Some(left) => left.elastic_j,
+            None => system.elastic_j(system.state()),
+        };
+        let free = match left.map(|left| left.more) {
+            Some(More::Free(free)) => free,
+            Some(More::Swing { .. }) | None => free_energy(system),
+        };
+        Some(Motion {
+            made_j: -(elastic_j + free.total_j()),
+            kinetic_j: free.kinetic_j,
+        })
+    }
+
+    /// Counts what hands get by the lengths where the step ends.
+    pub(crate) fn lead(&mut self, system: &System, dt_s: f64) {
+        self.made_j += hands_j(system, dt_s);
+    }
+
+    /// Counts what hands get from the springs of a method that projects, by their multipliers on the way
+    /// of a substep: after its last sweep.
+    pub(crate) fn project(&mut self, system: &System, dt_s: f64) {
+        let (model, x) = (&system.model, &system.positions[..]);
+        let scale = force_scale(model, dt_s);
+        for family in [&model.stretch, &model.bend] {
+            for &(led, _) in &model.grabbed {
+                let led = led as usize;
+                let pull = pull_n(model, family, x, led, scale);
+                self.made_j += dot(pull, x[led] - system.scratch.before[led]);
+            }
+        }
+    }
+
+    /// Ends a substep with this energy of free particles, has colliders push, and begins the next.
+    pub(crate) fn turn(&mut self, system: &mut System, dt_s: f64, free: Free) {
+        self.made_j += system.model.drag_per_s() * dt_s * (self.kinetic_j + free.kinetic_j);
+        self.kinetic_j = free.kinetic_j;
+        if !system.model.loads.colliders.is_empty() {
+            self.made_j += system.elastic_j(system.next_state()) + free.total_j();
+            contact::push_out(system);
+            let free = free_energy(system);
+            self.made_j -= system.elastic_j(system.next_state()) + free.total_j();
+            self.kinetic_j = free.kinetic_j;
+        }
+    }
+
+    /// Closes it when the step is taken, whose last substep had so many seconds and left free particles
+    /// this energy, and notes what was made.
+    pub(crate) fn close(mut self, system: &mut System, dt_s: f64, free: Free) {
+        let state = system.next_state();
+        let elastic_j = system.elastic_j(state);
+        self.made_j += system.model.drag_per_s() * dt_s * (self.kinetic_j + free.kinetic_j);
+        system.meter.note(self.made_j + elastic_j + free.total_j());
+        let more = More::Free(free);
+        system.meter.leave(state, Energy { elastic_j, more });
     }
 }
 
-/// Notes what a method that projects made in a substep, where someone asks: after its last sweep, and
-/// before velocities are taken from what was moved.
-pub(crate) fn note_projected(system: &mut System, dt_s: f64) {
-    if !system.meter.is_asked() {
-        return;
+/// The energy of free particles.
+pub(crate) fn free_energy(system: &System) -> Free {
+    let model = &system.model;
+    let particles = system.positions.iter().zip(&system.velocities);
+    let weights = model.masses.iter().zip(&model.inverse_masses);
+    let mut sum = FreeSum::default();
+    for ((&x, &v), (&mass, &inverse_mass)) in particles.zip(weights) {
+        sum.add([mass, inverse_mass], x, v);
     }
-    let elastic_j = elastic_before_j(system, |system| &system.scratch.before);
-    let (model, x) = (&system.model, &system.positions[..]);
-    let before = &system.scratch.before[..];
-    let motion = Motion {
-        dt_s,
-        h: dt_s,
-        drag_per_s: model.drag_per_s(),
-        gravity: model.gravity(),
-    };
-    let per_s = 1.0 / dt_s;
-    let mut made_j = -elastic_j;
-    for (i, &v) in system.velocities.iter().enumerate() {
-        if model.inverse_masses[i] > 0.0 {
-            let way = x[i] - before[i];
-            made_j += motion.made_j(model.masses[i], v, [v, way * per_s], way);
-        }
-    }
-    let scale = force_scale(model, dt_s);
-    for family in [&model.stretch, &model.bend] {
-        for &(led, _) in &model.grabbed {
-            let pull = pull_n(model, family, x, led as usize, scale);
-            made_j += dot(pull, x[led as usize] - before[led as usize]);
-        }
-    }
-    made_j += elastic_after_j(system);
-    system.meter.note(made_j);
+    sum.energy(model.gravity())
 }
 
 /// The pull of a family's springs at a particle by their multipliers, of which `scale` makes forces.

@@ -5,6 +5,8 @@
 //! energy is summed up twice. Who notes what, and by which identities, is told in
 //! [`loss`](crate::loss).
 
+use tearmesh::geometry::{Point, Vector, dot};
+
 use crate::moment::State;
 
 /// The notes of one system.
@@ -19,8 +21,67 @@ pub(crate) struct Meter {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Energy {
     pub(crate) elastic_j: f64,
-    /// Of Verlet the swing against its shadow as well, for steps of so many seconds.
-    pub(crate) swing: Option<(f64, f64)>,
+    pub(crate) more: More,
+}
+
+/// What else is known of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum More {
+    /// By Verlet the swing against its shadow, in joules, for steps of so many seconds.
+    Swing { of_s: f64, joules: f64 },
+    /// By methods that move by the forces at the end of a step.
+    Free(Free),
+}
+
+/// The energy of free particles, in joules.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Free {
+    pub(crate) kinetic_j: f64,
+    /// The potential of gravity.
+    pub(crate) potential_j: f64,
+}
+
+impl Free {
+    pub(crate) fn total_j(self) -> f64 {
+        self.kinetic_j + self.potential_j
+    }
+}
+
+/// A sum over free particles, of which that energy is made.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FreeSum {
+    /// Σ m |v|²
+    twice_kinetic: f64,
+    /// Σ m x
+    moment: Vector,
+}
+
+impl FreeSum {
+    /// Adds a particle of this mass and this inverse mass, which is zero where it is held.
+    #[inline]
+    pub(crate) fn add(&mut self, [mass, inverse_mass]: [f64; 2], x: Point, v: Vector) {
+        if inverse_mass > 0.0 {
+            self.twice_kinetic += mass * dot(v, v);
+            self.moment += x.coords * mass;
+        }
+    }
+
+    pub(crate) fn energy(self, gravity: Vector) -> Free {
+        Free {
+            kinetic_j: 0.5 * self.twice_kinetic,
+            potential_j: -dot(gravity, self.moment),
+        }
+    }
+}
+
+impl Energy {
+    /// The energy of motion of free particles, in joules, where it is known.
+    pub(crate) fn kinetic_j(self) -> Option<f64> {
+        match self.more {
+            More::Free(free) => Some(free.kinetic_j),
+            More::Swing { .. } => None,
+        }
+    }
 }
 
 impl Meter {

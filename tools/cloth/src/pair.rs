@@ -25,16 +25,16 @@ pub(crate) trait Law: Copy {
 
 /// What acts between two particles, by how far they are apart.
 pub(crate) trait Link: Copy {
-    /// The energy, in joules.
-    fn energy(self, length: f64) -> f64;
+    /// Twice the energy, in joules: a sum is halved once.
+    fn twice_energy(self, length: f64) -> f64;
 
     /// The pull, in newtons: the derivative of the energy. Negative where it pushes apart.
     fn force(self, length: f64) -> f64;
 
     /// Both.
     #[inline]
-    fn energy_and_force(self, length: f64) -> [f64; 2] {
-        [self.energy(length), self.force(length)]
+    fn twice_energy_and_force(self, length: f64) -> [f64; 2] {
+        [self.twice_energy(length), self.force(length)]
     }
 
     /// The stiffness that is damped where it is crushed; zero where being short is being bent.
@@ -85,10 +85,12 @@ impl<'a, L: Law> Pairs<'a, L> {
     ) -> bool {
         let mut sane = true;
         // One comparison for both questions: next to none are longer.
-        let asked = lookout.as_deref_mut().map(Lookout::begin);
+        let asked = lookout
+            .as_deref_mut()
+            .map(|lookout| lookout.begin_at(self.constraints, x));
         let mut bar = asked.map_or(ratio_max, |asked| asked.min(ratio_max));
         for batch in self.constraints.batches() {
-            let mut batch_j = 0.0;
+            let mut twice_j = 0.0;
             for (id, [a, b], rest, link) in named_links(batch, self.law) {
                 let d = x[b] - x[a];
                 let length = dot(d, d).sqrt();
@@ -100,8 +102,8 @@ impl<'a, L: Law> Pairs<'a, L> {
                     }
                 }
                 let mut pull = if METERED {
-                    let [energy, pull] = link.energy_and_force(length);
-                    batch_j += energy;
+                    let [twice, pull] = link.twice_energy_and_force(length);
+                    twice_j += twice;
                     pull
                 } else {
                     link.force(length)
@@ -119,7 +121,7 @@ impl<'a, L: Law> Pairs<'a, L> {
                 }
             }
             if METERED {
-                *elastic_j += batch_j;
+                *elastic_j += 0.5 * twice_j;
             }
         }
         sane
@@ -160,11 +162,22 @@ impl<L: Law> Element for Pairs<'_, L> {
         self.constraints.len()
     }
 
-    fn energy(&self, x: &[Point], sum: f64) -> f64 {
+    fn energy(&self, x: &[Point], mut lookout: Option<&mut Lookout>, sum: f64) -> f64 {
+        let asked = lookout
+            .as_deref_mut()
+            .map(|lookout| lookout.begin_at(self.constraints, x));
+        let mut bar = asked.unwrap_or(f64::INFINITY);
         self.constraints.batches().fold(sum, |sum, batch| {
-            let energies =
-                links(batch, self.law).map(|(ends, _, link)| link.energy(length(x, ends)));
-            sum + energies.sum::<f64>()
+            let mut twice_j = 0.0;
+            for (id, ends, rest, link) in named_links(batch, self.law) {
+                let length = length(x, ends);
+                let is_short = length <= bar * rest;
+                if !is_short && let Some(lookout) = &mut lookout {
+                    bar = lookout.note(id, length / rest);
+                }
+                twice_j += link.twice_energy(length);
+            }
+            sum + 0.5 * twice_j
         })
     }
 
@@ -173,7 +186,7 @@ impl<L: Law> Element for Pairs<'_, L> {
         let constraints = constraints.map(|id| self.constraints.get(id));
         let energy = |constraint: Constraint| {
             let link = self.link(&constraint)?;
-            Some(link.energy(length(x, constraint.ends)))
+            Some(0.5 * link.twice_energy(length(x, constraint.ends)))
         };
         constraints.filter_map(energy).sum()
     }

@@ -21,7 +21,7 @@ pub trait Observer {
     fn after(&mut self, system: &System, substep: Substep);
 
     /// Whether methods are to compute what they themselves make of energy
-    /// ([`Substep::made_j`]), which costs about a pass over constraints.
+    /// ([`Substep::made_j`]), which costs up to a pass over constraints.
     fn meters(&self) -> bool {
         false
     }

@@ -20,7 +20,7 @@ use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::element::Forces;
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
-use crate::lookout::Lookout;
+use crate::lookout::{Lookout, Sight, Strains};
 use crate::meter::Meter;
 use crate::moment::{Identity, Moment, State};
 use crate::pair;
@@ -585,15 +585,19 @@ impl System {
     /// look out for them; where the last one did not, this is a pass over constraints.
     pub(crate) fn look_out_from(&mut self, ratio: f64) {
         self.lookout.ask(ratio);
-        if !self.scratch.is_fresh || self.lookout.found(ratio).is_none() {
+        if self.found_from(ratio).is_none() {
             self.counters.visits.detect += self.model.stretch.len() as u64;
-            let (stretch, x) = (&self.model.stretch, &self.positions[..]);
-            match self.model.forces {
-                Forces::Multipliers => self.lookout.look_at_multipliers(stretch),
-                _ if self.model.is_limited => self.lookout.look_at_ratios(stretch),
-                _ => self.lookout.look(stretch, x),
-            }
+            self.look(self.method_strains());
         }
+    }
+
+    /// What the lookout knows of these; `None` before it was [asked](System::look_out_from).
+    pub(crate) fn found_from(&self, ratio: f64) -> Option<&[ConstraintId]> {
+        let sight = Sight {
+            strains: self.method_strains(),
+            state: self.state(),
+        };
+        self.lookout.found(sight, ratio)
     }
 
     /// The largest length of a stretch constraint as a multiple of that at rest, before a limiter; 0
@@ -601,14 +605,47 @@ impl System {
     /// did not, this is a pass over constraints.
     pub(crate) fn most_stretched(&mut self) -> f64 {
         self.lookout.ask_most();
-        if self.scratch.is_fresh
-            && let Some(most) = self.lookout.most()
-        {
-            return most;
+        let strains = if self.model.is_limited {
+            Strains::Ratios
+        } else {
+            Strains::Lengths
+        };
+        let state = self.state();
+        let sight = Sight { strains, state };
+        if self.lookout.most(sight).is_none() {
+            self.counters.visits.meter += self.model.stretch.len() as u64;
+            self.look(strains);
         }
-        self.counters.visits.meter += self.model.stretch.len() as u64;
-        let stretches = self.model.stretch.iter();
-        stretches.fold(0.0, |most, id| self.unlimited_ratio(id).max(most))
+        let most = self.lookout.most(sight);
+        most.expect("a look finds what was asked for")
+    }
+
+    /// Where the method of the last step left the strains by which edges tear.
+    fn method_strains(&self) -> Strains {
+        match self.model.forces {
+            Forces::Multipliers => Strains::Multipliers,
+            _ if self.model.is_limited => Strains::Ratios,
+            _ => Strains::Lengths,
+        }
+    }
+
+    fn look(&mut self, strains: Strains) {
+        self.lookout.turn_to(strains, self.state());
+        let (stretch, x) = (&self.model.stretch, &self.positions[..]);
+        match strains {
+            Strains::Multipliers => self.lookout.look_at_multipliers(stretch),
+            Strains::Ratios => self.lookout.look_at_ratios(stretch),
+            Strains::Lengths => self.lookout.look(stretch, x),
+        }
+    }
+
+    /// The elastic energy now, in a pass over all constraints that looks out for long ones on the way.
+    /// Counts as one by the meter.
+    pub(crate) fn elastic_j(&mut self, state: State) -> f64 {
+        self.counters.visits.meter += self.model.constraint_count();
+        self.lookout.turn_to(Strains::Lengths, state);
+        self.model
+            .elastic_and_look_j(&self.positions, Some(&mut self.lookout))
     }
 
     /// The root mean square of the strains l/L − 1 of all stretch constraints.

@@ -31,6 +31,7 @@ use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
+use crate::lookout::Lookout;
 use crate::matrix::{Block, Hessian};
 
 /// A triangle that resists stretch and shear.
@@ -393,7 +394,7 @@ impl Element for Triangles {
         self.list.len()
     }
 
-    fn energy(&self, x: &[Point], sum: f64) -> f64 {
+    fn energy(&self, x: &[Point], _lookout: Option<&mut Lookout>, sum: f64) -> f64 {
         let triangles = self.list.iter();
         triangles.fold(sum, |sum, t| sum + t.energy(t.corners(x)))
     }

@@ -11,6 +11,7 @@ use crate::constraint::{Constraint, Constraints};
 use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Element, Forces, Slope};
 use crate::load::{Loads, Path};
+use crate::lookout::Lookout;
 use crate::pair::{Law, Link, Pairs, length};
 use crate::spring::Hooke;
 use crate::triangle::Triangles;
@@ -99,15 +100,16 @@ impl Model {
     pub(crate) fn axial(&self, family: Family, constraint: &Constraint, x: &[Point]) -> [f64; 2] {
         let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
         let length = length(x, constraint.ends);
-        let of = |link: Option<[f64; 2]>| link.unwrap_or_default();
-        match (family, self.buckling) {
-            (Family::Bend, Some(law)) => of(law
+        let twice = match (family, self.buckling) {
+            (Family::Bend, Some(law)) => law
                 .link(rest, stiffness)
-                .map(|link| link.energy_and_force(length))),
-            _ => of(Hooke
+                .map(|link| link.twice_energy_and_force(length)),
+            _ => Hooke
                 .link(rest, stiffness)
-                .map(|link| link.energy_and_force(length))),
-        }
+                .map(|link| link.twice_energy_and_force(length)),
+        };
+        let [twice, force] = twice.unwrap_or_default();
+        [0.5 * twice, force]
     }
 
     /// How many constraints and triangles there are.
@@ -117,9 +119,15 @@ impl Model {
 
     /// The elastic energy of all constraints, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
-        self.kinds()
+        self.elastic_and_look_j(x, None)
+    }
+
+    /// The same, while the lookout is told of stretch constraints that are as long as it asks for.
+    pub(crate) fn elastic_and_look_j(&self, x: &[Point], mut lookout: Option<&mut Lookout>) -> f64 {
+        let kinds = self.kinds();
+        kinds
             .iter()
-            .fold(0.0, |sum, kind| kind.energy(x, sum))
+            .fold(0.0, |sum, kind| kind.energy(x, lookout.take(), sum))
     }
 
     /// That of all constraints that a particle has a part in.
