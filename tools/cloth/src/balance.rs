@@ -14,7 +14,7 @@
 //! |---|---|---|
 //! | kinetic, elastic, gravity | functions of the state | a pass over constraints, when asked |
 //! | drag | −2 c ∫ K dt, trapezoids over substeps | a pass over particles a substep, where there is drag |
-//! | leading | −∫ (f + m g) · dx of each led particle, trapezoids | its valence a substep while it moves |
+//! | leading | −∫ (f + m g) · dx of each led particle: trapezoids, or as the method says it | its valence a substep while it moves |
 //! | holding, letting go | the change of the particle's own energy ([`Balance::handle`]) | its valence |
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
@@ -23,8 +23,8 @@
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
-//! of the substep, and so the work of leading is that force times the way: backward Euler then
-//! takes energy in every step, and never makes any.
+//! of the substep, and so the work of leading is that force times the way, in each substep of their own:
+//! backward Euler then takes energy in every step, and never makes any.
 //!
 //! Particles that are held have no kinetic energy, and wind and drag on them do no work: whoever
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
@@ -275,7 +275,10 @@ impl Observer for Balance {
             } else {
                 &earlier
             };
-            self.account.held_j -= led_work_j(system, before, &forces, dt_s);
+            self.account.held_j -= match system.meter.led_j() {
+                Some(led_j) => led_j + led_weight_work_j(system, dt_s),
+                None => led_work_j(system, before, &forces, dt_s),
+            };
             self.forces = Some(forces);
             self.spare = earlier;
         } else {
@@ -332,6 +335,14 @@ fn led_work_j(system: &System, before: &[Vector], after: &[Vector], dt_s: f64) -
         let mean = (before + after) / 2.0;
         sum + dot(mean, system.velocities[particle as usize]) * dt_s
     })
+}
+
+/// The work of gravity on those who are led.
+fn led_weight_work_j(system: &System, dt_s: f64) -> f64 {
+    let model = &system.model;
+    let led = model.grabbed.iter().map(|&(particle, _)| particle as usize);
+    let ways = led.map(|led| system.velocities[led] * (model.masses[led] * dt_s));
+    ways.map(|way| dot(model.gravity(), way)).sum()
 }
 
 /// The power of wind on free particles.

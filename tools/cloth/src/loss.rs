@@ -178,6 +178,8 @@ pub(crate) struct Motion {
     made_j: f64,
     /// K where the present part of the step began.
     kinetic_j: f64,
+    /// What constraints did on the way of those who are led.
+    led_j: f64,
 }
 
 impl Motion {
@@ -198,12 +200,13 @@ impl Motion {
         Some(Motion {
             made_j: -(elastic_j + free.total_j()),
             kinetic_j: free.kinetic_j,
+            led_j: 0.0,
         })
     }
 
     /// Counts what hands get by the lengths where the step ends.
     pub(crate) fn lead(&mut self, system: &System, dt_s: f64) {
-        self.made_j += hands_j(system, dt_s);
+        self.led_j += hands_j(system, dt_s);
     }
 
     /// Counts what hands get from the springs of a method that projects, by their multipliers on the way
@@ -215,7 +218,7 @@ impl Motion {
             for &(led, _) in &model.grabbed {
                 let led = led as usize;
                 let pull = pull_n(model, family, x, led, scale);
-                self.made_j += dot(pull, x[led] - system.scratch.before[led]);
+                self.led_j += dot(pull, x[led] - system.scratch.before[led]);
             }
         }
     }
@@ -239,7 +242,9 @@ impl Motion {
         let state = system.next_state();
         let elastic_j = system.elastic_j(state);
         self.made_j += system.model.drag_per_s() * dt_s * (self.kinetic_j + free.kinetic_j);
-        system.meter.note(self.made_j + elastic_j + free.total_j());
+        let made_j = self.made_j + self.led_j;
+        system.meter.note(made_j + elastic_j + free.total_j());
+        system.meter.note_led(self.led_j);
         let more = More::Free(free);
         system.meter.leave(state, Energy { elastic_j, more });
     }

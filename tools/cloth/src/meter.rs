@@ -14,6 +14,7 @@ use crate::moment::State;
 pub(crate) struct Meter {
     is_asked: bool,
     made_j: Option<f64>,
+    led_j: Option<f64>,
     left: Option<(State, Energy)>,
 }
 
@@ -88,7 +89,7 @@ impl Meter {
     /// A substep begins, and nothing was made in it so far.
     pub(crate) fn begin(&mut self, is_asked: bool) {
         self.is_asked = is_asked;
-        self.made_j = None;
+        (self.made_j, self.led_j) = (None, None);
     }
 
     /// Whether someone asks what the method itself makes of energy in this substep.
@@ -104,6 +105,17 @@ impl Meter {
     /// What the method made so far in this substep, in joules; `None` unless it says.
     pub(crate) fn made_j(&self) -> Option<f64> {
         self.made_j
+    }
+
+    /// Notes what constraints did on the way of those who are led, in joules and substep by substep of the
+    /// method's own.
+    pub(crate) fn note_led(&mut self, led_j: f64) {
+        self.led_j = Some(led_j);
+    }
+
+    /// What they did; `None` unless the method says.
+    pub(crate) fn led_j(&self) -> Option<f64> {
+        self.led_j
     }
 
     /// Keeps the energy of a state.
