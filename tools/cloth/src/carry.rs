@@ -144,25 +144,29 @@ impl Carry {
         self.is_proven
     }
 
-    /// u M′u − u M u over the particles that are not held: what carrying adds. It costs the valence of
+    /// u M′w − u M w over the particles that are not held: what carrying adds. It costs the valence of
     /// those that are carried, and vanishes where all have one velocity.
-    pub(crate) fn beyond(&self, u: &[Vector]) -> f64 {
+    pub(crate) fn beyond(&self, u: &[Vector], w: impl Fn(usize) -> Vector) -> f64 {
         let mut first = 0;
         let mut sum = 0.0;
         for star in &self.stars {
-            let own = u[star.particle as usize];
+            let particle = star.particle as usize;
+            let own = [u[particle], w(particle)];
             let mut against = own;
             let mut given = 0.0;
             for &(other, share) in &self.legs[first..star.legs as usize] {
-                if self.inverse[other as usize] > 0.0 {
-                    let leg = u[other as usize];
-                    against -= leg * share;
-                    given += share * dot(leg, leg);
+                let other = other as usize;
+                if self.inverse[other] > 0.0 {
+                    let leg = [u[other], w(other)];
+                    against[0] -= leg[0] * share;
+                    against[1] -= leg[1] * share;
+                    given += share * dot(leg[0], leg[1]);
                 }
             }
             first = star.legs as usize;
-            let weight = 1.0 / self.inverse[star.particle as usize];
-            sum += weight * dot(against, against) - star.weighed * (dot(own, own) - given);
+            let weight = 1.0 / self.inverse[particle];
+            sum +=
+                weight * dot(against[0], against[1]) - star.weighed * (dot(own[0], own[1]) - given);
         }
         sum
     }
@@ -289,7 +293,7 @@ mod tests {
                 if held < masses.len() {
                     u[held] = Vector::new(5.0, 7.0, -3.0);
                 }
-                let found = carry.beyond(&u);
+                let found = carry.beyond(&u, |i| u[i]);
                 assert!(
                     (found - expected).abs() < 1e-10 * (1.0 + expected.abs()),
                     "{held}: {found} {expected}"
@@ -297,7 +301,7 @@ mod tests {
             }
             let masses = [&masses[..], &vec![1.0; masses.len()]];
             let all = vec![Vector::new(1.0, 2.0, 3.0); masses[0].len()];
-            let found = weighed(masses, &springs, 0.1).beyond(&all);
+            let found = weighed(masses, &springs, 0.1).beyond(&all, |i| all[i]);
             assert!(found.abs() < 1e-12, "{found}");
         }
     }

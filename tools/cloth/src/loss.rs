@@ -42,7 +42,15 @@
 //!
 //! What air does is in those forces, as the method feels it; the balance of energy takes away what air
 //! does on the way as it was. So what drag and wind do wrong in a step is the method's too, but for
-//! the drag of Verlet, of second order. Gravity is exact.
+//! the drag of Verlet. Gravity is exact.
+//!
+//! **Drag by Verlet** acts on velocities, and so takes c Δt v½·M′(v₀ + v₁)/2 in a step: of that the part of
+//! M′ − M is the method's. (With v½·(M′ − M) v½ for it c Δt³/4 a·(M′ − M) a was left in each step, and
+//! .04 % of a flag in slivers.) The part of M is the balance's trapezoid c Δt (K₀ + K₁) less
+//! c Δt³/4 d(Σ m a·v)/dt: a sum of which c Δt²/4 Σ m a·v at its ends is left. That is of second order in one
+//! motion, and measured so: a flag of 16 × 16 cells that is not cut yet leaves 1.71e-7, 4.29e-8, 1.08e-8 and
+//! 2.71e-9 of what was put in at 1, ½, ¼ and ⅛ of its step. Once it has been cut each step leads to
+//! another motion, and to other ends: 8e-8, 5e-8, 1.2e-8, 4e-9.
 //!
 //! What hands do is the force at them times their way, and is taken from the constraints of each, as a
 //! method leaves them behind.
@@ -102,12 +110,7 @@ impl Account {
             sum + if w > 0.0 { dot(f, v) } else { 0.0 }
         });
         self.made_j += 0.5 * self.dt_s * power;
-        // Drag fades the velocities of M′.
-        let drag_per_s = system.model.drag_per_s();
-        if drag_per_s > 0.0 {
-            let beyond = carried(system).map_or(0.0, |carry| carry.beyond(&system.velocities));
-            self.made_j -= self.dt_s * drag_per_s * beyond;
-        }
+        self.fade(system, -0.5 * self.dt_s);
     }
 
     /// The other half, of the forces at the end at the same velocities.
@@ -115,6 +118,18 @@ impl Account {
         let [power, square] = power_and_square(system);
         self.made_j += 0.5 * self.dt_s * power;
         self.square = square;
+        self.fade(system, 0.5 * self.dt_s);
+    }
+
+    /// Takes away half of what drag takes from M′ beyond M. The velocity of one end of the step is that of
+    /// the middle, kicked for so many seconds.
+    fn fade(&mut self, system: &System, kick_s: f64) {
+        let drag_per_s = system.model.drag_per_s();
+        if let Some(carry) = carried(system).filter(|_| drag_per_s > 0.0) {
+            let (v, a) = (&system.velocities, &system.scratch.accelerations);
+            let beyond = carry.beyond(v, |i| v[i] + a[i] * kick_s);
+            self.made_j -= 0.5 * self.dt_s * drag_per_s * beyond;
+        }
     }
 
     /// Closes it, when the step is taken, and notes what was made. The elastic energy was felt with the
@@ -158,7 +173,8 @@ fn carried(system: &System) -> Option<&Carry> {
 
 /// S − (½ v M′v − K), by Σ a M′a.
 fn swing_j(system: &System, dt_s: f64, square: f64) -> f64 {
-    let beyond = carried(system).map_or(0.0, |carry| carry.beyond(&system.velocities));
+    let v = &system.velocities;
+    let beyond = carried(system).map_or(0.0, |carry| carry.beyond(v, |i| v[i]));
     dt_s * dt_s / 8.0 * square - 0.5 * beyond
 }
 
