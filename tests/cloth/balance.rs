@@ -120,6 +120,58 @@ fn a_hand_works_its_force_times_its_way() {
     near(errors[0] / errors[1], 4.0, 0.2);
 }
 
+/// By XPBD a hand works in every substep of a step, by the force that the link has where that ends: as in steps
+/// that are as short, and in the end as nature has it.
+#[test]
+fn a_hand_works_in_every_substep() {
+    let led = || {
+        let mut chain = row(&[0.0, 1.0], 1.0);
+        let path = [
+            (0.0, Point::new(1.0, 0.0, 0.0)),
+            (10.0, Point::new(6.0, 0.0, 0.0)),
+        ];
+        chain.grab(1, Path::new(path).expect("a path"));
+        load(&mut chain, weight_and_drag());
+        chain
+    };
+    for substeps in [1, 2, 5] {
+        let (mut chain, mut short) = (led(), led());
+        let mut kept = Balance::new(&mut chain);
+        let (dt, mut worked) = (0.02, 0.0);
+        for _ in 0..30 {
+            watch(&mut chain, &mut kept, Xpbd::new(substeps, 1), dt, 1);
+            for _ in 0..substeps {
+                let substep_s = dt / f64::from(substeps);
+                run(&mut short, &mut Xpbd::new(1, 1), substep_s, 1);
+                // One link alone pulls by its length.
+                let line = short.positions()[1] - short.positions()[0];
+                let pull = line * (100.0 * (1.0 - 1.0 / line.norm()));
+                worked += pull.dot(&short.velocities()[1]) * substep_s;
+            }
+            let balance = now(&kept, &chain);
+            near(balance.held_j, worked, 1e-9);
+            near(
+                balance.remainder_j(),
+                0.0,
+                if substeps == 1 { 1e-9 } else { 1e-2 },
+            );
+        }
+    }
+    let mut chain = row(&[0.0, 1.0], 1.0);
+    chain.grab(
+        1,
+        Path::new([
+            (0.0, Point::new(1.0, 0.0, 0.0)),
+            (10.0, Point::new(6.0, 0.0, 0.0)),
+        ])
+        .expect("a path"),
+    );
+    let mut kept = Balance::new(&mut chain);
+    watch(&mut chain, &mut kept, Xpbd::new(5, 1), 5e-4, 400);
+    let worked = 0.25 * (1.0 - 2.0_f64.cos());
+    near(now(&kept, &chain).held_j, worked, 1e-3);
+}
+
 /// Backward Euler takes ½ m |Δv|² + ½ k |Δl|² in every step, and so makes nothing however the hand
 /// shakes, if the hand works by the force that the method moves particles by.
 #[test]

@@ -3,7 +3,9 @@
 use tearmesh::Point;
 use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::scene::{Frame, Method, Scene};
-use tearmesh_cloth::{Balance, Implicit, Loads, Path, Pbd, Provot, Solver, System, Verlet, Xpbd};
+use tearmesh_cloth::{
+    Balance, Implicit, Loads, Path, Pbd, Provot, Solver, System, Verlet, Xpbd, carried_count,
+};
 
 use crate::parts::scenes::{play, staged};
 
@@ -32,8 +34,14 @@ fn methods() -> [(&'static str, Box<dyn Solver>); 6] {
 /// Links of 100 N/m and a metre in a row, a kilogram at each joint; held at one end, and led away by
 /// so many metres at the other within so many seconds.
 fn drawn(links: usize, by_m: f64, within_s: f64) -> System {
+    weighted(vec![1.0; links + 1], by_m, within_s)
+}
+
+/// The same with these kilograms at the joints.
+fn weighted(masses: Vec<f64>, by_m: f64, within_s: f64) -> System {
+    let links = masses.len() - 1;
     let points = (0..=links).map(|i| Point::new(i as f64, 0.0, 0.0));
-    let mut chain = System::new(points, vec![1.0; links + 1]).expect("a chain");
+    let mut chain = System::new(points, masses).expect("a chain");
     for i in 0..links {
         chain.stretch([i, i + 1], 1.0, 100.0).expect("a link");
     }
@@ -245,6 +253,35 @@ fn next_to_nothing_is_left_in_the_scenes_that_stand_ready() {
             }
         }
     }
+}
+
+/// Drag acts on velocities, so it takes more from one that is carried than from its mass. That is the
+/// method's, and once the swing is over nothing of it is left beside.
+#[test]
+fn nothing_is_left_beside_drag_where_one_is_carried() {
+    let left = |light_kg: f64| {
+        let mut masses = vec![1.0; 13];
+        masses[6] = light_kg;
+        let mut chain = weighted(masses, 0.0, 1.0);
+        let loads = Loads {
+            drag_per_s: Some(2.0),
+            ..Loads::default()
+        };
+        chain.set_loads(loads).expect("drag");
+        chain.state_mut().0[6].x += 0.2;
+        let mut kept = Balance::new(&mut chain);
+        for _ in 0..2000 {
+            let taken = chain.step_observed(&mut Verlet::new(), 0.01, &mut kept);
+            taken.expect("a step");
+        }
+        let balance = kept.now(&chain, 0.0);
+        let part = balance.remainder_j().abs() / balance.began_j;
+        (carried_count(&chain), part)
+    };
+    let [(none, even), (one, light)] = [1.0, 0.002].map(left);
+    println!("{none} carried: {even:e}, {one} carried: {light:e} of what was there");
+    assert_eq!([none, one], [0, 1]);
+    assert!(even.max(light) < 1e-6, "{even} {light}");
 }
 
 /// By Verlet the work of drag is a trapezoid to the meter, and that of the middle to the method: they

@@ -14,17 +14,17 @@
 //! |---|---|---|
 //! | kinetic, elastic, gravity | functions of the state | a pass over constraints, when asked |
 //! | drag | −2 c ∫ K dt, trapezoids over substeps | a pass over particles a substep, where there is drag |
-//! | leading | −∫ (f + m g) · dx of each led particle, trapezoids | its valence a substep while it moves |
+//! | leading | −∫ (f + m g) · dx of each led particle: trapezoids, or as the method says it | its valence a substep while it moves |
 //! | holding, letting go | the change of the particle's own energy ([`Balance::handle`]) | its valence |
 //! | wind | ∫ Σ f · v over free particles, trapezoids of [`WIND_S`] | a sum over faces each |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
 //! | edits | [`EnergyLedger`](crate::EnergyLedger) | nothing |
-//! | the method | what its forces did on the way of particles, and what that stored | a pass over constraints and a few over particles each |
+//! | the method | what its forces did on the way of particles, and what that stored | two passes over particles (Verlet); one over constraints and one over particles (others) |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself; so a rest that shrinks as Δt² is no
 //! one's fault. The implicit methods and those that project move particles by the forces at the end
-//! of the substep, and so the work of leading is that force times the way: backward Euler then
-//! takes energy in every step, and never makes any.
+//! of the substep, and so the work of leading is that force times the way, in each substep of their own:
+//! backward Euler then takes energy in every step, and never makes any.
 //!
 //! Particles that are held have no kinetic energy, and wind and drag on them do no work: whoever
 //! holds them bears that too. What is written through [`System::state_mut`], and constraints that
@@ -34,6 +34,8 @@ use tearmesh::geometry::{Vector, dot};
 
 use crate::energy;
 use crate::force;
+use crate::meter::Energy;
+use crate::moment::State;
 use crate::step::{Observer, Substep};
 use crate::system::System;
 
@@ -84,7 +86,7 @@ pub struct EnergyBalance {
     /// What edits made: tears and cuts.
     pub edits_j: f64,
     /// What the method itself made, or took where negative: numerical damping. Each computes it from
-    /// its own steps, and none takes it for the rest of a sum. `None` where it does not say:
+    /// its own steps, and none takes it for what this balance lacks. `None` where it does not say:
     /// [`Provot`](crate::Provot), whose limiter works without bound as steps get shorter, and methods
     /// from outside this crate.
     pub method_j: Option<f64>,
@@ -238,7 +240,7 @@ impl Observer for Balance {
             self.spare_forces();
         }
         if system.model.drag_per_s() > 0.0 && self.kinetic_j.is_none() {
-            self.kinetic_j = Some(energy::free_kinetic_j(system));
+            self.kinetic_j = Some(free_kinetic_j(system, system.state()));
         }
         if is_leading(system) && self.forces.is_none() {
             let mut forces = std::mem::take(&mut self.spare);
@@ -259,7 +261,7 @@ impl Observer for Balance {
         self.account.is_silent |= substep.made_j.is_none();
         let drag_per_s = system.model.drag_per_s();
         if drag_per_s > 0.0 {
-            let now_j = energy::free_kinetic_j(system);
+            let now_j = free_kinetic_j(system, system.next_state());
             let before_j = self.kinetic_j.unwrap_or(now_j);
             self.account.drag_j -= drag_per_s * dt_s * (before_j + now_j);
             self.kinetic_j = Some(now_j);
@@ -273,7 +275,10 @@ impl Observer for Balance {
             } else {
                 &earlier
             };
-            self.account.held_j -= led_work_j(system, before, &forces, dt_s);
+            self.account.held_j -= match system.meter.led_j() {
+                Some(led_j) => led_j + led_weight_work_j(system, dt_s),
+                None => led_work_j(system, before, &forces, dt_s),
+            };
             self.forces = Some(forces);
             self.spare = earlier;
         } else {
@@ -303,6 +308,13 @@ impl Observer for Balance {
     }
 }
 
+/// The kinetic energy of free particles in a state, which the system is in: as the method left it, where
+/// it did.
+fn free_kinetic_j(system: &System, state: State) -> f64 {
+    let left = system.meter.left(state).and_then(Energy::kinetic_j);
+    left.unwrap_or_else(|| energy::free_kinetic_j(system))
+}
+
 /// Whether someone is led, and not at rest.
 fn is_leading(system: &System) -> bool {
     let mut led = system.model.grabbed.iter();
@@ -323,6 +335,14 @@ fn led_work_j(system: &System, before: &[Vector], after: &[Vector], dt_s: f64) -
         let mean = (before + after) / 2.0;
         sum + dot(mean, system.velocities[particle as usize]) * dt_s
     })
+}
+
+/// The work of gravity on those who are led.
+fn led_weight_work_j(system: &System, dt_s: f64) -> f64 {
+    let model = &system.model;
+    let led = model.grabbed.iter().map(|&(particle, _)| particle as usize);
+    let ways = led.map(|led| system.velocities[led] * (model.masses[led] * dt_s));
+    ways.map(|way| dot(model.gravity(), way)).sum()
 }
 
 /// The power of wind on free particles.

@@ -160,12 +160,17 @@ impl Bend {
 }
 
 impl Link for Bend {
-    fn energy(self, length: f64) -> f64 {
-        self.axial(length).energy
+    fn twice_energy(self, length: f64) -> f64 {
+        2.0 * self.axial(length).energy
     }
 
     fn force(self, length: f64) -> f64 {
         self.axial(length).force
+    }
+
+    fn twice_energy_and_force(self, length: f64) -> [f64; 2] {
+        let axial = self.axial(length);
+        [2.0 * axial.energy, axial.force]
     }
 
     /// A fold is where it is meant to be short.

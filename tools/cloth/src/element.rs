@@ -20,22 +20,21 @@ pub(crate) trait Element {
     /// How many there are.
     fn len(&self) -> usize;
 
-    /// The elastic energy in joules, added to a sum one after the other.
-    fn energy(&self, x: &[Point], sum: f64) -> f64;
+    /// The elastic energy in joules, added to a sum one after the other. The lookout is told of those
+    /// that are as long as it asks for.
+    fn energy(&self, x: &[Point], lookout: Option<&mut Lookout>, sum: f64) -> f64;
 
     /// That of the constraints of a particle.
     fn energy_at(&self, x: &[Point], particle: usize) -> f64;
 
-    /// Adds the forces, in newtons, to those of the particles, and those of damping where something
-    /// is crushed and that is to be damped. False where one is longer than `ratio_max` times its
-    /// rest length, or not a number. Tells the lookout of those that are as long as it asks for.
+    /// Adds the forces, in newtons, to those of the particles, and does what is to be done on the
+    /// way. False where one is longer than `ratio_max` times its rest length, or not a number.
     #[must_use]
     fn forces(
         &self,
         x: &[Point],
         ratio_max: f64,
-        crush: Option<&mut Crush<'_>>,
-        lookout: Option<&mut Lookout>,
+        also: Also<'_, '_>,
         forces: &mut [Vector],
     ) -> bool;
 
@@ -93,6 +92,29 @@ pub(crate) trait Element {
     /// Adds the second derivatives of the energy, each pair's to its slot by that number. With
     /// `clamp` every term is positive semidefinite; returns how many had a part dropped for it.
     fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64;
+}
+
+/// What is to be done on the way while forces are summed up: by default nothing.
+#[derive(Debug, Default)]
+pub(crate) struct Also<'a, 'v> {
+    /// Adds the forces of damping where something is crushed.
+    pub(crate) crush: Option<&'a mut Crush<'v>>,
+    /// Is told of those that are as long as it asks for.
+    pub(crate) lookout: Option<&'a mut Lookout>,
+    /// Has the elastic energy added, in joules, as [`Element::energy`] adds it.
+    pub(crate) elastic_j: Option<&'a mut f64>,
+}
+
+impl<'v> Also<'_, 'v> {
+    /// The same for the next kind. The first is that of stretch constraints, and those alone are looked
+    /// out for.
+    pub(crate) fn for_next(&mut self) -> Also<'_, 'v> {
+        Also {
+            crush: self.crush.as_deref_mut(),
+            lookout: self.lookout.take(),
+            elastic_j: self.elastic_j.as_deref_mut(),
+        }
+    }
 }
 
 /// Where the forces of the last step are to be read.

@@ -4,35 +4,73 @@
 use tearmesh::geometry::{Point, Vector};
 
 use crate::contact;
-use crate::system::{Model, Scratch, System};
+use crate::crush::Crush;
+use crate::element::Also;
+use crate::lookout::Strains;
+use crate::meter::{Free, FreeSum};
+use crate::moment::State;
+use crate::system::{Model, System};
 
-/// Takes the accelerations now, with wind at the velocities of now or at those that were
-/// [`foreseen`](foresee). False where something is stretched beyond all measure.
-pub(crate) fn accelerate(system: &mut System, is_foreseen: bool) -> bool {
+/// What was felt when accelerations were taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Felt {
+    /// Whether nothing is stretched beyond all measure.
+    pub(crate) is_sane: bool,
+    /// What damping takes in such a step from what is crushed, in joules.
+    pub(crate) damped_j: f64,
+    /// The elastic energy, in joules, where someone asks.
+    pub(crate) elastic_j: Option<f64>,
+}
+
+/// Takes the accelerations now, in the state that positions are of, with wind at the velocities of now or at those that were
+/// [`foreseen`](foresee): in a step of so many seconds with the guards of
+/// [`Verlet`](crate::Verlet), or without any.
+pub(crate) fn accelerate(
+    system: &mut System,
+    state: State,
+    is_foreseen: bool,
+    guarded_s: Option<f64>,
+) -> Felt {
+    system.lookout.turn_to(Strains::Lengths, state);
     let System {
         positions,
         velocities,
         model,
         scratch,
         counters,
+        guard,
         lookout,
+        meter,
         ..
     } = system;
+    let count = positions.len();
     scratch.is_fresh = false;
-    let Scratch {
-        accelerations,
-        foreseen,
-        ..
-    } = scratch;
-    accelerations.resize(positions.len(), Vector::zeros());
-    let velocities = if is_foreseen { foreseen } else { velocities };
-    model.accelerate(
-        positions,
-        velocities,
-        Some(lookout),
-        accelerations,
-        counters,
-    )
+    scratch.accelerations.resize(count, Vector::zeros());
+    scratch.forces.resize(count, Vector::zeros());
+    let mut crush = guarded_s.map(|dt_s| Crush::new(velocities, dt_s));
+    let mut elastic_j = meter.is_asked().then_some(0.0);
+    let also = Also {
+        crush: crush.as_mut(),
+        lookout: Some(lookout),
+        elastic_j: elastic_j.as_mut(),
+    };
+    let winds = if is_foreseen {
+        &scratch.foreseen
+    } else {
+        &*velocities
+    };
+    let forces = &mut scratch.forces;
+    let is_sane = model.pull(positions, winds, also, forces, counters);
+    let carry = guarded_s.map(|_| guard.carry());
+    model.weigh(forces, carry, &mut scratch.accelerations);
+    let damped_j = crush.map_or(0.0, |crush| crush.lost_j);
+    let is_other = damped_j > 0.0 || carry.is_some_and(|carry| carry.len() > 0);
+    scratch.guarded_s = guarded_s.filter(|_| is_other).unwrap_or(0.0);
+    Felt {
+        is_sane,
+        damped_j,
+        elastic_j,
+    }
 }
 
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
@@ -129,12 +167,26 @@ pub(crate) fn finish(system: &mut System, dt_s: f64) {
     }
 }
 
+/// [`finish`], with the energy that free particles have then.
+pub(crate) fn finish_metered(system: &mut System, dt_s: f64) -> Free {
+    let per_s = 1.0 / dt_s;
+    let model = &system.model;
+    let moves = system.positions.iter().zip(&system.scratch.before);
+    let weights = model.masses.iter().zip(&model.inverse_masses);
+    let mut sum = FreeSum::default();
+    let particles = system.velocities.iter_mut().zip(moves).zip(weights);
+    for ((v, (&x, before)), (&mass, &inverse_mass)) in particles {
+        *v = (x - before) * per_s;
+        sum.add([mass, inverse_mass], x, *v);
+    }
+    sum.energy(model.gravity())
+}
+
 /// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody
 /// asks for velocities in between.
 pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
     let model = &system.model;
-    let asks = system.scratch.is_metered || model.loads.wind.is_some();
-    if asks || !model.loads.colliders.is_empty() {
+    if model.loads.wind.is_some() || !model.loads.colliders.is_empty() {
         finish(system, dt_s);
         contact::push_out(system);
         predict(system, dt_s);

@@ -89,7 +89,6 @@ pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bo
     system.model.accelerate(
         &system.positions,
         &system.velocities,
-        None,
         accelerations,
         &mut system.counters,
     )

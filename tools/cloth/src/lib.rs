@@ -62,6 +62,7 @@ mod lookout;
 mod loss;
 mod material;
 mod matrix;
+mod meter;
 mod moment;
 mod pair;
 mod particle;

@@ -10,8 +10,8 @@
 //! [`Xpbd`](crate::Xpbd) do.
 
 use crate::element::Forces;
-use crate::flight::{finish, force_scale, predict};
-use crate::loss;
+use crate::flight::{finish, finish_metered, force_scale, predict};
+use crate::loss::Motion;
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
@@ -75,6 +75,7 @@ impl Solver for Pbd {
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let account = Motion::open(system);
         predict(system, dt_s);
         let [stretch, bend] = self.fractions();
         let System {
@@ -99,11 +100,17 @@ impl Solver for Pbd {
                 }
             }
         }
-        loss::note_projected(system, dt_s);
+        match account {
+            None => finish(system, dt_s),
+            Some(mut account) => {
+                account.project(system, dt_s);
+                let free = finish_metered(system, dt_s);
+                account.close(system, dt_s, free);
+            }
+        }
         let model = &mut system.model;
         model.scale_multipliers(force_scale(model, dt_s));
         model.forces = Forces::Rigid;
-        finish(system, dt_s);
         Ok(())
     }
 }

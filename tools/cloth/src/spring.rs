@@ -9,7 +9,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot};
 
-use crate::constraint::Batch;
+use crate::constraint::{Batch, TOGETHER};
 use crate::element::Slope;
 use crate::pair::{Law, Link, length};
 
@@ -42,9 +42,9 @@ pub(crate) struct Spring {
 
 impl Link for Spring {
     #[inline]
-    fn energy(self, length: f64) -> f64 {
+    fn twice_energy(self, length: f64) -> f64 {
         let extension = length - self.rest;
-        0.5 * self.stiffness * extension * extension
+        self.stiffness * extension * extension
     }
 
     #[inline]
@@ -73,14 +73,6 @@ impl Link for Spring {
         (along + (u - along) * across) * self.stiffness
     }
 }
-
-/// How many constraints of a colour are projected together: first all their lengths, then all
-/// roots and divisions, which a processor does two at a time, then all moves. Each number is what
-/// it would be one by one.
-///
-/// Fewer or more at a time are slower. What is left is to fetch two ends and to put them back, not
-/// arithmetic: intrinsics, which need `unsafe`, gain 2 % with SSE2 and about 30 % with AVX2.
-const TOGETHER: usize = 8;
 
 /// Moves the ends of each constraint by the part `fraction` of the way to its rest length, by
 /// inverse mass (Müller et al. 2007, §3.3). Multipliers accumulate, as in

@@ -21,7 +21,7 @@ pub trait Observer {
     fn after(&mut self, system: &System, substep: Substep);
 
     /// Whether methods are to compute what they themselves make of energy
-    /// ([`Substep::made_j`]), which costs about a pass over constraints.
+    /// ([`Substep::made_j`]), which costs up to a pass over constraints.
     fn meters(&self) -> bool {
         false
     }
@@ -141,12 +141,11 @@ fn advance(
     system.counters.substeps += 1;
     system.drive(substep.dt_s);
     observer.before(system);
-    system.scratch.is_metered = observer.meters();
-    system.scratch.made_j = None;
+    system.meter.begin(observer.meters());
     solver.advance(system, substep.dt_s)?;
     contact::push_out(system);
     Failure::unless(is_finite(system))?;
-    let made_j = system.scratch.made_j;
+    let made_j = system.meter.made_j();
     observer.after(system, Substep { made_j, ..substep });
     system.elapsed_s += substep.dt_s;
     system.moment = Moment::After(system.counters.substeps);

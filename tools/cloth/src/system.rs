@@ -20,8 +20,9 @@ use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::element::Forces;
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
-use crate::lookout::Lookout;
-use crate::moment::{Identity, Moment};
+use crate::lookout::{Lookout, Sight, Strains};
+use crate::meter::Meter;
+use crate::moment::{Identity, Moment, State};
 use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
@@ -61,6 +62,7 @@ pub struct System {
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
     pub(crate) lookout: Lookout,
+    pub(crate) meter: Meter,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
     pub(crate) margin: f64,
@@ -77,16 +79,12 @@ pub struct System {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
+    /// The forces that these are by, without weight.
+    pub(crate) forces: Vec<Vector>,
     /// Whether these are the accelerations now.
     pub(crate) is_fresh: bool,
     /// The step in seconds whose carried and crushed particles are in them; zero without any.
     pub(crate) guarded_s: f64,
-    /// Whether someone asks what the method itself makes of energy in this step.
-    pub(crate) is_metered: bool,
-    /// What it made so far, in joules, with what it took from air; `None` unless it says.
-    pub(crate) made_j: Option<f64>,
-    /// The elastic energy that a step left, where someone asked.
-    pub(crate) elastic: Option<Elastic>,
     /// The part of a step's limit that wind takes in a second, as a step found it.
     pub(crate) air_per_s: f64,
     /// Where the step began: the last good state.
@@ -98,18 +96,6 @@ pub(crate) struct Scratch {
     pub(crate) foreseen: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
-}
-
-/// The elastic energy that a substep left.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Elastic {
-    pub(crate) joules: f64,
-    /// Of Verlet the swing against its shadow as well, for steps of so many seconds.
-    pub(crate) swing: Option<(f64, f64)>,
-    /// The number of the substep.
-    pub(crate) substep: u64,
-    /// How often the state was changed before, but by a step.
-    pub(crate) changes: u64,
 }
 
 /// What to do with a step beyond the stability limit of an explicit method.
@@ -192,6 +178,7 @@ impl System {
             guard: Guard::default(),
             scratch: Scratch::default(),
             lookout: Lookout::default(),
+            meter: Meter::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             margin: 0.95,
@@ -598,15 +585,19 @@ impl System {
     /// look out for them; where the last one did not, this is a pass over constraints.
     pub(crate) fn look_out_from(&mut self, ratio: f64) {
         self.lookout.ask(ratio);
-        if !self.scratch.is_fresh || self.lookout.found(ratio).is_none() {
+        if self.found_from(ratio).is_none() {
             self.counters.visits.detect += self.model.stretch.len() as u64;
-            let (stretch, x) = (&self.model.stretch, &self.positions[..]);
-            match self.model.forces {
-                Forces::Multipliers => self.lookout.look_at_multipliers(stretch),
-                _ if self.model.is_limited => self.lookout.look_at_ratios(stretch),
-                _ => self.lookout.look(stretch, x),
-            }
+            self.look(self.method_strains());
         }
+    }
+
+    /// What the lookout knows of these; `None` before it was [asked](System::look_out_from).
+    pub(crate) fn found_from(&self, ratio: f64) -> Option<&[ConstraintId]> {
+        let sight = Sight {
+            strains: self.method_strains(),
+            state: self.state(),
+        };
+        self.lookout.found(sight, ratio)
     }
 
     /// The largest length of a stretch constraint as a multiple of that at rest, before a limiter; 0
@@ -614,14 +605,47 @@ impl System {
     /// did not, this is a pass over constraints.
     pub(crate) fn most_stretched(&mut self) -> f64 {
         self.lookout.ask_most();
-        if self.scratch.is_fresh
-            && let Some(most) = self.lookout.most()
-        {
-            return most;
+        let strains = if self.model.is_limited {
+            Strains::Ratios
+        } else {
+            Strains::Lengths
+        };
+        let state = self.state();
+        let sight = Sight { strains, state };
+        if self.lookout.most(sight).is_none() {
+            self.counters.visits.meter += self.model.stretch.len() as u64;
+            self.look(strains);
         }
-        self.counters.visits.meter += self.model.stretch.len() as u64;
-        let stretches = self.model.stretch.iter();
-        stretches.fold(0.0, |most, id| self.unlimited_ratio(id).max(most))
+        let most = self.lookout.most(sight);
+        most.expect("a look finds what was asked for")
+    }
+
+    /// Where the method of the last step left the strains by which edges tear.
+    fn method_strains(&self) -> Strains {
+        match self.model.forces {
+            Forces::Multipliers => Strains::Multipliers,
+            _ if self.model.is_limited => Strains::Ratios,
+            _ => Strains::Lengths,
+        }
+    }
+
+    fn look(&mut self, strains: Strains) {
+        self.lookout.turn_to(strains, self.state());
+        let (stretch, x) = (&self.model.stretch, &self.positions[..]);
+        match strains {
+            Strains::Multipliers => self.lookout.look_at_multipliers(stretch),
+            Strains::Ratios => self.lookout.look_at_ratios(stretch),
+            Strains::Lengths => self.lookout.look(stretch, x),
+        }
+    }
+
+    /// The elastic energy now, in a pass over all constraints that looks out for long ones on the way.
+    /// Counts as one by the meter.
+    pub(crate) fn elastic_j(&mut self, state: State) -> f64 {
+        self.counters.visits.meter += self.model.constraint_count();
+        self.lookout.turn_to(Strains::Lengths, state);
+        self.model
+            .elastic_and_look_j(&self.positions, Some(&mut self.lookout))
     }
 
     /// The root mean square of the strains l/L − 1 of all stretch constraints.
@@ -632,6 +656,22 @@ impl System {
             strain * strain
         });
         (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
+    }
+
+    /// The state that the system is in.
+    pub(crate) fn state(&self) -> State {
+        State {
+            moment: self.moment,
+            changes: self.changes,
+        }
+    }
+
+    /// The state that the present substep leads to.
+    pub(crate) fn next_state(&self) -> State {
+        State {
+            moment: Moment::After(self.counters.substeps),
+            changes: self.changes,
+        }
     }
 
     /// Gives the grabbed particles the velocity that leads them along their paths.

@@ -29,7 +29,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
-use crate::element::{Busiest, Element, Forces, Slope};
+use crate::element::{Also, Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
 use crate::lookout::Lookout;
 use crate::matrix::{Block, Hessian};
@@ -394,7 +394,7 @@ impl Element for Triangles {
         self.list.len()
     }
 
-    fn energy(&self, x: &[Point], sum: f64) -> f64 {
+    fn energy(&self, x: &[Point], _lookout: Option<&mut Lookout>, sum: f64) -> f64 {
         let triangles = self.list.iter();
         triangles.fold(sum, |sum, t| sum + t.energy(t.corners(x)))
     }
@@ -408,8 +408,7 @@ impl Element for Triangles {
         &self,
         x: &[Point],
         ratio_max: f64,
-        mut crush: Option<&mut Crush<'_>>,
-        _lookout: Option<&mut Lookout>,
+        mut also: Also<'_, '_>,
         forces: &mut [Vector],
     ) -> bool {
         let mut sane = true;
@@ -419,7 +418,10 @@ impl Element for Triangles {
             for (v, pull) in t.vertices.into_iter().zip(t.forces(corners)) {
                 forces[v as usize] += pull;
             }
-            if let Some(crush) = &mut crush
+            if let Some(sum) = &mut also.elastic_j {
+                **sum += t.energy(corners);
+            }
+            if let Some(crush) = &mut also.crush
                 && t.is_crushed(corners)
             {
                 let velocities = t.vertices.map(|v| crush.velocities[v as usize]);

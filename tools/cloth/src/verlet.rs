@@ -51,14 +51,11 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
-use tearmesh::geometry::Vector;
-
-use crate::crush::Crush;
 use crate::flight::{accelerate, fly, foresee, kick};
 use crate::loss::Account;
 use crate::solver::{Abilities, Failure, Solver};
 use crate::stability::{carried_count, weigh_for};
-use crate::system::{Scratch, System};
+use crate::system::System;
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
@@ -124,16 +121,6 @@ impl Verlet {
         self.damped_j
     }
 
-    /// Takes the accelerations now, with the guards of a step of this length. Whether they
-    /// are sane, and what damping takes in such a step, in joules.
-    fn accelerate(self, system: &mut System, is_foreseen: bool, dt_s: f64) -> (bool, f64) {
-        if self.is_plain {
-            system.scratch.guarded_s = 0.0;
-            return (accelerate(system, is_foreseen), 0.0);
-        }
-        accelerate_guarded(system, is_foreseen, dt_s)
-    }
-
     /// Whether the last accelerations of the step before are those of now: unless something has changed
     /// in between, or the guards are those of another step.
     fn is_fresh(self, system: &System, dt_s: f64) -> bool {
@@ -159,9 +146,10 @@ impl Solver for Verlet {
         if !self.is_plain {
             weigh_for(system, dt_s);
         }
+        let guarded_s = (!self.is_plain).then_some(dt_s);
         let is_fresh = self.is_fresh(system, dt_s);
-        let mut sane = is_fresh || self.accelerate(system, false, dt_s).0;
-        let mut account = Account::open(system, is_fresh, dt_s);
+        let began = (!is_fresh).then(|| accelerate(system, system.state(), false, guarded_s));
+        let mut account = Account::open(system, began, dt_s);
         fly(system, half_s, dt_s);
         if let Some(account) = &mut account {
             account.fly(system);
@@ -173,55 +161,17 @@ impl Solver for Verlet {
         if blows {
             foresee(system, half_s);
         }
-        let (is_sane, damped_j) = self.accelerate(system, blows, dt_s);
-        sane &= is_sane;
+        let felt = accelerate(system, system.next_state(), blows, guarded_s);
         if let Some(account) = &mut account {
-            account.fly(system);
+            account.land(system);
         }
         kick(system, half_s);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
-        Failure::unless(sane)?;
-        self.damped_j += damped_j;
+        Failure::unless(felt.is_sane && began.is_none_or(|began| began.is_sane))?;
+        self.damped_j += felt.damped_j;
         if let Some(account) = account {
-            account.close(system);
+            account.close(system, felt);
         }
         Ok(())
     }
-}
-
-/// [`accelerate`] with what is crushed damped, and what is light carried: whether it is sane, and what
-/// damping takes in a step of this length, in joules.
-fn accelerate_guarded(system: &mut System, is_foreseen: bool, dt_s: f64) -> (bool, f64) {
-    let System {
-        positions,
-        velocities,
-        model,
-        scratch,
-        counters,
-        guard,
-        lookout,
-        ..
-    } = system;
-    scratch.is_fresh = false;
-    let Scratch {
-        accelerations,
-        foreseen,
-        guarded_s,
-        ..
-    } = scratch;
-    accelerations.resize(positions.len(), Vector::zeros());
-    let mut crush = Crush::new(&*velocities, dt_s);
-    let velocities: &[Vector] = if is_foreseen { foreseen } else { velocities };
-    let guards = (&mut crush, guard.carry());
-    let sane = model.accelerate_guarded(
-        positions,
-        velocities,
-        guards,
-        Some(lookout),
-        accelerations,
-        counters,
-    );
-    let is_other = guard.carry().len() > 0 || crush.lost_j > 0.0;
-    *guarded_s = if is_other { dt_s } else { 0.0 };
-    (sane, crush.lost_j)
 }

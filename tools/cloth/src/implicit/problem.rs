@@ -3,6 +3,7 @@
 use tearmesh::geometry::{Point, Vector, dot};
 
 use super::Layout;
+use crate::element::Also;
 use crate::matrix::Hessian;
 use crate::system::Model;
 
@@ -40,7 +41,7 @@ impl<'a> Problem<'a> {
         forces.extend(weights.map(|(g, m)| g * *m));
         for kind in &self.model.kinds() {
             // What is stretched beyond all measure is found in the state that a step ends in.
-            let _ = kind.forces(x, f64::INFINITY, None, None, forces);
+            let _ = kind.forces(x, f64::INFINITY, Also::default(), forces);
         }
     }
 

@@ -44,7 +44,7 @@
 //! velocity of the whole piece: momentum is kept to rounding, at any tolerance. Angular
 //! momentum is not kept by these methods.
 
-use tearmesh::geometry::{Point, Vector, check_point, dot};
+use tearmesh::geometry::{Point, Vector, check_point};
 
 use super::Layout;
 use super::equation::{Equation, Stage};
@@ -53,7 +53,7 @@ use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
-use crate::loss::{self, Motion};
+use crate::loss::{Motion, free_energy};
 use crate::moment::{Identity, Moment, Note};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
@@ -108,8 +108,6 @@ pub struct Implicit {
     system: Note,
     others: Vec<Aside>,
     report: Option<StepReport>,
-    /// What the last step made of energy, where someone asked.
-    made_j: Option<f64>,
 }
 
 /// What is kept of a system while others are stepped. The layout too: its order depends on what was
@@ -185,9 +183,7 @@ impl Implicit {
         x: &mut [Point],
         v: &mut [Vector],
         time_step_s: f64,
-        is_metered: bool,
     ) -> Result<StepReport, StepError> {
-        self.made_j = None;
         self.equation.work = Work::default();
         self.equation.layout.follow_model(problem.model);
         let is_linearised = self.settings.newton_iterations_max <= 1;
@@ -240,16 +236,6 @@ impl Implicit {
         if let Some(particle) = first_bad(reached.0, reached.1) {
             return Err(StepError::NotFinite { particle });
         }
-        if is_metered {
-            self.made_j = Some(made_j(
-                problem,
-                &self.equation,
-                (x, v),
-                stage,
-                &mut self.shift,
-            ));
-        }
-        let reached = (&self.equation.trial[..], &self.equation.velocities[..]);
         self.history.note((x, v), reached, time_step_s);
         x.copy_from_slice(reached.0);
         v.copy_from_slice(reached.1);
@@ -373,40 +359,6 @@ impl Implicit {
     }
 }
 
-/// What a step from here to where the equation was solved made of energy, by the identity of
-/// [`loss`](crate::loss).
-fn made_j(
-    problem: Problem<'_>,
-    equation: &Equation,
-    (x, v): (&[Point], &[Vector]),
-    stage: Stage,
-    forces: &mut Vec<Vector>,
-) -> f64 {
-    let gravity = problem.model.gravity();
-    let motion = Motion {
-        dt_s: stage.time_step_s,
-        h: stage.h,
-        drag_per_s: problem.model.drag_per_s(),
-        gravity,
-    };
-    let end = &equation.trial[..];
-    let is_led = !problem.model.grabbed.is_empty();
-    if is_led {
-        problem.forces(end, forces);
-    }
-    let mut made_j = problem.model.elastic_j(end) - problem.model.elastic_j(x);
-    for (i, &mass) in problem.masses().iter().enumerate() {
-        let way = end[i] - x[i];
-        if problem.is_free(i) {
-            let velocities = [v[i], equation.velocities[i]];
-            made_j += motion.made_j(mass, equation.start_velocities[i], velocities, way);
-        } else if is_led {
-            made_j += dot(forces[i] - problem.outside[i] * mass, way);
-        }
-    }
-    made_j
-}
-
 impl Solver for Implicit {
     /// The limit of air of BDF2 is that of steps of one length, and below the one of backward Euler,
     /// with which it begins.
@@ -429,6 +381,7 @@ impl Solver for Implicit {
         if !self.history.leads_to(system.moment) {
             self.history.forget();
         }
+        let account = Motion::open(system);
         let System {
             positions,
             velocities,
@@ -461,7 +414,7 @@ impl Solver for Implicit {
             model,
             outside: &outside,
         };
-        let step = self.step(problem, positions, velocities, dt_s, scratch.is_metered);
+        let step = self.step(problem, positions, velocities, dt_s);
         self.outside = outside;
         // What a step cost, whether it is taken or not.
         let work = self.equation.work;
@@ -482,8 +435,10 @@ impl Solver for Implicit {
         self.history.leave(Moment::After(counters.substeps));
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
-        if let Some(made_j) = self.made_j {
-            loss::note(system, made_j);
+        if let Some(mut account) = account {
+            account.lead(system, dt_s);
+            let free = free_energy(system);
+            account.close(system, dt_s, free);
         }
         Ok(())
     }

@@ -8,9 +8,8 @@ use super::Counters;
 use crate::bend::Buckling;
 use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
-use crate::crush::Crush;
 use crate::culprit::{Culprit, Longest};
-use crate::element::{Element, Forces, Slope};
+use crate::element::{Also, Element, Forces, Slope};
 use crate::load::{Loads, Path};
 use crate::lookout::Lookout;
 use crate::pair::{Law, Link, Pairs, length};
@@ -101,15 +100,16 @@ impl Model {
     pub(crate) fn axial(&self, family: Family, constraint: &Constraint, x: &[Point]) -> [f64; 2] {
         let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
         let length = length(x, constraint.ends);
-        let of = |link: Option<[f64; 2]>| link.unwrap_or_default();
-        match (family, self.buckling) {
-            (Family::Bend, Some(law)) => of(law
+        let twice = match (family, self.buckling) {
+            (Family::Bend, Some(law)) => law
                 .link(rest, stiffness)
-                .map(|link| [link.energy(length), link.force(length)])),
-            _ => of(Hooke
+                .map(|link| link.twice_energy_and_force(length)),
+            _ => Hooke
                 .link(rest, stiffness)
-                .map(|link| [link.energy(length), link.force(length)])),
-        }
+                .map(|link| link.twice_energy_and_force(length)),
+        };
+        let [twice, force] = twice.unwrap_or_default();
+        [0.5 * twice, force]
     }
 
     /// How many constraints and triangles there are.
@@ -119,9 +119,15 @@ impl Model {
 
     /// The elastic energy of all constraints, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
-        self.kinds()
+        self.elastic_and_look_j(x, None)
+    }
+
+    /// The same, while the lookout is told of stretch constraints that are as long as it asks for.
+    pub(crate) fn elastic_and_look_j(&self, x: &[Point], mut lookout: Option<&mut Lookout>) -> f64 {
+        let kinds = self.kinds();
+        kinds
             .iter()
-            .fold(0.0, |sum, kind| kind.energy(x, sum))
+            .fold(0.0, |sum, kind| kind.energy(x, lookout.take(), sum))
     }
 
     /// That of all constraints that a particle has a part in.
@@ -171,46 +177,56 @@ impl Model {
         &self,
         positions: &[Point],
         velocities: &[Vector],
-        lookout: Option<&mut Lookout>,
         accelerations: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, None, lookout, accelerations, counters);
+        let sane = self.inner(positions, Also::default(), accelerations, counters);
         self.external(positions, velocities, accelerations, counters);
         sane
     }
 
-    /// The same with what is crushed damped, and what is carried as heavy as that makes it.
+    /// Fills in the forces of springs, triangles and wind. False where a spring has blown up.
     #[must_use]
-    pub(crate) fn accelerate_guarded(
+    pub(crate) fn pull(
         &self,
         positions: &[Point],
         velocities: &[Vector],
-        (crush, carry): (&mut Crush<'_>, &Carry),
-        lookout: Option<&mut Lookout>,
-        accelerations: &mut [Vector],
+        also: Also<'_, '_>,
+        forces: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, Some(crush), lookout, accelerations, counters);
-        if carry.len() == 0 {
-            self.external(positions, velocities, accelerations, counters);
-            return sane;
-        }
-        self.blow(positions, velocities, accelerations, counters);
+        let sane = self.inner(positions, also, forces, counters);
+        self.blow(positions, velocities, forces, counters);
+        sane
+    }
+
+    /// Makes accelerations of such forces, with gravity, and with what is carried as heavy as that
+    /// makes it; held particles have none.
+    pub(crate) fn weigh(
+        &self,
+        forces: &[Vector],
+        carry: Option<&Carry>,
+        accelerations: &mut [Vector],
+    ) {
         let gravity = self.gravity();
-        for (force, &mass) in accelerations.iter_mut().zip(&self.masses) {
-            *force += gravity * mass;
+        let particles = accelerations.iter_mut().zip(forces);
+        let Some(carry) = carry.filter(|carry| carry.len() > 0) else {
+            for ((a, &force), &w) in particles.zip(&self.inverse_masses) {
+                *a = accelerated(force, w, gravity);
+            }
+            return;
+        };
+        for ((a, &force), &mass) in particles.zip(&self.masses) {
+            *a = force + gravity * mass;
         }
         carry.accelerate(accelerations);
-        sane
     }
 
     /// Fills in the forces of springs and triangles. False where one has blown up.
     fn inner(
         &self,
         positions: &[Point],
-        mut crush: Option<&mut Crush<'_>>,
-        mut lookout: Option<&mut Lookout>,
+        mut also: Also<'_, '_>,
         forces: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
@@ -220,10 +236,7 @@ impl Model {
         forces.fill(Vector::zeros());
         let mut sane = true;
         for kind in &self.kinds() {
-            let crush = crush.as_deref_mut();
-            // The first kind is that of stretch constraints.
-            let lookout = lookout.take();
-            sane &= kind.forces(positions, self.stretch_ratio_max, crush, lookout, forces);
+            sane &= kind.forces(positions, self.stretch_ratio_max, also.for_next(), forces);
         }
         sane
     }
@@ -242,7 +255,7 @@ impl Model {
         }
     }
 
-    /// Whether nothing is stretched beyond the limit, nor not a number: what [`Model::accelerate`]
+    /// Whether nothing is stretched beyond the limit, nor not a number: what [`Model::pull`]
     /// says of the same positions, for methods that do not ask it.
     #[must_use]
     pub(crate) fn is_within_limit(&self, positions: &[Point]) -> bool {
@@ -280,11 +293,7 @@ impl Model {
         self.blow(positions, velocities, accelerations, counters);
         let gravity = self.gravity();
         for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
-            *a = if w > 0.0 {
-                *a * w + gravity
-            } else {
-                Vector::zeros()
-            };
+            *a = accelerated(*a, w, gravity);
         }
     }
 
@@ -321,6 +330,16 @@ impl Model {
                 multipliers.for_each(|lambda| *lambda *= scale);
             }
         }
+    }
+}
+
+/// The acceleration of a particle by a force beside its weight; none of one that is held.
+#[inline]
+fn accelerated(force: Vector, inverse_mass: f64, gravity: Vector) -> Vector {
+    if inverse_mass > 0.0 {
+        force * inverse_mass + gravity
+    } else {
+        Vector::zeros()
     }
 }
 

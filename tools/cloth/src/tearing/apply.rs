@@ -305,7 +305,7 @@ impl Tear {
         self.bound = Some((of, bound));
         if let Some(ratio) = bound {
             cloth.system_mut().look_out_from(ratio);
-            let found = cloth.system().lookout.found(ratio);
+            let found = cloth.system().found_from(ratio);
             let found = found.expect("a look finds what was asked for").iter();
             let edges = found.map(|&id| whole_edge(mesh, cloth.edge(id)));
             self.candidates.extend(edges);
