@@ -368,7 +368,7 @@ impl Scissor {
     }
 
     /// Cuts a mesh like [`Scissor::cut`], and measures what was done: that looks at the whole mesh
-    /// before and after, and takes about as long as the cut and a walk over all components together.
+    /// before and after, and takes up to twice as long as the cut and a walk over all components together.
     ///
     /// # Errors
     ///
