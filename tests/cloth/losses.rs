@@ -107,6 +107,9 @@ fn an_edge_between_two_who_are_held_takes_from_the_hand_what_it_stores() {
         // Those who move by the force at the end take a step's share more.
         let given = balance.held_j / 72.0;
         assert!((given - 1.0).abs() < 0.005, "{name}: {given} was given");
+        // And that share is what the method says it took, where it says.
+        let left_j = balance.method_j.map_or(0.0, |_| balance.remainder_j());
+        assert!(left_j.abs() < 1e-6, "{name}: {left_j} J of {balance:?}");
     }
 }
 
