@@ -43,6 +43,19 @@ pub enum Observable {
     EnergyLost,
 }
 
+/// What charts and tables in words are of; CSV and JSON have all.
+pub(super) const TOLD: [Observable; 9] = [
+    Observable::Displacement,
+    Observable::StrainRms,
+    Observable::ReactionLargest,
+    Observable::Decay,
+    Observable::EnergyMade,
+    Observable::EnergyLost,
+    Observable::TearTime,
+    Observable::TearForce,
+    Observable::ToughForce,
+];
+
 /// What several observables are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Raw {

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use super::assess::{CaseStudy, FLOORS, Row};
 use super::mark::{self, Look, colour};
 use super::method::Family;
-use super::observable::Observable;
+use super::observable::{Observable, TOLD};
 use super::run::Status;
 use super::{AMPLIFICATION_MAX, Study};
 use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
@@ -21,19 +21,6 @@ pub enum By {
     /// CPU time, where it was taken.
     Time,
 }
-
-/// What is drawn of the observables of a scene; tables have them all.
-const DRAWN: [Observable; 9] = [
-    Observable::Displacement,
-    Observable::StrainRms,
-    Observable::ReactionLargest,
-    Observable::Decay,
-    Observable::EnergyMade,
-    Observable::EnergyLost,
-    Observable::TearTime,
-    Observable::TearForce,
-    Observable::ToughForce,
-];
 
 const COLUMNS: usize = 4;
 const PANEL: (i32, i32) = (330, 270);
@@ -56,7 +43,7 @@ pub fn svg(study: &Study, by: By) -> Option<String> {
             let is_shown = move |o: &Observable| {
                 asked(o) || (case.is_barred && *o == Observable::Displacement)
             };
-            DRAWN.into_iter().filter(is_shown).map(move |o| (case, o))
+            TOLD.into_iter().filter(is_shown).map(move |o| (case, o))
         })
         .collect();
     let rows = panels.len().div_ceil(COLUMNS) as i32;

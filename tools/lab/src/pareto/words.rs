@@ -3,21 +3,8 @@
 use std::fmt::Write as _;
 
 use super::method::{Claim, Family};
-use super::observable::Observable;
+use super::observable::{Observable, TOLD};
 use super::{CaseStudy, Cheapest, Study};
-
-/// What tables in words are of; the others are in JSON.
-const TOLD: [Observable; 9] = [
-    Observable::Displacement,
-    Observable::StrainRms,
-    Observable::ReactionLargest,
-    Observable::Decay,
-    Observable::EnergyMade,
-    Observable::EnergyLost,
-    Observable::TearTime,
-    Observable::TearForce,
-    Observable::ToughForce,
-];
 
 /// The cheapest for each tolerance, scene by scene; and whether methods win where they should.
 #[must_use]
