@@ -1,0 +1,124 @@
+//! What `chart` takes.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+use tearmesh_lab::pareto::{MeshKind, SCENES};
+
+use crate::say::Color;
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh chart tear -o tear.svg
+      the force that tears strips of five meshes, by stretch ratio and by toughness
+  tearmesh chart pareto --scene swing,hang --size 8 -o p.svg --csv p.csv
+      what each method costs and how far it is off, in two scenes on a small mesh";
+
+/// Make an experiment, and draw its chart.
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct ChartArgs {
+    /// Which: tear (force to tear, against displacement and mesh size), or pareto (work of all methods
+    /// against precision).
+    #[arg(value_enum, value_name = "WHAT", hide_possible_values = true)]
+    pub(crate) what: What,
+
+    /// Where to write the chart, as SVG; `-` is standard output.
+    #[arg(short, long, value_name = "X.svg")]
+    pub(crate) output: PathBuf,
+
+    /// Write the figures as a table.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+
+    /// Write the figures as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) pareto: ParetoArgs,
+
+    /// When to use colours on the screen.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// What `chart pareto` takes beside what all charts do.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Options of pareto")]
+pub(crate) struct ParetoArgs {
+    /// The scenes, all unless named.
+    #[arg(long, value_name = "NAME", value_delimiter = ',',
+        value_parser = clap::builder::PossibleValuesParser::new(SCENES.map(|scene| scene.name)))]
+    pub(crate) scene: Vec<String>,
+
+    /// How sheets are meshed.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "grid")]
+    pub(crate) mesh: Vec<ChartMesh>,
+
+    /// Cells a side.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_value = "16",
+        value_parser = clap::value_parser!(u32).range(2..=256))]
+    pub(crate) size: Vec<u32>,
+
+    /// How many runs go on at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// The visits of edges after which a run is given up.
+    #[arg(long, value_name = "N")]
+    pub(crate) visits_max: Option<u64>,
+
+    /// Take times, and write a second chart by CPU time.
+    #[arg(long, value_name = "T.svg")]
+    pub(crate) time_chart: Option<PathBuf>,
+
+    /// How often each run is made again, alone, for its time; 0 takes that of the one beside others.
+    #[arg(long, value_name = "N", default_value = "5", requires = "time_chart")]
+    pub(crate) repeats: u32,
+}
+
+impl ParetoArgs {
+    /// An option that was given.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let all = [
+            ("--scene", !self.scene.is_empty()),
+            ("--mesh", self.mesh != [ChartMesh::Grid]),
+            ("--size", self.size != [16]),
+            ("--threads", self.threads.is_some()),
+            ("--visits-max", self.visits_max.is_some()),
+            ("--time-chart", self.time_chart.is_some()),
+        ];
+        all.into_iter()
+            .find(|(_, given)| *given)
+            .map(|(name, _)| name)
+    }
+}
+
+/// How a chart's sheets are meshed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ChartMesh {
+    Grid,
+    Delaunay,
+}
+
+impl ChartMesh {
+    pub(crate) fn of_library(self) -> MeshKind {
+        match self {
+            ChartMesh::Grid => MeshKind::Grid,
+            ChartMesh::Delaunay => MeshKind::Delaunay,
+        }
+    }
+}
+
+/// An experiment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum What {
+    Tear,
+    Pareto,
+}

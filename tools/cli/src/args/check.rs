@@ -1,0 +1,40 @@
+//! What `check` takes.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+use super::files::Format;
+use crate::say::Color;
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh check models/*.obj
+      a line for each file: ok, or the first thing that is wrong, with its line
+  tearmesh check -v shirt.obj
+      everything that is wrong, with the text of the lines concerned";
+
+/// Check OBJ files: whether they can be read and are meshes that can be cut.
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct CheckArgs {
+    /// The OBJ files; `-` is standard input.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) inputs: Vec<PathBuf>,
+
+    /// Print a line of words for each file, or a line of JSON.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+
+    /// When to use colours.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print only the files that fail.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+
+    /// Show everything there is to say of each file, with the text of the lines.
+    #[arg(short, long)]
+    pub(crate) verbose: bool,
+}

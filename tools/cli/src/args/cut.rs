@@ -1,0 +1,187 @@
+//! What `cut` takes.
+
+use std::path::PathBuf;
+
+use clap::{Parser, ValueEnum};
+
+use super::files::FileArgs;
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh cut flag.obj --rays 0,2,5:0,0,-1 0,-2,5:0,0,-1 -o torn.obj
+      cuts a flag along x = 0, looking down the z-axis
+  tearmesh cut flag.obj --rays 0,0,9@-1,0.2,0 0,0,9@1,0.2,0 --format json
+      cuts between two points seen from the eye 0,0,9, and prints the report only";
+
+/// Cut a mesh along the plane between two rays, or along a plane.
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct CutArgs {
+    /// Two rays, as origin:direction or origin@target; may be given repeatedly.
+    ///
+    /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
+    /// `ox,oy,oz@tx,ty,tz` (origin and a point that it is aimed at). The cut
+    /// follows the plane through both rays, and ends at the rays unless --through is given.
+    /// Several pairs are cuts one after another; where one begins with the ray with which the one
+    /// before ended, both are parts of one polyline.
+    #[arg(long, value_name = "A B")]
+    pub(crate) rays: Vec<String>,
+
+    /// A file of rays: two a line, `#` begins a comment.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) rays_file: Option<PathBuf>,
+
+    /// A plane in the place of rays, as point:normal; may be given repeatedly.
+    ///
+    /// `px,py,pz:nx,ny,nz`, the normal of any length. The mesh is cut wherever the plane goes.
+    #[arg(
+        long,
+        value_name = "P:N",
+        allow_hyphen_values = true,
+        conflicts_with_all = ["rays", "rays_file", "through"]
+    )]
+    pub(crate) plane: Vec<String>,
+
+    /// Cut all layers between the rays, or those that the rays meet first.
+    ///
+    /// first: of what hangs together where the plane meets the mesh, the part that the first ray
+    /// hits first, and that of the second; where a ray misses, the part that comes next to it. A slit
+    /// in the front of a garment leaves its back whole.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "all|first",
+        hide_possible_values = true,
+        default_value_t,
+        conflicts_with = "plane"
+    )]
+    pub(crate) layers: Layers,
+
+    /// Write the seam into this file, as lines of OBJ.
+    ///
+    /// For each cut an object of `v` and `l` statements: the edges that it tore, in order.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) seam: Option<PathBuf>,
+
+    /// How to cut.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) method: Method,
+
+    /// How near an end of its edge, as a part of it, a crossing is taken for the end.
+    ///
+    /// 0 gives a seam straight to the last digit and may give thin faces; with R, the altitude of
+    /// no new face is below R(1-R) of that of the face it was part of. An end of the cut moves
+    /// within its face where it would leave a thinner one. Up to 0.49; for the method exact.
+    #[arg(long, value_name = "R", allow_negative_numbers = true, default_value_t = tearmesh::Scissor::SNAP)]
+    pub(crate) snap: f64,
+
+    /// Move a vertex that was taken for a crossing onto the plane, along the edge.
+    ///
+    /// `tearmesh mend --simplify` puts it back.
+    #[arg(long)]
+    pub(crate) snap_move: bool,
+
+    /// Cut wherever the plane goes, not only between the rays.
+    #[arg(long)]
+    pub(crate) through: bool,
+
+    /// Where a cut ends: at vertices between the rays, or at edges whose midpoint is.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) tips: Tips,
+
+    /// How a split divides mass: by the area of the faces, or by half.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) mass: Mass,
+
+    /// Repair the input: also drop duplicate and superfluous faces.
+    ///
+    /// Of faces on the same three vertices the first stays, and of those on an edge the first two
+    /// that run in opposite directions; then fans are separated as by --separate-fans. Each
+    /// repair is a warning with its line. A flipped face is never repaired.
+    #[arg(long)]
+    pub(crate) repair: bool,
+
+    /// Give each fan of an input vertex a vertex of its own.
+    ///
+    /// A fan is a set of faces round the vertex that are joined by shared edges. The
+    /// first keeps the vertex, and the others get new ones at the same place.
+    #[arg(long)]
+    pub(crate) separate_fans: bool,
+
+    /// Succeed, and write the mesh, even if nothing was cut.
+    #[arg(long)]
+    pub(crate) allow_miss: bool,
+
+    #[command(flatten)]
+    pub(crate) files: FileArgs,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Method {
+    /// Insert vertices where the plane crosses edges: a straight seam.
+    #[default]
+    Exact,
+    /// Label the faces by side and unshare the seam; adds no face.
+    Partition,
+    /// The paper's first form: leaves irregular meshes undivided.
+    Uniform,
+    /// The paper's better form: leaves crumbs, and a long seam.
+    Alternating,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Tips {
+    #[default]
+    Vertex,
+    Midpoint,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Layers {
+    #[default]
+    All,
+    First,
+}
+
+impl Method {
+    /// As it is typed, and as it stands in the report.
+    pub(crate) fn name(self) -> &'static str {
+        cut_name(self.of_library())
+    }
+
+    pub(crate) fn of_library(self) -> tearmesh::CutMethod {
+        match self {
+            Method::Exact => tearmesh::CutMethod::Exact,
+            Method::Partition => tearmesh::CutMethod::Partition,
+            Method::Uniform => tearmesh::CutMethod::Uniform,
+            Method::Alternating => tearmesh::CutMethod::Alternating,
+        }
+    }
+}
+
+/// [`Method::name`] of a method of the library.
+pub(crate) fn cut_name(method: tearmesh::CutMethod) -> &'static str {
+    match method {
+        tearmesh::CutMethod::Partition => "partition",
+        tearmesh::CutMethod::Uniform => "uniform",
+        tearmesh::CutMethod::Alternating => "alternating",
+        _ => "exact",
+    }
+}
+
+impl Tips {
+    /// As it is typed, and as it stands in the report.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Tips::Vertex => "vertex",
+            Tips::Midpoint => "midpoint",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Mass {
+    #[default]
+    Area,
+    Half,
+}

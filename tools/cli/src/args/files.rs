@@ -1,0 +1,56 @@
+//! What the verbs that change a mesh have in common.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use crate::say::Color;
+
+/// Where a verb reads and writes, and how it says what it did.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FileArgs {
+    /// The OBJ file to read; `-` is standard input.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the mesh; `-` is standard output.
+    ///
+    /// Without it the mesh goes to standard output if that is a pipe or a file.
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Allow the output to replace the input.
+    #[arg(long)]
+    pub(crate) in_place: bool,
+
+    /// Do everything but write.
+    #[arg(long)]
+    pub(crate) dry_run: bool,
+
+    /// Print words, or the report as JSON.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+
+    /// Write the JSON report to a file as well.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Leave times out of the report, so that it is the same on every run.
+    #[arg(long)]
+    pub(crate) no_timing: bool,
+
+    /// When to use colours.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    #[default]
+    Text,
+    Json,
+}
