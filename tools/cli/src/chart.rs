@@ -2,34 +2,35 @@
 
 mod files;
 mod pareto;
+mod provenance;
 mod tear;
 
 use indicatif::ProgressDrawTarget;
 
-use crate::args::{ChartArgs, What};
+use crate::args::{ChartArgs, DrawArgs, What};
 use crate::exit::Exit;
-use crate::say::Fault;
 use crate::streams::Streams;
 
 /// Makes the experiment, draws it, and gives the exit status.
 pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
-    let target = if streams.error_is_terminal && !args.quiet {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    };
-    let done = match args.what {
-        What::Pareto => pareto::work(args, target, streams),
-        What::Tear => match args.pareto.given() {
-            None => tear::work(args, target, streams),
-            Some(option) => {
-                let message = format!("`{option}` goes with `chart pareto`");
-                Err((Exit::Usage, Fault::error("E-USAGE", message)))
-            }
-        },
+    let (draw, done) = match &args.what {
+        What::Tear(draw) => (draw, tear::work(draw, target(draw, streams), streams)),
+        What::Pareto(args) => {
+            let draw = &args.draw;
+            (draw, pareto::work(args, target(draw, streams), streams))
+        }
     };
     match done {
         Ok(exit) => exit,
-        Err((exit, fault)) => streams.fail(&fault, args.color, exit),
+        Err((exit, fault)) => streams.fail(&fault, draw.color, exit),
+    }
+}
+
+/// Where progress is shown: on a terminal alone.
+fn target(draw: &DrawArgs, streams: &Streams<'_>) -> ProgressDrawTarget {
+    if streams.error_is_terminal && !draw.quiet {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
     }
 }

@@ -8,6 +8,9 @@
 mod draw;
 pub mod pareto;
 pub mod pool;
+mod provenance;
 mod random;
 pub mod rk4;
 pub mod tear;
+
+pub use provenance::Provenance;

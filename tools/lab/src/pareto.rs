@@ -55,6 +55,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::pool::side_by_side;
+use crate::provenance::Provenance;
 
 /// What to chart, and how.
 #[derive(Clone, Debug)]
@@ -76,21 +77,6 @@ pub struct Options {
 
 /// Visits that a row may cost unless one says otherwise: some seconds.
 pub const VISITS_MAX: u64 = 200_000_000;
-
-/// Where a chart comes from.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Provenance {
-    /// The command that made it.
-    pub command: String,
-    /// The version of the program.
-    pub version: String,
-    /// The commit that it was built from.
-    pub commit: String,
-    /// What it was compiled with.
-    pub compiler: String,
-    /// The processor that it ran on, where times were taken.
-    pub processor: Option<String>,
-}
 
 /// The experiment, made.
 #[derive(Clone, Debug, Serialize)]

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::{Parser, ValueEnum};
+use clap::{Parser, Subcommand, ValueEnum};
 use tearmesh_lab::pareto::{MeshKind, SCENES};
 
 use crate::say::Color;
@@ -17,13 +17,24 @@ Examples:
 
 /// Make an experiment, and draw its chart.
 #[derive(Debug, Parser)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = EXAMPLES, disable_help_subcommand = true)]
 pub(crate) struct ChartArgs {
-    /// Which: tear (force to tear, against displacement and mesh size), or pareto (work of all methods
-    /// against precision).
-    #[arg(value_enum, value_name = "WHAT", hide_possible_values = true)]
+    #[command(subcommand)]
     pub(crate) what: What,
+}
 
+/// An experiment.
+#[derive(Debug, Subcommand)]
+pub(crate) enum What {
+    /// The force that tears strips of five meshes, by stretch ratio and by toughness.
+    Tear(DrawArgs),
+    /// The work of all methods against their precision.
+    Pareto(ParetoArgs),
+}
+
+/// What all charts take.
+#[derive(Debug, clap::Args)]
+pub(crate) struct DrawArgs {
     /// Where to write the chart, as SVG; `-` is standard output.
     #[arg(short, long, value_name = "X.svg")]
     pub(crate) output: PathBuf,
@@ -36,9 +47,6 @@ pub(crate) struct ChartArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
 
-    #[command(flatten)]
-    pub(crate) pareto: ParetoArgs,
-
     /// When to use colours on the screen.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) color: Color,
@@ -48,10 +56,12 @@ pub(crate) struct ChartArgs {
     pub(crate) quiet: bool,
 }
 
-/// What `chart pareto` takes beside what all charts do.
+/// What `chart pareto` takes.
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Options of pareto")]
 pub(crate) struct ParetoArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
     /// The scenes, all unless named.
     #[arg(long, value_name = "NAME", value_delimiter = ',',
         value_parser = clap::builder::PossibleValuesParser::new(SCENES.map(|scene| scene.name)))]
@@ -83,23 +93,6 @@ pub(crate) struct ParetoArgs {
     pub(crate) repeats: u32,
 }
 
-impl ParetoArgs {
-    /// An option that was given.
-    pub(crate) fn given(&self) -> Option<&'static str> {
-        let all = [
-            ("--scene", !self.scene.is_empty()),
-            ("--mesh", self.mesh != [ChartMesh::Grid]),
-            ("--size", self.size != [16]),
-            ("--threads", self.threads.is_some()),
-            ("--visits-max", self.visits_max.is_some()),
-            ("--time-chart", self.time_chart.is_some()),
-        ];
-        all.into_iter()
-            .find(|(_, given)| *given)
-            .map(|(name, _)| name)
-    }
-}
-
 /// How a chart's sheets are meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ChartMesh {
@@ -114,11 +107,4 @@ impl ChartMesh {
             ChartMesh::Delaunay => MeshKind::Delaunay,
         }
     }
-}
-
-/// An experiment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum What {
-    Tear,
-    Pareto,
 }

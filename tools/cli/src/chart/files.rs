@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::args::DrawArgs;
 use crate::exit::Exit;
 use crate::output;
 use crate::say::Fault;
@@ -12,8 +13,16 @@ use crate::streams::Streams;
 /// How a part of the work ended.
 pub(super) type Ended<T> = Result<T, (Exit, Fault)>;
 
-/// Whether these are places of their own that can be written; only the first may be standard output.
-pub(super) fn check(files: &[&PathBuf]) -> Ended<()> {
+/// The files of a chart, with one that it alone has; all are places of their own that can be written,
+/// and only the first may be standard output.
+pub(super) fn check<'a>(args: &'a DrawArgs, other: Option<&'a PathBuf>) -> Ended<Vec<&'a PathBuf>> {
+    let files = [
+        Some(&args.output),
+        args.csv.as_ref(),
+        args.json.as_ref(),
+        other,
+    ];
+    let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
     for (i, path) in files.iter().enumerate() {
         let is_it = |other: &&PathBuf| other == path || output::is_same_place(other, path);
         let twice = *path != Path::new("-") && files[..i].iter().any(is_it);
@@ -25,6 +34,24 @@ pub(super) fn check(files: &[&PathBuf]) -> Ended<()> {
     }
     for path in files.iter().filter(|path| **path != Path::new("-")) {
         output::check(path).map_err(|error| unwritable(path, &error))?;
+    }
+    Ok(files)
+}
+
+/// Writes chart, table and figures, as far as they are wanted.
+pub(super) fn write_all(
+    args: &DrawArgs,
+    svg: &str,
+    csv: impl FnOnce() -> String,
+    study: &impl Serialize,
+    streams: &mut Streams<'_>,
+) -> Ended<()> {
+    write(&args.output, svg, streams)?;
+    if let Some(path) = &args.csv {
+        write(path, &csv(), streams)?;
+    }
+    if let Some(path) = &args.json {
+        write(path, &json(study), streams)?;
     }
     Ok(())
 }
@@ -40,7 +67,7 @@ pub(super) fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Ended
 }
 
 /// A study as JSON.
-pub(super) fn json(study: &impl Serialize) -> String {
+fn json(study: &impl Serialize) -> String {
     let mut json =
         serde_json::to_string_pretty(study).expect("a study of strings and numbers is JSON");
     json.push('\n');

@@ -96,11 +96,8 @@ fn head(root: &Area<'_>, by: By) -> Drawn {
 fn footer(study: &Study, by: By) -> Vec<String> {
     let from = &study.provenance;
     let mut lines = vec![format!(
-        "{} · version {}, commit {} · {} · seed {} · runs end at {} visits{}",
-        from.command,
-        from.version,
-        from.commit,
-        from.compiler,
+        "{} · seed {} · runs end at {} visits{}",
+        from.line(),
         study.seed,
         study.visits_max,
         if study.is_interrupted {
@@ -114,8 +111,7 @@ fn footer(study: &Study, by: By) -> Vec<String> {
             0 => "CPU time of the one run, beside others".to_owned(),
             n => format!("median CPU time of {n} runs after one to warm up, one after the other"),
         };
-        let processor = from.processor.as_deref().unwrap_or("unknown processor");
-        lines.push(format!("{times} · {processor}"));
+        lines.push(format!("{times} · {}", from.processor()));
     }
     let sizes = study.cases.iter().map(|case| {
         let noise = match case.amplification {
