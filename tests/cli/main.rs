@@ -5,6 +5,7 @@
 
 mod cut;
 mod edited;
+mod fig7;
 mod files;
 mod frames;
 mod full;

@@ -11,7 +11,7 @@ use std::ffi::{OsStr, OsString};
 
 use clap::{Parser, Subcommand};
 
-pub(crate) use self::chart::{ChartArgs, DrawArgs, ParetoArgs, What};
+pub(crate) use self::chart::{ChartArgs, DrawArgs, Fig7Args, ParetoArgs, What};
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CutArgs, Layers, Mass, Method, Tips, cut_name};
 pub(crate) use self::files::{FileArgs, Format};

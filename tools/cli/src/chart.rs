@@ -1,5 +1,6 @@
 //! The verb `chart`.
 
+mod fig7;
 mod files;
 mod pareto;
 mod provenance;
@@ -18,6 +19,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Pareto(args) => {
             let draw = &args.draw;
             (draw, pareto::work(args, target(draw, streams), streams))
+        }
+        What::Fig7(args) => {
+            let draw = &args.draw;
+            (draw, fig7::work(args, target(draw, streams), streams))
         }
     };
     match done {

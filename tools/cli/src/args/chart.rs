@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use tearmesh_lab::fig7;
 use tearmesh_lab::pareto::{MeshKind, SCENES};
 
 use crate::say::Color;
@@ -30,6 +31,9 @@ pub(crate) enum What {
     Tear(DrawArgs),
     /// The work of all methods against their precision.
     Pareto(ParetoArgs),
+    /// The time that it takes to split vertices while a cloth is ripped, by ghost pairs and without
+    /// (figure 7 of the paper).
+    Fig7(Fig7Args),
 }
 
 /// What all charts take.
@@ -91,6 +95,18 @@ pub(crate) struct ParetoArgs {
     /// How often each run is made again, alone, for its time; 0 takes that of the one beside others.
     #[arg(long, value_name = "N", default_value = "5", requires = "time_chart")]
     pub(crate) repeats: u32,
+}
+
+/// What `chart fig7` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Fig7Args {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// Cells a side of the patches that are ripped.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = fig7::CELLS,
+        value_parser = clap::value_parser!(u32).range(2..=256))]
+    pub(crate) size: Vec<u32>,
 }
 
 /// How a chart's sheets are meshed.

@@ -96,6 +96,23 @@ pub(super) fn tell(
     said.map(|_| ())
 }
 
+/// That a chart was given up before it was drawn.
+pub(super) fn interrupted() -> (Exit, Fault) {
+    let message = "interrupted; nothing written".to_owned();
+    (
+        Exit::Interrupted,
+        Fault::warning("W-CHART-INTERRUPTED", message),
+    )
+}
+
+/// So many seconds in words, rounded up.
+pub(super) fn some_time(seconds: f64) -> String {
+    match seconds {
+        s if s < 90.0 => format!("{} s", s.ceil().max(1.0)),
+        s => format!("{} min", (s / 60.0).ceil()),
+    }
+}
+
 /// Our own bug.
 pub(super) fn bug(message: String) -> (Exit, Fault) {
     (Exit::Bug, Fault::error("E-BUG-INVARIANT", message))

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tearmesh_lab::pareto::{self, By, Options, SCENES, Study, VISITS_MAX};
 use tearmesh_lab::{Provenance, pool};
 
-use super::files::{Ended, bug, check, tell, write, write_all};
+use super::files::{Ended, bug, check, some_time, tell, write, write_all};
 use super::provenance;
 use crate::args::ParetoArgs;
 use crate::exit::Exit;
@@ -90,10 +90,7 @@ fn expected(options: &Options) -> String {
     let cases = pareto::cases(options);
     let runs: usize = cases.iter().map(|case| pareto::plan(case).len()).sum();
     let seconds = VISIT_S * pareto::guessed_visits(options) / options.threads.get() as f64;
-    let about = match seconds {
-        s if s < 90.0 => format!("{} s", s.ceil().max(1.0)),
-        s => format!("{} min", (s / 60.0).ceil()),
-    };
+    let about = some_time(seconds);
     let threads = match options.threads.get() {
         1 => "one thread".to_owned(),
         n => format!("{n} threads"),

@@ -3,11 +3,10 @@
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use tearmesh_lab::tear;
 
-use super::files::{Ended, bug, check, tell, write_all};
+use super::files::{Ended, bug, check, interrupted, tell, write_all};
 use crate::args::DrawArgs;
 use crate::exit::Exit;
 use crate::interrupt::Guard;
-use crate::say::Fault;
 use crate::streams::Streams;
 
 /// Tears them, and draws the chart.
@@ -26,11 +25,7 @@ pub(super) fn work(
     bar.finish_and_clear();
     drop(guard);
     let Some(study) = study.map_err(|error| bug(error.to_string()))? else {
-        let message = "interrupted; nothing written".to_owned();
-        return Err((
-            Exit::Interrupted,
-            Fault::warning("W-CHART-INTERRUPTED", message),
-        ));
+        return Err(interrupted());
     };
     let svg = tear::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
     write_all(args, &svg, || tear::csv(&study), &study, streams)?;

@@ -1,0 +1,63 @@
+//! `chart fig7`: what splitting vertices takes.
+
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use indicatif::{ProgressBar, ProgressDrawTarget};
+use tearmesh_lab::fig7;
+
+use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
+use super::provenance;
+use crate::args::Fig7Args;
+use crate::exit::Exit;
+use crate::interrupt::Guard;
+use crate::streams::Streams;
+
+/// A rip with a cell a side took so many seconds on the machine that charts were first made on; one of n
+/// cells has n times n of them, and steps n times as short.
+const CELL_S: f64 = 3e-5;
+
+/// Rips the patches, and draws the chart.
+pub(super) fn work(
+    args: &Fig7Args,
+    target: ProgressDrawTarget,
+    streams: &mut Streams<'_>,
+) -> Ended<Exit> {
+    let draw = &args.draw;
+    let files = check(draw, None)?;
+    let costs: Vec<f64> = args.size.iter().map(|&n| f64::from(n).powi(3)).collect();
+    let whole: f64 = costs.iter().sum();
+    if !draw.quiet {
+        let about = some_time(CELL_S * whole);
+        // Nowhere is left to say it if standard error is closed.
+        let _ = writeln!(
+            streams.error,
+            "{} rips, some {about}; Ctrl-C ends it without a chart",
+            costs.len()
+        );
+    }
+    let sizes: Vec<String> = args.size.iter().map(u32::to_string).collect();
+    let command = format!("tearmesh chart fig7 --size {}", sizes.join(","));
+    let bar = ProgressBar::with_draw_target(Some(1000), target);
+    let guard = Guard::new();
+    let clock = || -> Duration { ThreadTime::now().as_duration() };
+    let study = fig7::study(
+        &args.size,
+        fig7::ROUNDS,
+        provenance::of(command, true),
+        &clock,
+        |rip, part| {
+            let before: f64 = costs[..rip].iter().sum();
+            bar.set_position((1000.0 * (before + part * costs[rip]) / whole) as u64);
+            !guard.is_interrupted()
+        },
+    );
+    bar.finish_and_clear();
+    drop(guard);
+    let study = study.map_err(|error| bug(error.to_string()))?;
+    let study = study.ok_or_else(interrupted)?;
+    let svg = fig7::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
+    write_all(draw, &svg, || fig7::csv(&study), &study, streams)?;
+    tell(&study.conclusion, &files, draw.quiet, streams)?;
+    Ok(Exit::Done)
+}

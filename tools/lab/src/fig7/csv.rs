@@ -1,0 +1,37 @@
+//! The figures of a study as a table.
+
+use std::fmt::Write as _;
+
+use super::Study;
+
+/// A line for each patch, way and round, with what does not depend on the round repeated.
+#[must_use]
+pub fn csv(study: &Study) -> String {
+    let mut text = String::from(
+        "cells,vertices,faces,splits,frames,frames_with_splits,simulation_s,way,round,sum_s,mean_s,median_s,\
+         worst_frame_s\n",
+    );
+    for test in &study.tests {
+        for timed in &test.ways {
+            for (round, sum_s) in timed.sums_s.iter().enumerate() {
+                writeln!(
+                    text,
+                    "{},{},{},{},{},{},{:.6},{},{round},{sum_s:.9},{:.9},{:.9},{:.9}",
+                    test.cells,
+                    test.vertices,
+                    test.faces,
+                    test.splits,
+                    test.frames,
+                    test.frames_with_splits,
+                    test.simulation_s,
+                    timed.way,
+                    timed.mean_s,
+                    timed.median_s,
+                    timed.worst_frame_s,
+                )
+                .expect("a string grows");
+            }
+        }
+    }
+    text
+}
