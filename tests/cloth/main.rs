@@ -7,6 +7,7 @@ mod allocation;
 mod answers;
 mod balance;
 mod bending;
+mod chronicle;
 mod cost;
 mod defaults;
 mod failures;

@@ -5,10 +5,12 @@
 //! [`Scene::rip`] and [`Scene::trouser`]. Nothing here is read from files: a program fills in a
 //! scene's fields from wherever it likes.
 
+mod chronicle;
 mod frame;
 mod plays;
 mod run;
 
+pub use chronicle::{Chronicle, FRAME_S, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
     CutMade, Gain, Guarded, Limited, Names, Quality, Run, RunError, Shortened, Softness, Solved,

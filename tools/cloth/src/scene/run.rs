@@ -17,8 +17,10 @@ pub use self::gain::Gain;
 pub use self::quality::{Guarded, Limited, Quality, Solved};
 pub use self::step_size::{Softness, suggested_step_s};
 
+use std::num::NonZero;
+
 use tearmesh::geometry::{Vector, dot, length};
-use tearmesh::{CutReport, Edits, Masses, Mesh, Positions, Scissor, VertexId};
+use tearmesh::{CutReport, Edits, Masses, Mesh, PositionError, Positions, Scissor, VertexId};
 
 use self::engine::Engine;
 use self::gain::Watch;
@@ -244,6 +246,60 @@ impl Run {
             let tear = tear.with_strengths(strengths);
             self.tear = Some(tear.map_err(RunError::Tearing)?);
         }
+        Ok(self)
+    }
+
+    /// Divides the step of a run that has not begun into so many, for who wants to know what it decides.
+    /// A step of the run's own choice is still divided where that is needed.
+    ///
+    /// ```
+    /// use std::num::NonZero;
+    /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+    /// use tearmesh::shapes;
+    ///
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    /// let run = Run::new(mesh, &positions, Scene::hang(&frame), &frame)?;
+    /// let (step_s, steps) = (run.step_s(), run.steps_planned());
+    /// let finer = run.in_smaller_steps(NonZero::new(2).unwrap());
+    /// assert_eq!((finer.step_s(), finer.steps_planned()), (step_s / 2.0, 2 * steps));
+    /// # Ok::<(), tearmesh_cloth::scene::RunError>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If a step was taken, or there would be more than [`Run::STEPS_MAX`].
+    #[must_use]
+    pub fn in_smaller_steps(mut self, parts: NonZero<u32>) -> Run {
+        assert_eq!(self.tally.steps, 0, "the run has not begun");
+        self.step_s /= f64::from(parts.get());
+        self.steps_planned = self.steps_planned.saturating_mul(parts.get().into());
+        assert!(self.steps_planned <= Run::STEPS_MAX, "steps can be counted");
+        self.watch = Watch::new(&self.scene.solver, self.cloth.system(), self.step_s);
+        self
+    }
+
+    /// Puts the vertices of a run that has not begun elsewhere, each off by so much in metres; at rest they
+    /// are as they were, and what will be held is taken there.
+    ///
+    /// # Errors
+    ///
+    /// [`PositionError`] where a vertex would be at no usable place.
+    ///
+    /// # Panics
+    ///
+    /// If a step was taken.
+    pub fn displaced(
+        mut self,
+        mut by_m: impl FnMut(VertexId) -> Vector,
+    ) -> Result<Run, PositionError> {
+        assert_eq!(self.tally.steps, 0, "the run has not begun");
+        let points = self.cloth.positions().iter();
+        let moved = self.mesh.vertices().zip(points);
+        let moved = Positions::new(moved.map(|(v, &x)| x + by_m(v)))?;
+        let system = self.cloth.system_mut();
+        system.state_mut().0.copy_from_slice(moved.as_slice());
+        self.balance = Balance::new(system);
         Ok(self)
     }
 

@@ -1,0 +1,159 @@
+//! What a chronicle tells of a run, against what the run itself says, the balance of energy, and
+//! weights.
+
+use std::num::NonZero;
+
+use tearmesh::Vector;
+use tearmesh_cloth::scene::{Chronicle, Hold, Method, Run, Scene};
+
+use crate::parts::scenes::{methods, play, staged};
+
+fn told(mut run: Run) -> (Run, Chronicle) {
+    let mut chronicle = Chronicle::new(&run);
+    while !run.is_over() {
+        let step = run.step().expect("a step");
+        chronicle.note(&run, &step);
+    }
+    (run, chronicle)
+}
+
+/// How far a hold has been led by then: straight between the points of its way.
+fn led(hold: &Hold, time_s: f64) -> Vector {
+    let mut from = (hold.from_s, Vector::zeros());
+    for &(at_s, by) in &hold.moves {
+        if time_s < at_s {
+            let part = ((time_s - from.0) / (at_s - from.0)).clamp(0.0, 1.0);
+            return from.1 + (by - from.1) * part;
+        }
+        from = (at_s, by);
+    }
+    from.1
+}
+
+/// Force times way, frame by frame, is what the balance of energy says that hands have worked: it takes
+/// forces and ways substep by substep, and knows nothing of frames.
+#[test]
+fn force_times_way_is_the_work_of_hands() {
+    for (name, solver) in methods() {
+        if matches!(solver, Method::Provot(_)) {
+            continue; // Its limiter works on what is held as well.
+        }
+        let (run, chronicle) = told(staged(8, |frame| Scene {
+            solver: solver.clone(),
+            ..Scene::trouser(frame)
+        }));
+        let mut worked_j = 0.0;
+        let mut since_s = 0.0;
+        for frame in chronicle.hold_forces() {
+            for (hold, force) in run.scene().holds.iter().zip(&frame.forces_n) {
+                worked_j += force.dot(&(led(hold, frame.end_s) - led(hold, since_s)));
+            }
+            since_s = frame.end_s;
+        }
+        let held_j = run.energy_balance().held_j;
+        println!("{name}: {worked_j} J by forces, {held_j} J by the balance");
+        assert!(
+            (worked_j / held_j - 1.0).abs() < 0.02,
+            "{name}: {worked_j} {held_j}"
+        );
+        assert!(run.tally().splits > 0, "{name}");
+    }
+}
+
+#[test]
+fn what_hangs_at_rest_pulls_with_its_weight() {
+    for (name, solver) in methods() {
+        let (run, chronicle) = told(staged(8, |frame| Scene {
+            solver: solver.clone(),
+            drag_per_s: 8.0,
+            duration_s: 5.0,
+            ..Scene::hang(frame)
+        }));
+        let last = chronicle.hold_forces().last().expect("frames");
+        let force: Vector = last.forces_n.iter().sum();
+        let mass: f64 = run.cloth().system().masses().iter().sum();
+        let weight = -run.scene().gravity_m_per_s2 * mass;
+        assert!(
+            (force - weight).norm() < 0.01 * weight.norm(),
+            "{name}: {force} {weight}"
+        );
+        assert!((last.end_s - 5.0).abs() < 1e-9, "{name}");
+        assert!(chronicle.first_tear().is_none() && chronicle.events().is_empty());
+    }
+}
+
+#[test]
+fn events_are_the_steps_in_which_something_tore() {
+    for (name, solver) in methods() {
+        let mut run = staged(10, |frame| Scene {
+            solver: solver.clone(),
+            ..Scene::rip(frame)
+        });
+        let mut chronicle = Chronicle::new(&run);
+        let mut expected = Vec::new();
+        while !run.is_over() {
+            let (splits, torn_m) = (run.tally().splits, run.torn_length_m());
+            let step = run.step().expect("a step");
+            chronicle.note(&run, &step);
+            if run.tally().splits > splits {
+                let splits = (run.tally().splits - splits) as usize;
+                expected.push((run.elapsed_s(), splits, run.torn_length_m() - torn_m));
+            }
+        }
+        let events = chronicle.events();
+        assert_eq!(events.len(), expected.len(), "{name}");
+        for (event, &(time_s, splits, torn_m)) in events.iter().zip(&expected) {
+            assert_eq!((event.time_s, event.splits), (time_s, splits), "{name}");
+            assert!((event.torn_m - torn_m).abs() < 1e-12, "{name}");
+            assert!(event.load >= 1.0);
+        }
+        let first = chronicle.first_tear().expect("it rips");
+        assert_eq!(first.event, events[0]);
+        // The grip is dragged down, so what tears first is not far above it.
+        let [now, rest] = first.event.place;
+        assert!(now.y < rest.y + 0.01, "{name}: {now} {rest}");
+        assert!(0.0 < first.force_n && first.force_n <= chronicle.largest_force_n());
+    }
+}
+
+#[test]
+fn smaller_steps_are_those_of_a_scene_that_names_them() {
+    let scene = |step_s| {
+        move |frame: &_| Scene {
+            step_s,
+            duration_s: 0.5,
+            ..Scene::hang(frame)
+        }
+    };
+    let whole = staged(6, scene(None));
+    let third = whole.step_s() / 3.0;
+    let named = play(staged(6, scene(Some(third))));
+    let divided = play(whole.in_smaller_steps(NonZero::new(3).expect("not zero")));
+    assert_eq!(divided.cloth().positions(), named.cloth().positions());
+    assert_eq!(divided.tally().steps, named.tally().steps);
+}
+
+/// What is moved aside before it begins is elsewhere at once, at rest as before, and no energy comes from
+/// nowhere.
+#[test]
+fn what_is_displaced_has_its_rest_as_before() {
+    let still = |frame: &_| Scene {
+        gravity_m_per_s2: Vector::zeros(),
+        drag_per_s: 0.0,
+        duration_s: 0.5,
+        ..Scene::hang(frame)
+    };
+    let whole = staged(6, still);
+    let before = whole.cloth().positions().to_vec();
+    let by = |i: usize| Vector::new(0.01 * (i % 3) as f64, 0.0, 0.02);
+    let moved = whole.displaced(|v| by(v.index())).expect("usable places");
+    let now = moved.cloth().positions();
+    for (i, (before, now)) in before.iter().zip(now).enumerate() {
+        assert_eq!(*now, before + by(i));
+    }
+    assert_eq!(moved.cloth().rest_positions().as_slice(), before);
+    let began_j = moved.energy_balance().began_j;
+    assert!(began_j > 0.0);
+    let balance = play(moved).energy_balance();
+    assert!(balance.remainder_j().abs() < 1e-3 * began_j, "{balance:?}");
+}

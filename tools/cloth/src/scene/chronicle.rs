@@ -1,0 +1,211 @@
+//! What tore in a run, when and where, and how hard its holds pulled.
+
+use std::collections::VecDeque;
+
+use tearmesh::Point;
+use tearmesh::geometry::{Vector, between, length};
+
+use super::Hold;
+use super::run::{Run, Step};
+use crate::balance::WIND_S;
+use crate::force;
+
+/// Forces are means over this time, in seconds: a frame. Those of single steps are as much the
+/// method's as the cloth's.
+pub const FRAME_S: f64 = 1.0 / 60.0;
+
+/// A step in which something tore.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TearEvent {
+    /// The end of the step, in seconds.
+    pub time_s: f64,
+    /// The vertices that were split.
+    pub splits: usize,
+    /// The rest length of the edges that came apart, in metres.
+    pub torn_m: f64,
+    /// The middle of the edge with the largest load over strength: where it was then, and at rest.
+    pub place: [Point; 2],
+    /// That load over strength: 1 or more.
+    pub load: f64,
+}
+
+/// How a cloth tore first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstTear {
+    /// The step in which it did.
+    pub event: TearEvent,
+    /// The largest force at a hold in newtons, as [`Chronicle::largest_force_n`] counts, as a mean over
+    /// the [`FRAME_S`] before.
+    pub force_n: f64,
+}
+
+/// The forces at all holds of a scene, as means over a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HoldForces {
+    /// The end of the frame, in seconds.
+    pub end_s: f64,
+    /// By hold, in newtons: what it takes to hold or lead its vertices, their weight included. Zero
+    /// before it takes them and after it has let them go.
+    pub forces_n: Vec<Vector>,
+}
+
+/// The chronicle of a run, for who notes each step in it.
+///
+/// It costs the valence of what is held, a step; where wind blows, a pass over all faces a millisecond
+/// for each vertex that is held.
+///
+/// ```
+/// use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene};
+/// use tearmesh::shapes;
+///
+/// let (mesh, positions) = shapes::grid(6, 6);
+/// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+/// let mut run = Run::new(mesh, &positions, Scene::rip(&frame), &frame)?;
+/// let mut chronicle = Chronicle::new(&run);
+/// while !run.is_over() {
+///     let step = run.step()?;
+///     chronicle.note(&run, &step);
+/// }
+/// let first = chronicle.first_tear().ok_or("it rips")?;
+/// assert!(first.event.time_s > 0.5); // It is grabbed then.
+/// assert!(first.force_n > 0.0 && first.force_n <= chronicle.largest_force_n());
+/// let splits: usize = chronicle.events().iter().map(|event| event.splits).sum();
+/// assert_eq!(splits as u64, run.tally().splits);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Chronicle {
+    events: Vec<TearEvent>,
+    first_n: Option<f64>,
+    frames: Vec<HoldForces>,
+    /// Whether each hold is led, or all count since none is.
+    counts: Vec<bool>,
+    /// The forces of the last frame's time: how long each lasted, and at what holds.
+    recent: VecDeque<(f64, Vec<Vector>)>,
+    /// The sum of forces times seconds since the last frame ended, and those seconds.
+    sum: Vec<Vector>,
+    sum_s: f64,
+    /// The time since forces were taken last.
+    waited_s: f64,
+}
+
+impl Chronicle {
+    /// Of a run that has not begun.
+    #[must_use]
+    pub fn new(run: &Run) -> Chronicle {
+        let holds = &run.scene().holds;
+        let is_led = |hold: &Hold| !hold.moves.is_empty();
+        let has_led = holds.iter().any(is_led);
+        Chronicle {
+            events: Vec::new(),
+            first_n: None,
+            frames: Vec::new(),
+            counts: holds.iter().map(|hold| !has_led || is_led(hold)).collect(),
+            recent: VecDeque::new(),
+            sum: vec![Vector::zeros(); holds.len()],
+            sum_s: 0.0,
+            waited_s: 0.0,
+        }
+    }
+
+    /// Notes a step that the run has just taken.
+    pub fn note(&mut self, run: &Run, step: &Step) {
+        self.weigh(run);
+        let Some(tear) = step.tear.filter(|tear| tear.splits > 0) else {
+            return;
+        };
+        let (mesh, cloth) = (run.mesh(), run.cloth());
+        let rest = cloth.rest_positions().as_slice();
+        let (edge, load) = tear.worst.expect("what tears is stretched too far");
+        let middle = |x: &[Point]| {
+            let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| x[v.index()]);
+            between(a, b, 0.5)
+        };
+        if self.events.is_empty() {
+            let total_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
+            let mean = |hold: usize| {
+                let parts = self.recent.iter();
+                let sum = parts.fold(Vector::zeros(), |sum, (s, forces)| sum + forces[hold] * *s);
+                sum / total_s
+            };
+            self.first_n = Some(self.largest(mean));
+        }
+        self.events.push(TearEvent {
+            time_s: run.elapsed_s(),
+            splits: tear.splits,
+            torn_m: tear.tear_length_m,
+            place: [middle(cloth.positions()), middle(rest)],
+            load,
+        });
+    }
+
+    /// Takes the forces at all holds.
+    fn weigh(&mut self, run: &Run) {
+        self.waited_s += run.step_s();
+        let system = run.cloth().system();
+        let is_due = system.loads().wind.is_none() || self.waited_s >= WIND_S;
+        if !is_due && !run.is_over() {
+            return;
+        }
+        let seconds = std::mem::take(&mut self.waited_s);
+        let at = |hold: usize| {
+            let held = run.held(hold).iter();
+            held.map(|v| force::reaction_n(system, v.index())).sum()
+        };
+        let forces: Vec<Vector> = (0..self.sum.len()).map(at).collect();
+        for (sum, force) in self.sum.iter_mut().zip(&forces) {
+            *sum += *force * seconds;
+        }
+        self.sum_s += seconds;
+        self.recent.push_back((seconds, forces));
+        let mut kept_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
+        while let Some((oldest_s, _)) = self.recent.front()
+            && kept_s - oldest_s >= FRAME_S * (1.0 - 1e-9)
+        {
+            kept_s -= oldest_s;
+            self.recent.pop_front();
+        }
+        if self.sum_s >= FRAME_S * (1.0 - 1e-9) || run.is_over() {
+            let per_s = 1.0 / std::mem::take(&mut self.sum_s);
+            let sums = self.sum.iter_mut();
+            let forces_n = sums.map(|sum| std::mem::take(sum) * per_s).collect();
+            self.frames.push(HoldForces {
+                end_s: run.elapsed_s(),
+                forces_n,
+            });
+        }
+    }
+
+    /// The steps in which something tore, in their order.
+    #[must_use]
+    pub fn events(&self) -> &[TearEvent] {
+        &self.events
+    }
+
+    /// How the cloth tore first; `None` if it has not.
+    #[must_use]
+    pub fn first_tear(&self) -> Option<FirstTear> {
+        let (&event, force_n) = (self.events.first()?, self.first_n?);
+        Some(FirstTear { event, force_n })
+    }
+
+    /// The forces at all holds, frame by frame; the last may be shorter.
+    #[must_use]
+    pub fn hold_forces(&self) -> &[HoldForces] {
+        &self.frames
+    }
+
+    /// The largest force at one hold in newtons, as a mean over a frame: of those that are led about,
+    /// or of all where none is.
+    #[must_use]
+    pub fn largest_force_n(&self) -> f64 {
+        let frames = self.frames.iter();
+        let largest = frames.map(|frame| self.largest(|hold| frame.forces_n[hold]));
+        largest.chain(self.first_n).fold(0.0, f64::max)
+    }
+
+    fn largest(&self, of: impl Fn(usize) -> Vector) -> f64 {
+        let counted = (0..self.counts.len()).filter(|&hold| self.counts[hold]);
+        counted.map(|hold| length(of(hold))).fold(0.0, f64::max)
+    }
+}
