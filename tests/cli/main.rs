@@ -19,6 +19,7 @@ mod numbers;
 mod odd;
 mod pareto;
 mod places;
+mod step;
 mod tear;
 mod through;
 mod transcripts;

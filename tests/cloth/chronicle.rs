@@ -69,6 +69,11 @@ fn what_hangs_at_rest_pulls_with_its_weight() {
             duration_s: 5.0,
             ..Scene::hang(frame)
         }));
+        assert!(chronicle.first_tear().is_none() && chronicle.events().is_empty());
+        if matches!(solver, Method::Provot(_)) {
+            assert!(chronicle.hold_forces().is_empty() && chronicle.largest_force_n().is_none());
+            continue;
+        }
         let last = chronicle.hold_forces().last().expect("frames");
         let force: Vector = last.forces_n.iter().sum();
         let mass: f64 = run.cloth().system().masses().iter().sum();
@@ -78,7 +83,6 @@ fn what_hangs_at_rest_pulls_with_its_weight() {
             "{name}: {force} {weight}"
         );
         assert!((last.end_s - 5.0).abs() < 1e-9, "{name}");
-        assert!(chronicle.first_tear().is_none() && chronicle.events().is_empty());
     }
 }
 
@@ -112,7 +116,10 @@ fn events_are_the_steps_in_which_something_tore() {
         // The grip is dragged down, so what tears first is not far above it.
         let [now, rest] = first.event.place;
         assert!(now.y < rest.y + 0.01, "{name}: {now} {rest}");
-        assert!(0.0 < first.force_n && first.force_n <= chronicle.largest_force_n());
+        let (first_n, largest_n) = (first.force_n, chronicle.largest_force_n());
+        let knows_forces = !matches!(solver, Method::Provot(_));
+        assert_eq!([first_n.is_some(), largest_n.is_some()], [knows_forces; 2]);
+        assert!(first_n <= largest_n && first_n.is_none_or(|newtons| newtons > 0.0));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use tearmesh::{CutReport, Mesh, Point, Ray, Scissor, Vector};
+use tearmesh_lab::ensemble::{Comparison, Ensemble};
 
 use crate::say::{Fault, Severity};
 
@@ -176,8 +177,61 @@ pub(crate) struct Tear {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) quality: Option<Quality>,
     pub(crate) counters: Counters,
+    /// The largest force at a hold that is led about, or at any where none is: mean over 1/60 s.
+    /// Not said by Provot's method.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) largest_force_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) first_tear: Option<FirstTear>,
+    /// The steps in which something tore.
+    pub(crate) tears: Vec<TearEvent>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) step_check: Option<StepCheck>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) frames: Option<Frames>,
+}
+
+/// How a cloth tore first.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct FirstTear {
+    pub(crate) time_s: f64,
+    /// The middle of the edge with the largest load: where it was then, and at rest.
+    pub(crate) place: [f64; 3],
+    pub(crate) place_at_rest: [f64; 3],
+    /// The largest force at a hold then, as a mean over 1/60 s; not said by Provot's method.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) force_n: Option<f64>,
+}
+
+/// A step in which something tore.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct TearEvent {
+    pub(crate) time_s: f64,
+    pub(crate) splits: usize,
+    pub(crate) torn_m: f64,
+    pub(crate) place: [f64; 3],
+    pub(crate) place_at_rest: [f64; 3],
+    /// The largest load over strength: 1 or more.
+    pub(crate) load: f64,
+}
+
+/// `--check-step`: the scene played with many seeds, at its step and at half of it.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct StepCheck {
+    pub(crate) noise_m: f64,
+    /// At the step, and at half of it: every run, failed ones as well.
+    pub(crate) ensembles: Vec<Ensemble>,
+    pub(crate) quantities: Vec<StepQuantity>,
+}
+
+/// A number of both ensembles, compared.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct StepQuantity {
+    pub(crate) name: &'static str,
+    /// The 10, 50 and 90 % points at the step, and at half of it; `null` where nothing tore.
+    pub(crate) spread: [[f64; 3]; 2],
+    #[serde(flatten)]
+    pub(crate) comparison: Comparison,
 }
 
 /// Energy in joules: what edits made, what edges held as they tore, and the balance of all: what was

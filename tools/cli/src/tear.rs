@@ -4,8 +4,10 @@ mod check;
 mod frames;
 mod points;
 mod reach;
+mod step;
 mod strength;
 mod times;
+mod told;
 mod words;
 
 use std::ffi::OsString;
@@ -14,8 +16,9 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tearmesh::{Cursor, Scissor, VertexId};
-use tearmesh_cloth::scene::{CutMade, Frame, Region, Run, Scene, TimedCut};
+use tearmesh_cloth::scene::{Chronicle, CutMade, Frame, Region, Run, Scene, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
+use tearmesh_lab::ensemble::Subject;
 use tearmesh_obj::{Document, TornDocument};
 
 use self::frames::Frames;
@@ -27,7 +30,7 @@ use crate::interrupt::Guard;
 use crate::scene::{Source, method_name};
 use crate::session::{Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, report};
+use crate::{files, output, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -51,12 +54,16 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     settle(args, cuts, &mut scene);
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
+    check::known_forces(args, &scene)?;
     let is_step_chosen = scene.step_s.is_some();
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
     let mut run = run.map_err(|error| check::refused(&error, &opened, &source))?;
-    if let Some(path) = &args.strength {
-        let strengths = strength::read(path, &opened.document, streams)?;
-        let with = run.with_strengths(strengths);
+    let strengths = match &args.strength {
+        Some(path) => Some(strength::read(path, &opened.document, streams)?),
+        None => None,
+    };
+    if let Some(strengths) = &strengths {
+        let with = run.with_strengths(strengths.clone());
         run = with.map_err(|error| check::refused(&error, &opened, &source))?;
     }
     session
@@ -70,6 +77,8 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         is_step_chosen,
         args,
         opened: &opened,
+        frame: &frame,
+        strengths: strengths.as_deref(),
         guard: Guard::new(),
     };
     play.perform(run, session, streams)
@@ -123,6 +132,8 @@ struct Play<'a> {
     is_step_chosen: bool,
     args: &'a TearArgs,
     opened: &'a Opened,
+    frame: &'a Frame,
+    strengths: Option<&'a [f64]>,
     /// An interruption ends the steps, or the writing of frames; what was done is written.
     guard: Guard,
 }
@@ -148,7 +159,9 @@ impl Play<'_> {
         let mut frames = Frames::open(self.args, &run)?;
         session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
-        let ended = self.steps(&mut run, &mut torn, &mut frames, session, streams)?;
+        let mut chronicle = Chronicle::new(&run);
+        let followers = (&mut torn, &mut frames, &mut chronicle);
+        let ended = self.steps(&mut run, followers, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
 
@@ -187,16 +200,30 @@ impl Play<'_> {
             energy_j: words::energy(&run),
             quality: words::quality(&run),
             counters: words::counters(&run),
+            largest_force_n: chronicle.largest_force_n(),
+            first_tear: told::first(&chronicle),
+            tears: told::events(&chronicle),
+            step_check: match ended {
+                Ended::Done if self.args.check_step => Some(self.check_step(&run, streams)?),
+                _ => None,
+            },
             frames: None,
         };
         session.faults.extend(words::infeasible(&run));
         session.faults.extend(words::residual(&run));
         session.faults.extend(reach::after(&run));
         session.words.push(words::simulation(&tear));
+        session.words.extend(told::first_tear(&chronicle));
         session.words.push(words::balance(&run));
+        if let Some(check) = &tear.step_check {
+            session.words.extend(step::words(check));
+            session.faults.extend(step::warnings(check));
+        }
         session.faults.extend(words::gain(&run));
         session.report.tear = Some(tear);
         match ended {
+            // Its step may still have been checked then.
+            Ended::Done if self.guard.is_interrupted() => session.exit = Exit::Interrupted,
             Ended::Done => {}
             Ended::Interrupted => session.exit = Exit::Interrupted,
             Ended::Failed(error) => {
@@ -212,6 +239,15 @@ impl Play<'_> {
         let positions = places(&run)?;
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
+        if let Some(path) = self
+            .args
+            .forces
+            .as_ref()
+            .filter(|_| !self.args.files.dry_run)
+        {
+            let written = output::write(path, |out| told::write_forces(&run, &chronicle, out));
+            written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+        }
         let mesh = run.mesh();
         let ending = files::ending(vertices_before, mesh, mass, &session.destination);
         session.words.push(ending);
@@ -244,12 +280,11 @@ impl Play<'_> {
     fn steps(
         &self,
         run: &mut Run,
-        torn: &mut TornDocument<'_>,
-        frames: &mut Frames,
+        (torn, frames, chronicle): (&mut TornDocument<'_>, &mut Frames, &mut Chronicle),
         session: &mut Session<'_>,
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
-        let bar = self.bar(run, streams);
+        let bar = self.bar(run.steps_planned(), "step {pos} of {len}", streams);
         let mut ended = Ended::Done;
         frames.shoot(run, torn)?;
         while !run.is_over() {
@@ -265,7 +300,10 @@ impl Play<'_> {
                 torn.next_cut();
             }
             match step {
-                Ok(_) => frames.shoot(run, torn)?,
+                Ok(step) => {
+                    chronicle.note(run, &step);
+                    frames.shoot(run, torn)?;
+                }
                 Err(error) => {
                     ended = Ended::Failed(error);
                     break;
@@ -275,6 +313,20 @@ impl Play<'_> {
         }
         bar.finish_and_clear();
         Ok(ended)
+    }
+
+    /// Plays the scene again and again, as it began.
+    fn check_step(&self, run: &Run, streams: &Streams<'_>) -> Result<report::StepCheck, Stop> {
+        let subject = Subject {
+            mesh: &self.opened.mesh,
+            positions: &self.opened.positions,
+            frame: self.frame,
+            scene: run.scene(),
+            strengths: self.strengths,
+        };
+        let bar = self.bar(1000, "of the step check {percent} %", streams);
+        let checked = step::check(subject, &self.guard, &bar);
+        Ok(checked.expect("a scene that was played can be played again"))
     }
 
     fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_>) {
@@ -306,7 +358,7 @@ impl Play<'_> {
     }
 
     /// On a terminal only.
-    fn bar(&self, run: &Run, streams: &Streams<'_>) -> ProgressBar {
+    fn bar(&self, length: u64, what: &str, streams: &Streams<'_>) -> ProgressBar {
         let files = &self.args.files;
         let is_shown =
             streams.error_is_terminal && !files.quiet && files.format == crate::args::Format::Text;
@@ -315,8 +367,8 @@ impl Play<'_> {
         } else {
             ProgressDrawTarget::hidden()
         };
-        let bar = ProgressBar::with_draw_target(Some(run.steps_planned()), target);
-        let style = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left");
+        let bar = ProgressBar::with_draw_target(Some(length), target);
+        let style = ProgressStyle::with_template(&format!("{{bar:40}} {what}, {{eta}} left"));
         match style {
             Ok(style) => bar.with_style(style),
             Err(_) => bar, // Its own style does as well.

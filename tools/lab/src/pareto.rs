@@ -41,7 +41,7 @@ pub use self::front::{Point, front};
 pub use self::mesh::{MeshKind, SEED, Sheet};
 pub use self::method::{Claim, Family, METHODS, Method, Named, PARTS};
 pub use self::observable::Observable;
-pub use self::plan::{NOISE_M, Planned, Role, plan};
+pub use self::plan::{Planned, Role, plan};
 pub use self::run::{Bounds, CHECKPOINTS, Cost, ENERGY_MAX, Outcome, Status};
 pub use self::scene::{
     Case, Held, REST_M_PER_S, SCENES, Scene, Start, TEAR_RATIO, TOUGHNESS_J_PER_M, Until,

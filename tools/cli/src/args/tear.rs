@@ -100,6 +100,18 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) cut_at: Option<f64>,
 
+    /// Play the scene again with 8 seeds, and with 8 at half the step: does the step decide?
+    ///
+    /// What tears is chaotic: each run begins with its vertices off by up to a nanometre and its faces in
+    /// another order. First tear, torn length, pieces, forces and work are compared by their medians:
+    /// the same, different, or one cannot tell. Takes some 24 times as long, on all processors.
+    #[arg(long)]
+    pub(crate) check_step: bool,
+
+    /// Write the force at each hold, frame by frame of 1/60 s, as a table.
+    #[arg(long, value_name = "F.csv")]
+    pub(crate) forces: Option<PathBuf>,
+
     /// Write frames into this folder, 30 a second.
     ///
     /// `frame_00000.obj` and so on; vertices keep their order, and new ones are appended: what is

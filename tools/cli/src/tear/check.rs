@@ -1,6 +1,6 @@
 //! What is refused before a simulation, and what is warned of.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, Softness, TimedCut};
@@ -15,6 +15,7 @@ use crate::rays;
 use crate::say::{Fault, count, short};
 use crate::scene::Source;
 use crate::session::Opened;
+use crate::{files, output};
 
 /// Refuses numbers out of range, and streams that are wanted twice.
 pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
@@ -54,7 +55,31 @@ pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
         let message = "two inputs both come from standard input".to_owned();
         return refuse(message, "name a file for one of them");
     }
-    Ok(())
+    forces(args)
+}
+
+/// Refuses a table of forces that would replace what is read, or what else is written.
+fn forces(args: &TearArgs) -> Result<(), Stop> {
+    let Some(path) = &args.forces else {
+        return Ok(());
+    };
+    let scene = PathBuf::from(&args.scene);
+    let read = [
+        Some(&args.files.input),
+        Some(&scene),
+        args.strength.as_ref(),
+    ];
+    let is_read = read
+        .into_iter()
+        .flatten()
+        .any(|other| files::is_same(path, other));
+    if path == Path::new("-") || is_read {
+        let message = "`--forces` takes the name of a file of its own".to_owned();
+        return refuse(message, "write the forces to another file");
+    }
+    files::keep(&args.files, Some(path), "the table of forces")?;
+    let unwritable = |error| Stop::new(Exit::Output, output::cannot_write(path, &error));
+    output::check(path).map_err(unwritable)
 }
 
 fn range(
@@ -89,6 +114,16 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
         });
     }
     Ok(cuts)
+}
+
+/// Refuses a table of forces where the method knows none.
+pub(super) fn known_forces(args: &TearArgs, scene: &Scene) -> Result<(), Stop> {
+    if args.forces.is_some() && matches!(scene.solver, Method::Provot(_)) {
+        let message =
+            "`--forces` has none to write: Provot's limiter moves vertices without a force";
+        return refuse(message.to_owned(), "--solver verlet or implicit");
+    }
+    Ok(())
 }
 
 /// Refuses what would make no difference to how the scene tears.

@@ -75,6 +75,7 @@ impl Frames {
                 (files.report.as_deref(), "the report"),
                 (Some(Path::new(&args.scene)), "the scene"),
                 (args.strength.as_deref(), "the strengths"),
+                (args.forces.as_deref(), "the table of forces"),
             ] {
                 path.map_or(Ok(()), |path| refuse_replacing(folder, path, what))?;
             }

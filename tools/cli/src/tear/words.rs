@@ -388,7 +388,7 @@ fn edge([a, b]: [usize; 2]) -> String {
 }
 
 /// Three digits or all of those before the point; nothing below a billionth.
-fn three_digits(x: f64) -> String {
+pub(super) fn three_digits(x: f64) -> String {
     if x.abs() < 1e-9 {
         return "0".to_owned();
     }

@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
 
-use super::Hold;
 use super::run::{Run, Step};
+use super::{Hold, Method};
 use crate::balance::WIND_S;
 use crate::force;
 
@@ -35,8 +35,8 @@ pub struct FirstTear {
     /// The step in which it did.
     pub event: TearEvent,
     /// The largest force at a hold in newtons, as [`Chronicle::largest_force_n`] counts, as a mean over
-    /// the [`FRAME_S`] before.
-    pub force_n: f64,
+    /// the [`FRAME_S`] before; `None` where forces are not known.
+    pub force_n: Option<f64>,
 }
 
 /// The forces at all holds of a scene, as means over a frame.
@@ -50,6 +50,9 @@ pub struct HoldForces {
 }
 
 /// The chronicle of a run, for who notes each step in it.
+///
+/// Forces are what the method exerts: force times way is the work of the hands that lead, by every method
+/// but Provot's. Its limiter moves particles without a force, so by it none are known.
 ///
 /// It costs the valence of what is held, a step; where wind blows, a pass over all faces a millisecond
 /// for each vertex that is held.
@@ -68,7 +71,8 @@ pub struct HoldForces {
 /// }
 /// let first = chronicle.first_tear().ok_or("it rips")?;
 /// assert!(first.event.time_s > 0.5); // It is grabbed then.
-/// assert!(first.force_n > 0.0 && first.force_n <= chronicle.largest_force_n());
+/// let force_n = first.force_n.ok_or("Verlet knows forces")?;
+/// assert!(force_n > 0.0 && Some(force_n) <= chronicle.largest_force_n());
 /// let splits: usize = chronicle.events().iter().map(|event| event.splits).sum();
 /// assert_eq!(splits as u64, run.tally().splits);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -76,7 +80,8 @@ pub struct HoldForces {
 #[derive(Clone, Debug)]
 pub struct Chronicle {
     events: Vec<TearEvent>,
-    first_n: Option<f64>,
+    first_n: f64,
+    knows_forces: bool,
     frames: Vec<HoldForces>,
     /// Whether each hold is led, or all count since none is.
     counts: Vec<bool>,
@@ -98,7 +103,8 @@ impl Chronicle {
         let has_led = holds.iter().any(is_led);
         Chronicle {
             events: Vec::new(),
-            first_n: None,
+            first_n: 0.0,
+            knows_forces: !matches!(run.scene().solver, Method::Provot(_)),
             frames: Vec::new(),
             counts: holds.iter().map(|hold| !has_led || is_led(hold)).collect(),
             recent: VecDeque::new(),
@@ -110,25 +116,27 @@ impl Chronicle {
 
     /// Notes a step that the run has just taken.
     pub fn note(&mut self, run: &Run, step: &Step) {
-        self.weigh(run);
-        let Some(tear) = step.tear.filter(|tear| tear.splits > 0) else {
+        if self.knows_forces {
+            self.weigh(run);
+        }
+        let torn = step.tear.filter(|tear| tear.splits > 0);
+        let Some((tear, (edge, load))) = torn.and_then(|tear| Some((tear, tear.worst?))) else {
             return;
         };
         let (mesh, cloth) = (run.mesh(), run.cloth());
         let rest = cloth.rest_positions().as_slice();
-        let (edge, load) = tear.worst.expect("what tears is stretched too far");
         let middle = |x: &[Point]| {
             let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| x[v.index()]);
             between(a, b, 0.5)
         };
-        if self.events.is_empty() {
+        if self.events.is_empty() && self.knows_forces {
             let total_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
             let mean = |hold: usize| {
                 let parts = self.recent.iter();
                 let sum = parts.fold(Vector::zeros(), |sum, (s, forces)| sum + forces[hold] * *s);
                 sum / total_s
             };
-            self.first_n = Some(self.largest(mean));
+            self.first_n = self.largest(mean);
         }
         self.events.push(TearEvent {
             time_s: run.elapsed_s(),
@@ -185,23 +193,25 @@ impl Chronicle {
     /// How the cloth tore first; `None` if it has not.
     #[must_use]
     pub fn first_tear(&self) -> Option<FirstTear> {
-        let (&event, force_n) = (self.events.first()?, self.first_n?);
+        let &event = self.events.first()?;
+        let force_n = self.knows_forces.then_some(self.first_n);
         Some(FirstTear { event, force_n })
     }
 
-    /// The forces at all holds, frame by frame; the last may be shorter.
+    /// The forces at all holds, frame by frame; the last may be shorter. Empty where they are not known.
     #[must_use]
     pub fn hold_forces(&self) -> &[HoldForces] {
         &self.frames
     }
 
     /// The largest force at one hold in newtons, as a mean over a frame: of those that are led about,
-    /// or of all where none is.
+    /// or of all where none is. `None` where forces are not known.
     #[must_use]
-    pub fn largest_force_n(&self) -> f64 {
+    pub fn largest_force_n(&self) -> Option<f64> {
         let frames = self.frames.iter();
         let largest = frames.map(|frame| self.largest(|hold| frame.forces_n[hold]));
-        largest.chain(self.first_n).fold(0.0, f64::max)
+        let largest_n = largest.fold(self.first_n, f64::max);
+        self.knows_forces.then_some(largest_n)
     }
 
     fn largest(&self, of: impl Fn(usize) -> Vector) -> f64 {

@@ -6,9 +6,10 @@ use super::front::{Point, front, rising, vouched};
 use super::method::{DEFAULT, Family, METHODS, PARTS};
 use super::observable::Observable;
 use super::observe::{Records, apart_m, distance, error};
-use super::plan::{NOISE_M, Planned, Role};
+use super::plan::{Planned, Role};
 use super::run::{Cost, Outcome, Status};
 use super::scene::Case;
+use crate::ensemble::NOISE_M;
 
 /// A case and all that is known of it.
 #[derive(Clone, Debug, Serialize)]

@@ -7,6 +7,7 @@ use super::method::{METHODS, Method, Named, PARTS, Store};
 use super::observable::Observable;
 use super::run::{Bounds, Outcome, Settings, fitted_step_s, run};
 use super::scene::{Case, REST_M_PER_S, Until};
+use crate::ensemble::NOISE_M;
 
 /// A run of a case.
 #[derive(Clone, Debug)]
@@ -46,9 +47,6 @@ pub enum Role {
     /// A row at the settings of who names a method and nothing else.
     Named(Box<Named>),
 }
-
-/// The noise of the gate, in metres.
-pub const NOISE_M: f64 = 1e-9;
 
 /// References come to rest so much more nearly than rows, as a part.
 const REST_OF_REFERENCES: f64 = 1e-1;

@@ -1,0 +1,143 @@
+//! `--check-step`: whether the step decides what tears.
+
+use std::num::NonZero;
+
+use indicatif::ProgressBar;
+use tearmesh_cloth::scene::RunError;
+use tearmesh_lab::ensemble::{self, Ensemble, NOISE_M, Quantity, Subject, Verdict};
+use tearmesh_lab::pool;
+
+use super::words::{three_digits, two_digits};
+use crate::interrupt::Guard;
+use crate::report;
+use crate::say::{Fault, count, short};
+
+/// Runs at each of the two steps.
+const SEEDS: u32 = 8;
+
+/// Plays a subject again and again; what was not done when it was interrupted stands as such.
+pub(super) fn check(
+    subject: Subject<'_>,
+    guard: &Guard,
+    bar: &ProgressBar,
+) -> Result<report::StepCheck, RunError> {
+    const WHOLE: NonZero<u32> = NonZero::<u32>::MIN;
+    let parts = [WHOLE, WHOLE.saturating_add(1)];
+    let ensembles = ensemble::play(
+        subject,
+        SEEDS,
+        &parts,
+        pool::workers(),
+        &|| guard.is_interrupted(),
+        |part| bar.set_position((part * bar.length().unwrap_or(0) as f64) as u64),
+    )?;
+    bar.finish_and_clear();
+    let quantities = Quantity::ALL.into_iter();
+    let quantities = quantities.filter_map(|quantity| compared(&ensembles, quantity));
+    Ok(report::StepCheck {
+        noise_m: NOISE_M,
+        quantities: quantities.collect(),
+        ensembles,
+    })
+}
+
+/// None where the method does not say it, or all runs of an ensemble failed. Where some did, nobody can tell:
+/// those that are left are not drawn at random.
+fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQuantity> {
+    let [whole, half] = ensembles else {
+        return None;
+    };
+    let ((whole, all), (half, all_of_half)) = (whole.numbers(quantity), half.numbers(quantity));
+    if whole.is_empty() || half.is_empty() {
+        return None;
+    }
+    let mut comparison = ensemble::compare(&whole, &half);
+    if !(all && all_of_half) {
+        comparison.verdict = Verdict::CannotTell;
+    }
+    Some(report::StepQuantity {
+        name: quantity.key(),
+        spread: [ensemble::spread(&whole), ensemble::spread(&half)],
+        comparison,
+    })
+}
+
+/// The lines of the summary: a head, and one for each number.
+pub(super) fn words(check: &report::StepCheck) -> Vec<String> {
+    let [whole, half] = &check.ensembles[..] else {
+        return Vec::new();
+    };
+    let mut lines = vec![format!(
+        "step: {SEEDS} seeds at {} s and {SEEDS} at {} s; medians, and 10 to 90 % of the runs",
+        short(whole.step_s),
+        short(half.step_s),
+    )];
+    for quantity in Quantity::ALL {
+        let named = |one: &&report::StepQuantity| one.name == quantity.key();
+        let Some(told) = check.quantities.iter().find(named) else {
+            continue;
+        };
+        let [name, unit] = quantity.name();
+        let [whole, half] = told.spread.map(|points| spread(points, unit));
+        let verdict = told.comparison.verdict.name();
+        lines.push(format!("  {name:<14} {whole:<30} {half:<30} {verdict}"));
+    }
+    lines
+}
+
+fn spread([low, middle, high]: [f64; 3], unit: &str) -> String {
+    if middle == f64::INFINITY {
+        return "none".to_owned();
+    }
+    let number = |x: f64| match x {
+        f64::INFINITY => "never".to_owned(),
+        x => three_digits(x),
+    };
+    let text = format!(
+        "{} ({} to {}) {unit}",
+        number(middle),
+        number(low),
+        number(high)
+    );
+    text.trim_end().to_owned()
+}
+
+/// Warns where the step decides, and where runs failed.
+pub(super) fn warnings(check: &report::StepCheck) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let name = |one: &report::StepQuantity| {
+        let mut all = Quantity::ALL.into_iter();
+        let found = all.find(|quantity| quantity.key() == one.name);
+        found.map(|quantity| quantity.name()[0])
+    };
+    let differs = |one: &&report::StepQuantity| one.comparison.verdict == Verdict::Differ;
+    let names: Vec<&str> = check
+        .quantities
+        .iter()
+        .filter(differs)
+        .filter_map(name)
+        .collect();
+    let half_s = check.ensembles.last().map_or(0.0, |half| half.step_s);
+    if !names.is_empty() {
+        let message = format!(
+            "at half the step it is another tear, beyond what chance does ({}): the step decides",
+            names.join(", ")
+        );
+        let help = format!("--dt {} --check-step", two_digits(half_s));
+        faults.push(Fault::warning("W-SIM-STEP", message).help(help));
+    }
+    let members = check
+        .ensembles
+        .iter()
+        .flat_map(|ensemble| &ensemble.members);
+    let failed: Vec<_> = members.filter(|member| member.status == "failed").collect();
+    if let Some(first) = failed.first() {
+        let message = format!(
+            "{} of the step check failed: {}",
+            count(failed.len(), "run", "runs"),
+            first.why
+        );
+        faults.push(Fault::warning("W-SIM-STEP", message));
+    }
+    faults
+}
