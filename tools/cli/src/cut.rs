@@ -82,7 +82,10 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         } else {
             Obstacle::Unknown
         };
-        let warnings = words::warnings(number, (through, is_exact), &done, obstacle);
+        let mut warnings = words::warnings(number, (through, is_exact), &done, obstacle);
+        if let Some(last) = warnings.last_mut().filter(|_| done.missed) {
+            last.help = nothing::advice(obstacle, &mesh, &positions);
+        }
         session.faults.extend(warnings);
         session.faults.extend(words::of_layers(number, &cut));
         seams.push(Seam::new(&cut, &mesh, &positions));

@@ -62,7 +62,7 @@ pub(crate) fn warnings(
             Obstacle::Seam => "but it is already cut there",
             Obstacle::Touch => "it only touches the mesh",
             Obstacle::Snap => "but is shorter than the snap: --snap 0 makes it",
-            Obstacle::Unknown => "but no vertex could be split",
+            Obstacle::Elsewhere { .. } | Obstacle::Unknown => "but no vertex could be split",
         };
         let faces = count(cut.faces_crossed, "face", "faces");
         warn("W-CUT-NONE", format!("the cut crosses {faces}, {why}"));
