@@ -14,6 +14,7 @@ mod harness;
 mod in_process;
 #[cfg(unix)]
 mod killed;
+mod map;
 mod memory;
 mod numbers;
 mod odd;

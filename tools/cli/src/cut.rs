@@ -1,5 +1,6 @@
 //! The verb `cut`.
 
+mod map;
 pub(crate) mod nothing;
 pub(crate) mod scissors;
 mod seam;
@@ -11,12 +12,13 @@ use std::path::Path;
 use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
+use self::map::Map;
 use self::nothing::Obstacle;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
 use crate::args::{CutArgs, Layers, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
-use crate::rays::Pair;
+use crate::rays::{self, Pair};
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
@@ -51,6 +53,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let clock = Clock::start();
     let mut edits = Edits::new();
     let mut torn = TornDocument::new(&document);
+    let mut map = args.map.as_ref().map(|_| Map::new(&document));
     let is_exact = args.method == Method::Exact;
     let mut slid = false;
     let mut line = Polyline::default();
@@ -68,13 +71,21 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let (cut, done) = made.expect("what follows every cut is in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
+        if let Some(map) = &mut map {
+            edits.replay(map);
+        }
         line.go_on(&edits, &cut);
         edits.clear();
         torn.next_cut();
         let chosen = (args.layers == Layers::First).then_some(&cut);
-        let entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
-        session.report.cuts.push(entry);
+        let mut entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
         session.words.push(words::cut(number, &done));
+        if let Some(pair) = along.rays().filter(|_| args.camera.camera.is_some()) {
+            let typed = rays::typed(pair);
+            session.words.push(format!("the same as {typed}"));
+            entry.equivalent = Some(typed);
+        }
+        session.report.cuts.push(entry);
         let method = args.method.of_library();
         let obstacle = if done.splits == 0 {
             let how = (&scissor, method, args.snap);
@@ -104,12 +115,27 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
-        let written = output::write(path, |out| seam::write(&seams, out));
-        written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+        write_beside(path, |out| seam::write(&seams, out))?;
+    }
+    let asked = args.map.as_ref().zip(map);
+    if let Some((path, map)) = asked.filter(|_| !args.files.dry_run) {
+        let name = |file: &Option<report::File>| file.as_ref().and_then(|file| file.path.clone());
+        let names = [&session.report.input, &session.report.output].map(name);
+        let names = names.each_ref().map(Option::as_deref);
+        write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
     }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
+}
+
+/// Writes a file beside the mesh.
+fn write_beside(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+) -> Result<(), Stop> {
+    let written = output::write(path, fill);
+    written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))
 }
 
 /// Cuts of which each begins with the ray that ended the one before: where the first began, and where
@@ -204,19 +230,22 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
         );
     }
     files::keep(&args.files, args.rays_file.as_deref(), "the rays")?;
-    if let Some(seam) = &args.seam {
-        let read = [Some(&args.files.input), args.rays_file.as_ref()];
-        let is_read = read
-            .into_iter()
-            .flatten()
-            .any(|path| files::is_same(path, seam));
-        if seam == Path::new("-") || is_read {
+    let beside = [
+        ("--seam", "the seam", &args.seam),
+        ("--map", "the map", &args.map),
+    ];
+    for (i, (option, what, path)) in beside.into_iter().enumerate() {
+        let Some(path) = path else { continue };
+        let before = beside[..i].iter().filter_map(|(.., other)| other.as_ref());
+        let taken = [Some(&args.files.input), args.rays_file.as_ref()];
+        let mut taken = taken.into_iter().flatten().chain(before);
+        if path == Path::new("-") || taken.any(|taken| files::is_same(taken, path)) {
             return usage(
-                "`--seam` takes the name of a file of its own",
-                "write the seam to another file",
+                &format!("`{option}` takes the name of a file of its own"),
+                &format!("write {what} to another file"),
             );
         }
-        files::keep(&args.files, Some(seam), "the seam")?;
+        files::keep(&args.files, Some(path), what)?;
     }
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(

@@ -2,7 +2,7 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`,
+//! Map: `args` says what can be typed, `rays` reads rays, `camera` makes rays of pixels, `scene` reads scenes, `cut`, `tear`,
 //! `mend`, `check` and `chart` carry out the verbs, `session` is what the first three have in
 //! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `measure` how large it is, `say` puts
 //! diagnostics on a screen, `output` writes files whole or not at all, `files` says where, `bug`
@@ -11,6 +11,7 @@
 
 mod args;
 mod bug;
+mod camera;
 mod chart;
 mod check;
 mod cut;

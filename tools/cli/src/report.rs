@@ -79,6 +79,9 @@ pub(crate) struct Cut {
     /// Of a cut between rays.
     #[serde(skip_serializing_if = "Option::is_none")]
     rays: Option<[RayEntry; 2]>,
+    /// Of a cut between two pixels: what to type for the same with rays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) equivalent: Option<String>,
     method: &'static str,
     through: bool,
     tips: &'static str,
@@ -353,6 +356,7 @@ impl Cut {
                     direction: numbers(ray.direction()),
                 })
             }),
+            equivalent: None,
             method: how.method,
             through: how.through,
             tips: how.tips,

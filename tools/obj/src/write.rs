@@ -35,7 +35,7 @@ mod separate;
 
 use std::io::{self, Write};
 
-use tearmesh::{Mesh, Positions};
+use tearmesh::{Mesh, Positions, VertexId};
 
 use self::number::write_integer;
 use self::output::Output;
@@ -115,6 +115,20 @@ impl TornDocument<'_> {
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
         write(self, &Prepared::new(self, mesh, None), positions, out)
+    }
+
+    /// The vertex of each `v` that [`TornDocument::write`] writes, in order: a vertex with several fans
+    /// comes once for each. Without these they are [`TornDocument::vertices_in_order`].
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not the one whose log was followed, to its end.
+    #[must_use]
+    pub fn statements_in_order(&self, mesh: &Mesh) -> Vec<VertexId> {
+        let prepared = Prepared::new(self, mesh, None);
+        let elements = prepared.orders[0].in_order().into_iter();
+        let vertices = elements.map(|element| prepared.vertex(element));
+        vertices.filter_map(VertexId::new).collect()
     }
 
     /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh,

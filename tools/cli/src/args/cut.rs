@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
+use tearmesh::Point;
 
 use super::files::FileArgs;
 
@@ -11,7 +12,9 @@ Examples:
   tearmesh cut flag.obj --rays 0,2,5:0,0,-1 0,-2,5:0,0,-1 -o torn.obj
       cuts a flag along x = 0, looking down the z-axis
   tearmesh cut flag.obj --rays 0,0,9@-1,0.2,0 0,0,9@1,0.2,0 --format json
-      cuts between two points seen from the eye 0,0,9, and prints the report only";
+      cuts between two points seen from the eye 0,0,9, and prints the report only
+  tearmesh cut flag.obj --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250 -o torn.obj
+      cuts between two pixels of a picture";
 
 /// Cut a mesh along the plane between two rays, or along a plane.
 #[derive(Debug, Parser)]
@@ -30,6 +33,9 @@ pub(crate) struct CutArgs {
     /// A file of rays: two a line, `#` begins a comment.
     #[arg(long, value_name = "FILE")]
     pub(crate) rays_file: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
 
     /// A plane in the place of rays, as point:normal; may be given repeatedly.
     ///
@@ -62,6 +68,14 @@ pub(crate) struct CutArgs {
     /// For each cut an object of `v` and `l` statements: the edges that it tore, in order.
     #[arg(long, value_name = "FILE")]
     pub(crate) seam: Option<PathBuf>,
+
+    /// Write where each vertex, corner and face comes from, as JSON.
+    ///
+    /// For each `v` of the output and each corner of its faces, those of the input that it lies
+    /// between, with weights; for each face the one that it was part of. All are counted from 0, corners
+    /// through all faces. So weights, bones and materials of other programs can follow.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["repair", "separate_fans"])]
+    pub(crate) map: Option<PathBuf>,
 
     /// How to cut.
     #[arg(long, value_enum, default_value_t)]
@@ -114,6 +128,49 @@ pub(crate) struct CutArgs {
 
     #[command(flatten)]
     pub(crate) files: FileArgs,
+}
+
+/// Points of a picture in the place of rays.
+#[derive(Debug, clap::Args)]
+pub(crate) struct CameraArgs {
+    /// The camera of a picture, in the place of rays: eye@target.
+    ///
+    /// What it looks at is in the middle of the picture, which shows it in perspective. Takes --fov,
+    /// --viewport and --points.
+    #[arg(
+        long,
+        value_name = "EYE@AT",
+        allow_hyphen_values = true,
+        value_parser = super::read::look,
+        requires_all = ["fov", "viewport", "points"],
+        conflicts_with_all = ["rays", "rays_file", "plane"]
+    )]
+    pub(crate) camera: Option<[Point; 2]>,
+
+    /// What is upright in the picture.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
+        default_value = "0,1,0", hide_short_help = true)]
+    pub(crate) up: Point,
+
+    /// The angle of view, from the lower edge to the upper one, in degrees.
+    #[arg(
+        long,
+        value_name = "DEG",
+        allow_negative_numbers = true,
+        requires = "camera"
+    )]
+    pub(crate) fov: Option<f64>,
+
+    /// The width and height of the picture in pixels.
+    #[arg(long, value_name = "WxH", value_parser = super::read::size, requires = "camera")]
+    pub(crate) viewport: Option<[f64; 2]>,
+
+    /// Two points of the picture, in pixels from its top left corner; may be given repeatedly.
+    ///
+    /// The middle of the first pixel is 0.5,0.5. A pair that begins where the one before ended goes
+    /// on from there. The report says which --rays they are.
+    #[arg(long, value_name = "X,Y X,Y", requires = "camera")]
+    pub(crate) points: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
