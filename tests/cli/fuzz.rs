@@ -61,6 +61,7 @@ fn every_option_that_names_a_file_is_known() {
         "--points",
         "--plane",
         "--layers",
+        "--gap",
         "--snap",
         "--method",
         "--tips",

@@ -10,6 +10,7 @@ mod files;
 mod frames;
 mod full;
 mod fuzz;
+mod gap;
 mod harness;
 mod in_process;
 #[cfg(unix)]

@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod accept;
+mod apart;
 mod bodies;
 mod collinear;
 mod corpus;

@@ -17,7 +17,7 @@ pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name};
 pub(crate) use self::files::{FileArgs, Format};
 pub(crate) use self::mend::MendArgs;
-pub(crate) use self::read::numbers;
+pub(crate) use self::read::{Gap, numbers};
 pub(crate) use self::tear::{TearArgs, Topology};
 
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.

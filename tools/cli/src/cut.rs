@@ -1,5 +1,6 @@
 //! The verb `cut`.
 
+mod gap;
 mod map;
 pub(crate) mod nothing;
 pub(crate) mod scissors;
@@ -16,8 +17,9 @@ use self::map::Map;
 use self::nothing::Obstacle;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
-use crate::args::{CutArgs, Layers, Mass, Method, Tips};
+use crate::args::{CutArgs, Gap, Layers, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
+use crate::measure::Edges;
 use crate::rays::{self, Pair};
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
@@ -53,6 +55,10 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let clock = Clock::start();
     let mut edits = Edits::new();
     let mut torn = TornDocument::new(&document);
+    let gap = args.gap.map(|gap| match gap {
+        Gap::Length(length) => length,
+        Gap::Edges(part) => part * Edges::of(&mesh, &positions).mean,
+    });
     let mut map = args.map.as_ref().map(|_| Map::new(&document));
     let is_exact = args.method == Method::Exact;
     let mut slid = false;
@@ -111,6 +117,17 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
     if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
+    }
+    if let Some(gap) = gap {
+        let gapped = gap::gapped(&mesh, &positions, gap);
+        session.words.push(words::gap(gap, &gapped));
+        session.faults.extend(words::of_gap(&gapped));
+        session.report.gap = Some(report::Gap {
+            length: gap,
+            vertices_moved: gapped.moved,
+            vertices_clamped: gapped.clamped,
+        });
+        torn.set_apart(gapped.points);
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;

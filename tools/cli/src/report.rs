@@ -19,6 +19,8 @@ pub(crate) struct Report {
     pub(crate) output: Option<File>,
     pub(crate) cuts: Vec<Cut>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) gap: Option<Gap>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mend: Option<Mend>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub(crate) tear: Option<Tear>,
@@ -41,6 +43,7 @@ impl Report {
             input: None,
             output: None,
             cuts: Vec::new(),
+            gap: None,
             mend: None,
             tear: None,
             mass: None,
@@ -134,6 +137,15 @@ pub(crate) struct How {
     pub(crate) tips: &'static str,
     pub(crate) snap: Option<f64>,
     pub(crate) snap_move: Option<bool>,
+}
+
+/// How far apart the lips of cuts are written.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Gap {
+    pub(crate) length: f64,
+    pub(crate) vertices_moved: usize,
+    /// Those that moved by less than half of it, so that no face turns over.
+    pub(crate) vertices_clamped: usize,
 }
 
 /// What was mended.

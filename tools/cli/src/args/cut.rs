@@ -6,6 +6,7 @@ use clap::{Parser, ValueEnum};
 use tearmesh::Point;
 
 use super::files::FileArgs;
+use super::read::Gap;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,7 +25,8 @@ pub(crate) struct CutArgs {
     ///
     /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
     /// `ox,oy,oz@tx,ty,tz` (origin and a point that it is aimed at). The cut
-    /// follows the plane through both rays, and ends at the rays unless --through is given.
+    /// follows the plane through both rays, and ends at the rays unless --through is given; it goes
+    /// through all that lies between them, front and back, unless --layers first is given.
     /// Several pairs are cuts one after another; where one begins with the ray with which the one
     /// before ended, both are parts of one polyline.
     #[arg(long, value_name = "A B")]
@@ -62,6 +64,16 @@ pub(crate) struct CutArgs {
         conflicts_with = "plane"
     )]
     pub(crate) layers: Layers,
+
+    /// Show the lips of all cuts this far apart; N% of the mean edge, or a length.
+    ///
+    /// The two sides of a cut lie on each other, so nothing is seen of it, and programs that join points
+    /// at one place close it. With this each lip is written half of the gap away from the other, within
+    /// the surface, and nothing at a tip; where a face would turn over, less. The file has the true
+    /// places too: `mend`, another `cut` and the masses go by these. Without it a gap stays as it
+    /// is, and --gap 0 closes it.
+    #[arg(long, value_name = "D", value_parser = super::read::gap, allow_hyphen_values = true)]
+    pub(crate) gap: Option<Gap>,
 
     /// Write the seam into this file, as lines of OBJ.
     ///

@@ -26,6 +26,29 @@ pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// How far apart the lips of a cut are to stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Gap {
+    Length(f64),
+    /// As a part of the mean length of the edges.
+    Edges(f64),
+}
+
+/// Reads a length, or per cent of the mean edge.
+pub(super) fn gap(text: &str) -> Result<Gap, String> {
+    let (number, is_part) = match text.strip_suffix('%') {
+        Some(number) => (number, true),
+        None => (text, false),
+    };
+    match (&numbers(number, ',')[..], is_part) {
+        (&[part], true) if part >= 0.0 => Ok(Gap::Edges(part / 100.0)),
+        (&[length], false) if length >= 0.0 => Ok(Gap::Length(length)),
+        _ => {
+            Err("expected a length as in 0.002, or per cent of the mean edge as in 10%".to_owned())
+        }
+    }
+}
+
 /// Finite numbers, `separator` between them; none if one cannot be read.
 pub(crate) fn numbers(text: &str, separator: char) -> Vec<f64> {
     let numbers = text.split(separator);
