@@ -5,6 +5,7 @@
 mod accept;
 mod apart;
 mod bodies;
+mod coincident;
 mod collinear;
 mod corpus;
 mod differential;

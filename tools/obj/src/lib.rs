@@ -164,6 +164,7 @@
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
+//! | `coincident.rs` | boundary edges that lie on each other, where no record says why |
 //! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
 //! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, when each vertex is written, what can be taken out again, and what was edited since |
 //! | `record.rs` | what is on record, and the checksum |
@@ -176,6 +177,7 @@
 //! Bytes come in and go out: opening files, replacing them as a whole, and rendering diagnostics
 //! are the caller's.
 
+mod coincident;
 mod diagnostic;
 mod document;
 mod keyword;
@@ -197,6 +199,7 @@ mod torn;
 mod triangulate;
 mod write;
 
+pub use coincident::{Coincident, CoincidentError};
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::Document;
 pub use mesh::MeshError;

@@ -12,7 +12,9 @@ Examples:
   tearmesh mend torn.obj -o whole.obj
       sews everything that was torn
   tearmesh mend torn.obj --last 1 --simplify -o before.obj
-      undoes the last cut, and takes out the vertices that it inserted";
+      undoes the last cut, and takes out the vertices that it inserted
+  tearmesh mend exported.obj --coincident -o whole.obj
+      sews what lies on itself in a file that went through another program";
 
 /// Sew what was torn, from the record that the file has of it.
 #[derive(Debug, Parser)]
@@ -25,6 +27,13 @@ pub(crate) struct MendArgs {
     /// Sew only what lies near this point: within --radius of it.
     #[arg(long, value_name = "X,Y,Z", requires = "radius", allow_hyphen_values = true, value_parser = super::read::point)]
     pub(crate) near: Option<Point>,
+
+    /// Sew boundary edges that lie on each other, in a file without a record.
+    ///
+    /// For one that went through a program that dropped the record of its cuts. Edges are sewn that
+    /// have the same two ends to the last digit, and lie with no third; inserted vertices stay.
+    #[arg(long, conflicts_with = "last")]
+    pub(crate) coincident: bool,
 
     /// How near.
     #[arg(
