@@ -118,6 +118,108 @@ fn normal(face: [usize; 3], points: &[[f64; 3]]) -> [f64; 3] {
     ]
 }
 
+/// What was checked.
+#[derive(Default)]
+struct Tally {
+    /// Whether all that lies at one place is joined in the meshes before they are cut.
+    is_welded: bool,
+    made: usize,
+    divided: u64,
+    moved: u64,
+    clamped: u64,
+}
+
+/// A cut with a gap, against the same without: `second` is cut after it.
+fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), tally: &mut Tally) {
+    let cut = format!("tearmesh cut - {cut}");
+    let (exit, plain, _) = ran(&format!("{cut} -q -o -"), mesh);
+    if exit != Exit::Done {
+        return;
+    }
+    tally.made += 1;
+    let line = format!("{cut} --gap {gap}");
+    let (exit, gapped, said) = ran(&format!("{line} -q -o -"), mesh);
+    assert_eq!(exit, Exit::Done, "{said}");
+    let (_, report, _) = ran(&format!("{line} --format json"), mesh);
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    let (_, report_of_plain, _) = ran(&format!("{cut} --format json"), mesh);
+    let report_of_plain: Value = serde_json::from_slice(&report_of_plain).expect("JSON");
+    assert_eq!(
+        report["mass"], report_of_plain["mass"],
+        "masses are of the true points"
+    );
+    assert_eq!(report["cuts"], report_of_plain["cuts"]);
+    let count = |name: &str| report["gap"][name].as_u64().expect("a count");
+    let length = report["gap"]["length"].as_f64().expect("a length");
+    tally.moved += count("vertices_moved");
+    tally.clamped += count("vertices_clamped");
+    assert_eq!(
+        said.contains("W-CUT-GAP"),
+        count("vertices_clamped") > 0,
+        "{said}"
+    );
+
+    // What the record says is what the mesh without a gap has; nothing is farther than half a gap,
+    // and no face turns over.
+    let (one, other) = (Plain::read(&gapped), Plain::read(&plain));
+    let coordinates = one.is.as_flattened().iter();
+    let rounding = 1e-12 * coordinates.fold(1.0, |most: f64, x| most.max(x.abs()));
+    assert_eq!(
+        (&one.is, &one.faces),
+        (&other.shown, &other.faces),
+        "{line}"
+    );
+    let mut full = 0;
+    for (is, shown) in one.is.iter().zip(&one.shown) {
+        let off = from(*is, *shown);
+        let far = dot(off, off).sqrt();
+        assert!(far <= length / 2.0 + rounding, "{line}: {far}");
+        full += u64::from((far - length / 2.0).abs() <= 1e-9 * length + rounding);
+    }
+    assert!(
+        full + count("vertices_clamped") >= count("vertices_moved"),
+        "{line}: {full}"
+    );
+    for &face in &one.faces {
+        let (before, after) = (normal(face, &one.is), normal(face, &one.shown));
+        assert!(
+            dot(before, after) > 0.0 || dot(before, before) == 0.0,
+            "{line}: {face:?}"
+        );
+    }
+
+    // Who joins what lies at one place finds the pieces that there are.
+    let pieces = report["cuts"][0]["pieces"].as_u64().expect("a count");
+    if tally.is_welded && count("vertices_clamped") == 0 {
+        assert_eq!(one.welded_pieces() as u64, pieces, "{name} {line}");
+        let before = report["cuts"][0]["pieces_before"]
+            .as_u64()
+            .expect("a count");
+        tally.divided += u64::from(pieces > before);
+        let glued = other.welded_pieces() as u64;
+        assert!(
+            pieces == before || glued < pieces,
+            "without it they are joined"
+        );
+    }
+
+    // Mended it is what it was; cut again, what the file without a gap is.
+    for options in ["", " --simplify"] {
+        let mend = format!("tearmesh mend -{options} -q -o -");
+        let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&mend, bytes));
+        assert!(one == other, "{name} {line}{options}");
+    }
+    let again = format!("tearmesh cut - {second} --gap 0 --allow-miss -q -o -");
+    let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&again, bytes));
+    assert!(one == other, "{name} {line}, then {second}");
+    // One that says nothing of the gap leaves it open, where it is not cut across.
+    let again = format!("tearmesh cut - {second} --allow-miss -q -o -");
+    let (_, one, _) = ran(&again, &gapped);
+    let one = Plain::read(&one);
+    assert_eq!(one.is, Plain::read(&other).shown);
+    assert!(count("vertices_moved") == 0 || one.is != one.shown);
+}
+
 /// Cuts two hundred times at random: across and into sheets, a tube and quads, by all methods.
 #[test]
 fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
@@ -129,9 +231,12 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
             .wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
-    let (mut made, mut moved, mut clamped, mut divided) = (0, 0, 0, 0);
+    let mut tally = Tally {
+        is_welded: true,
+        ..Tally::default()
+    };
     for case in 0.. {
-        if made == 200 {
+        if tally.made == 200 {
             break;
         }
         let name = ["flag", "sheet", "sleeve", "quilt"][case % 4];
@@ -149,97 +254,71 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
             "alternating",
         ][case / 4 % 7];
         let gap = ["4%", "10%", "0.003", "30%", "150%"][case / 3 % 5];
-        let cut = format!("tearmesh cut - {first} --method {method}");
-        let (exit, plain, _) = ran(&format!("{cut} -q -o -"), &mesh);
-        if exit != Exit::Done {
-            continue;
-        }
-        made += 1;
-        let line = format!("{cut} --gap {gap}");
-        let (exit, gapped, said) = ran(&format!("{line} -q -o -"), &mesh);
-        assert_eq!(exit, Exit::Done, "{said}");
-        let (_, report, _) = ran(&format!("{line} --format json"), &mesh);
-        let report: Value = serde_json::from_slice(&report).expect("JSON");
-        let (_, report_of_plain, _) = ran(&format!("{cut} --format json"), &mesh);
-        let report_of_plain: Value = serde_json::from_slice(&report_of_plain).expect("JSON");
-        assert_eq!(
-            report["mass"], report_of_plain["mass"],
-            "masses are of the true points"
-        );
-        assert_eq!(report["cuts"], report_of_plain["cuts"]);
-        let count = |name: &str| report["gap"][name].as_u64().expect("a count");
-        let length = report["gap"]["length"].as_f64().expect("a length");
-        moved += count("vertices_moved");
-        clamped += count("vertices_clamped");
-        assert_eq!(
-            said.contains("W-CUT-GAP"),
-            count("vertices_clamped") > 0,
-            "{said}"
-        );
-
-        // What the record says is what the mesh without a gap has; nothing is farther than half a gap,
-        // and no face turns over.
-        let (one, other) = (Plain::read(&gapped), Plain::read(&plain));
-        assert_eq!(
-            (&one.is, &one.faces),
-            (&other.shown, &other.faces),
-            "{line}"
-        );
-        let mut full = 0;
-        for (is, shown) in one.is.iter().zip(&one.shown) {
-            let off = from(*is, *shown);
-            let far = dot(off, off).sqrt();
-            assert!(far <= length / 2.0 + 1e-12, "{line}: {far}");
-            full += u64::from((far - length / 2.0).abs() <= 1e-9 * length);
-        }
-        assert!(
-            full + count("vertices_clamped") >= count("vertices_moved"),
-            "{line}: {full}"
-        );
-        for &face in &one.faces {
-            let (before, after) = (normal(face, &one.is), normal(face, &one.shown));
-            assert!(
-                dot(before, after) > 0.0 || dot(before, before) == 0.0,
-                "{line}: {face:?}"
-            );
-        }
-
-        // Who joins what lies at one place finds the pieces that there are.
-        let pieces = report["cuts"][0]["pieces"].as_u64().expect("a count");
-        if count("vertices_clamped") == 0 {
-            assert_eq!(one.welded_pieces() as u64, pieces, "{name} {line}");
-            let before = report["cuts"][0]["pieces_before"]
-                .as_u64()
-                .expect("a count");
-            divided += u64::from(pieces > before);
-            let glued = other.welded_pieces() as u64;
-            assert!(
-                pieces == before || glued < pieces,
-                "without it they are joined"
-            );
-        }
-
-        // Mended it is what it was; cut again, what the file without a gap is.
-        for options in ["", " --simplify"] {
-            let mend = format!("tearmesh mend -{options} -q -o -");
-            let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&mend, bytes));
-            assert!(one == other, "{name} {line}{options}");
-        }
-        let again = format!("tearmesh cut - {second} --gap 0 --allow-miss -q -o -");
-        let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&again, bytes));
-        assert!(one == other, "{name} {line}, then {second}");
-        // One that says nothing of the gap leaves it open, where it is not cut across.
-        let again = format!("tearmesh cut - {second} --allow-miss -q -o -");
-        let (_, one, _) = ran(&again, &gapped);
-        let one = Plain::read(&one);
-        assert_eq!(one.is, Plain::read(&other).shown);
-        assert!(count("vertices_moved") == 0 || one.is != one.shown);
+        let cut = format!("{first} --method {method}");
+        gapped_cut(name, &mesh, &cut, (gap, &second), &mut tally);
     }
+    let Tally {
+        made,
+        divided,
+        moved,
+        clamped,
+        ..
+    } = tally;
     println!("{made} cuts, {divided} divide: {moved} vertices moved, {clamped} by less");
     assert!(
         divided > 40 && moved > 4000 && clamped > 50,
         "{divided} {moved} {clamped}"
     );
+}
+
+/// Real files of up to 300 kB, where they are at hand, cut through and slit.
+#[test]
+fn real_files_with_a_gap_are_what_they_were() {
+    let Some(folder) = std::env::var_os("TEARMESH_CORPUS") else {
+        return;
+    };
+    let mut tally = Tally::default();
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("one").path()).collect();
+    paths.sort();
+    for path in paths {
+        let name = path.display().to_string();
+        if !name.ends_with(".obj") || path.metadata().is_ok_and(|file| file.len() > 300_000) {
+            continue;
+        }
+        let bytes = std::fs::read(&path).expect("a file");
+        let (exit, checked, _) = ran("tearmesh check - --format json", &bytes);
+        if exit != Exit::Done {
+            continue;
+        }
+        let report: Value = serde_json::from_slice(&checked).expect("JSON");
+        let bounds = &report["mesh"]["bounds"];
+        let at = |part: f64| -> Vec<f64> {
+            let axis = |i: usize| {
+                let [least, most] = ["min", "max"].map(|end| bounds[end][i].as_f64().expect("x"));
+                least + (most - least) * part
+            };
+            (0..3).map(axis).collect()
+        };
+        let (low, middle, high) = (at(0.3), at(0.47), at(0.8));
+        let (x, y, z) = (middle[0], middle[1], middle[2]);
+        let plane = format!("--plane {x},{y},{z}:1,0.3,0.2");
+        let across = format!("--plane {x},{y},{z}:-0.2,1,0.1");
+        let slit = format!(
+            "--rays {},{y},{}:0,0,-1 {},{y},{}:0,0,-1",
+            low[0],
+            at(2.0)[2],
+            high[0],
+            at(2.0)[2]
+        );
+        gapped_cut(&name, &bytes, &plane, ("5%", &across), &mut tally);
+        gapped_cut(&name, &bytes, &slit, ("60%", &across), &mut tally);
+    }
+    println!(
+        "{} cuts: {} vertices moved, {} by less",
+        tally.made, tally.moved, tally.clamped
+    );
+    assert!(tally.made > 40, "{}", tally.made);
 }
 
 /// A slit opens over one edge: its tips stay, and all others are half the gap away.

@@ -28,12 +28,8 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         mut mesh,
         mut positions,
     } = session.open(None, streams)?;
-    let pairs = match document.has_record() {
-        true => Coincident::default(),
-        false => document.coincident(&mesh),
-    };
     if args.coincident {
-        (document, mesh) = torn_at(document, &pairs)?;
+        (document, mesh) = torn_at(document, &mesh)?;
     }
     let (vertices_before, pieces_before) = (mesh.vertex_count(), mesh.components().count());
     let mut masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
@@ -80,7 +76,11 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
         let mut fault = Fault::warning("W-MEND-NONE", message);
-        if pairs.edges() > 0 && !args.coincident {
+        let pairs = match args.coincident || document.has_record() {
+            true => Coincident::default(),
+            false => document.coincident(&mesh),
+        };
+        if pairs.edges() > 0 {
             let edges = count(
                 pairs.edges(),
                 "pair of boundary edges lies",
@@ -153,7 +153,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
 }
 
 /// The document and its mesh, torn where its boundary lies on itself.
-fn torn_at(document: Document, pairs: &Coincident) -> Result<(Document, Mesh), Stop> {
+fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
     if document.has_record() {
         let message =
             "`--coincident` is for a file without a record of its cuts, and this one has it";
@@ -163,7 +163,8 @@ fn torn_at(document: Document, pairs: &Coincident) -> Result<(Document, Mesh), S
             fault.help("leave it out: the record tells more"),
         ));
     }
-    document.torn_at(pairs).map_err(|error| {
+    let pairs = document.coincident(mesh);
+    document.torn_at(&pairs).map_err(|error| {
         let edges = count(
             pairs.edges(),
             "pair of boundary edges",

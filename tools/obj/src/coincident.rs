@@ -48,32 +48,33 @@ impl Document {
     /// If the mesh has more vertices than the document.
     #[must_use]
     pub fn coincident(&self, mesh: &Mesh) -> Coincident {
-        let key = |v: VertexId| {
+        let place = |v: VertexId| {
             let at = self.positions[v.index()];
             [at.x, at.y, at.z].map(f64::to_bits)
+        };
+        // Where its ends are, the lower first, and whether that is the one it begins at.
+        let key = |&h: &HalfEdgeId| {
+            let [from, to] = [mesh.origin(h), mesh.target(h)].map(place);
+            (from.min(to), from.max(to), from < to)
         };
         let boundary = mesh
             .half_edges()
             .filter(|&h| mesh.pair_or_ghost(h).is_none());
-        let mut edges: Vec<([[u64; 3]; 2], bool, HalfEdgeId)> = boundary
-            .map(|h| {
-                let [from, to] = [mesh.origin(h), mesh.target(h)].map(key);
-                (
-                    if from < to { [from, to] } else { [to, from] },
-                    from < to,
-                    h,
-                )
-            })
-            .collect();
-        edges.sort_unstable();
+        let mut edges: Vec<HalfEdgeId> = boundary.collect();
+        edges.sort_unstable_by_key(key);
         let mut joined = DisjointSets::new(self.positions.len() as u32);
         let mut pairs = 0;
-        for at_one_place in edges.chunk_by(|one, next| one.0 == next.0) {
-            let &[([from, to], false, one), (_, true, other)] = at_one_place else {
+        let lie_together = |one: &HalfEdgeId, next: &HalfEdgeId| {
+            let [(a, b, _), (c, d, _)] = [one, next].map(key);
+            (a, b) == (c, d)
+        };
+        for at_one_place in edges.chunk_by(lie_together) {
+            let &[one, other] = at_one_place else {
                 continue;
             };
-            if from == to || one.face() == other.face() {
-                continue; // It has no length, or its face no area.
+            let (is_one, is_other) = (key(&one).2, key(&other).2);
+            if is_one == is_other || one.face() == other.face() {
+                continue; // They run the same way, or have no length, or are of a face without area.
             }
             pairs += 1;
             for (a, b) in [
