@@ -13,9 +13,7 @@ Examples:
   tearmesh cut flag.obj --rays 0,2,5:0,0,-1 0,-2,5:0,0,-1 -o torn.obj
       cuts a flag along x = 0, looking down the z-axis
   tearmesh cut flag.obj --rays 0,0,9@-1,0.2,0 0,0,9@1,0.2,0 --format json
-      cuts between two points seen from the eye 0,0,9, and prints the report only
-  tearmesh cut flag.obj --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250 -o torn.obj
-      cuts between two pixels of a picture";
+      cuts between two points seen from the eye 0,0,9, and prints the report only";
 
 /// Cut a mesh along the plane between two rays, or along a plane.
 #[derive(Debug, Parser)]
@@ -65,13 +63,13 @@ pub(crate) struct CutArgs {
     )]
     pub(crate) layers: Layers,
 
-    /// Show the lips of all cuts this far apart; N% of the mean edge, or a length.
+    /// Show the lips of cuts this far apart: a length, or N% of an edge.
     ///
-    /// The two sides of a cut lie on each other, so nothing is seen of it, and programs that join points
-    /// at one place close it. With this each lip is written half of the gap away from the other, within
-    /// the surface, and nothing at a tip; where a face would turn over, less. The file has the true
-    /// places too: `mend`, another `cut` and the masses go by these. Without it a gap stays as it
-    /// is, and --gap 0 closes it.
+    /// Of the mean edge, that is. The two sides of a cut lie on each other, so nothing is seen of it,
+    /// and programs that join points at one place close it. With this each lip is written half of
+    /// the gap away from the other, within the surface, and nothing at a tip; where a face would turn
+    /// over, less. The file has the true places too: `mend`, another `cut` and the masses go by
+    /// these. Without it a gap stays as it is, and --gap 0 closes it.
     #[arg(long, value_name = "D", value_parser = super::read::gap, allow_hyphen_values = true)]
     pub(crate) gap: Option<Gap>,
 
@@ -116,7 +114,7 @@ pub(crate) struct CutArgs {
     pub(crate) tips: Tips,
 
     /// How a split divides mass: by the area of the faces, or by half.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, hide_short_help = true, value_enum, default_value_t)]
     pub(crate) mass: Mass,
 
     /// Repair the input: also drop duplicate and superfluous faces.
@@ -131,7 +129,7 @@ pub(crate) struct CutArgs {
     ///
     /// A fan is a set of faces round the vertex that are joined by shared edges. The
     /// first keeps the vertex, and the others get new ones at the same place.
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     pub(crate) separate_fans: bool,
 
     /// Succeed, and write the mesh, even if nothing was cut.
@@ -145,10 +143,10 @@ pub(crate) struct CutArgs {
 /// Points of a picture in the place of rays.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CameraArgs {
-    /// The camera of a picture, in the place of rays: eye@target.
+    /// A camera in the place of rays, with --fov, --viewport and --points.
     ///
-    /// What it looks at is in the middle of the picture, which shows it in perspective. Takes --fov,
-    /// --viewport and --points.
+    /// eye@target: what it looks at is in the middle of the picture, which shows it in perspective, as in
+    /// --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250.
     #[arg(
         long,
         value_name = "EYE@AT",
@@ -167,6 +165,7 @@ pub(crate) struct CameraArgs {
     /// The angle of view, from the lower edge to the upper one, in degrees.
     #[arg(
         long,
+        hide_short_help = true,
         value_name = "DEG",
         allow_negative_numbers = true,
         requires = "camera"
@@ -174,13 +173,13 @@ pub(crate) struct CameraArgs {
     pub(crate) fov: Option<f64>,
 
     /// The width and height of the picture in pixels.
-    #[arg(long, value_name = "WxH", value_parser = super::read::size, requires = "camera")]
+    #[arg(long, hide_short_help = true, value_name = "WxH", value_parser = super::read::size, requires = "camera")]
     pub(crate) viewport: Option<[f64; 2]>,
 
-    /// Two points of the picture, in pixels from its top left corner; may be given repeatedly.
+    /// Two pixels of its picture, from the top left; may be given repeatedly.
     ///
-    /// The middle of the first pixel is 0.5,0.5. A pair that begins where the one before ended goes
-    /// on from there. The report says which --rays they are.
+    /// Fractions are places in a pixel: the middle of the first one is 0.5,0.5. A pair that begins
+    /// where the one before ended goes on from there. The report says which --rays they are.
     #[arg(long, value_name = "X,Y X,Y", requires = "camera")]
     pub(crate) points: Vec<String>,
 }

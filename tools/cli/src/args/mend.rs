@@ -12,9 +12,7 @@ Examples:
   tearmesh mend torn.obj -o whole.obj
       sews everything that was torn
   tearmesh mend torn.obj --last 1 --simplify -o before.obj
-      undoes the last cut, and takes out the vertices that it inserted
-  tearmesh mend exported.obj --coincident -o whole.obj
-      sews what lies on itself in a file that went through another program";
+      undoes the last cut, and takes out the vertices that it inserted";
 
 /// Sew what was torn, from the record that the file has of it.
 #[derive(Debug, Parser)]
