@@ -53,7 +53,20 @@ fn what_fuzzing_found_stays_found() {
 #[test]
 fn every_option_that_names_a_file_is_known() {
     let others = [
-        "--rays", "--plane", "--layers", "--snap", "--method", "--tips", "--mass", "--format",
+        "--rays",
+        "--camera",
+        "--up",
+        "--fov",
+        "--viewport",
+        "--points",
+        "--plane",
+        "--layers",
+        "--gap",
+        "--snap",
+        "--method",
+        "--tips",
+        "--mass",
+        "--format",
         "--color",
     ];
     let help = seen(&Folder::new().run("tearmesh cut --help"));

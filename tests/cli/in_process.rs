@@ -11,7 +11,14 @@ use tearmesh_cli::{Exit, Streams, run};
 use tearmesh_obj::Document;
 
 /// Options that take the name of a file. Here each means the standard stream.
-pub(crate) const PATHS: [&str; 5] = ["--output", "--report", "--rays-file", "--seam", "-o"];
+pub(crate) const PATHS: [&str; 6] = [
+    "--output",
+    "--report",
+    "--rays-file",
+    "--seam",
+    "--map",
+    "-o",
+];
 
 /// What is typed behind `tearmesh cut -`, and standard input.
 #[derive(Clone)]
@@ -142,10 +149,18 @@ impl Case {
                 advised.args.drain(at..=at + 1);
             }
             advised.args.retain(|arg| !arg.starts_with("--snap="));
-            advised.args.insert(0, "--snap=0".to_owned());
-            let then = advised.run();
-            assert_eq!(then.exit, Exit::Done, "{self:?}\n{said}{}", then.error);
+            advised.works("--snap=0", &said);
         }
+        if said.contains("--through cuts there") {
+            self.clone().works("--through", &said);
+        }
+    }
+
+    /// With this option too, the command cuts something.
+    fn works(mut self, advised: &str, said: &str) {
+        self.args.insert(0, advised.to_owned());
+        let then = self.run();
+        assert_eq!(then.exit, Exit::Done, "{self:?}\n{said}{}", then.error);
     }
 
     fn the_mesh_is_whole(&self, written: &[u8]) {

@@ -3,6 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod check;
 mod cut;
 mod edited;
 mod fig7;
@@ -10,10 +11,12 @@ mod files;
 mod frames;
 mod full;
 mod fuzz;
+mod gap;
 mod harness;
 mod in_process;
 #[cfg(unix)]
 mod killed;
+mod map;
 mod memory;
 mod numbers;
 mod odd;

@@ -3,7 +3,9 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod accept;
+mod apart;
 mod bodies;
+mod coincident;
 mod collinear;
 mod corpus;
 mod differential;

@@ -5,6 +5,7 @@ mod check;
 mod cut;
 mod files;
 mod mend;
+mod read;
 mod tear;
 
 use std::ffi::{OsStr, OsString};
@@ -13,9 +14,10 @@ use clap::{Parser, Subcommand};
 
 pub(crate) use self::chart::{ChartArgs, DrawArgs, Fig7Args, ParetoArgs, What};
 pub(crate) use self::check::CheckArgs;
-pub(crate) use self::cut::{CutArgs, Layers, Mass, Method, Tips, cut_name};
+pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name};
 pub(crate) use self::files::{FileArgs, Format};
 pub(crate) use self::mend::MendArgs;
+pub(crate) use self::read::{Gap, numbers};
 pub(crate) use self::tear::{TearArgs, Topology};
 
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
@@ -36,7 +38,7 @@ pub(crate) enum Verb {
 }
 
 /// Makes one argument of `--rays A B`, so that a negative number is no option, and an option is
-/// no second ray.
+/// no second ray; and likewise of `--points A B`.
 ///
 /// `--rays A B`, `--rays "A B"`, `--rays "A;B"` and `--rays=A B` all become `--rays=A;B`. What
 /// does not look like a ray is left to the parser.
@@ -49,24 +51,23 @@ pub(crate) fn join_rays(args: &[OsString]) -> Vec<OsString> {
             joined.extend(rest.by_ref().cloned());
             break;
         }
-        let mut value = match arg.to_str() {
-            Some("--rays") => String::new(),
-            Some(arg) if arg.starts_with("--rays=") => arg["--rays=".len()..].to_owned(),
-            _ => {
-                joined.push(arg.clone());
-                continue;
-            }
-        };
+        let text = arg.to_str().unwrap_or_default();
+        let (name, given) = text.split_once('=').unwrap_or((text, ""));
+        if !["--rays", "--points"].contains(&name) {
+            joined.push(arg.clone());
+            continue;
+        }
+        let mut value = given.to_owned();
         while crate::rays::split_pair(&value).count() < 2
             && let Some(ray) = rest.next_if(|next| looks_like_rays(next))
         {
             value.push(';');
             value.push_str(&ray.to_string_lossy());
         }
-        if value.is_empty() && arg == "--rays" {
+        if value.is_empty() && arg == name {
             joined.push(arg.clone());
         } else {
-            joined.push(format!("--rays={}", value.trim_start_matches(';')).into());
+            joined.push(format!("{name}={}", value.trim_start_matches(';')).into());
         }
     }
     joined
@@ -117,6 +118,14 @@ mod tests {
             joined("cut|--rays|1,2,3:4,5,6 -1,0,0@7,8,9|-o|x"),
             "cut|--rays=1,2,3:4,5,6 -1,0,0@7,8,9|-o|x"
         );
+    }
+
+    #[test]
+    fn so_do_two_points() {
+        let one = "cut|--points=-1,2;3,-4|-o|x";
+        for args in ["cut|--points|-1,2|3,-4|-o|x", "cut|--points=-1,2|3,-4|-o|x"] {
+            assert_eq!(joined(args), one);
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The verb `check`: a line for each file.
 
+mod files;
+
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -8,14 +10,18 @@ use tearmesh::{Masses, Positions};
 use crate::args::{CheckArgs, Format};
 use crate::exit::Exit;
 use crate::input::Input;
+use crate::measure::{Bounds, Edges, Piece};
 use crate::output;
 use crate::report::{Entry, File};
-use crate::say::{Fault, Screen, Severity, count, is_colored};
+use crate::say::{Fault, Screen, Severity, count, is_colored, place, short};
 use crate::streams::Streams;
 use crate::{defects, session};
 
 /// The code of an invariant that does not hold.
 const BROKEN: &str = "E-BUG-INVARIANT";
+
+/// How many pieces of a mesh are listed in words, the largest first.
+const SHOWN: usize = 8;
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
@@ -25,15 +31,17 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
         let fault = Fault::error("E-USAGE", message).help("name a file for one of them");
         return streams.fail(&fault, args.color, Exit::Usage);
     }
-    let width = args
-        .inputs
-        .iter()
-        .map(|path| name(path).chars().count())
-        .max()
-        .unwrap_or(0);
+    let files = files::named(&args.inputs, args.recursive);
+    let names = files.iter().map(|file| match file {
+        Ok(path) | Err((path, _)) => name(path).chars().count(),
+    });
+    let width = names.max().unwrap_or(0);
     let mut exit = Exit::Done;
-    for path in &args.inputs {
-        let found = Found::of(path, streams);
+    for file in files {
+        let found = match file {
+            Ok(path) => Found::of(&path, streams),
+            Err((path, fault)) => Found::nothing(&path, fault),
+        };
         exit = match (exit, found.exit()) {
             (Exit::Input, _) | (_, Exit::Input) => Exit::Input,
             (Exit::Bug, _) | (_, Exit::Bug) => Exit::Bug,
@@ -44,6 +52,7 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
             continue;
         }
         let line = match args.format {
+            Format::Text if args.verbose => found.line(width) + &found.size(width),
             Format::Text => found.line(width),
             Format::Json => found.json(),
         };
@@ -66,10 +75,21 @@ fn name(path: &Path) -> String {
 /// What was found in a file.
 struct Found {
     path: String,
-    mesh: Option<File>,
+    mesh: Option<Measured>,
     /// The file could not even be opened.
     unreadable: bool,
     faults: Vec<Fault>,
+}
+
+/// A mesh, and how large it is.
+#[derive(Serialize)]
+struct Measured {
+    #[serde(flatten)]
+    file: File,
+    bounds: Bounds,
+    edges: Edges,
+    /// By their smallest faces.
+    pieces: Vec<Piece>,
 }
 
 /// A line of JSON.
@@ -79,25 +99,34 @@ struct Line<'f> {
     ok: bool,
     path: &'f str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    mesh: Option<&'f File>,
+    mesh: Option<&'f Measured>,
     diagnostics: Vec<Entry>,
 }
 
 impl Found {
+    /// That there is no file, and why.
+    fn nothing(path: &Path, fault: Fault) -> Found {
+        Found {
+            path: name(path),
+            mesh: None,
+            unreadable: true,
+            faults: vec![fault],
+        }
+    }
+
     fn of(path: &Path, streams: &mut Streams<'_>) -> Found {
+        let input = match Input::find(path, streams.input) {
+            Ok(input) => input,
+            Err(fault) if fault.code == "E-IO-DIRECTORY" => {
+                return Found::nothing(path, fault.help("add -r, to check the OBJ files in it"));
+            }
+            Err(fault) => return Found::nothing(path, fault),
+        };
         let mut found = Found {
             path: name(path),
             mesh: None,
             unreadable: false,
             faults: Vec::new(),
-        };
-        let input = match Input::find(path, streams.input) {
-            Ok(input) => input,
-            Err(fault) => {
-                found.unreadable = true;
-                found.faults.push(fault);
-                return found;
-            }
         };
         let document = match input.document() {
             Ok(document) => document,
@@ -113,9 +142,14 @@ impl Found {
             .extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
         match document.mesh() {
             Ok(mesh) => {
-                found.mesh = Some(File::of(Some(input.name.clone()), &mesh));
                 let points = document.positions().iter().copied();
                 let positions = Positions::new(points).expect("the reader accepts no others");
+                found.mesh = Some(Measured {
+                    file: File::of(Some(input.name.clone()), &mesh),
+                    bounds: Bounds::of(&mesh, &positions),
+                    edges: Edges::of(&mesh, &positions),
+                    pieces: Piece::all(&mesh, &positions),
+                });
                 // What no verb could weigh, none can cut.
                 if let Err(error) = Masses::area(&mesh, &positions, 1.0) {
                     found.faults.push(session::no_masses(&error));
@@ -152,7 +186,9 @@ impl Found {
     fn line(&self, width: usize) -> String {
         let path = &self.path;
         match (self.errors().next(), &self.mesh) {
-            (None, Some(mesh)) => format!("{path:width$}  ok    {}", summary(mesh, &self.faults)),
+            (None, Some(mesh)) => {
+                format!("{path:width$}  ok    {}", summary(&mesh.file, &self.faults))
+            }
             (first, _) => {
                 let first = first.map(Fault::line).unwrap_or_default();
                 let more = self.errors().count().saturating_sub(1);
@@ -164,6 +200,40 @@ impl Found {
                 format!("{path:width$}  FAIL  {first}{more}")
             }
         }
+    }
+
+    /// How large the mesh is, in lines below the first; nothing if there is none.
+    fn size(&self, width: usize) -> String {
+        let Some(Measured {
+            bounds,
+            edges,
+            pieces,
+            ..
+        }) = &self.mesh
+        else {
+            return String::new();
+        };
+        let (least, most) = (place(bounds.min), place(bounds.max));
+        let [shortest, mean, longest] = [edges.shortest, edges.mean, edges.longest].map(short);
+        let mut lines = vec![format!(
+            "from {least} to {most}, edges {shortest} to {longest} long, {mean} on average"
+        )];
+        let mut largest: Vec<(usize, &Piece)> = pieces.iter().enumerate().collect();
+        largest.sort_by(|(_, one), (_, other)| other.area.total_cmp(&one.area));
+        for (number, piece) in largest.iter().take(SHOWN) {
+            let faces = count(piece.faces, "face", "faces");
+            let (number, area) = (number + 1, short(piece.area));
+            lines.push(format!("piece {number}: {faces}, area {area}"));
+        }
+        let more = pieces.len().saturating_sub(SHOWN);
+        if more > 0 {
+            lines.push(format!(
+                "and {}",
+                count(more, "smaller piece", "smaller pieces")
+            ));
+        }
+        let indented = lines.iter().map(|line| format!("\n{:width$}  {line}", ""));
+        indented.collect()
     }
 
     fn show(&self, args: &CheckArgs, streams: &mut Streams<'_>) {

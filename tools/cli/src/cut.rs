@@ -1,5 +1,7 @@
 //! The verb `cut`.
 
+mod gap;
+mod map;
 pub(crate) mod nothing;
 pub(crate) mod scissors;
 mod seam;
@@ -11,12 +13,14 @@ use std::path::Path;
 use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor};
 use tearmesh_obj::{Repair, TornDocument};
 
+use self::map::Map;
 use self::nothing::Obstacle;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
-use crate::args::{CutArgs, Layers, Mass, Method, Tips};
+use crate::args::{CutArgs, Gap, Layers, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
-use crate::rays::Pair;
+use crate::measure::Edges;
+use crate::rays::{self, Pair};
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
@@ -51,6 +55,11 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let clock = Clock::start();
     let mut edits = Edits::new();
     let mut torn = TornDocument::new(&document);
+    let gap = args.gap.map(|gap| match gap {
+        Gap::Length(length) => length,
+        Gap::Edges(part) => part * Edges::of(&mesh, &positions).mean,
+    });
+    let mut map = args.map.as_ref().map(|_| Map::new(&document));
     let is_exact = args.method == Method::Exact;
     let mut slid = false;
     let mut line = Polyline::default();
@@ -68,13 +77,21 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let (cut, done) = made.expect("what follows every cut is in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
+        if let Some(map) = &mut map {
+            edits.replay(map);
+        }
         line.go_on(&edits, &cut);
         edits.clear();
         torn.next_cut();
         let chosen = (args.layers == Layers::First).then_some(&cut);
-        let entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
-        session.report.cuts.push(entry);
+        let mut entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
         session.words.push(words::cut(number, &done));
+        if let Some(pair) = along.rays().filter(|_| args.camera.camera.is_some()) {
+            let typed = rays::typed(pair);
+            session.words.push(format!("the same as {typed}"));
+            entry.equivalent = Some(typed);
+        }
+        session.report.cuts.push(entry);
         let method = args.method.of_library();
         let obstacle = if done.splits == 0 {
             let how = (&scissor, method, args.snap);
@@ -82,7 +99,10 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         } else {
             Obstacle::Unknown
         };
-        let warnings = words::warnings(number, (through, is_exact), &done, obstacle);
+        let mut warnings = words::warnings(number, (through, is_exact), &done, obstacle);
+        if let Some(last) = warnings.last_mut().filter(|_| done.missed) {
+            last.help = nothing::advice(obstacle, &mesh, &positions);
+        }
         session.faults.extend(warnings);
         session.faults.extend(words::of_layers(number, &cut));
         seams.push(Seam::new(&cut, &mesh, &positions));
@@ -98,15 +118,41 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
     }
+    if let Some(gap) = gap {
+        let gapped = gap::gapped(&mesh, &positions, gap);
+        session.words.push(words::gap(gap, &gapped));
+        session.faults.extend(words::of_gap(&gapped));
+        session.report.gap = Some(report::Gap {
+            length: gap,
+            vertices_moved: gapped.moved,
+            vertices_clamped: gapped.clamped,
+        });
+        torn.set_apart(gapped.points);
+    }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
-        let written = output::write(path, |out| seam::write(&seams, out));
-        written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+        write_beside(path, |out| seam::write(&seams, out))?;
+    }
+    let asked = args.map.as_ref().zip(map);
+    if let Some((path, map)) = asked.filter(|_| !args.files.dry_run) {
+        let name = |file: &Option<report::File>| file.as_ref().and_then(|file| file.path.clone());
+        let names = [&session.report.input, &session.report.output].map(name);
+        let names = names.each_ref().map(Option::as_deref);
+        write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
     }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
+}
+
+/// Writes a file beside the mesh.
+fn write_beside(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+) -> Result<(), Stop> {
+    let written = output::write(path, fill);
+    written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))
 }
 
 /// Cuts of which each begins with the ray that ended the one before: where the first began, and where
@@ -201,19 +247,22 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
         );
     }
     files::keep(&args.files, args.rays_file.as_deref(), "the rays")?;
-    if let Some(seam) = &args.seam {
-        let read = [Some(&args.files.input), args.rays_file.as_ref()];
-        let is_read = read
-            .into_iter()
-            .flatten()
-            .any(|path| files::is_same(path, seam));
-        if seam == Path::new("-") || is_read {
+    let beside = [
+        ("--seam", "the seam", &args.seam),
+        ("--map", "the map", &args.map),
+    ];
+    for (i, (option, what, path)) in beside.into_iter().enumerate() {
+        let Some(path) = path else { continue };
+        let before = beside[..i].iter().filter_map(|(.., other)| other.as_ref());
+        let taken = [Some(&args.files.input), args.rays_file.as_ref()];
+        let mut taken = taken.into_iter().flatten().chain(before);
+        if path == Path::new("-") || taken.any(|taken| files::is_same(taken, path)) {
             return usage(
-                "`--seam` takes the name of a file of its own",
-                "write the seam to another file",
+                &format!("`{option}` takes the name of a file of its own"),
+                &format!("write {what} to another file"),
             );
         }
-        files::keep(&args.files, Some(seam), "the seam")?;
+        files::keep(&args.files, Some(path), what)?;
     }
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(

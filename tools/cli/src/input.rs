@@ -1,11 +1,14 @@
 //! Where the mesh comes from.
 
+mod foreign;
+
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use tearmesh_obj::Document;
 
+use self::foreign::{Format, OPENING};
 use crate::say::Fault;
 
 /// The input, and how it is called in messages and in the report.
@@ -77,9 +80,32 @@ impl Input {
     /// The document in it.
     pub(crate) fn document(&self) -> Result<Document, Fault> {
         Document::read(self.open()?).map_err(|error| match error.diagnostic() {
-            Some(diagnostic) => Fault::of_file(&self.name, diagnostic),
+            Some(diagnostic) => match self.foreign_format() {
+                Some(format) => self.is_foreign(format),
+                None => Fault::of_file(&self.name, diagnostic),
+            },
             None => Fault::error("E-IO-READ", format!("`{}`: {error}", self.name)),
         })
+    }
+
+    /// The format of a file that is not OBJ, if it is known.
+    fn foreign_format(&self) -> Option<Format> {
+        let length = match &self.source {
+            Source::Bytes(bytes) => bytes.len() as u64,
+            Source::File(path) => path.metadata().ok()?.len(),
+        };
+        let mut opening = Vec::new();
+        let read = self
+            .open()
+            .ok()?
+            .take(OPENING as u64)
+            .read_to_end(&mut opening);
+        Format::of(&opening, length).filter(|_| read.is_ok())
+    }
+
+    fn is_foreign(&self, format: Format) -> Fault {
+        let message = format!("`{}` is {} file, not OBJ", self.name, format.name());
+        Fault::error("E-IO-FORMAT", message).help(format.advice(&self.name))
     }
 }
 

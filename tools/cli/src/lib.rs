@@ -2,15 +2,16 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`,
+//! Map: `args` says what can be typed, `rays` reads rays, `camera` makes rays of pixels, `scene` reads scenes, `cut`, `tear`,
 //! `mend`, `check` and `chart` carry out the verbs, `session` is what the first three have in
-//! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `say` puts
+//! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `measure` how large it is, `say` puts
 //! diagnostics on a screen, `output` writes files whole or not at all, `files` says where, `bug`
 //! writes a reproducer when an invariant broke, `streams` is what a run reads and writes, and `exit`
 //! how it ends.
 
 mod args;
 mod bug;
+mod camera;
 mod chart;
 mod check;
 mod cut;
@@ -19,6 +20,7 @@ mod exit;
 mod files;
 mod input;
 mod interrupt;
+mod measure;
 mod mend;
 mod output;
 mod rays;

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
 use tearmesh::{Edits, Masses, Mesh, Positions};
-use tearmesh_obj::{Document, Simplified, TornDocument};
+use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
@@ -24,10 +24,13 @@ pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>
 fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
     check(args)?;
     let Opened {
-        document,
+        mut document,
         mut mesh,
         mut positions,
     } = session.open(None, streams)?;
+    if args.coincident {
+        (document, mesh) = torn_at(document, &mesh)?;
+    }
     let (vertices_before, pieces_before) = (mesh.vertex_count(), mesh.components().count());
     let mut masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
     let mut torn = TornDocument::new(&document);
@@ -72,7 +75,22 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     if merged == 0 && simplified.is_none() {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
-        session.faults.push(Fault::warning("W-MEND-NONE", message));
+        let mut fault = Fault::warning("W-MEND-NONE", message);
+        let pairs = match args.coincident || document.has_record() {
+            true => Coincident::default(),
+            false => document.coincident(&mesh),
+        };
+        if pairs.edges() > 0 {
+            let edges = count(
+                pairs.edges(),
+                "pair of boundary edges lies",
+                "pairs of boundary edges lie",
+            );
+            fault.message = format!("the file has no record of cuts; {edges} on each other");
+            fault.help =
+                Some("if another program dropped the record, --coincident sews them".to_owned());
+        }
+        session.faults.push(fault);
         return Err(session.nothing_done());
     }
     let cuts_left = torn.cuts().len();
@@ -132,6 +150,29 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
+}
+
+/// The document and its mesh, torn where its boundary lies on itself.
+fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
+    if document.has_record() {
+        let message =
+            "`--coincident` is for a file without a record of its cuts, and this one has it";
+        let fault = Fault::error("E-USAGE", message.to_owned());
+        return Err(Stop::new(
+            Exit::Usage,
+            fault.help("leave it out: the record tells more"),
+        ));
+    }
+    let pairs = document.coincident(mesh);
+    document.torn_at(&pairs).map_err(|error| {
+        let edges = count(
+            pairs.edges(),
+            "pair of boundary edges",
+            "pairs of boundary edges",
+        );
+        let message = format!("{edges} cannot be sewn: {error}");
+        Stop::new(Exit::NothingCut, Fault::error("E-MEND-COINCIDENT", message))
+    })
 }
 
 /// What is to be sewn.

@@ -27,6 +27,15 @@ pub(crate) fn split_pair(text: &str) -> impl Iterator<Item = Range<usize>> + '_ 
     })
 }
 
+/// Two rays as they can be typed, to the last digit.
+pub(crate) fn typed(pair: &Pair) -> String {
+    let [one, other] = pair.each_ref().map(|ray| {
+        let (o, d) = (ray.origin(), ray.direction());
+        format!("{},{},{}:{},{},{}", o.x, o.y, o.z, d.x, d.y, d.z)
+    });
+    format!("--rays {one} {other}")
+}
+
 /// Reads two rays. `origin` names the place of the text in an error, and `line` its line.
 pub(crate) fn pair(text: &str, origin: &str, line: usize) -> Result<Pair, Fault> {
     let fault = |code, message: String, span: Range<usize>, label: &str, help: &str| Fault {

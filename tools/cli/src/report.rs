@@ -19,6 +19,8 @@ pub(crate) struct Report {
     pub(crate) output: Option<File>,
     pub(crate) cuts: Vec<Cut>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) gap: Option<Gap>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mend: Option<Mend>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub(crate) tear: Option<Tear>,
@@ -41,6 +43,7 @@ impl Report {
             input: None,
             output: None,
             cuts: Vec::new(),
+            gap: None,
             mend: None,
             tear: None,
             mass: None,
@@ -79,6 +82,9 @@ pub(crate) struct Cut {
     /// Of a cut between rays.
     #[serde(skip_serializing_if = "Option::is_none")]
     rays: Option<[RayEntry; 2]>,
+    /// Of a cut between two pixels: what to type for the same with rays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) equivalent: Option<String>,
     method: &'static str,
     through: bool,
     tips: &'static str,
@@ -131,6 +137,15 @@ pub(crate) struct How {
     pub(crate) tips: &'static str,
     pub(crate) snap: Option<f64>,
     pub(crate) snap_move: Option<bool>,
+}
+
+/// How far apart the lips of cuts are written.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Gap {
+    pub(crate) length: f64,
+    pub(crate) vertices_moved: usize,
+    /// Those that moved by less than half of it, so that no face turns over.
+    pub(crate) vertices_clamped: usize,
 }
 
 /// What was mended.
@@ -353,6 +368,7 @@ impl Cut {
                     direction: numbers(ray.direction()),
                 })
             }),
+            equivalent: None,
             method: how.method,
             through: how.through,
             tips: how.tips,

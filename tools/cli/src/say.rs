@@ -221,6 +221,11 @@ pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
+/// A point for people, as it can be typed.
+pub(crate) fn place(at: [f64; 3]) -> String {
+    at.map(short).join(",")
+}
+
 /// A number for people: six digits.
 pub(crate) fn short(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}")

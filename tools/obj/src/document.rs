@@ -106,6 +106,18 @@ impl Document {
             .corner(self.corner_of_polygon(triangle, corner, self.polygon_of(triangle)))
     }
 
+    /// The number of a corner (0, 1 or 2) of a triangle among the corners of all polygons, from 0: those
+    /// of the first, then those of the second, and so on. Takes as long as [`Document::corner`].
+    ///
+    /// # Panics
+    ///
+    /// If there is no such triangle or corner.
+    #[must_use]
+    pub fn number_of_corner(&self, triangle: usize, corner: usize) -> usize {
+        assert!(corner < 3, "a triangle has no corner {corner}");
+        self.corner_of_polygon(triangle, corner, self.polygon_of(triangle))
+    }
+
     /// The number of polygons: the `f` statements.
     #[must_use]
     pub fn polygon_count(&self) -> usize {

@@ -79,6 +79,7 @@
 //! | `W-OBJ-RELATIVE` | (note) negative indices of such statements were made absolute |
 //! | `W-OBJ-RECORD` | the record of tears is damaged, of a later version, or of other faces: the file is read as one without |
 //! | `W-OBJ-RECORD-SLID` | vertices that slid cannot be put back, since the number of `vt` or `vn` was changed |
+//! | `W-OBJ-RECORD-APART` | vertices that stood apart from where they are were edited since, and stay where they are now |
 //! | `W-OBJ-RECORD-MOVED` | copies of a vertex for its fans are at different places now, and so vertices of their own |
 //! | `W-OBJ-BOM` | (note) a byte order mark was dropped |
 //! | `W-OBJ-REPAIR-BOWTIE` | fans of a vertex were given vertices of their own ([`Repair`]) |
@@ -105,6 +106,7 @@
 //!         | "#~ slide" VERTEX CUT BEFORE AFTER    CUT slid VERTEX: the numbers of its `v` before and then
 //!         | "#~ slide-vt" NEW OLD NUMBERS         ... at whose corners NEW is for OLD; NUMBERS are those of NEW
 //!         | "#~ slide-vn" NEW OLD X Y Z           ... and likewise for normals
+//!         | "#~ apart" VERTEX X Y Z X Y Z         VERTEX is at the first point, and its `v` says the second
 //! end     = "#tearmesh end" ITEMS HASH
 //! ```
 //!
@@ -117,9 +119,11 @@
 //!   are the last.
 //! * Slides come in the order in which they were made, each with its `slide-vt` and `slide-vn` behind
 //!   it. A vertex is put back only if it has the numbers that its last slide left.
-//! * `VERSION` is 2 where it has to be: version 1 ends with `parent`, and the copies are
-//!   the last `v` of the file. Programs that know version 1 alone say of version 2 that it is
-//!   later, and take the file for one without a record.
+//! * `VERSION` is 2 or 3 where it has to be: version 2 has no `apart`, and version 1 ends with `parent`,
+//!   and the copies are the last `v` of the file. Programs that know earlier versions alone say that
+//!   it is later, and take the file for one without a record.
+//! * A vertex is read where `apart` says that it is, if its `v` says to the bit what stands
+//!   there: whoever moved it since is heeded, with a warning. Copies stand where their vertex does.
 //! * A cut has a number from 1; a later one has a higher one. After a merge, a `split` names
 //!   what VERTEX was last one with, not what it was first split from.
 //! * The hash of the header is that of the number of `v` and of the vertices of all faces, that of
@@ -160,6 +164,7 @@
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
 //! | `repair.rs` | defects mended, on request |
+//! | `coincident.rs` | boundary edges that lie on each other, where no record says why |
 //! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
 //! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, when each vertex is written, what can be taken out again, and what was edited since |
 //! | `record.rs` | what is on record, and the checksum |
@@ -172,6 +177,7 @@
 //! Bytes come in and go out: opening files, replacing them as a whole, and rendering diagnostics
 //! are the caller's.
 
+mod coincident;
 mod diagnostic;
 mod document;
 mod keyword;
@@ -193,6 +199,7 @@ mod torn;
 mod triangulate;
 mod write;
 
+pub use coincident::{Coincident, CoincidentError};
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::Document;
 pub use mesh::MeshError;

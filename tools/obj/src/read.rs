@@ -7,6 +7,7 @@
 //! One pass over the input in chunks of 64 KiB; nothing is allocated for a line. Several hundred
 //! megabytes a second.
 
+mod apart;
 mod copies;
 mod decimal;
 mod face;

@@ -6,6 +6,8 @@
 //! coordinates and normals at the corners of a divided face are those that its parts have
 //! there, and the links of the mesh follow from its roots (`Mesh::build_torn`).
 
+use tearmesh::Point;
+
 use crate::slides::Slides;
 use crate::store::push;
 pub(crate) use crate::torn::SplitOff;
@@ -15,8 +17,8 @@ pub(crate) const HEADER: &[u8] = b"#tearmesh record";
 pub(crate) const END: &[u8] = b"#tearmesh end";
 pub(crate) const ITEM: &[u8] = b"#~";
 
-/// The latest version. What version 1 can say is written as that.
-pub(crate) const VERSION: i64 = 2;
+/// The latest version. What an earlier one can say is written as that.
+pub(crate) const VERSION: i64 = 3;
 
 /// A record that fits its document. Indices count from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +34,8 @@ pub(crate) struct Record {
     pub(crate) texture: Vec<[u32; 2]>,
     pub(crate) normals: Vec<[u32; 2]>,
     pub(crate) slides: Slides,
+    /// Ascending.
+    pub(crate) apart: Vec<Apart>,
     /// The `v` of the file that were copies, by their numbers there, and the vertices that they are;
     /// ascending.
     pub(crate) copies: Vec<[u32; 2]>,
@@ -117,6 +121,21 @@ pub(crate) struct Parent {
     pub(crate) corners: [u32; 3],
 }
 
+/// A vertex that its `v` puts elsewhere, so that the two sides of a cut do not lie on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Apart {
+    pub(crate) vertex: u32,
+    /// Where it is, and where its `v` says.
+    pub(crate) is: Point,
+    pub(crate) shown: Point,
+}
+
+/// Whether two points are the same to the bit.
+pub(crate) fn is_same_point(one: Point, other: Point) -> bool {
+    let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
+    bits(one) == bits(other)
+}
+
 impl Record {
     /// Whether there is nothing to say.
     pub(crate) fn is_empty(&self) -> bool {
@@ -124,6 +143,7 @@ impl Record {
             && self.inserted.is_empty()
             && self.parents.is_empty()
             && self.slides.is_empty()
+            && self.apart.is_empty()
     }
 
     /// The number in the file of a vertex, from 0: copies come between.
@@ -174,6 +194,9 @@ impl Record {
             parent.corners = parent.corners.map(&id);
         }
         self.slides = self.slides.filtered(|_, v| Some(id(v)), |_, index| index);
+        for apart in &mut self.apart {
+            apart.vertex = id(apart.vertex);
+        }
     }
 
     /// The highest number of a cut; 0 if there is none.

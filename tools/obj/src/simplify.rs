@@ -98,7 +98,7 @@ impl TornDocument<'_> {
         let mut bytes = Vec::new();
         write(
             self,
-            &Prepared::new(self, mesh, Some(&removal)),
+            &Prepared::new(self, mesh, Some(&removal), self.apart(positions)),
             positions,
             &mut bytes,
         )?;

@@ -21,15 +21,15 @@ pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
 use tearmesh::{
-    Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Mix, Positions,
-    Slide, VertexId, VertexOp, mend::Stitch,
+    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Mix, Point,
+    Positions, Slide, VertexId, VertexOp, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
 use self::corners::Corners;
 use self::extras::Extras;
 use crate::document::Document;
-use crate::record::{At, Inserted, Parent, Record, is_in};
+use crate::record::{Apart, At, Inserted, Parent, Record, is_in, is_same_point};
 use crate::slides::Slides;
 use crate::store::Rows;
 
@@ -98,6 +98,8 @@ pub struct TornDocument<'d> {
     slides: Slides,
     /// Where vertices are if nothing but the log moves them; `None` until the first edit.
     places: Option<Positions>,
+    /// Where the `v` of vertices say that these are; `None` if none stands apart.
+    shown: Option<Vec<Point>>,
 }
 
 impl<'d> TornDocument<'d> {
@@ -117,6 +119,7 @@ impl<'d> TornDocument<'d> {
             corners: None,
             slides: record.map_or_else(Slides::default, |record| record.slides.clone()),
             places: None,
+            shown: record.and_then(|record| shown(document, record)),
         }
     }
 
@@ -124,6 +127,9 @@ impl<'d> TornDocument<'d> {
     pub(crate) fn after_splits(document: &'d Document, mesh: &Mesh) -> TornDocument<'d> {
         let mut torn = TornDocument::new(document);
         let triangles = document.triangles().as_flattened();
+        if mesh.vertex_count() > document.positions.len() {
+            torn.shown = None; // Nobody knows where the new ones stand.
+        }
         for new in mesh.vertices().skip(document.positions.len()) {
             // A split only moves corners, so all of these were of one vertex.
             let corner = mesh.half_edge_of(new).expect("a new vertex has a face");
@@ -210,6 +216,69 @@ impl<'d> TornDocument<'d> {
                 let [from, vertex] = [split.from, split.vertex].map(|v| VertexId::new(v as usize));
                 Stitch::new(from?, vertex?)
             })
+            .collect()
+    }
+
+    /// Writes vertices apart from where they are: each at its point of these, one for each vertex of the
+    /// mesh, so that the two sides of a cut are seen, and programs that join what lies at one place
+    /// leave them two. The record has both points, and what is read again is where it was.
+    ///
+    /// Where vertices stand follows the log as where they are does, and those that are merged stand
+    /// where they are again.
+    ///
+    /// # Panics
+    ///
+    /// If there is not a point for each vertex.
+    ///
+    /// ```
+    /// use tearmesh::{Edits, FaceId, Point, Positions, VertexId, split};
+    /// use tearmesh_obj::{Document, TornDocument};
+    ///
+    /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 2 4\n";
+    /// let document = Document::read(&file[..])?;
+    /// let mut mesh = document.mesh()?;
+    /// let mut positions = Positions::new(document.positions().iter().copied())?;
+    /// let mut torn = TornDocument::new(&document);
+    /// let mut edits = Edits::new();
+    /// for v in [1, 2] {
+    ///     let v = VertexId::new(v).expect("small");
+    ///     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+    /// }
+    /// edits.replay(&mut (&mut positions, &mut torn));
+    ///
+    /// let mut points = positions.as_slice().to_vec();
+    /// points[4] = Point::new(1.0, 0.125, 0.0);
+    /// torn.set_apart(points);
+    /// let mut out = Vec::new();
+    /// torn.write(&mesh, &positions, &mut out)?;
+    /// let text = String::from_utf8(out)?;
+    /// assert!(text.contains("\nv 1 0.125 0\n") && text.contains("\n#~ apart 5 1 0 0 1 0.125 0\n"));
+    /// assert_eq!(Document::read(text.as_bytes())?.positions(), positions.as_slice());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_apart(&mut self, points: Vec<Point>) {
+        assert_eq!(
+            points.len(),
+            self.vertex_count(),
+            "there is a point for each vertex"
+        );
+        self.shown = Some(points);
+    }
+
+    /// The vertices that are written apart, ascending: none if anything but the log moved a vertex.
+    pub(crate) fn apart(&self, positions: &Positions) -> Vec<Apart> {
+        let Some(shown) = &self.shown else {
+            return Vec::new();
+        };
+        let places = self.places.as_ref().map(Positions::as_slice);
+        let places = places.unwrap_or(&self.document.positions).iter();
+        let mut all = places.zip(positions.as_slice());
+        if !all.all(|(&place, &is)| is_same_point(place, is)) {
+            return Vec::new();
+        }
+        let all = positions.as_slice().iter().zip(shown).zip(0..);
+        let all = all.map(|((&is, &shown), vertex)| Apart { vertex, is, shown });
+        all.filter(|apart| !is_same_point(apart.is, apart.shown))
             .collect()
     }
 
@@ -317,6 +386,19 @@ impl<'d> TornDocument<'d> {
         self.cut_is_used = true;
     }
 
+    /// Follows an edit with where vertices stand, once where they are has.
+    fn follow_apart(&mut self, edit: &Edit<'_>) {
+        let Some(shown) = &mut self.shown else {
+            return;
+        };
+        for op in edit.vertex_ops() {
+            op.apply(shown, Blend::blend);
+        }
+        if let (Edit::Merge(merge), Some(places)) = (edit, &self.places) {
+            shown[merge.kept.index()] = places.at(merge.kept);
+        }
+    }
+
     /// The cut since which the two sides of a torn edge are apart, if these two points are on
     /// both sides of one: the same place of an edge between the same roots.
     fn apart_as_twins(&mut self, one: &InsertedPoint, other: &InsertedPoint) -> Option<u32> {
@@ -363,6 +445,18 @@ impl<'d> TornDocument<'d> {
     }
 }
 
+/// Where the `v` of all vertices say that these are; `None` if they all say where they are.
+fn shown(document: &Document, record: &Record) -> Option<Vec<Point>> {
+    if record.apart.is_empty() {
+        return None;
+    }
+    let mut points = document.positions.clone();
+    for apart in &record.apart {
+        points[apart.vertex as usize] = apart.shown;
+    }
+    Some(points)
+}
+
 impl Follower for TornDocument<'_> {
     fn cursor(&mut self) -> &mut Cursor {
         &mut self.seen
@@ -375,6 +469,7 @@ impl Follower for TornDocument<'_> {
         };
         self.places().follow(edit);
         self.extras.follow(edit);
+        self.follow_apart(edit);
         match edit {
             Edit::Split(split) => {
                 assert_eq!(

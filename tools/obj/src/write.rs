@@ -35,7 +35,7 @@ mod separate;
 
 use std::io::{self, Write};
 
-use tearmesh::{Mesh, Positions};
+use tearmesh::{Mesh, Positions, VertexId};
 
 use self::number::write_integer;
 use self::output::Output;
@@ -65,7 +65,7 @@ impl Document {
     /// torn with a record of that at the end.
     ///
     /// The mesh is that of [`Document::mesh`], after any number of splits, all of which go on
-    /// record as one cut. Insertions, merges, and cuts that are to be undone one by one need a
+    /// record as one cut; after any at all no vertex stands apart. Insertions, merges, and cuts that are to be undone one by one need a
     /// [`TornDocument`].
     ///
     /// # Errors
@@ -97,7 +97,8 @@ impl Document {
 
 impl TornDocument<'_> {
     /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it
-    /// is torn or was divided, with a record of that at the end.
+    /// is torn or was divided, with a record of that at the end. Vertices that stand apart
+    /// ([`TornDocument::set_apart`]) are written so if nothing but the log moved any vertex.
     ///
     /// # Errors
     ///
@@ -114,7 +115,22 @@ impl TornDocument<'_> {
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
-        write(self, &Prepared::new(self, mesh, None), positions, out)
+        let prepared = Prepared::new(self, mesh, None, self.apart(positions));
+        write(self, &prepared, positions, out)
+    }
+
+    /// The vertex of each `v` that [`TornDocument::write`] writes, in order: a vertex with several fans
+    /// comes once for each. Without these they are [`TornDocument::vertices_in_order`].
+    ///
+    /// # Panics
+    ///
+    /// If the mesh is not the one whose log was followed, to its end.
+    #[must_use]
+    pub fn statements_in_order(&self, mesh: &Mesh) -> Vec<VertexId> {
+        let prepared = Prepared::new(self, mesh, None, Vec::new());
+        let elements = prepared.orders[0].in_order().into_iter();
+        let vertices = elements.map(|element| prepared.vertex(element));
+        vertices.filter_map(VertexId::new).collect()
     }
 
     /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh,
@@ -333,7 +349,8 @@ impl<W: Write> Writer<'_, W> {
                 if let Some(numbers) = self.prepared.put_back(vertex) {
                     return self.out.statement(b"v", numbers, &[]);
                 }
-                let at = self.positions.as_slice()[vertex];
+                let at = self.prepared.shown(vertex);
+                let at = at.unwrap_or(self.positions.as_slice()[vertex]);
                 let extras = torn.extra_numbers(vertex);
                 self.out.statement(b"v", &[at.x, at.y, at.z], extras)
             }

@@ -12,15 +12,22 @@ Examples:
   tearmesh check models/*.obj
       a line for each file: ok, or the first thing that is wrong, with its line
   tearmesh check -v shirt.obj
-      everything that is wrong, with the text of the lines concerned";
+      everything that is wrong, with the text of the lines, and how large the mesh is";
 
 /// Check OBJ files: whether they can be read and are meshes that can be cut.
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct CheckArgs {
     /// The OBJ files; `-` is standard input.
+    ///
+    /// `*` and `?` in a name stand for any text and any character, where the shell has not put
+    /// the names of files for them.
     #[arg(value_name = "IN", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
+
+    /// Look into folders, and check all files `.obj` there.
+    #[arg(short, long)]
+    pub(crate) recursive: bool,
 
     /// Print a line of words for each file, or a line of JSON.
     #[arg(long, value_enum, default_value_t)]
@@ -35,6 +42,8 @@ pub(crate) struct CheckArgs {
     pub(crate) quiet: bool,
 
     /// Show everything there is to say of each file, with the text of the lines.
+    ///
+    /// And its bounds, the lengths of its edges, and its largest pieces; JSON has these always.
     #[arg(short, long)]
     pub(crate) verbose: bool,
 }

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
+use tearmesh::Point;
 
 use super::files::FileArgs;
+use super::read::Gap;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,7 +23,8 @@ pub(crate) struct CutArgs {
     ///
     /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
     /// `ox,oy,oz@tx,ty,tz` (origin and a point that it is aimed at). The cut
-    /// follows the plane through both rays, and ends at the rays unless --through is given.
+    /// follows the plane through both rays, and ends at the rays unless --through is given; it goes
+    /// through all that lies between them, front and back, unless --layers first is given.
     /// Several pairs are cuts one after another; where one begins with the ray with which the one
     /// before ended, both are parts of one polyline.
     #[arg(long, value_name = "A B")]
@@ -30,6 +33,9 @@ pub(crate) struct CutArgs {
     /// A file of rays: two a line, `#` begins a comment.
     #[arg(long, value_name = "FILE")]
     pub(crate) rays_file: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
 
     /// A plane in the place of rays, as point:normal; may be given repeatedly.
     ///
@@ -57,11 +63,29 @@ pub(crate) struct CutArgs {
     )]
     pub(crate) layers: Layers,
 
+    /// Show the lips of cuts this far apart: a length, or N% of an edge.
+    ///
+    /// Of the mean edge, that is. The two sides of a cut lie on each other, so nothing is seen of it,
+    /// and programs that join points at one place close it. With this each lip is written half of
+    /// the gap away from the other, within the surface, and nothing at a tip; where a face would turn
+    /// over, less. The file has the true places too: `mend`, another `cut` and the masses go by
+    /// these. Without it a gap stays as it is, and --gap 0 closes it.
+    #[arg(long, value_name = "D", value_parser = super::read::gap, allow_hyphen_values = true)]
+    pub(crate) gap: Option<Gap>,
+
     /// Write the seam into this file, as lines of OBJ.
     ///
     /// For each cut an object of `v` and `l` statements: the edges that it tore, in order.
     #[arg(long, value_name = "FILE")]
     pub(crate) seam: Option<PathBuf>,
+
+    /// Write where each vertex, corner and face comes from, as JSON.
+    ///
+    /// For each `v` of the output and each corner of its faces, those of the input that it lies
+    /// between, with weights; for each face the one that it was part of. All are counted from 0, corners
+    /// through all faces. So weights, bones and materials of other programs can follow.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["repair", "separate_fans"])]
+    pub(crate) map: Option<PathBuf>,
 
     /// How to cut.
     #[arg(long, value_enum, default_value_t)]
@@ -90,7 +114,7 @@ pub(crate) struct CutArgs {
     pub(crate) tips: Tips,
 
     /// How a split divides mass: by the area of the faces, or by half.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, hide_short_help = true, value_enum, default_value_t)]
     pub(crate) mass: Mass,
 
     /// Repair the input: also drop duplicate and superfluous faces.
@@ -105,7 +129,7 @@ pub(crate) struct CutArgs {
     ///
     /// A fan is a set of faces round the vertex that are joined by shared edges. The
     /// first keeps the vertex, and the others get new ones at the same place.
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     pub(crate) separate_fans: bool,
 
     /// Succeed, and write the mesh, even if nothing was cut.
@@ -114,6 +138,50 @@ pub(crate) struct CutArgs {
 
     #[command(flatten)]
     pub(crate) files: FileArgs,
+}
+
+/// Points of a picture in the place of rays.
+#[derive(Debug, clap::Args)]
+pub(crate) struct CameraArgs {
+    /// A camera in the place of rays, with --fov, --viewport and --points.
+    ///
+    /// eye@target: what it looks at is in the middle of the picture, which shows it in perspective, as in
+    /// --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250.
+    #[arg(
+        long,
+        value_name = "EYE@AT",
+        allow_hyphen_values = true,
+        value_parser = super::read::look,
+        requires_all = ["fov", "viewport", "points"],
+        conflicts_with_all = ["rays", "rays_file", "plane"]
+    )]
+    pub(crate) camera: Option<[Point; 2]>,
+
+    /// What is upright in the picture.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
+        default_value = "0,1,0", hide_short_help = true)]
+    pub(crate) up: Point,
+
+    /// The angle of view, from the lower edge to the upper one, in degrees.
+    #[arg(
+        long,
+        hide_short_help = true,
+        value_name = "DEG",
+        allow_negative_numbers = true,
+        requires = "camera"
+    )]
+    pub(crate) fov: Option<f64>,
+
+    /// The width and height of the picture in pixels.
+    #[arg(long, hide_short_help = true, value_name = "WxH", value_parser = super::read::size, requires = "camera")]
+    pub(crate) viewport: Option<[f64; 2]>,
+
+    /// Two pixels of its picture, from the top left; may be given repeatedly.
+    ///
+    /// Fractions are places in a pixel: the middle of the first one is 0.5,0.5. A pair that begins
+    /// where the one before ended goes on from there. The report says which --rays they are.
+    #[arg(long, value_name = "X,Y X,Y", requires = "camera")]
+    pub(crate) points: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

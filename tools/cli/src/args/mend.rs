@@ -23,8 +23,15 @@ pub(crate) struct MendArgs {
     pub(crate) last: Option<NonZeroUsize>,
 
     /// Sew only what lies near this point: within --radius of it.
-    #[arg(long, value_name = "X,Y,Z", requires = "radius", allow_hyphen_values = true, value_parser = point)]
+    #[arg(long, value_name = "X,Y,Z", requires = "radius", allow_hyphen_values = true, value_parser = super::read::point)]
     pub(crate) near: Option<Point>,
+
+    /// Sew boundary edges that lie on each other, in a file without a record.
+    ///
+    /// For one that went through a program that dropped the record of its cuts. Edges are sewn that
+    /// have the same two ends to the last digit, and lie with no third; inserted vertices stay.
+    #[arg(long, conflicts_with = "last")]
+    pub(crate) coincident: bool,
 
     /// How near.
     #[arg(
@@ -50,17 +57,4 @@ pub(crate) struct MendArgs {
 
     #[command(flatten)]
     pub(crate) files: FileArgs,
-}
-
-/// Reads a point.
-fn point(text: &str) -> Result<Point, String> {
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|number| number.trim().parse().ok().filter(|x: &f64| x.is_finite()))
-        .collect::<Option<_>>()
-        .unwrap_or_default();
-    match numbers[..] {
-        [x, y, z] => Ok(Point::new(x, y, z)),
-        _ => Err("expected three numbers with commas between them, as in 0,1.5,0".to_owned()),
-    }
 }

@@ -1,6 +1,11 @@
 //! Why a cut split nothing.
 
-use tearmesh::{CutMethod, CutReport, Edits, HalfEdgeId, Mesh, Point, Positions, Scissor, Side};
+use tearmesh::{
+    CutMethod, CutReport, Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, Scissor, Side,
+};
+
+use crate::measure::Bounds;
+use crate::say::{count, place};
 
 /// What kept a cut from splitting anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +16,8 @@ pub(crate) enum Obstacle {
     Touch,
     /// Its crossings are all within the snap of vertices; without a snap it splits some.
     Snap,
+    /// The plane goes through the mesh, but not between the rays: through so many faces.
+    Elsewhere { faces: usize },
     /// None that is known: what the report says is all.
     Unknown,
 }
@@ -18,8 +25,8 @@ pub(crate) enum Obstacle {
 /// Looks for what kept a cut from splitting anything; `snap` is that of the scissor. Linear in the
 /// mesh, and not worth asking of a cut that split something.
 ///
-/// Whether it was the snap is tried on a copy and not concluded, so that the advice to cut without
-/// one works when it is typed.
+/// Whether it was the snap or the rays is tried on a copy and not concluded, so that the advice to cut
+/// without one, or beyond the others, works when it is typed.
 pub(super) fn obstacle(
     (scissor, method, snap): (&Scissor, CutMethod, f64),
     through: bool,
@@ -41,10 +48,15 @@ pub(super) fn obstacle(
         && done.nearest_vertex <= ROUNDING * lengths.fold(0.0, f64::max)
     {
         Obstacle::Touch
+    } else if done.missed {
+        let elsewhere = || tried(&scissor.clone().through(true), method, mesh, positions);
+        // Copies take memory, and most cuts that miss do so by far.
+        let is_met = !through && mesh.faces().any(|f| slit.meets(f));
+        let elsewhere = is_met.then(elsewhere).flatten();
+        elsewhere.map_or(Obstacle::Unknown, |faces| Obstacle::Elsewhere { faces })
     } else if is_exact
         && snap > 0.0
-        && !done.missed
-        && splits_without_snap(scissor, mesh, positions)
+        && tried(&scissor.clone().snap(0.0), method, mesh, positions).is_some()
     {
         Obstacle::Snap
     } else {
@@ -52,21 +64,37 @@ pub(super) fn obstacle(
     }
 }
 
+/// What would help a cut that met no face.
+pub(super) fn advice(obstacle: Obstacle, mesh: &Mesh, positions: &Positions) -> Option<String> {
+    let elsewhere = match obstacle {
+        Obstacle::Seam | Obstacle::Touch | Obstacle::Snap => return None,
+        Obstacle::Unknown => String::new(),
+        Obstacle::Elsewhere { faces } => {
+            let faces = count(faces, "face", "faces");
+            format!("; the plane crosses {faces} elsewhere: --through cuts there")
+        }
+    };
+    let Bounds { min, max } = Bounds::of(mesh, positions);
+    let (least, most) = (place(min), place(max));
+    Some(format!("the mesh lies from {least} to {most}{elsewhere}"))
+}
+
 /// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses words.
 const ROUNDING: f64 = 1e-6;
 
-/// Whether the cut would split something with `--snap 0`.
-fn splits_without_snap(scissor: &Scissor, mesh: &Mesh, positions: &Positions) -> bool {
+/// How many faces a cut would cross that split something; `None` if it splits nothing either.
+fn tried(
+    scissor: &Scissor,
+    method: CutMethod,
+    mesh: &Mesh,
+    positions: &Positions,
+) -> Option<usize> {
     // A scissor that goes on from a cut knows the place in the log.
     let mut edits = Edits::starting_at(positions.seen());
     let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
-    let tried = scissor.clone().snap(0.0).cut_measured(
-        CutMethod::Exact,
-        &mut mesh,
-        &mut positions,
-        &mut edits,
-    );
-    tried.is_ok_and(|(_, done)| done.splits > 0)
+    let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
+    let (_, done) = made.ok()?;
+    (done.splits > 0).then_some(done.faces_crossed)
 }
 
 /// Where the cut was to go.
@@ -99,6 +127,14 @@ impl Slit<'_> {
         });
         let [one, other] = [h, ghost].map(|h| Side::of(plane.offset(self.centre(h))));
         is_between && is_near && one != other
+    }
+
+    /// Whether a face has vertices on both sides of the plane.
+    fn meets(&self, f: FaceId) -> bool {
+        let plane = self.scissor.plane();
+        let corners = self.mesh.face_vertices(f);
+        let [a, b, c] = corners.map(|v| Side::of(plane.offset(self.positions.at(v))));
+        a != b || b != c
     }
 
     /// The centre of the face of a half-edge.

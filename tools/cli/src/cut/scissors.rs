@@ -1,8 +1,9 @@
 //! From what was typed to scissors.
 
-use tearmesh::{Plane, Ray, Scissor, ScissorError};
+use tearmesh::{Plane, Point, Ray, Scissor, ScissorError};
 
-use crate::args::CutArgs;
+use crate::args::{CameraArgs, CutArgs, numbers};
+use crate::camera::{Camera, CameraError};
 use crate::exit::{Exit, Stop};
 use crate::input::Input;
 use crate::rays::{self, Pair};
@@ -43,6 +44,10 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
             .map(Along::Plane)
             .collect());
     }
+    if let Some(look) = args.camera.camera {
+        let pairs = seen(&args.camera, look).map_err(|fault| Stop::new(Exit::Usage, fault))?;
+        return Ok(pairs.into_iter().map(Along::Rays).collect());
+    }
     let mut pairs = Vec::new();
     for text in &args.rays {
         pairs.push(rays::pair(text, "--rays", 1).map_err(refused)?);
@@ -63,6 +68,51 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
     }
     Ok(pairs.into_iter().map(Along::Rays).collect())
 }
+
+/// The rays through points of a picture.
+fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
+    let refused =
+        |message: &str, help: &str| Fault::error("E-CAMERA", message.to_owned()).help(help);
+    let fov = args.fov.expect("a camera requires it");
+    let viewport = args.viewport.expect("a camera requires it");
+    let camera = Camera::new(look, args.up.coords, fov, viewport);
+    let camera = camera.map_err(|error| match error {
+        CameraError::At => refused("the camera looks at its own eye", "aim it at another point"),
+        CameraError::Up => refused(
+            "the camera looks along what is to be upright in its picture",
+            "name another direction with --up, as in --up 0,0,1",
+        ),
+        CameraError::Angle => refused(
+            "the angle of view is not between 0 and 180 degrees",
+            "it is the one from the lower edge of the picture to the upper, as in --fov 40",
+        ),
+    })?;
+    let pairs = args.points.iter().map(|text| {
+        let points = rays::split_pair(text).map(|span| numbers(&text[span], ','));
+        let points: Vec<Vec<f64>> = points.collect();
+        let [one, other] = &points[..] else {
+            let message = format!("a cut takes two points, not `{text}`");
+            return Err(refused(&message, POINTS_HELP));
+        };
+        let (&[a, b], &[c, d]) = (&one[..], &other[..]) else {
+            return Err(refused(
+                &format!("cannot read the points `{text}`"),
+                POINTS_HELP,
+            ));
+        };
+        if [a, b] == [c, d] {
+            return Err(refused(
+                &format!("`{text}` is one point twice"),
+                "name two points",
+            ));
+        }
+        let pair = camera.pair([[a, b], [c, d]]);
+        pair.map_err(|error| refused(&error.to_string(), "name points nearer to the picture"))
+    });
+    pairs.collect()
+}
+
+const POINTS_HELP: &str = "write both in pixels from the top left, as in --points 200,300 600,250";
 
 /// Says that two rays span no plane, and what would.
 pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {

@@ -2,6 +2,7 @@
 
 use tearmesh::{Cut, CutReport};
 
+use super::gap::Gapped;
 use super::nothing::Obstacle;
 use crate::say::{Fault, count, short};
 
@@ -20,6 +21,27 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
         count(cut.pieces_before, "piece", "pieces"),
         count(cut.pieces, "piece", "pieces"),
     )
+}
+
+/// The line of the summary on lips that stand apart.
+pub(crate) fn gap(gap: f64, gapped: &Gapped) -> String {
+    let vertices = count(gapped.moved, "vertex", "vertices");
+    let up_to = if gapped.clamped > 0 { "up to " } else { "" };
+    format!(
+        "gap: {vertices} of lips written {up_to}{} apart",
+        short(gap)
+    )
+}
+
+/// That some lips stand less apart than was asked for.
+pub(crate) fn of_gap(gapped: &Gapped) -> Option<Fault> {
+    let moved = count(
+        gapped.clamped,
+        "vertex of a lip was",
+        "vertices of lips were",
+    );
+    let message = format!("{moved} moved by less than half the gap: a face would turn over");
+    (gapped.clamped > 0).then(|| Fault::warning("W-CUT-GAP", message))
 }
 
 /// That a cut through the first layers went through two, if it did.
@@ -62,7 +84,7 @@ pub(crate) fn warnings(
             Obstacle::Seam => "but it is already cut there",
             Obstacle::Touch => "it only touches the mesh",
             Obstacle::Snap => "but is shorter than the snap: --snap 0 makes it",
-            Obstacle::Unknown => "but no vertex could be split",
+            Obstacle::Elsewhere { .. } | Obstacle::Unknown => "but no vertex could be split",
         };
         let faces = count(cut.faces_crossed, "face", "faces");
         warn("W-CUT-NONE", format!("the cut crosses {faces}, {why}"));

@@ -1,12 +1,12 @@
 //! The lines of a record between its first and its last.
 
-use tearmesh::COORDINATE_MAX;
+use tearmesh::{COORDINATE_MAX, Point};
 
 use super::fault::{Fault, Parsed};
 use super::line::quoted;
 use super::scan::Scan;
 use super::words::{CODE, DAMAGED, nothing_more, numbers, out_of_range, whole};
-use crate::record::{At, Inserted, Parent, Record, SplitOff, are_last, runs};
+use crate::record::{Apart, At, Inserted, Parent, Record, SplitOff, are_last, is_same_point, runs};
 use crate::slides::Exchange;
 use crate::store::{NUMBERS_MAX, push};
 
@@ -55,8 +55,9 @@ impl Items {
 
     /// Takes the next line, from behind its mark on.
     pub(super) fn item(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        // `edge` and `face` are in one order, and so are slides. Version 1 has the first five.
-        const KINDS: [(&[u8], usize); 10] = [
+        // `edge` and `face` are in one order, and so are slides. Version 1 has the first five, and
+        // version 2 all but the last.
+        const KINDS: [(&[u8], usize); 11] = [
             (b"split", 0),
             (b"fan", 1),
             (b"edge", 2),
@@ -67,12 +68,16 @@ impl Items {
             (b"slide", 7),
             (b"slide-vt", 7),
             (b"slide-vn", 7),
+            (b"apart", 8),
         ];
         scan.find_token();
         let (start, word) = (scan.at, scan.token());
         scan.at += word.len();
-        let is_first = self.counts.version == 1;
-        let mut known = KINDS.iter().take(if is_first { 5 } else { KINDS.len() });
+        let mut known = KINDS.iter().take(match self.counts.version {
+            1 => 5,
+            2 => 10,
+            _ => KINDS.len(),
+        });
         match known.find(|(kind, _)| *kind == word) {
             Some(&(_, rank)) if rank >= self.kind => self.kind = rank,
             _ => {
@@ -89,6 +94,7 @@ impl Items {
             b"slide" => return self.slide(scan),
             b"slide-vt" => return self.exchange(0, scan),
             b"slide-vn" => return self.exchange(1, scan),
+            b"apart" => return self.apart(scan),
             _ => self.inserted_indices(word == b"vt", scan)?,
         }
         nothing_more(scan)
@@ -237,6 +243,32 @@ impl Items {
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         slides.push_exchange(Exchange { which, new, old }, &value[..count]);
+        Ok(())
+    }
+
+    /// A vertex that stands apart: where it is, and where its `v` says.
+    fn apart(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let last = self.record.apart.last().map_or(0, |last| last.vertex + 1);
+        scan.find_token();
+        let at = scan.at;
+        let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
+        if self.is_copy(vertex) {
+            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
+            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+        }
+        let start = scan.at;
+        let mut row = [0.0; 6];
+        let count = numbers(scan, &mut row)?;
+        if count < row.len() || row.iter().any(|x| x.abs() > COORDINATE_MAX) {
+            let message = "this record has a vertex without two points that can be used";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        let [is, shown] = [0, 3].map(|i| Point::new(row[i], row[i + 1], row[i + 2]));
+        if is_same_point(is, shown) {
+            let message = "this record has a vertex apart from where it is that is there";
+            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+        }
+        push(&mut self.record.apart, Apart { vertex, is, shown });
         Ok(())
     }
 

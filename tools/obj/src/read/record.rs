@@ -3,6 +3,7 @@
 //! A record that is damaged, of a later version, or of other faces than the file has is left
 //! out with a warning, and the file read as one without.
 
+use super::apart::put_in_place;
 use super::copies::join;
 use super::fault::{Fault, Parsed};
 use super::fits::{forget_corners, misfit, settle};
@@ -205,6 +206,7 @@ impl RecordReader {
         let Items {
             mut record, fans, ..
         } = self.items;
+        put_in_place(document, &mut record, &fans);
         join(document, &mut record, &fans);
         document.record = Some(Box::new(record));
     }

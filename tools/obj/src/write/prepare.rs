@@ -1,11 +1,11 @@
 //! What is written of a torn document: which faces in which order, under which numbers, and
 //! what goes on record.
 
-use tearmesh::Mesh;
+use tearmesh::{Mesh, Point};
 
 use super::separate::Separated;
 use crate::order::Order;
-use crate::record::{Inserted, Parent, Record, runs};
+use crate::record::{Apart, Inserted, Parent, Record, runs};
 use crate::said::Said;
 use crate::sections::Of;
 use crate::torn::{Removal, Slots, TornDocument, Turns};
@@ -18,6 +18,8 @@ pub(crate) struct Prepared<'m> {
     removal: Option<&'m Removal>,
     /// The number of vertices of the mesh.
     mesh_vertices: usize,
+    /// The vertices of the mesh that are written apart from where they are, ascending.
+    apart: Vec<Apart>,
     /// The vertices of the mesh and behind them the copies for fans; texture coordinates; normals.
     pub(super) orders: [Order; 3],
     /// `None` where there is nothing to record.
@@ -32,31 +34,33 @@ impl<'m> Prepared<'m> {
         torn: &TornDocument<'_>,
         mesh: &'m Mesh,
         removal: Option<&'m Removal>,
+        apart: Vec<Apart>,
     ) -> Prepared<'m> {
         let slots = torn.slots();
         let rank = (!torn.is_undivided()).then(|| ranks(&slots));
         let separated = Separated::new(mesh, rank.as_deref());
         if torn.is_untouched() && separated.copies.is_empty() && removal.is_none() {
-            return Prepared::in_turn(torn, mesh, slots, separated, removal, None);
+            return Prepared::in_turn(torn, mesh, (slots, separated), (removal, apart), None);
         }
         let turns = Turns::in_sections(torn);
-        Prepared::in_turn(torn, mesh, slots, separated, removal, Some(&turns))
+        let added = (removal, apart);
+        Prepared::in_turn(torn, mesh, (slots, separated), added, Some(&turns))
     }
 
     /// What is written with one vertex for each of the mesh, in the order of their ids.
     pub(crate) fn unseparated(torn: &TornDocument<'_>, mesh: &'m Mesh) -> Prepared<'m> {
         let turns = Turns::by_id(torn);
         let separated = Separated::none(mesh);
-        Prepared::in_turn(torn, mesh, torn.slots(), separated, None, Some(&turns))
+        let faces = (torn.slots(), separated);
+        Prepared::in_turn(torn, mesh, faces, (None, Vec::new()), Some(&turns))
     }
 
     /// What is written in these turns; without any, the statements of the document.
     fn in_turn(
         torn: &TornDocument<'_>,
         mesh: &'m Mesh,
-        slots: Slots,
-        separated: Separated<'m>,
-        removal: Option<&'m Removal>,
+        (slots, separated): (Slots, Separated<'m>),
+        (removal, apart): (Option<&'m Removal>, Vec<Apart>),
         turns: Option<&Turns<'_>>,
     ) -> Prepared<'m> {
         let document = torn.document();
@@ -67,6 +71,7 @@ impl<'m> Prepared<'m> {
             },
             removal,
             mesh_vertices: mesh.vertex_count(),
+            apart,
             orders: match turns {
                 None => [Of::Vertices, Of::Texture, Of::Normals]
                     .map(|of| Order::of_document(of.count(document))),
@@ -172,8 +177,33 @@ impl<'m> Prepared<'m> {
             texture,
             normals,
             slides,
+            apart: self.recorded_apart(),
             copies: Vec::new(), // They are those of the fans.
         }
+    }
+
+    /// The vertices that are written apart, as in the file. Those that are put back are not.
+    fn recorded_apart(&self) -> Vec<Apart> {
+        let is_written = |apart: &&Apart| {
+            self.orders[0].has(apart.vertex) && self.put_back(apart.vertex as usize).is_none()
+        };
+        let written = self.apart.iter().filter(is_written);
+        let mut written: Vec<Apart> = written
+            .map(|apart| Apart {
+                vertex: self.orders[0].number(apart.vertex),
+                ..*apart
+            })
+            .collect();
+        written.sort_unstable_by_key(|apart| apart.vertex);
+        written
+    }
+
+    /// Where the `v` of a vertex of the mesh says that it is, if it stands apart from there.
+    pub(super) fn shown(&self, vertex: usize) -> Option<Point> {
+        let place = self
+            .apart
+            .binary_search_by_key(&(vertex as u32), |apart| apart.vertex);
+        place.ok().map(|place| self.apart[place].shown)
     }
 
     /// What the `v` of a vertex of the mesh has that slid, where it is put back.

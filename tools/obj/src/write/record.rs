@@ -6,7 +6,7 @@ use super::number::{write_integer, write_number};
 use super::output::Output;
 use super::prepare::Prepared;
 use crate::order::Order;
-use crate::record::{At, END, HEADER, Hash, ITEM, Record, VERSION, are_last, runs};
+use crate::record::{Apart, At, END, HEADER, Hash, ITEM, Record, VERSION, are_last, runs};
 use crate::slides::Slides;
 
 /// Writes the record, if there is one: everything before it is written, and its faces have this
@@ -27,10 +27,11 @@ pub(super) fn write_record<W: Write>(
     let says_where = [(&record.texture, texture), (&record.normals, normals)]
         .map(|(runs, count)| !are_last(runs, count as u32));
     let is_later = says_where.contains(&true) || !record.slides.is_empty();
-    let version = if is_later || !are_last(&copies(prepared), vertices as u32) {
-        VERSION
-    } else {
-        1
+    let is_later = is_later || !are_last(&copies(prepared), vertices as u32);
+    let version = match (record.apart.is_empty(), is_later) {
+        (false, _) => VERSION,
+        (true, true) => 2,
+        (true, false) => 1,
     };
     let counts = [
         vertices,
@@ -73,6 +74,10 @@ pub(super) fn write_record<W: Write>(
         }
     }
     items.write_slides(&record.slides)?;
+    for Apart { vertex, is, shown } in &record.apart {
+        let numbers = [is.x, is.y, is.z, shown.x, shown.y, shown.z];
+        items.item("apart", &[vertex + 1], &numbers)?;
+    }
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);

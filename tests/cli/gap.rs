@@ -1,0 +1,385 @@
+//! `cut --gap`: lips stand apart, no face turns over, and nothing else changes. Files are read line by
+//! line here, by nothing of ours.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+use tearmesh_cli::{Exit, Streams, run};
+
+use crate::harness::{Folder, seen};
+
+/// Runs a verb on a mesh in memory: its exit status, its mesh, and what it says.
+fn ran(typed: &str, mesh: &[u8]) -> (Exit, Vec<u8>, String) {
+    let (mut output, mut error) = (Vec::new(), Vec::new());
+    let streams = Streams {
+        input: &mut &mesh[..],
+        output: &mut output,
+        error: &mut error,
+        output_is_terminal: false,
+        error_is_terminal: false,
+    };
+    let exit = run(typed.split(' ').map(Into::into), streams);
+    let said = String::from_utf8(error).expect("words are text");
+    (exit, output, said)
+}
+
+/// A file as its lines have it: where each `v` says that it is, where the record says so, and faces.
+struct Plain {
+    shown: Vec<[f64; 3]>,
+    is: Vec<[f64; 3]>,
+    faces: Vec<[usize; 3]>,
+}
+
+impl Plain {
+    fn read(bytes: &[u8]) -> Plain {
+        let text = std::str::from_utf8(bytes).expect("text");
+        let (mut shown, mut faces, mut apart) = (Vec::new(), Vec::new(), Vec::new());
+        for line in text.lines() {
+            let words: Vec<&str> = line.split(' ').collect();
+            let number = |i: usize| words[i].parse::<f64>().expect("a number");
+            match words[0] {
+                "v" => shown.push([1, 2, 3].map(number)),
+                "f" => faces.push([1, 2, 3].map(|i| {
+                    let vertex = words[i].split('/').next().expect("an index");
+                    vertex.parse::<usize>().expect("a number") - 1
+                })),
+                "#~" if words[1] == "apart" => {
+                    apart.push((
+                        number(2) as usize - 1,
+                        [3, 4, 5].map(number),
+                        [6, 7, 8].map(number),
+                    ));
+                }
+                "#~" if words[1] == "fan" => {
+                    let [copy, of] = [2, 3].map(|i| number(i) as usize - 1);
+                    apart.push((copy, [f64::NAN; 3], [of as f64; 3]));
+                }
+                _ => {}
+            }
+        }
+        let mut is = shown.clone();
+        for &(v, at, stands) in apart.iter().filter(|(_, at, _)| !at[0].is_nan()) {
+            assert_eq!(shown[v], stands, "the record says what the file does");
+            is[v] = at;
+        }
+        for &(copy, at, of) in &apart {
+            if at[0].is_nan() {
+                is[copy] = is[of[0] as usize];
+            }
+        }
+        Plain { shown, is, faces }
+    }
+
+    /// How many pieces there are where points that are equal to eight digits are one, and faces that
+    /// share an edge one piece: as trimesh loads a file.
+    fn welded_pieces(&self) -> usize {
+        let key = |at: [f64; 3]| at.map(|x| (x * 1e8).round() as i64);
+        let mut edges: BTreeMap<[[i64; 3]; 2], Vec<usize>> = BTreeMap::new();
+        for (f, face) in self.faces.iter().enumerate() {
+            for i in 0..3 {
+                let mut ends = [face[i], face[(i + 1) % 3]].map(|v| key(self.shown[v]));
+                ends.sort_unstable();
+                edges.entry(ends).or_default().push(f);
+            }
+        }
+        let mut piece: Vec<usize> = (0..self.faces.len()).collect();
+        fn root(piece: &mut [usize], mut f: usize) -> usize {
+            while piece[f] != f {
+                piece[f] = piece[piece[f]];
+                f = piece[f];
+            }
+            f
+        }
+        for faces in edges.values() {
+            for &f in &faces[1..] {
+                let [one, other] = [faces[0], f].map(|f| root(&mut piece, f));
+                piece[one] = other;
+            }
+        }
+        (0..piece.len()).filter(|&f| piece[f] == f).count()
+    }
+}
+
+fn from(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| b[i] - a[i])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn normal(face: [usize; 3], points: &[[f64; 3]]) -> [f64; 3] {
+    let [a, b, c] = face.map(|v| points[v]);
+    let (u, v) = (from(a, b), from(a, c));
+    [
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ]
+}
+
+/// What was checked.
+#[derive(Default)]
+struct Tally {
+    /// Whether all that lies at one place is joined in the meshes before they are cut.
+    is_welded: bool,
+    made: usize,
+    divided: u64,
+    moved: u64,
+    clamped: u64,
+}
+
+/// A cut with a gap, against the same without: `second` is cut after it.
+fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), tally: &mut Tally) {
+    let cut = format!("tearmesh cut - {cut}");
+    let (exit, plain, _) = ran(&format!("{cut} -q -o -"), mesh);
+    if exit != Exit::Done {
+        return;
+    }
+    tally.made += 1;
+    let line = format!("{cut} --gap {gap}");
+    let (exit, gapped, said) = ran(&format!("{line} -q -o -"), mesh);
+    assert_eq!(exit, Exit::Done, "{said}");
+    let (_, report, _) = ran(&format!("{line} --format json"), mesh);
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    let (_, report_of_plain, _) = ran(&format!("{cut} --format json"), mesh);
+    let report_of_plain: Value = serde_json::from_slice(&report_of_plain).expect("JSON");
+    assert_eq!(
+        report["mass"], report_of_plain["mass"],
+        "masses are of the true points"
+    );
+    assert_eq!(report["cuts"], report_of_plain["cuts"]);
+    let count = |name: &str| report["gap"][name].as_u64().expect("a count");
+    let length = report["gap"]["length"].as_f64().expect("a length");
+    tally.moved += count("vertices_moved");
+    tally.clamped += count("vertices_clamped");
+    assert_eq!(
+        said.contains("W-CUT-GAP"),
+        count("vertices_clamped") > 0,
+        "{said}"
+    );
+
+    // What the record says is what the mesh without a gap has; nothing is farther than half a gap,
+    // and no face turns over.
+    let (one, other) = (Plain::read(&gapped), Plain::read(&plain));
+    let coordinates = one.is.as_flattened().iter();
+    let rounding = 1e-12 * coordinates.fold(1.0, |most: f64, x| most.max(x.abs()));
+    assert_eq!(
+        (&one.is, &one.faces),
+        (&other.shown, &other.faces),
+        "{line}"
+    );
+    let mut full = 0;
+    for (is, shown) in one.is.iter().zip(&one.shown) {
+        let off = from(*is, *shown);
+        let far = dot(off, off).sqrt();
+        assert!(far <= length / 2.0 + rounding, "{line}: {far}");
+        full += u64::from((far - length / 2.0).abs() <= 1e-9 * length + rounding);
+    }
+    assert!(
+        full + count("vertices_clamped") >= count("vertices_moved"),
+        "{line}: {full}"
+    );
+    for &face in &one.faces {
+        let (before, after) = (normal(face, &one.is), normal(face, &one.shown));
+        assert!(
+            dot(before, after) > 0.0 || dot(before, before) == 0.0,
+            "{line}: {face:?}"
+        );
+    }
+
+    // Who joins what lies at one place finds the pieces that there are.
+    let pieces = report["cuts"][0]["pieces"].as_u64().expect("a count");
+    if tally.is_welded && count("vertices_clamped") == 0 {
+        assert_eq!(one.welded_pieces() as u64, pieces, "{name} {line}");
+        let before = report["cuts"][0]["pieces_before"]
+            .as_u64()
+            .expect("a count");
+        tally.divided += u64::from(pieces > before);
+        let glued = other.welded_pieces() as u64;
+        assert!(
+            pieces == before || glued < pieces,
+            "without it they are joined"
+        );
+    }
+
+    // Mended it is what it was; cut again, what the file without a gap is.
+    for options in ["", " --simplify"] {
+        let mend = format!("tearmesh mend -{options} -q -o -");
+        let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&mend, bytes));
+        assert!(one == other, "{name} {line}{options}");
+    }
+    let again = format!("tearmesh cut - {second} --gap 0 --allow-miss -q -o -");
+    let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&again, bytes));
+    assert!(one == other, "{name} {line}, then {second}");
+    // One that says nothing of the gap leaves it open, where it is not cut across.
+    let again = format!("tearmesh cut - {second} --allow-miss -q -o -");
+    let (_, one, _) = ran(&again, &gapped);
+    let one = Plain::read(&one);
+    assert_eq!(one.is, Plain::read(&other).shown);
+    assert!(count("vertices_moved") == 0 || one.is != one.shown);
+}
+
+/// Cuts two hundred times at random: across and into sheets, a tube and quads, by all methods.
+#[test]
+fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
+    let folder = Folder::new();
+    let mut state = 17_u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut tally = Tally {
+        is_welded: true,
+        ..Tally::default()
+    };
+    for case in 0.. {
+        if tally.made == 200 {
+            break;
+        }
+        let name = ["flag", "sheet", "sleeve", "quilt"][case % 4];
+        let mesh = folder.read(&format!("{name}.obj")).into_bytes();
+        let mut point = || format!("{},{}", 2.0 * random() - 0.7, 2.0 * random() - 0.7);
+        let pair = |a: String, b: String| format!("--rays {a},9:0,0,-1 {b},9:0,0,-1");
+        let (first, second) = (pair(point(), point()), pair(point(), point()));
+        let method = [
+            "exact",
+            "exact --snap 0",
+            "exact --through",
+            "exact --snap 0.3 --snap-move",
+            "partition",
+            "partition --through",
+            "alternating",
+        ][case / 4 % 7];
+        let gap = ["4%", "10%", "0.003", "30%", "150%"][case / 3 % 5];
+        let cut = format!("{first} --method {method}");
+        gapped_cut(name, &mesh, &cut, (gap, &second), &mut tally);
+    }
+    let Tally {
+        made,
+        divided,
+        moved,
+        clamped,
+        ..
+    } = tally;
+    println!("{made} cuts, {divided} divide: {moved} vertices moved, {clamped} by less");
+    assert!(
+        divided > 40 && moved > 4000 && clamped > 50,
+        "{divided} {moved} {clamped}"
+    );
+}
+
+/// Real files of up to 300 kB, where they are at hand, cut through and slit.
+#[test]
+fn real_files_with_a_gap_are_what_they_were() {
+    let Some(folder) = std::env::var_os("TEARMESH_CORPUS") else {
+        return;
+    };
+    let mut tally = Tally::default();
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("one").path()).collect();
+    paths.sort();
+    for path in paths {
+        let name = path.display().to_string();
+        if !name.ends_with(".obj") || path.metadata().is_ok_and(|file| file.len() > 300_000) {
+            continue;
+        }
+        let bytes = std::fs::read(&path).expect("a file");
+        let (exit, checked, _) = ran("tearmesh check - --format json", &bytes);
+        if exit != Exit::Done {
+            continue;
+        }
+        let report: Value = serde_json::from_slice(&checked).expect("JSON");
+        let bounds = &report["mesh"]["bounds"];
+        let at = |part: f64| -> Vec<f64> {
+            let axis = |i: usize| {
+                let [least, most] = ["min", "max"].map(|end| bounds[end][i].as_f64().expect("x"));
+                least + (most - least) * part
+            };
+            (0..3).map(axis).collect()
+        };
+        let (low, middle, high) = (at(0.3), at(0.47), at(0.8));
+        let (x, y, z) = (middle[0], middle[1], middle[2]);
+        let plane = format!("--plane {x},{y},{z}:1,0.3,0.2");
+        let across = format!("--plane {x},{y},{z}:-0.2,1,0.1");
+        let slit = format!(
+            "--rays {},{y},{}:0,0,-1 {},{y},{}:0,0,-1",
+            low[0],
+            at(2.0)[2],
+            high[0],
+            at(2.0)[2]
+        );
+        gapped_cut(&name, &bytes, &plane, ("5%", &across), &mut tally);
+        gapped_cut(&name, &bytes, &slit, ("60%", &across), &mut tally);
+    }
+    println!(
+        "{} cuts: {} vertices moved, {} by less",
+        tally.made, tally.moved, tally.clamped
+    );
+    assert!(tally.made > 40, "{}", tally.made);
+}
+
+/// A slit opens over one edge: its tips stay, and all others are half the gap away.
+#[test]
+fn a_slit_opens_over_one_edge() {
+    let folder = Folder::new();
+    let line =
+        "tearmesh cut sheet.obj --rays 0.2,0.31,5:0,0,-1 0.8,0.33,5:0,0,-1 --snap 0 --gap 0.002";
+    let output = folder.run(&format!("{line} -o slit.obj"));
+    let text = seen(&output);
+    assert!(text.contains("of lips written 0.002 apart"), "{text}");
+    let plain = Plain::read(folder.read("slit.obj").as_bytes());
+    let mut far = Vec::new();
+    for (is, shown) in plain.is.iter().zip(&plain.shown) {
+        let off = from(*is, *shown);
+        if off != [0.0; 3] {
+            // Square to the slit, which rises by a thirtieth; the sheet is flat.
+            assert!(
+                (off[0] + off[1] / 30.0).abs() < 1e-12 && off[2] == 0.0,
+                "{off:?}"
+            );
+            far.push(off[1].signum());
+            assert!((dot(off, off).sqrt() - 0.001).abs() < 1e-15);
+        }
+    }
+    let above = far.iter().filter(|&&side| side > 0.0).count();
+    assert!(
+        above > 10 && 2 * above == far.len(),
+        "{above} of {}",
+        far.len()
+    );
+}
+
+#[test]
+fn a_gap_is_a_length_or_a_part_of_an_edge() {
+    let folder = Folder::new();
+    for gap in ["x", "-1", "1%%", "nan", "", "-5%"] {
+        let line = format!("tearmesh cut flag.obj --plane 0.3,0,0:1,0,0 --gap={gap} -o x.obj");
+        let text = seen(&folder.run(&line));
+        assert!(
+            text.contains("as in 0.002, or per cent") || gap.is_empty(),
+            "{text}"
+        );
+        assert!(text.ends_with("(exit 2)\n"), "{gap}: {text}");
+    }
+}
+
+/// A simulation starts from where vertices are.
+#[test]
+fn a_simulation_knows_no_gap() {
+    let folder = Folder::new();
+    let cut = "tearmesh cut flag.obj --plane 0.31,0,0:1,0.1,0 -q";
+    for (gap, name) in [("", "plain"), (" --gap 20%", "gapped")] {
+        assert!(
+            folder
+                .run(&format!("{cut}{gap} -o {name}.obj"))
+                .status
+                .success()
+        );
+        let tear = format!("tearmesh tear {name}.obj --scene hang --seconds 0.05 -q -o {name}.out");
+        assert!(folder.run(&tear).status.success());
+    }
+    assert!(folder.read("plain.out") == folder.read("gapped.out"));
+}

@@ -1,0 +1,134 @@
+//! Boundary edges that lie on each other, in files whose record was dropped.
+
+use std::collections::BTreeMap;
+
+use tearmesh::{CutMethod, Point, Ray, Scissor, Vector, mend};
+use tearmesh_obj::CoincidentError;
+
+use super::random::Random;
+use super::torn_record::{Work, files};
+use super::{read, text};
+
+/// A file as a program writes it that knows no comments.
+fn without_comments(bytes: &[u8]) -> String {
+    let lines = text(bytes);
+    let lines = lines.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| format!("{line}\n")).collect()
+}
+
+/// How many edges two faces have at one place, as the text of their ends says.
+fn edges_shared_by_place(file: &str) -> usize {
+    let mut places = Vec::new();
+    let mut faces: BTreeMap<[&str; 2], usize> = BTreeMap::new();
+    for line in file.lines() {
+        if let Some(place) = line.strip_prefix("v ") {
+            places.push(place);
+        }
+        if let Some(corners) = line.strip_prefix("f ") {
+            let vertex = |corner: &str| {
+                let index = corner.split('/').next().expect("an index");
+                index.parse::<usize>().expect("a number")
+            };
+            let corners: Vec<usize> = corners.split(' ').map(vertex).collect();
+            for i in 0..3 {
+                let mut ends = [corners[i], corners[(i + 1) % 3]].map(|v| places[v - 1]);
+                ends.sort_unstable();
+                *faces.entry(ends).or_default() += 1;
+            }
+        }
+    }
+    faces.values().filter(|&&faces| faces == 2).count()
+}
+
+/// A cut somewhere in the box of these points, seen from above.
+fn scissor(points: &[Point], random: &mut Random) -> Scissor {
+    let box_of = |axis: usize| {
+        let all = points.iter().map(|p| p[axis]);
+        [
+            all.clone().fold(f64::INFINITY, f64::min),
+            all.fold(f64::NEG_INFINITY, f64::max),
+        ]
+    };
+    let [a, b] = [(); 2].map(|()| {
+        let [x, y] = [0, 1].map(|axis| {
+            let [least, most] = box_of(axis);
+            least + (most - least) * random.next()
+        });
+        Ray::new(Point::new(x, y, 9.0), -Vector::z()).expect("a ray")
+    });
+    Scissor::new(a, b).expect("a plane")
+}
+
+/// Straight cuts whose record is dropped: sewn by places, every edge is whole that two faces have.
+#[test]
+fn what_was_torn_is_sewn_without_a_record() {
+    let mut sewn = 0;
+    for (name, bytes) in files().into_iter().filter(|(name, _)| name != "late") {
+        for seed in 0..8 {
+            let document = read(&bytes);
+            let mut work = Work::on(&document);
+            let mut random = Random(seed);
+            work.edit(|mesh, positions, edits| {
+                let scissor = scissor(positions.as_slice(), &mut random);
+                let cut = scissor.cut(CutMethod::Exact, mesh, positions, edits);
+                cut.expect("positions are in step");
+            });
+            let dropped = without_comments(&work.written());
+            let document = read(dropped.as_bytes());
+            assert!(!document.has_record());
+            let mesh = document.mesh().expect("each fan has its own vertices");
+            let pairs = document.coincident(&mesh);
+            let torn = work
+                .mesh
+                .half_edges()
+                .filter(|&h| work.mesh.ghost_pair(h).is_some());
+            assert_eq!(2 * pairs.edges(), torn.count(), "{name} {seed}");
+            let (document, mesh) = document.torn_at(&pairs).expect("it was a surface");
+            let mut work = Work::on(&document);
+            assert_eq!(work.mesh, mesh);
+            let all = mend::stitches(&work.mesh, |_| true);
+            assert_eq!(all.len(), pairs.vertices());
+            work.edit(|mesh, positions, edits| {
+                mend::sew(mesh, positions, &all, |_| 1.0, 0.0, edits).expect("at one place")
+            });
+            let written = text(&work.written());
+            assert!(!written.contains('#'), "nothing is left to record");
+            let whole = read(written.as_bytes()).mesh().expect("a mesh");
+            let inside = whole.edges().filter(|&h| whole.pair(h).is_some()).count();
+            assert_eq!(inside, edges_shared_by_place(&dropped), "{name} {seed}");
+            sewn += pairs.edges();
+        }
+    }
+    println!("{sewn} pairs sewn");
+    assert!(sewn > 500, "{sewn}");
+}
+
+#[test]
+fn what_would_be_no_surface_is_refused() {
+    let lens = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n";
+    let document = read(lens.as_bytes());
+    let pairs = document.coincident(&document.mesh().expect("two faces"));
+    assert_eq!((pairs.edges(), pairs.vertices()), (3, 3));
+    assert!(matches!(
+        document.torn_at(&pairs),
+        Err(CoincidentError::Mesh(_))
+    ));
+    // Three edges at one place, two that run the same way, and one without a length.
+    let book = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 -1 0\n\
+                f 1 2 3\nf 5 4 6\nf 8 7 9\n";
+    for file in [
+        book,
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 4 5 6\n",
+        "v 0 0 0\nv 0 0 0\nv 0 1 0\nv 0 0 0\nv 0 0 0\nv 0 0 1\nf 1 2 3\nf 5 4 6\n",
+    ] {
+        let document = read(file.as_bytes());
+        let pairs = document.coincident(&document.mesh().expect("faces"));
+        assert_eq!(pairs.edges(), 0, "{file}");
+    }
+    let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 5 4 6\nl 1 6\n";
+    let document = read(file.as_bytes());
+    let pairs = document.coincident(&document.mesh().expect("two faces"));
+    let refused = document.torn_at(&pairs).expect_err("6 would be 4");
+    let said = "`l` may name a vertex by its number, which would be another";
+    assert_eq!(refused.to_string(), said);
+}

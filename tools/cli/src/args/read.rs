@@ -1,0 +1,57 @@
+//! Numbers as people type them.
+
+use tearmesh::Point;
+
+/// Reads a point.
+pub(super) fn point(text: &str) -> Result<Point, String> {
+    match numbers(text, ',')[..] {
+        [x, y, z] => Ok(Point::new(x, y, z)),
+        _ => Err("expected three numbers with commas between them, as in 0,1.5,0".to_owned()),
+    }
+}
+
+/// Reads an eye and the point that it looks at.
+pub(super) fn look(text: &str) -> Result<[Point; 2], String> {
+    let (eye, at) = text
+        .split_once('@')
+        .ok_or("expected `@` between the eye and what it looks at, as in 0,0,5@0,0,0")?;
+    Ok([point(eye)?, point(at)?])
+}
+
+/// Reads the size of a picture.
+pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
+    match numbers(text, 'x')[..] {
+        [width, height] if width > 0.0 && height > 0.0 => Ok([width, height]),
+        _ => Err("expected width and height with an x between them, as in 1920x1080".to_owned()),
+    }
+}
+
+/// How far apart the lips of a cut are to stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Gap {
+    Length(f64),
+    /// As a part of the mean length of the edges.
+    Edges(f64),
+}
+
+/// Reads a length, or per cent of the mean edge.
+pub(super) fn gap(text: &str) -> Result<Gap, String> {
+    let (number, is_part) = match text.strip_suffix('%') {
+        Some(number) => (number, true),
+        None => (text, false),
+    };
+    match (&numbers(number, ',')[..], is_part) {
+        (&[part], true) if part >= 0.0 => Ok(Gap::Edges(part / 100.0)),
+        (&[length], false) if length >= 0.0 => Ok(Gap::Length(length)),
+        _ => {
+            Err("expected a length as in 0.002, or per cent of the mean edge as in 10%".to_owned())
+        }
+    }
+}
+
+/// Finite numbers, `separator` between them; none if one cannot be read.
+pub(crate) fn numbers(text: &str, separator: char) -> Vec<f64> {
+    let numbers = text.split(separator);
+    let read = numbers.map(|number| number.trim().parse().ok().filter(|x: &f64| x.is_finite()));
+    read.collect::<Option<_>>().unwrap_or_default()
+}

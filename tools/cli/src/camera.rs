@@ -1,0 +1,175 @@
+//! The camera through which somebody saw the mesh: from points of its picture to rays.
+
+use tearmesh::{Point, Ray, RayError, Vector};
+
+use crate::rays::Pair;
+
+/// A camera that shows what it looks at in the middle of its picture, in perspective.
+///
+/// Computed with + − × ÷ √ alone, as everything that decides where a cut goes: the same pixels give
+/// the same bytes on every machine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Camera {
+    eye: Point,
+    /// To the middle of the picture, and from there to the middles of its right and its upper edge.
+    middle: Vector,
+    right: Vector,
+    up: Vector,
+    /// Its width and height in pixels.
+    size: [f64; 2],
+}
+
+/// Why there is no such camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CameraError {
+    /// It looks at its own eye.
+    At,
+    /// Up is the way in which it looks.
+    Up,
+    /// Its angle of view is not between 0 and 180 degrees.
+    Angle,
+}
+
+impl Camera {
+    /// The camera at `eye` that looks at `at`, with `up` upright in its picture, and sees so many
+    /// degrees from the lower edge to the upper one.
+    pub(crate) fn new(
+        [eye, at]: [Point; 2],
+        up: Vector,
+        degrees: f64,
+        size: [f64; 2],
+    ) -> Result<Camera, CameraError> {
+        if !(degrees > 0.0 && degrees < 180.0) {
+            return Err(CameraError::Angle);
+        }
+        let middle = unit(at - eye).ok_or(CameraError::At)?;
+        let right = unit(up).and_then(|up| unit(middle.cross(&up)));
+        let right = right.ok_or(CameraError::Up)?;
+        let half = tangent(degrees / 2.0);
+        let [width, height] = size;
+        Ok(Camera {
+            eye,
+            middle,
+            up: right.cross(&middle) * half,
+            right: right * (half * width / height),
+            size,
+        })
+    }
+
+    /// The ray through a point of the picture, so many pixels right of its left edge and below its
+    /// upper one.
+    fn ray(&self, [x, y]: [f64; 2]) -> Result<Ray, RayError> {
+        let [width, height] = self.size;
+        let across = self.right * (2.0 * x / width - 1.0);
+        let upward = self.up * (1.0 - 2.0 * y / height);
+        // Adding zero turns −0 into 0.
+        Ray::new(self.eye, (self.middle + across + upward).map(|x| x + 0.0))
+    }
+
+    /// The rays through two points.
+    pub(crate) fn pair(&self, points: [[f64; 2]; 2]) -> Result<Pair, RayError> {
+        let [one, other] = points.map(|point| self.ray(point));
+        Ok([one?, other?])
+    }
+}
+
+/// The vector of this direction and length 1, if that can be computed.
+fn unit(v: Vector) -> Option<Vector> {
+    let largest = v.amax();
+    let scaled = v / largest;
+    let length = scaled.norm();
+    // Two directions of length 1 whose product is nothing but rounding span no plane.
+    (largest > 1e-12 && length.is_finite()).then(|| scaled / length)
+}
+
+/// The tangent of an angle in degrees, from 0 to 90: that of its half by Lambert's continued fraction,
+/// which twelve terms give to the last digits up to 45 degrees.
+fn tangent(degrees: f64) -> f64 {
+    let x = degrees / 2.0 * (std::f64::consts::PI / 180.0);
+    let fraction = (1..=12).rev().map(|k| f64::from(2 * k - 1));
+    let below = fraction.fold(f64::INFINITY, |below, odd| odd - x * x / below);
+    let half = x / below;
+    2.0 * half / (1.0 - half * half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tangent_is_that_of_the_standard_library() {
+        for i in 1..9000 {
+            let degrees = f64::from(i) / 100.0;
+            let (is, expected) = (tangent(degrees), degrees.to_radians().tan());
+            // Near 90 degrees the angle's own rounding grows.
+            let allowed = 1e-15 * (8.0 + expected * expected / expected.max(1.0)) * expected;
+            assert!(
+                (is - expected).abs() <= allowed,
+                "{degrees}: {is} {expected}"
+            );
+        }
+    }
+
+    /// The matrices of a graphics library, by angles of turning: another way to the same picture.
+    #[test]
+    fn a_ray_goes_through_the_pixel_that_shows_its_points() {
+        let (eye, at) = (Point::new(1.0, 2.0, 5.0), Point::new(0.5, -1.0, 0.25));
+        let (up, degrees, [width, height]) = (Vector::new(0.1, 1.0, 0.2), 40.0_f64, [640.0, 480.0]);
+        let camera = Camera::new([eye, at], up, degrees, [width, height]).expect("a camera");
+        let view = look_at(eye, at, up);
+        let focal = 1.0 / (degrees.to_radians() / 2.0).tan();
+        for [x, y] in [
+            [0.0, 0.0],
+            [320.0, 240.0],
+            [640.0, 480.0],
+            [17.0, 401.5],
+            [-80.0, 700.0],
+        ] {
+            let ray = camera.ray([x, y]).expect("a ray");
+            for far in [0.5, 3.0, 40.0] {
+                let p = ray.origin() + ray.direction() * far;
+                let [px, py, pz] = [0, 1, 2].map(|row| {
+                    let [a, b, c, d]: [f64; 4] = view[row];
+                    a * p.x + b * p.y + c * p.z + d
+                });
+                let clip = [focal * height / width * px / -pz, focal * py / -pz];
+                let seen = [
+                    (clip[0] + 1.0) / 2.0 * width,
+                    (1.0 - clip[1]) / 2.0 * height,
+                ];
+                let off = (seen[0] - x).abs().max((seen[1] - y).abs());
+                assert!(off < 1e-9, "{x} {y}: {seen:?}");
+            }
+        }
+    }
+
+    /// The rows of the matrix of gluLookAt: s, u and −f, each with the eye taken off.
+    fn look_at(eye: Point, at: Point, up: Vector) -> [[f64; 4]; 3] {
+        let f = (at - eye).normalize();
+        let s = f.cross(&up).normalize();
+        let u = s.cross(&f);
+        [s, u, -f].map(|row| [row.x, row.y, row.z, -row.dot(&eye.coords)])
+    }
+
+    #[test]
+    fn what_is_no_camera_is_refused() {
+        let eye = Point::new(0.0, 0.0, 5.0);
+        let up = Vector::y();
+        let camera = |at, up, degrees| Camera::new([eye, at], up, degrees, [4.0, 3.0]).map(|_| ());
+        assert_eq!(camera(Point::origin(), up, 40.0), Ok(()));
+        assert_eq!(camera(eye, up, 40.0), Err(CameraError::At));
+        assert_eq!(
+            camera(Point::new(0.0, 9.0, 5.0), up, 40.0),
+            Err(CameraError::Up)
+        );
+        assert_eq!(
+            camera(Point::origin(), Vector::zeros(), 40.0),
+            Err(CameraError::Up)
+        );
+        assert_eq!(camera(Point::origin(), up, 180.0), Err(CameraError::Angle));
+        assert_eq!(
+            camera(Point::origin(), up, f64::NAN),
+            Err(CameraError::Angle)
+        );
+    }
+}

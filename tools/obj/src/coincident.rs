@@ -1,0 +1,173 @@
+//! Boundary edges that lie on each other: what is left of cuts where another program dropped the record,
+//! or of a seam of textures at which one wrote each vertex twice.
+
+use std::fmt;
+
+use tearmesh::{DisjointSets, HalfEdgeId, Mesh, VertexId};
+
+use crate::document::Document;
+use crate::mesh::MeshError;
+use crate::record::{Record, SplitOff, are_last, runs};
+
+/// Pairs of boundary edges with the same two ends, to the bit, that run in opposite directions, and lie
+/// with no third edge: see [`Document::coincident`].
+#[derive(Clone, Debug, Default)]
+pub struct Coincident {
+    edges: usize,
+    /// Ascending, each from the lowest vertex that is to be one with it.
+    splits: Vec<SplitOff>,
+}
+
+impl Coincident {
+    /// How many pairs of edges there are.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.edges
+    }
+
+    /// How many vertices would be joined to others.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.splits.len()
+    }
+}
+
+impl Document {
+    /// Whether the file has a record of what was torn ([the record](crate#the-record)) that is used.
+    #[must_use]
+    pub fn has_record(&self) -> bool {
+        self.record.is_some()
+    }
+
+    /// The boundary edges of the mesh of this document that lie on each other in pairs.
+    ///
+    /// As long as sorting the boundary.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh has more vertices than the document.
+    #[must_use]
+    pub fn coincident(&self, mesh: &Mesh) -> Coincident {
+        let place = |v: VertexId| {
+            let at = self.positions[v.index()];
+            [at.x, at.y, at.z].map(f64::to_bits)
+        };
+        // Where its ends are, the lower first, and whether that is the one it begins at.
+        let key = |&h: &HalfEdgeId| {
+            let [from, to] = [mesh.origin(h), mesh.target(h)].map(place);
+            (from.min(to), from.max(to), from < to)
+        };
+        let boundary = mesh
+            .half_edges()
+            .filter(|&h| mesh.pair_or_ghost(h).is_none());
+        let mut edges: Vec<HalfEdgeId> = boundary.collect();
+        edges.sort_unstable_by_key(key);
+        let mut joined = DisjointSets::new(self.positions.len() as u32);
+        let mut pairs = 0;
+        let lie_together = |one: &HalfEdgeId, next: &HalfEdgeId| {
+            let [(a, b, _), (c, d, _)] = [one, next].map(key);
+            (a, b) == (c, d)
+        };
+        for at_one_place in edges.chunk_by(lie_together) {
+            let &[one, other] = at_one_place else {
+                continue;
+            };
+            let (is_one, is_other) = (key(&one).2, key(&other).2);
+            if is_one == is_other || one.face() == other.face() {
+                continue; // They run the same way, or have no length, or are of a face without area.
+            }
+            pairs += 1;
+            for (a, b) in [
+                (mesh.origin(one), mesh.target(other)),
+                (mesh.target(one), mesh.origin(other)),
+            ] {
+                joined.join(a.into(), b.into());
+            }
+        }
+        let all = 0..self.positions.len() as u32;
+        let splits = all.filter_map(|vertex| {
+            let (from, cut) = (joined.leader(vertex), 1);
+            (from != vertex).then_some(SplitOff { vertex, from, cut })
+        });
+        Coincident {
+            edges: pairs,
+            splits: splits.collect(),
+        }
+    }
+
+    /// The document as one of which these pairs of edges were torn by a cut: its mesh has them as ghost
+    /// pairs, and [`mend::stitches`](tearmesh::mend::stitches) sew them.
+    ///
+    /// # Errors
+    ///
+    /// [`CoincidentError`]: sewn they would be no surface, or other statements would name other vertices.
+    ///
+    /// # Panics
+    ///
+    /// If the document has a record.
+    ///
+    /// ```
+    /// use tearmesh::mend;
+    /// use tearmesh_obj::Document;
+    ///
+    /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n";
+    /// let document = Document::read(&file[..])?;
+    /// let pairs = document.coincident(&document.mesh()?);
+    /// assert_eq!((pairs.edges(), pairs.vertices()), (1, 2));
+    /// let (_, mesh) = document.torn_at(&pairs)?;
+    /// assert_eq!(mend::stitches(&mesh, |_| true).len(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn torn_at(mut self, pairs: &Coincident) -> Result<(Document, Mesh), CoincidentError> {
+        assert!(!self.has_record(), "what is on record is not guessed");
+        let going = runs(pairs.splits.iter().map(|split| split.vertex));
+        if let Some(keyword) = self.statement_with_indices()
+            && !are_last(&going, self.positions.len() as u32)
+        {
+            let keyword = String::from_utf8_lossy(keyword).into_owned();
+            return Err(CoincidentError::Numbers { keyword });
+        }
+        self.record = Some(Box::new(Record {
+            splits: pairs.splits.clone(),
+            ..Record::default()
+        }));
+        match self.mesh() {
+            Ok(mesh) => Ok((self, mesh)),
+            Err(error) => Err(CoincidentError::Mesh(error)),
+        }
+    }
+}
+
+/// Why edges that lie on each other cannot be sewn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CoincidentError {
+    /// A statement may name a vertex by its number, which would be another.
+    Numbers {
+        /// Its keyword.
+        keyword: String,
+    },
+    /// Sewn they would be no oriented 2-manifold.
+    Mesh(MeshError),
+}
+
+impl fmt::Display for CoincidentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CoincidentError::Numbers { keyword } => write!(
+                f,
+                "`{keyword}` may name a vertex by its number, which would be another"
+            ),
+            CoincidentError::Mesh(error) => write!(f, "sewn they would be no surface: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for CoincidentError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            CoincidentError::Numbers { .. } => None,
+            CoincidentError::Mesh(error) => Some(error),
+        }
+    }
+}
