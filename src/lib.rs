@@ -64,9 +64,9 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,000 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,500 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
@@ -103,6 +103,7 @@ pub mod insert;
 mod mass;
 pub mod mend;
 mod mesh;
+pub mod pick;
 mod place;
 mod scissor;
 #[cfg(feature = "script")]
@@ -129,6 +130,9 @@ pub use mesh::{
     BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
     TornError, Violation,
 };
+/// The linear algebra of [`Point`] and [`Vector`], in the version that this crate has.
+pub use nalgebra;
+pub use pick::RayHit;
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{
     Cut, CutEnd, CutError, CutLayers, CutMethod, CutPieces, CutReport, CutTips, LayerHit, Scissor,

@@ -21,6 +21,7 @@ mod lockstep;
 mod mass;
 mod methods;
 mod oracle;
+mod pick;
 mod pieces;
 mod planes;
 mod polygons;
