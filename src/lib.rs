@@ -65,7 +65,7 @@
 //! | floor | modules | lines |
 //! |---|---|---|
 //! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,500 |
-//! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
+//! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) | |
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
@@ -127,8 +127,8 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
-    TornError, Violation,
+    BoundaryLoop, BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fan, Fans,
+    Invariant, Mesh, TornError, Violation,
 };
 /// The linear algebra of [`Point`] and [`Vector`], in the version that this crate has.
 pub use nalgebra;

@@ -3,6 +3,7 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod apart;
 mod cases;
 mod cut_mend;
 mod cuts;
