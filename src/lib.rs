@@ -64,9 +64,9 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,500 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 9,000 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) | |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, `mass`, [`shapes`] | |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
@@ -95,6 +95,7 @@
 
 mod attribute;
 pub mod classify;
+mod draw;
 mod edit;
 mod exact;
 pub mod geometry;
@@ -113,8 +114,10 @@ pub mod shapes;
 pub mod slide;
 pub mod split;
 pub mod tear;
+pub mod weld;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
+pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
     ChildFace, CornerOp, CornerSource, Cursor, Edit, Edits, FaceFamily, Follower, Followers,
     Insert, InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink,

@@ -7,6 +7,7 @@ mod apart;
 mod cases;
 mod cut_mend;
 mod cuts;
+mod engine;
 mod exact;
 mod exhaustive;
 mod figures;
