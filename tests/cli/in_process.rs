@@ -11,7 +11,14 @@ use tearmesh_cli::{Exit, Streams, run};
 use tearmesh_obj::Document;
 
 /// Options that take the name of a file. Here each means the standard stream.
-pub(crate) const PATHS: [&str; 5] = ["--output", "--report", "--rays-file", "--seam", "-o"];
+pub(crate) const PATHS: [&str; 6] = [
+    "--output",
+    "--report",
+    "--rays-file",
+    "--seam",
+    "--pieces",
+    "-o",
+];
 
 /// What is typed behind `tearmesh cut -`, and standard input.
 #[derive(Clone)]

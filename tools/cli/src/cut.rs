@@ -1,6 +1,7 @@
 //! The verb `cut`.
 
 pub(crate) mod nothing;
+mod pieces;
 pub(crate) mod scissors;
 mod seam;
 pub(crate) mod words;
@@ -12,6 +13,7 @@ use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, S
 use tearmesh_obj::{Repair, TornDocument};
 
 use self::nothing::Obstacle;
+use self::pieces::Pieces;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
 use crate::args::{CutArgs, Layers, Mass, Method, Tips};
@@ -37,6 +39,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
     }
+    let pieces = Pieces::of(args)?;
     let Opened {
         document,
         mut mesh,
@@ -103,6 +106,12 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
         let written = output::write(path, |out| seam::write(&seams, out));
         written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+    }
+    if let Some(pieces) = pieces {
+        let (written, left_over) = pieces.write(&torn, &mesh, &positions)?;
+        session.words.push(pieces::words(&written));
+        session.report.pieces = Some(written);
+        session.faults.extend(left_over);
     }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);

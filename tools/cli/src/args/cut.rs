@@ -63,6 +63,14 @@ pub(crate) struct CutArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) seam: Option<PathBuf>,
 
+    /// Write each piece into a file of its own in this folder.
+    ///
+    /// `piece_00000.obj`, the largest, and so on, with the objects, groups, materials, texture
+    /// coordinates and normals of its faces, and `pieces.json`, which lists them with these names. A
+    /// piece by itself has no record of the cut: to mend, keep the whole as well, with -o.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) pieces: Option<PathBuf>,
+
     /// How to cut.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: Method,
