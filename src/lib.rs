@@ -64,9 +64,9 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 9,000 |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 9,500 |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) | |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] | |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (of these), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
@@ -114,6 +114,7 @@ pub mod shapes;
 pub mod slide;
 pub mod split;
 pub mod tear;
+mod undo;
 pub mod weld;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
@@ -144,3 +145,4 @@ pub use scissor::{
 pub use sets::DisjointSets;
 pub use slide::SlideRefusal;
 pub use split::SplitRefusal;
+pub use undo::Insertions;

@@ -37,3 +37,4 @@ mod straight;
 mod straight_polylines;
 mod tear;
 mod tips;
+mod undo;

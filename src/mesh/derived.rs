@@ -4,21 +4,35 @@ use super::Mesh;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A mesh that was made of another one, its *source*: from which vertex, face and corner of the source
-/// each of its own comes. [`Mesh::pieces`] makes such meshes.
+/// each of its own comes. [`Mesh::pieces`] and [`Insertions::undone`](crate::Insertions::undone) make such meshes.
 ///
 /// The log of a new mesh starts anew: its followers begin at [`Cursor::START`](crate::Cursor::START),
 /// with values that are taken over from those of the source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DerivedMesh {
-    pub(super) mesh: Mesh,
+    mesh: Mesh,
     /// Ascending.
-    pub(super) vertices: Vec<VertexId>,
+    vertices: Vec<VertexId>,
     /// Strictly ascending.
-    pub(super) faces: Vec<FaceId>,
-    pub(super) corners: Vec<HalfEdgeId>,
+    faces: Vec<FaceId>,
+    corners: Vec<HalfEdgeId>,
 }
 
 impl DerivedMesh {
+    pub(crate) fn new(
+        mesh: Mesh,
+        vertices: Vec<VertexId>,
+        faces: Vec<FaceId>,
+        corners: Vec<HalfEdgeId>,
+    ) -> DerivedMesh {
+        DerivedMesh {
+            mesh,
+            vertices,
+            faces,
+            corners,
+        }
+    }
+
     /// The mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {

@@ -110,11 +110,7 @@ impl Mesh {
             mesh.origin[h] = v as u32;
             mesh.outgoing[v] = h as u32; // The last one written is the smallest.
         }
-        DerivedMesh {
-            mesh,
-            vertices: labels.into_iter().map(|(v, _)| v).collect(),
-            faces,
-            corners,
-        }
+        let vertices = labels.into_iter().map(|(v, _)| v).collect();
+        DerivedMesh::new(mesh, vertices, faces, corners)
     }
 }
