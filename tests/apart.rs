@@ -137,6 +137,7 @@ fn check_piece(
             "the vertex of {h}"
         );
         assert_eq!(piece.face_of(source.face()), Some(h.face()));
+        assert_eq!(piece.corner_of(source), Some(h));
         // The same links, where both sides are here.
         let twin = twins[source.index()];
         let here = twin.filter(|&g| {
@@ -171,6 +172,12 @@ fn check_piece(
             "{h} has a way to the others of its vertex"
         );
     }
+    let here = mesh.half_edges().filter(|&h| piece.corner_of(h).is_some());
+    assert_eq!(
+        here.count(),
+        own.half_edge_count(),
+        "corners of other pieces"
+    );
     assert_eq!(
         labels.len(),
         own.vertex_count(),

@@ -16,6 +16,8 @@ pub struct DerivedMesh {
     /// Strictly ascending.
     faces: Vec<FaceId>,
     corners: Vec<HalfEdgeId>,
+    /// The corners in the order of those of the source; empty where this is their own.
+    corners_by_source: Vec<HalfEdgeId>,
 }
 
 impl DerivedMesh {
@@ -25,11 +27,17 @@ impl DerivedMesh {
         faces: Vec<FaceId>,
         corners: Vec<HalfEdgeId>,
     ) -> DerivedMesh {
+        let mut corners_by_source = Vec::new();
+        if !corners.is_sorted() {
+            corners_by_source.extend(mesh.half_edges());
+            corners_by_source.sort_unstable_by_key(|h| corners[h.index()]);
+        }
         DerivedMesh {
             mesh,
             vertices,
             faces,
             corners,
+            corners_by_source,
         }
     }
 
@@ -75,6 +83,18 @@ impl DerivedMesh {
     pub fn face_of(&self, source: FaceId) -> Option<FaceId> {
         let at = self.faces.binary_search(&source).ok()?;
         Some(FaceId::from_u32(at as u32))
+    }
+
+    /// The corner that was this one of the source, if it is here. Logarithmic.
+    #[must_use]
+    pub fn corner_of(&self, source: HalfEdgeId) -> Option<HalfEdgeId> {
+        if self.corners_by_source.is_empty() {
+            let at = self.corners.binary_search(&source).ok()?;
+            return Some(HalfEdgeId::from_u32(at as u32));
+        }
+        let own = |h: &HalfEdgeId| self.corners[h.index()];
+        let at = self.corners_by_source.binary_search_by_key(&source, own);
+        at.ok().map(|at| self.corners_by_source[at])
     }
 
     /// The values of the vertices, from those of the source.
