@@ -36,6 +36,21 @@ pub(crate) fn exponent_above(x: f64) -> i32 {
     }
 }
 
+/// The product of two numbers as a sum of two, without rounding: the nearest `f64` and what is
+/// missing (Dekker, "A floating-point technique for extending the available precision", 1971). That
+/// holds while the product is above 2^-960 in size or zero, and the factors are below 2^990.
+pub(crate) fn product(a: f64, b: f64) -> [f64; 2] {
+    // Veltkamp's halves, of 26 bits each, whose products are exact.
+    let halves = |x: f64| {
+        let large = x * f64::from((1 << 27) + 1);
+        let high = large - (large - x);
+        [high, x - high]
+    };
+    let ([ah, al], [bh, bl]) = (halves(a), halves(b));
+    let high = a * b;
+    [high, al * bl - (((high - ah * bh) - al * bh) - ah * bl)]
+}
+
 /// 2^-1074 is the lowest bit of an `f64`; 2^1024 is above every one. 66 digits
 /// of 32 bits hold that range, and two more hold the carries of 2^60 additions.
 const DIGITS: usize = 68;

@@ -64,9 +64,9 @@
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 8,000 |
-//! | kernel, 1 | `mesh` (topology alone: build, walk, check), `edit` (the log, and who follows it) | |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), [`slide`], [`classify`], `place` (positions), `attribute`, `mass`, [`shapes`] | |
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 9,500 |
+//! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) | |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (of these), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] | |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 1,700 |
@@ -95,6 +95,7 @@
 
 mod attribute;
 pub mod classify;
+mod draw;
 mod edit;
 mod exact;
 pub mod geometry;
@@ -103,6 +104,7 @@ pub mod insert;
 mod mass;
 pub mod mend;
 mod mesh;
+pub mod pick;
 mod place;
 mod scissor;
 #[cfg(feature = "script")]
@@ -112,8 +114,11 @@ pub mod shapes;
 pub mod slide;
 pub mod split;
 pub mod tear;
+mod undo;
+pub mod weld;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
+pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
     ChildFace, CornerOp, CornerSource, Cursor, Edit, Edits, FaceFamily, Follower, Followers,
     Insert, InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink,
@@ -126,9 +131,12 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BoundaryLoop, BuildError, Components, Corners, Defect, Faces, Fan, Fans, Invariant, Mesh,
-    TornError, Violation,
+    BoundaryLoop, BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fan, Fans,
+    Invariant, Mesh, TornError, Violation,
 };
+/// The linear algebra of [`Point`] and [`Vector`], in the version that this crate has.
+pub use nalgebra;
+pub use pick::RayHit;
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{
     Cut, CutEnd, CutError, CutLayers, CutMethod, CutPieces, CutReport, CutTips, LayerHit, Scissor,
@@ -137,3 +145,4 @@ pub use scissor::{
 pub use sets::DisjointSets;
 pub use slide::SlideRefusal;
 pub use split::SplitRefusal;
+pub use undo::Insertions;

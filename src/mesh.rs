@@ -22,7 +22,9 @@
 mod build;
 mod check;
 mod defect;
+mod derived;
 mod diagnose;
+mod pieces;
 mod torn;
 mod walk;
 
@@ -30,6 +32,7 @@ use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
 pub use defect::{BuildError, Defect, Faces, Fans};
+pub use derived::DerivedMesh;
 pub use torn::TornError;
 pub use walk::{BoundaryLoop, Components, Corners, Fan};
 
@@ -87,6 +90,11 @@ impl Link {
     #[inline]
     const fn is_torn(self) -> bool {
         self.0 >= Self::TORN && self.0 != Self::BOUNDARY.0
+    }
+
+    /// The same link, to a half-edge that has another number now.
+    const fn renumbered(self, opposite: HalfEdgeId) -> Link {
+        Link(Link::to(opposite).0 | self.0 & Self::TORN)
     }
 }
 

@@ -83,6 +83,26 @@ impl Positions {
         }
     }
 
+    /// The positions of vertices 0, 1, 2, …, as an engine has them. Each `f32` is an `f64` too, so
+    /// [`Positions::tail_f32`] gives the same bits back.
+    ///
+    /// # Errors
+    ///
+    /// Where coordinates are not finite: all such vertices.
+    ///
+    /// ```
+    /// use tearmesh::Positions;
+    ///
+    /// let buffer = [[0.1_f32, 0.0, -2.5], [1.0, 0.3, 0.0]];
+    /// assert_eq!(Positions::from_f32(buffer)?.tail_f32(0), buffer);
+    /// # Ok::<(), tearmesh::PositionError>(())
+    /// ```
+    pub fn from_f32(
+        points: impl IntoIterator<Item = [f32; 3]>,
+    ) -> Result<Positions, PositionError> {
+        Positions::new(points.into_iter().map(|point| point.map(f64::from)))
+    }
+
     /// Takes the positions for those of the mesh at this place in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Positions {

@@ -415,11 +415,14 @@ impl Scissor {
             joints: &joints,
             offsets,
         };
-        let choice;
+        let mut choice;
         let mut hits = [None; 2];
         if let (CutLayers::First, Some(rays)) = (self.layers, &self.rays) {
             choice = layers::first(&way, rays, mesh, positions);
             hits = choice.hits;
+            if !is_exact {
+                choice.faces = choice.beyond_the_rays(mesh, offsets);
+            }
             way = Way {
                 among: &choice.faces,
                 is_choice: true,

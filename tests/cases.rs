@@ -1,4 +1,8 @@
-//! How many random cases a test tries.
+//! How many random cases a test tries, and random scripts.
+
+use tearmesh::script::Script;
+
+use crate::random::Random;
 
 /// What `TEARMESH_CASES` says, or else so many.
 pub(crate) fn cases(usual: u64) -> u64 {
@@ -10,4 +14,14 @@ pub(crate) fn cases(usual: u64) -> u64 {
 /// The same where there are no more than these.
 pub(crate) fn cases_of(all: u64) -> u64 {
     cases(all).min(all)
+}
+
+/// So many random scripts, or as many as `TEARMESH_CASES` says, the same on every machine.
+pub(crate) fn scripts(usual: u64) -> impl Iterator<Item = Script> {
+    (0..cases(usual)).map(|seed| {
+        let mut random = Random(seed);
+        let length = 20 + (400.0 * random.next()) as usize;
+        let bytes = (0..length).map(|_| (256.0 * random.next()) as u8);
+        Script::from_bytes(&bytes.collect::<Vec<u8>>())
+    })
 }

@@ -2,7 +2,8 @@
 
 use tearmesh::geometry::between;
 use tearmesh::{
-    Blend, Plane, PlaneError, Point, Ray, RayError, Side, Vector, VertexId, classify, shapes,
+    Blend, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector, VertexId, classify,
+    shapes,
 };
 
 #[test]
@@ -88,4 +89,33 @@ fn equal_values_give_that_value_bit_for_bit() {
         assert_eq!(x.between(&x, 0.3).to_bits(), x.to_bits());
     }
     assert_eq!(2.0.between(&4.0, 0.25), 2.5);
+}
+
+#[test]
+fn positions_of_an_engine_keep_their_bits() {
+    let special = [
+        0.0,
+        -0.0,
+        1e-45,
+        -3.4e38,
+        0.1,
+        f32::MIN_POSITIVE,
+        1.0 + f32::EPSILON,
+    ];
+    let points: Vec<[f32; 3]> = (0..343)
+        .map(|i| [special[i % 7], special[i / 7 % 7], special[i / 49]])
+        .collect();
+    let bits = |points: &[[f32; 3]]| {
+        points
+            .iter()
+            .map(|p| p.map(f32::to_bits))
+            .collect::<Vec<_>>()
+    };
+    let positions = Positions::from_f32(points.iter().copied()).expect("finite");
+    assert_eq!(bits(&positions.tail_f32(0)), bits(&points));
+    assert_eq!(bits(&positions.tail_f32(300)), bits(&points[300..]));
+    let mut spoilt = points;
+    (spoilt[7][1], spoilt[9][2]) = (f32::NAN, f32::NEG_INFINITY);
+    let error = Positions::from_f32(spoilt).expect_err("two are not finite");
+    assert!(error.unusable().iter().map(|(v, _)| v.index()).eq([7, 9]));
 }

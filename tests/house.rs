@@ -150,7 +150,7 @@ fn what_is_no_circle_is_not_called_one() {
 
 /// The floor of each module of the kernel; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 18] = [
+const FLOORS: [(&str, u32); 22] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
@@ -162,8 +162,12 @@ const FLOORS: [(&str, u32); 18] = [
     ("insert", 2),
     ("slide", 2),
     ("classify", 2),
+    ("pick", 2),
     ("place", 2),
     ("attribute", 2),
+    ("undo", 2),
+    ("weld", 2),
+    ("draw", 2),
     ("mass", 2),
     ("shapes", 2),
     ("scissor", 3),

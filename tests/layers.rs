@@ -3,6 +3,8 @@
 //! The oracle knows triangles and numbers: it cuts each triangle with plane and strip, joins those that
 //! share an edge which is crossed between the rays, and asks each triangle where a ray hits it.
 
+mod methods;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 

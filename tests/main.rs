@@ -3,9 +3,11 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod allocation;
+mod apart;
 mod cases;
 mod cut_mend;
 mod cuts;
+mod engine;
 mod exact;
 mod exhaustive;
 mod figures;
@@ -21,6 +23,7 @@ mod lockstep;
 mod mass;
 mod methods;
 mod oracle;
+mod pick;
 mod pieces;
 mod planes;
 mod polygons;
@@ -34,3 +37,4 @@ mod straight;
 mod straight_polylines;
 mod tear;
 mod tips;
+mod undo;

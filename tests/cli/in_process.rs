@@ -11,12 +11,13 @@ use tearmesh_cli::{Exit, Streams, run};
 use tearmesh_obj::Document;
 
 /// Options that take the name of a file. Here each means the standard stream.
-pub(crate) const PATHS: [&str; 6] = [
+pub(crate) const PATHS: [&str; 7] = [
     "--output",
     "--report",
     "--rays-file",
     "--seam",
     "--map",
+    "--pieces",
     "-o",
 ];
 

@@ -10,6 +10,7 @@ use crate::geometry::{Point, Ray, between, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use crate::scissor::offsets::Offsets;
 use crate::sets::DisjointSets;
 
 /// Which layers of the mesh a cut goes through.
@@ -22,6 +23,10 @@ pub enum CutLayers {
     /// ray, and that with the first hit of the second. Where a ray misses the mesh, it turns and moves
     /// toward the other until it hits. If they hit different chains, both are cut. A cut by a plane
     /// has no rays, and goes through all layers.
+    ///
+    /// Methods that tear along edges tear the faces of these chains, and, at their ends, those in which
+    /// the plane goes on beyond the rays: a layer is cut as if the others were not there, but that no
+    /// vertex is split that belongs to another chain and to none of these.
     First,
 }
 
@@ -41,6 +46,8 @@ pub(in crate::scissor) struct Choice {
     pub(in crate::scissor) hits: [Option<LayerHit>; 2],
     /// Ascending.
     pub(in crate::scissor) faces: Vec<FaceId>,
+    /// Those of the other chains.
+    others: Vec<FaceId>,
     /// The joints on these layers.
     pub(in crate::scissor) joints: [Vec<VertexId>; 2],
 }
@@ -55,6 +62,7 @@ pub(in crate::scissor) fn first(
     let trace = way.trace_of_plane(mesh, positions);
     let chains = chains(&trace);
     let mut choice = Choice::default();
+    let mut chosen = Vec::new();
     for side in 0..2 {
         let pieces = trace.pieces.iter().zip(&chains);
         let runs =
@@ -71,7 +79,13 @@ pub(in crate::scissor) fn first(
         let least = faces.iter().min().copied();
         choice.hits[side] = least.map(|chain| LayerHit { at, chain });
         choice.faces.extend(faces);
+        chosen.push(chain);
     }
+    let pieces = trace.pieces.iter().zip(&chains);
+    let others = pieces.filter(|(_, chain)| !chosen.contains(chain));
+    choice.others = others
+        .flat_map(|(piece, _)| faces_of(piece, mesh))
+        .collect();
     choice.faces.sort_unstable();
     choice.faces.dedup();
     let faces = &choice.faces;
@@ -81,6 +95,44 @@ pub(in crate::scissor) fn first(
         of_side.filter(is_chosen).collect()
     });
     choice
+}
+
+impl Choice {
+    /// The chosen faces, and those that the plane meets beyond the rays as it goes on from these;
+    /// ascending. A method that splits vertices tears edges there too: where the last vertex between the
+    /// rays is split, the edges beyond it are the plane's, and not the slit's. Faces with a vertex of
+    /// another chain are left out, so that this is not split.
+    pub(in crate::scissor) fn beyond_the_rays(
+        &self,
+        mesh: &Mesh,
+        offsets: &Offsets,
+    ) -> Vec<FaceId> {
+        let corners = self.others.iter().flat_map(|&f| mesh.face_vertices(f));
+        let mut of_others: Vec<VertexId> = corners.collect();
+        of_others.sort_unstable();
+        of_others.dedup();
+        let is_free = |f: FaceId| {
+            let mut corners = mesh.face_vertices(f).into_iter();
+            corners.all(|v| of_others.binary_search(&v).is_err())
+        };
+        let touched = offsets.touched();
+        let mut is_met = vec![false; touched.len()];
+        let mut open = self.faces.clone();
+        while let Some(f) = open.pop() {
+            let is_chosen = self.faces.binary_search(&f).is_ok();
+            match touched.binary_search(&f) {
+                Ok(at) if !is_met[at] && (is_chosen || is_free(f)) => is_met[at] = true,
+                _ => continue,
+            }
+            for h in f.half_edges() {
+                let [from, to] = [mesh.origin(h), mesh.target(h)].map(|v| offsets.of(v));
+                let across = mesh.pair(h).filter(|_| from * to <= 0.0);
+                open.extend(across.map(HalfEdgeId::face));
+            }
+        }
+        let met = touched.iter().zip(is_met).filter(|&(_, is_met)| is_met);
+        met.map(|(&f, _)| f).collect()
+    }
 }
 
 /// The number of each piece's chain.

@@ -3,6 +3,7 @@
 mod gap;
 mod map;
 pub(crate) mod nothing;
+mod pieces;
 pub(crate) mod scissors;
 mod seam;
 pub(crate) mod words;
@@ -15,6 +16,7 @@ use tearmesh_obj::{Repair, TornDocument};
 
 use self::map::Map;
 use self::nothing::Obstacle;
+use self::pieces::Pieces;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
 use crate::args::{CutArgs, Gap, Layers, Mass, Method, Tips};
@@ -41,6 +43,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
     }
+    let pieces = Pieces::of(args)?;
     let Opened {
         document,
         mut mesh,
@@ -140,6 +143,12 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let names = [&session.report.input, &session.report.output].map(name);
         let names = names.each_ref().map(Option::as_deref);
         write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
+    }
+    if let Some(pieces) = pieces {
+        let (written, left_over) = pieces.write(&torn, &mesh, &positions)?;
+        session.words.push(pieces::words(&written));
+        session.report.pieces = Some(written);
+        session.faults.extend(left_over);
     }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);

@@ -71,11 +71,15 @@ impl Piece {
         let components = mesh.components();
         let mut pieces = vec![Piece::default(); components.count()];
         for f in mesh.faces() {
-            let [a, b, c]: [Point; 3] = mesh.face_vertices(f).map(|v| positions.at(v));
             let piece = &mut pieces[components.of(f)];
             piece.faces += 1;
-            piece.area += (b - a).cross(&(c - a)).norm() / 2.0;
+            piece.area += area(mesh.face_vertices(f).map(|v| positions.at(v)));
         }
         pieces
     }
+}
+
+/// The area of a triangle.
+pub(crate) fn area([a, b, c]: [Point; 3]) -> f64 {
+    (b - a).cross(&(c - a)).norm() / 2.0
 }

@@ -22,6 +22,8 @@ pub(crate) struct Report {
     pub(crate) gap: Option<Gap>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mend: Option<Mend>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) pieces: Option<Pieces>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub(crate) tear: Option<Tear>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -45,6 +47,7 @@ impl Report {
             cuts: Vec::new(),
             gap: None,
             mend: None,
+            pieces: None,
             tear: None,
             mass: None,
             invariants: Invariants::default(),
@@ -337,6 +340,13 @@ pub(crate) struct Visits {
     pub(crate) force: u64,
     pub(crate) detect: u64,
     pub(crate) meter: u64,
+}
+
+/// Pieces that were written, each into a file of its own.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Pieces {
+    pub(crate) folder: String,
+    pub(crate) count: usize,
 }
 
 /// Frames that were written.

@@ -169,7 +169,7 @@
 //! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, when each vertex is written, what can be taken out again, and what was edited since |
 //! | `record.rs` | what is on record, and the checksum |
 //! | `sections.rs`, `order.rs` | where objects end, and in which order and under which numbers statements are written |
-//! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers |
+//! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers; a piece by itself |
 //! | `slides.rs` | vertices that slid, and what they were before |
 //! | `simplify.rs` | a document without what can be taken out again |
 //! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
@@ -209,4 +209,4 @@ pub use raw::{Item, RawObjError};
 pub use repair::Repair;
 pub use simplify::Simplified;
 pub use torn::TornDocument;
-pub use write::WriteSummary;
+pub use write::{PieceNames, PieceWriter, WriteSummary};

@@ -29,6 +29,7 @@
 
 mod number;
 mod output;
+mod piece;
 mod prepare;
 mod record;
 mod separate;
@@ -39,6 +40,7 @@ use tearmesh::{Mesh, Positions, VertexId};
 
 use self::number::write_integer;
 use self::output::Output;
+pub use self::piece::{PieceNames, PieceWriter};
 pub(crate) use self::prepare::Prepared;
 use self::record::write_record;
 use crate::document::Document;

@@ -87,6 +87,14 @@ pub(crate) struct CutArgs {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["repair", "separate_fans"])]
     pub(crate) map: Option<PathBuf>,
 
+    /// Write each piece into a file of its own in this folder.
+    ///
+    /// `piece_00000.obj`, the largest, and so on, with the objects, groups, materials, texture
+    /// coordinates and normals of its faces, and `pieces.json`, which lists them with these names. A
+    /// piece by itself has no record of the cut and no gap: to mend, keep the whole as well, with -o.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) pieces: Option<PathBuf>,
+
     /// How to cut.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: Method,
@@ -99,7 +107,7 @@ pub(crate) struct CutArgs {
     #[arg(long, value_name = "R", allow_negative_numbers = true, default_value_t = tearmesh::Scissor::SNAP)]
     pub(crate) snap: f64,
 
-    /// Move a vertex that was taken for a crossing onto the plane, along the edge.
+    /// Move a vertex taken for a crossing onto the plane, along its edge.
     ///
     /// `tearmesh mend --simplify` puts it back.
     #[arg(long)]

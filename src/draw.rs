@@ -1,0 +1,421 @@
+//! Vertex and index buffers for a GPU, with seams, kept up to date by what changed.
+//!
+//! A GPU has one list of vertices, each with all that belongs to it. So a vertex of the mesh is as many
+//! *slots* of that list as its corners have different values: one, or along a texture seam two. A split
+//! that leaves corners with a new vertex makes slots; a merge takes them out, and the last one moves into
+//! the gap. What was written since it was last asked is listed, so that an engine uploads that alone.
+//!
+//! ```text
+//!      mesh            slots
+//!      ╲ 0│1 ╱      ╲ v,0│v,1 ╱      Along a seam the corners of v have the value 0 on its left and 1 on
+//!    ───╲ │ ╱───  ───╲   │   ╱───    its right: two slots. If v is split along the seam, the slot on the
+//!        ╲│╱          ╲  │  ╱        right is w,1, and nothing is added; if v is split across it, there
+//!         v            v,0 v,1       are v,0 v,1 w,0 and w,1.
+//! ```
+
+use crate::attribute::Blend;
+use crate::edit::{CornerOp, Cursor, Edit, Follower};
+use crate::id::{HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Place;
+
+/// The vertex and index buffer of a mesh whose corners have values, such as texture coordinates: a
+/// [`Follower`] of its log.
+///
+/// The index buffer names for each corner its slot. Corners of one vertex with equal values share one,
+/// and every slot has a corner. (A value that is not equal to itself, such as NaN, shares with none.)
+/// Memory beside the values: 12 bytes a corner, 20 a slot or less.
+///
+/// ```
+/// use tearmesh::{shapes, split, DrawBuffers, Edits, FaceId, VertexId};
+///
+/// let (mut mesh, mut positions) = shapes::grid(2, 2);
+/// let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
+/// let mut buffers = DrawBuffers::new(&mesh, uv.map(|p| [p.x as f32, p.y as f32]).collect());
+/// let (mut on_gpu, mut index_buffer) = (buffers.places_f32(&positions), buffers.indices().to_vec());
+///
+/// let (mut edits, v) = (Edits::new(), VertexId::new(4).unwrap());
+/// split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?;
+/// edits.replay(&mut (&mut positions, &mut buffers));
+///
+/// let changes = buffers.take_changes();
+/// assert_eq!((&changes.slots[..], changes.corners.len()), (&[9][..], 1)); // of 10 and 24
+/// on_gpu.resize(buffers.len(), [0.0; 3]);
+/// for &slot in &changes.slots {
+///     on_gpu[slot as usize] = buffers.place_f32(slot, &positions); // and buffers.value(slot)
+/// }
+/// index_buffer.resize(buffers.indices().len(), 0);
+/// for &corner in &changes.corners {
+///     index_buffer[corner as usize] = buffers.indices()[corner as usize];
+/// }
+/// assert_eq!((on_gpu, &index_buffer[..]), (buffers.places_f32(&positions), buffers.indices()));
+/// # Ok::<(), tearmesh::SplitRefusal>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct DrawBuffers<T> {
+    /// By corner.
+    values: Vec<T>,
+    /// The slot of each corner.
+    indices: Vec<u32>,
+    /// The corners of a slot are a ring: those before and behind each.
+    rings: Vec<[u32; 2]>,
+    slots: Vec<Slot>,
+    /// The first slot of each vertex.
+    slots_of: Vec<u32>,
+    /// Slots that an edit left without a corner; none between edits.
+    empty: Vec<u32>,
+    changed_slots: Marks,
+    changed_corners: Marks,
+    seen: Cursor,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Slot {
+    vertex: VertexId,
+    /// Any of its corners.
+    corner: u32,
+    /// The next slot of its vertex.
+    next: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// What was written in the buffers: see [`DrawBuffers::take_changes`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DrawChanges {
+    /// The slots of the vertex buffer, ascending. What lies beyond its length is gone.
+    pub slots: Vec<u32>,
+    /// The places of the index buffer, ascending: corners.
+    pub corners: Vec<u32>,
+}
+
+impl<T: Blend> DrawBuffers<T> {
+    /// The buffers of a mesh, by the values of its corners (three a face), which have seen no edit yet.
+    /// Slots come in the order of their vertices, and of the first corners of each. O(n log n).
+    ///
+    /// # Panics
+    ///
+    /// If there is not a value for each corner.
+    #[must_use]
+    pub fn new(mesh: &Mesh, corner_values: Vec<T>) -> DrawBuffers<T> {
+        let corners = mesh.half_edge_count();
+        assert_eq!(corner_values.len(), corners, "a value for each corner");
+        let mut buffers = DrawBuffers {
+            values: corner_values,
+            indices: vec![NONE; corners],
+            rings: vec![[NONE; 2]; corners],
+            slots: Vec::new(),
+            slots_of: vec![NONE; mesh.vertex_count()],
+            empty: Vec::new(),
+            changed_slots: Marks::default(),
+            changed_corners: Marks::default(),
+            seen: Cursor::START,
+        };
+        let mut by_vertex: Vec<HalfEdgeId> = mesh.half_edges().collect();
+        by_vertex.sort_by_key(|&h| mesh.origin(h));
+        for h in by_vertex {
+            buffers.attach(h, mesh.origin(h));
+        }
+        let _all = buffers.take_changes();
+        buffers
+    }
+
+    /// Takes the values for those of the mesh at this place in its log.
+    #[must_use]
+    pub fn starting_at(self, seen: Cursor) -> DrawBuffers<T> {
+        DrawBuffers { seen, ..self }
+    }
+
+    /// The number of slots: of vertices for a GPU.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// Whether there is no slot.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.slots.is_empty()
+    }
+
+    /// The index buffer: the slot of each corner, three a face.
+    #[must_use]
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    /// The vertex of the mesh that a slot is of.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such slot.
+    #[must_use]
+    pub fn vertex(&self, slot: u32) -> VertexId {
+        self.slots[slot as usize].vertex
+    }
+
+    /// The value of a slot.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such slot.
+    #[must_use]
+    pub fn value(&self, slot: u32) -> &T {
+        &self.values[self.slots[slot as usize].corner as usize]
+    }
+
+    /// The slots in order, each by its vertex and its value.
+    #[must_use]
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (VertexId, &T)> {
+        let slots = self.slots.iter();
+        slots.map(|slot| (slot.vertex, &self.values[slot.corner as usize]))
+    }
+
+    /// Where a slot is, rounded to `f32`.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such slot, or its vertex is unknown to `place`.
+    #[must_use]
+    pub fn place_f32(&self, slot: u32, place: &(impl Place + ?Sized)) -> [f32; 3] {
+        let point = place.at(self.vertex(slot));
+        [point.x as f32, point.y as f32, point.z as f32]
+    }
+
+    /// Where all slots are: for a mesh that moves as a whole.
+    ///
+    /// # Panics
+    ///
+    /// If a vertex is unknown to `place`.
+    #[must_use]
+    pub fn places_f32(&self, place: &(impl Place + ?Sized)) -> Vec<[f32; 3]> {
+        let slots = 0..self.slots.len() as u32;
+        slots.map(|slot| self.place_f32(slot, place)).collect()
+    }
+
+    /// What edits changed since this was last asked. The place of a slot counts as changed where an edit
+    /// moved its vertex; what else moves, as by a simulation, is not seen here.
+    #[must_use = "what was changed is not told again"]
+    pub fn take_changes(&mut self) -> DrawChanges {
+        DrawChanges {
+            slots: self.changed_slots.take(self.slots.len()),
+            corners: self.changed_corners.take(self.indices.len()),
+        }
+    }
+
+    /// Takes corners out of their slots: their values are about to change, or their vertices.
+    fn detach(&mut self, corners: &[HalfEdgeId]) {
+        for corner in corners {
+            let slot = self.indices[corner.index()];
+            let [before, behind] = self.rings[corner.index()];
+            let corner = u32::from(*corner);
+            if behind == corner {
+                self.slots[slot as usize].corner = NONE;
+                self.empty.push(slot);
+            } else {
+                self.rings[before as usize][1] = behind;
+                self.rings[behind as usize][0] = before;
+                self.slots[slot as usize].corner = behind;
+            }
+        }
+    }
+
+    /// Gives a corner that has no slot the one of its vertex with its value.
+    fn attach(&mut self, h: HalfEdgeId, vertex: VertexId) {
+        let corner = u32::from(h);
+        let (mut found, mut empty) = (NONE, NONE);
+        let mut slot = self.slots_of[vertex.index()];
+        while slot != NONE && found == NONE {
+            let Slot {
+                corner: own, next, ..
+            } = self.slots[slot as usize];
+            if own == NONE {
+                empty = slot;
+            } else if self.values[own as usize] == self.values[h.index()] {
+                found = slot;
+            }
+            slot = next;
+        }
+        if found != NONE {
+            let behind = self.slots[found as usize].corner;
+            let before = self.rings[behind as usize][0];
+            self.rings[h.index()] = [before, behind];
+            self.rings[before as usize][1] = corner;
+            self.rings[behind as usize][0] = corner;
+        } else {
+            self.rings[h.index()] = [corner; 2];
+            found = if empty == NONE {
+                self.push(vertex)
+            } else {
+                empty
+            };
+            self.slots[found as usize].corner = corner;
+            self.changed_slots.set(found);
+        }
+        if self.indices[h.index()] != found {
+            self.indices[h.index()] = found;
+            self.changed_corners.set(corner);
+        }
+    }
+
+    fn push(&mut self, vertex: VertexId) -> u32 {
+        let new = self.slots.len() as u32;
+        let next = std::mem::replace(&mut self.slots_of[vertex.index()], new);
+        let corner = NONE;
+        self.slots.push(Slot {
+            vertex,
+            corner,
+            next,
+        });
+        new
+    }
+
+    /// Takes out the slots that have no corner any more; the last ones move into the gaps.
+    fn sweep(&mut self) {
+        let mut empty = std::mem::take(&mut self.empty);
+        // From the last on, so that the one that moves has a corner.
+        empty.sort_unstable_by_key(|&slot| std::cmp::Reverse(slot));
+        empty.dedup();
+        for &slot in &empty {
+            let Slot {
+                vertex,
+                corner,
+                next,
+            } = self.slots[slot as usize];
+            if corner != NONE {
+                continue; // It has one again.
+            }
+            self.rename(vertex, slot, next);
+            let last = self.slots.len() as u32 - 1;
+            if slot != last {
+                let moved = self.slots[last as usize];
+                self.rename(moved.vertex, last, slot);
+                let mut corner = moved.corner;
+                loop {
+                    self.indices[corner as usize] = slot;
+                    self.changed_corners.set(corner);
+                    corner = self.rings[corner as usize][1];
+                    if corner == moved.corner {
+                        break;
+                    }
+                }
+                self.changed_slots.set(slot);
+            }
+            self.slots.swap_remove(slot as usize);
+        }
+        empty.clear();
+        self.empty = empty; // Its memory is kept.
+    }
+
+    /// In the list of a vertex, puts another slot in the place of one.
+    fn rename(&mut self, vertex: VertexId, slot: u32, to: u32) {
+        let mut link = &mut self.slots_of[vertex.index()];
+        while *link != slot {
+            let before = *link as usize;
+            link = &mut self.slots[before].next;
+        }
+        *link = to;
+    }
+
+    /// Notes that a vertex is elsewhere.
+    fn moved(&mut self, vertex: VertexId) {
+        let mut slot = self.slots_of[vertex.index()];
+        while slot != NONE {
+            self.changed_slots.set(slot);
+            slot = self.slots[slot as usize].next;
+        }
+    }
+
+    fn relabel(&mut self, corners: &[HalfEdgeId], to: VertexId) {
+        self.detach(corners);
+        corners.iter().for_each(|&h| self.attach(h, to));
+        self.sweep();
+    }
+}
+
+impl<T: Blend> Follower for DrawBuffers<T> {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        match edit {
+            Edit::Split(split) => {
+                self.slots_of.push(NONE);
+                self.relabel(split.corners, split.new);
+            }
+            Edit::Insert(insert) => {
+                let vertices = self.slots_of.len() + insert.points.len();
+                self.slots_of.resize(vertices, NONE);
+                for family in insert.families() {
+                    self.detach(&family.parent().half_edges());
+                    CornerOp::Divide(family).apply(&mut self.values, T::blend);
+                    self.indices.resize(self.values.len(), NONE);
+                    self.rings.resize(self.values.len(), [NONE; 2]);
+                    for child in family.children() {
+                        let corners = child.face.half_edges().into_iter();
+                        corners
+                            .zip(child.vertices)
+                            .for_each(|(h, v)| self.attach(h, v));
+                    }
+                }
+                self.sweep();
+            }
+            Edit::Merge(merge) => {
+                self.relabel(merge.corners, merge.kept);
+                self.moved(merge.kept);
+                // The last vertex has another name, and what a GPU has of it is as it was.
+                self.slots_of.swap_remove(merge.gone.index());
+                let mut slot = self
+                    .slots_of
+                    .get(merge.gone.index())
+                    .copied()
+                    .unwrap_or(NONE);
+                while slot != NONE {
+                    self.slots[slot as usize].vertex = merge.gone;
+                    slot = self.slots[slot as usize].next;
+                }
+            }
+            Edit::Slide(slide) => {
+                self.detach(slide.corners);
+                edit.corner_ops()
+                    .for_each(|op| op.apply(&mut self.values, T::blend));
+                slide
+                    .corners
+                    .iter()
+                    .for_each(|&h| self.attach(h, slide.vertex));
+                self.sweep(); // All slots of the vertex were left and filled, and so count as changed.
+            }
+        }
+    }
+}
+
+/// Numbers that were marked, each listed once.
+#[derive(Clone, Debug, Default)]
+struct Marks {
+    is_marked: Vec<bool>,
+    list: Vec<u32>,
+}
+
+impl Marks {
+    fn set(&mut self, number: u32) {
+        let index = number as usize;
+        if index >= self.is_marked.len() {
+            self.is_marked.resize(index + 1, false);
+        }
+        if !std::mem::replace(&mut self.is_marked[index], true) {
+            self.list.push(number);
+        }
+    }
+
+    /// Those below a limit, ascending; none is marked any more.
+    fn take(&mut self, limit: usize) -> Vec<u32> {
+        let mut list = std::mem::take(&mut self.list);
+        for &number in &list {
+            self.is_marked[number as usize] = false;
+        }
+        list.retain(|&number| (number as usize) < limit);
+        list.sort_unstable();
+        list
+    }
+}

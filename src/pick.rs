@@ -1,0 +1,153 @@
+//! The face that a ray meets first: what lies under a mouse.
+//!
+//! ```text
+//!            ray
+//!             │           Which side of each edge the ray passes is the sign of a determinant.
+//!       c─────┼──b        A face is met if no two of its three differ. The face across an edge
+//!        ╲  . ▼ ╱         asks for the same determinant, turned over: where it is zero the ray
+//!         ╲    ╱          goes through the edge, and meets both.
+//!          ╲  ╱
+//!           a             The determinants, as parts of their sum, are the weights of the corners.
+//! ```
+//!
+//! The signs are exact, for vertices whose differences from the origin of the ray were rounded: so no
+//! ray passes between two faces, or through a vertex. (Woop, Benthin and Wald, "Watertight Ray/Triangle
+//! Intersection", JCGT 2(1), 2013, fall back on higher precision where a determinant is zero; here it is
+//! where rounding could have changed the sign, by products without rounding.) That holds while no product
+//! of three coordinates is below the range of `f64`: from 1e-90 units on.
+//!
+//! All faces are looked at, in the order of their ids: linear, and no tree to keep up to date on a mesh
+//! that moves and tears.
+
+use crate::exact::{ExactSum, ROUNDING, product};
+use crate::geometry::{Point, Ray, Vector, cross, dot, length, scaled};
+use crate::id::FaceId;
+use crate::mesh::Mesh;
+use crate::place::Place;
+
+/// Where a ray meets a face: see [`first_hit`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayHit {
+    /// The face.
+    pub face: FaceId,
+    /// The weights of its corners, of sum one up to rounding. That of a corner is exactly zero where the
+    /// ray goes through the edge opposite, and exactly one where it goes through the corner.
+    pub weights: [f64; 3],
+    /// How far from the origin of the ray, in units of the model.
+    pub distance: f64,
+}
+
+/// The nearest face in front of the origin of a ray, seen from either side.
+///
+/// Where several faces are equally near, as at a common edge or vertex, it is the one with the lowest
+/// id: faces with an edge or a vertex at the same place, torn or not, meet a ray through it at the same
+/// distance, to the bit. Faces that lie on one another do so up to rounding. A face along whose plane the ray runs is not met; those beside it are.
+///
+/// ```
+/// use tearmesh::{insert::Plan, pick, shapes, Edits, Point, Ray, Vector};
+///
+/// // Put a vertex where the mouse points.
+/// let (mut mesh, mut positions) = shapes::grid(8, 8);
+/// let mouse = Ray::new(Point::new(0.3, 0.55, 2.0), Vector::new(0.0, 0.0, -1.0))?;
+/// let hit = pick::first_hit(&mesh, &positions, &mouse).expect("the sheet is below");
+/// assert_eq!(hit.distance, 2.0);
+///
+/// let (mut edits, mut plan) = (Edits::new(), Plan::new());
+/// plan.in_face(hit.face, hit.weights); // refused where the ray goes through an edge: a weight is zero
+/// plan.apply(&mut mesh, &mut edits)?;
+/// edits.replay(&mut positions);
+/// assert!((positions.as_slice()[81] - Point::new(0.3, 0.55, 0.0)).norm() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Panics
+///
+/// If a vertex of the mesh is unknown to `place`.
+#[must_use]
+pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Option<RayHit> {
+    let direction = scaled(ray.direction()).expect("a ray has a direction");
+    let per_distance = length(direction);
+    let mut first: Option<RayHit> = None;
+    for face in mesh.faces() {
+        let corners = mesh.face_vertices(face).map(|v| place.at(v));
+        let seen = corners.map(|corner: Point| corner - ray.origin());
+        let Some(weights) = weights(seen, direction) else {
+            continue;
+        };
+        // A sum of two numbers beside a zero does not depend on their order, so the faces of an edge agree.
+        let [a, b, c] = [0, 1, 2].map(|i| weights[i] * dot(seen[i], direction));
+        let distance = (a + b + c) / per_distance;
+        if distance >= 0.0 && first.is_none_or(|first| distance < first.distance) {
+            first = Some(RayHit {
+                face,
+                weights,
+                distance,
+            });
+        }
+    }
+    first
+}
+
+/// The weights of the corners of a triangle where a line through the origin meets it; none where it
+/// does not, or runs along the plane of the triangle.
+fn weights(corners: [Vector; 3], direction: Vector) -> Option<[f64; 3]> {
+    let [a, b, c] = corners;
+    let parts = [[b, c], [c, a], [a, b]].map(|[from, to]| determinant(direction, from, to));
+    let all = |is: fn(f64) -> bool| parts.into_iter().all(is);
+    if !(all(|part| part >= 0.0) || all(|part| part <= 0.0)) {
+        return None;
+    }
+    let mut weights = [0.0; 3];
+    let met = [0, 1, 2].map(|i| parts[i] != 0.0);
+    match met {
+        [false, false, false] => return None,
+        [true, true, true] => {
+            let [a, b, c] = parts;
+            weights = parts.map(|part| part / (a + b + c));
+        }
+        _ => {
+            // On an edge its ends alone tell where, so that both of its faces say the same.
+            let off = |i: usize| length(cross(corners[i], direction));
+            let ends: Vec<usize> = (0..3).filter(|&i| met[i]).collect();
+            match ends[..] {
+                [i, j] => {
+                    let whole = off(i) + off(j);
+                    let part = |other: usize| match whole > 0.0 {
+                        true => off(other) / whole,
+                        false => 0.5,
+                    };
+                    weights[i] = part(j);
+                    weights[j] = part(i);
+                }
+                _ => weights[ends[0]] = 1.0,
+            }
+        }
+    }
+    Some(weights)
+}
+
+/// d · (p × q), with the sign that it has without rounding; of (q, p) it is the same number negated.
+fn determinant(d: Vector, p: Vector, q: Vector) -> f64 {
+    let rough = dot(d, cross(p, q));
+    let products = [[p.y, q.z, d.x], [p.z, q.x, d.y], [p.x, q.y, d.z]];
+    let others = [[p.z, q.y, d.x], [p.x, q.z, d.y], [p.y, q.x, d.z]];
+    let size = |[a, b, c]: [f64; 3]| (a * b * c).abs();
+    let bound: f64 = ROUNDING
+        * (0..3)
+            .map(|i| size(products[i]) + size(others[i]))
+            .sum::<f64>();
+    if rough.abs() > bound || !bound.is_finite() {
+        return rough;
+    }
+    let mut sum = ExactSum::new();
+    for ([a, b, c], sign) in products
+        .map(|abc| (abc, 1.0))
+        .into_iter()
+        .chain(others.map(|abc| (abc, -1.0)))
+    {
+        for part in product(a, b) {
+            sum.extend(product(part, sign * c));
+        }
+    }
+    sum.to_f64()
+}

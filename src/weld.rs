@@ -1,0 +1,116 @@
+//! Meshes as engines have them: a vertex is repeated wherever a texture seam or a hard edge passes.
+//!
+//! An engine's vertex has a place, a texture coordinate and a normal in one, so where one of these
+//! differs from face to face there are several at one place. As a mesh that would be a cut along every
+//! seam. Vertices at one place are welded here; what differed goes to the corners, and back into a vertex
+//! buffer by [`DrawBuffers`](crate::DrawBuffers).
+
+use std::fmt;
+
+use crate::id::VertexId;
+use crate::mesh::{BuildError, Mesh};
+use crate::place::{PositionError, Positions};
+
+/// A mesh that was built of an engine's buffers: see [`by_place`].
+#[derive(Clone, Debug)]
+pub struct Welded {
+    /// The mesh. Its faces are those of the index buffer, in that order.
+    pub mesh: Mesh,
+    /// Where its vertices are.
+    pub positions: Positions,
+    /// By vertex of the buffer, the vertex of the mesh that it is.
+    pub vertices: Vec<VertexId>,
+}
+
+/// Builds the mesh of an engine's vertex and index buffer, in which vertices at one place are one.
+///
+/// Places are one if all coordinates are equal as numbers: there is no tolerance, since engines copy
+/// what they repeat. Vertices of the mesh are numbered as places first appear in the buffer.
+///
+/// ```
+/// use tearmesh::{weld, DrawBuffers, PerCorner};
+///
+/// // A square of two triangles, with a texture seam along the diagonal.
+/// let places = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+/// let uv = [[0.0_f32, 0.0], [0.5, 0.0], [0.5, 1.0], [0.5, 0.0], [1.0, 1.0], [0.5, 1.0]];
+/// let triangles = [[0, 1, 2], [3, 4, 5]];
+///
+/// let welded = weld::by_place(&places, &triangles)?;
+/// assert_eq!((welded.mesh.vertex_count(), welded.vertices[3].index()), (4, 0));
+/// let uv = triangles.as_flattened().iter().map(|&i| uv[i as usize]);
+/// let buffers = DrawBuffers::new(&welded.mesh, uv.collect());
+/// assert_eq!(buffers.len(), 6);
+/// # Ok::<(), tearmesh::weld::WeldError>(())
+/// ```
+///
+/// # Errors
+///
+/// [`WeldError`]. Where a surface touches itself at vertices of one place, the welded mesh is no manifold
+/// there, and is refused with all that is wrong: give such vertices different places.
+pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, WeldError> {
+    let known = places.len();
+    let indices = triangles.as_flattened();
+    if let Some(&index) = indices.iter().find(|&&index| index as usize >= known) {
+        return Err(WeldError::Index { index, known });
+    }
+    // The error names the vertices of the buffer.
+    Positions::from_f32(places.iter().copied()).map_err(WeldError::Place)?;
+    // Minus zero is zero, and only then do equal numbers have equal bits.
+    let key = |i: u32| places[i as usize].map(|x| (x + 0.0).to_bits());
+    let mut by_place: Vec<u32> = (0..known as u32).collect();
+    by_place.sort_unstable_by_key(|&i| (key(i), i));
+    let mut first = vec![0; known];
+    for run in by_place.chunk_by(|&a, &b| key(a) == key(b)) {
+        run.iter().for_each(|&i| first[i as usize] = run[0]);
+    }
+    let mut vertices: Vec<VertexId> = Vec::with_capacity(known);
+    let mut welded = Vec::new();
+    for (i, &first) in first.iter().enumerate() {
+        if first as usize == i {
+            vertices.push(VertexId::from_u32(welded.len() as u32));
+            welded.push(places[i]);
+        } else {
+            vertices.push(vertices[first as usize]);
+        }
+    }
+    let faces = triangles.iter();
+    let faces = faces.map(|face| face.map(|i| u32::from(vertices[i as usize])));
+    let mesh = Mesh::build(welded.len(), &faces.collect::<Vec<_>>()).map_err(WeldError::Build)?;
+    Ok(Welded {
+        mesh,
+        positions: Positions::from_f32(welded).map_err(WeldError::Place)?,
+        vertices,
+    })
+}
+
+/// Why buffers were refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum WeldError {
+    /// A triangle names a vertex that the buffer has not.
+    Index {
+        /// The index.
+        index: u32,
+        /// How many vertices there are.
+        known: usize,
+    },
+    /// Coordinates are not finite: of these vertices of the buffer.
+    Place(PositionError),
+    /// The triangles form no oriented 2-manifold once vertices at one place are one: by faces of the
+    /// index buffer and vertices of the welded mesh.
+    Build(BuildError),
+}
+
+impl fmt::Display for WeldError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WeldError::Index { index, known } => {
+                write!(f, "a triangle names vertex {index} of {known}")
+            }
+            WeldError::Place(error) => error.fmt(f),
+            WeldError::Build(error) => write!(f, "welded, this is {error}"),
+        }
+    }
+}
+
+impl std::error::Error for WeldError {}

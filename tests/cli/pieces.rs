@@ -1,0 +1,284 @@
+//! `cut --pieces`: every face of the whole is in one piece, as it is in the whole.
+//!
+//! The files are read by a few lines that share no code with the reader of the library.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use tearmesh_obj::Document;
+
+use crate::harness::{Folder, seen};
+
+/// A face: the object, group, material and smoothing group that it is in, and for each corner the
+/// numbers of its vertex, texture coordinate and normal, to the letter.
+type Face = ([String; 4], Vec<[String; 3]>);
+
+/// The faces of a file, in order.
+fn faces(text: &str) -> Vec<Face> {
+    let keywords = ["o", "g", "usemtl", "s"];
+    let mut numbers: [Vec<String>; 3] = Default::default();
+    let mut state: [String; 4] = Default::default();
+    let mut faces = Vec::new();
+    for line in text.lines() {
+        let (keyword, rest) = line.split_once(' ').unwrap_or((line, ""));
+        if let Some(which) = ["v", "vt", "vn"].iter().position(|own| *own == keyword) {
+            numbers[which].push(rest.to_owned());
+        } else if let Some(which) = keywords.iter().position(|own| *own == keyword) {
+            state[which] = rest.to_owned();
+        } else if keyword == "f" {
+            let corner = |word: &str| {
+                let mut corner: [String; 3] = Default::default();
+                for (which, index) in word
+                    .split('/')
+                    .enumerate()
+                    .filter(|(_, index)| !index.is_empty())
+                {
+                    let index: usize = index.parse().expect("an index");
+                    corner[which] = numbers[which][index - 1].clone();
+                }
+                corner
+            };
+            faces.push((state.clone(), rest.split(' ').map(corner).collect()));
+        }
+    }
+    faces
+}
+
+/// Holds the pieces in a folder against the whole, and gives how many faces each has.
+fn check(folder: &Folder, whole: &str, pieces: &str) -> Vec<usize> {
+    let list: serde_json::Value =
+        serde_json::from_str(&folder.read(&format!("{pieces}/pieces.json"))).expect("JSON");
+    let entries = list["pieces"].as_array().expect("a list");
+    let text = folder.read(whole);
+    let of_whole = faces(&text);
+    let rank: BTreeMap<&Face, usize> = of_whole.iter().zip(0..).collect();
+    assert_eq!(rank.len(), of_whole.len(), "no two faces are the same");
+    let mut all = 0;
+    let (mut sizes, mut area) = (Vec::new(), 0.0);
+    for (number, entry) in entries.iter().enumerate() {
+        let name = format!("piece_{number:05}.obj");
+        assert_eq!(entry["file"], name.as_str());
+        let text = folder.read(&format!("{pieces}/{name}"));
+        let own = faces(&text);
+        let count = own.len();
+        let ranks = own
+            .iter()
+            .map(|face| rank.get(face).expect("a face of the whole"));
+        assert!(ranks.is_sorted_by(|a, b| a < b), "as they are in the whole");
+        all += count;
+        assert_eq!(entry["faces"], count);
+        assert_eq!(
+            entry["vertices"],
+            text.lines().filter(|line| line.starts_with("v ")).count()
+        );
+        for (key, which) in [("objects", 0), ("groups", 1), ("materials", 2)] {
+            // A face may be in several groups.
+            let names = own.iter().flat_map(|(state, _)| match key {
+                "groups" => state[which].split(' ').collect(),
+                _ => vec![&*state[which]],
+            });
+            let mut names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+            names.sort_unstable();
+            names.dedup();
+            let told = entry[key].as_array().expect("names").iter();
+            let mut told: Vec<&str> = told.map(|name| name.as_str().expect("a name")).collect();
+            told.sort_unstable();
+            assert_eq!(told, names, "{key} of {name}");
+        }
+        // It is a mesh, in one piece, for whoever reads it.
+        let document = Document::read(text.as_bytes()).expect("what we wrote");
+        let mesh = document.mesh().expect("a manifold");
+        assert_eq!(mesh.components().count(), 1, "{name}");
+        assert!(
+            mesh.vertices().all(|v| mesh.half_edge_of(v).is_some()),
+            "{name}: vertices without a face"
+        );
+        sizes.push(count);
+        area += entry["area"].as_f64().expect("an area");
+    }
+    assert!(
+        sizes.is_sorted_by(|a, b| a >= b),
+        "the largest first: {sizes:?}"
+    );
+    assert_eq!(all, of_whole.len(), "every face of the whole is in a piece");
+    let document = Document::read(text.as_bytes()).expect("what we wrote");
+    let of_whole: f64 = document
+        .triangles()
+        .iter()
+        .map(|triangle| {
+            let [a, b, c] = triangle.map(|v| document.positions()[v as usize]);
+            (b - a).cross(&(c - a)).norm() / 2.0
+        })
+        .sum();
+    assert!(
+        (area - of_whole).abs() < 1e-12 * of_whole,
+        "{area}, {of_whole}"
+    );
+    sizes
+}
+
+const CROSS: &str =
+    "--rays 0.3,1,5:0,0,-1 0.3,0,5:0,0,-1 --rays 1,0.1,5:0,0,-1 0,0.1,5:0,0,-1 --through";
+
+#[test]
+fn the_pieces_of_a_cut_are_the_whole_and_the_same_each_time() {
+    let folder = Folder::new();
+    for name in ["one", "two"] {
+        let line = format!("tearmesh cut flag.obj {CROSS} --pieces {name} -o {name}.obj");
+        let output = folder.run(&line);
+        assert!(output.status.success(), "{}", seen(&output));
+        assert!(
+            seen(&output).contains(&format!("4 pieces written into {name}\n")),
+            "{}",
+            seen(&output)
+        );
+    }
+    assert_eq!(check(&folder, "one.obj", "one").len(), 4);
+    let mut names: Vec<_> = fs::read_dir(folder.path("one"))
+        .expect("a folder")
+        .map(|entry| entry.expect("a file").file_name())
+        .collect();
+    names.sort();
+    assert_eq!(
+        names,
+        [
+            "piece_00000.obj",
+            "piece_00001.obj",
+            "piece_00002.obj",
+            "piece_00003.obj",
+            "pieces.json"
+        ]
+    );
+    for name in names {
+        let [one, two] = ["one", "two"].map(|folder_of| folder.path(folder_of).join(&name));
+        assert_eq!(
+            fs::read(one).expect("a file"),
+            fs::read(two).expect("a file"),
+            "{}",
+            name.display()
+        );
+    }
+}
+
+/// A box of quads with a name for each side, texture coordinates and normals, extra numbers and seams.
+fn named_box() -> String {
+    let mut text = String::from("# a box\nmtllib box.mtl\no box\n");
+    for i in 0..8 {
+        text += &format!("v {} {} {} 0.{i} 0.5 0.25\n", i % 2, i / 2 % 2, i / 4);
+    }
+    for i in 0..4 {
+        text += &format!("vt {} {}\n", i % 2, i / 2);
+    }
+    text += "vn 0 0 -1\nvn 0 0 1\nvn 0 -1 0\nvn 0 1 0\nvn -1 0 0\nvn 1 0 0\n";
+    let sides = [
+        [1, 3, 4, 2],
+        [5, 6, 8, 7],
+        [1, 2, 6, 5],
+        [3, 7, 8, 4],
+        [1, 5, 7, 3],
+        [2, 4, 8, 6],
+    ];
+    for (side, corners) in sides.iter().enumerate() {
+        text += &format!("g side{side} all\nusemtl m{}\ns {}\n", side % 2, side % 3);
+        if side == 4 {
+            text += "o lid of it\n";
+        }
+        let corner = |(i, v): (usize, &i32)| match side {
+            5 => format!(" {v}//6"),
+            3 => format!(" {v}/{}", [1, 2, 4, 3][i]),
+            _ => format!(" {v}/{}/{}", [1, 2, 4, 3][i], side + 1),
+        };
+        text += &format!(
+            "f{}\n",
+            corners.iter().enumerate().map(corner).collect::<String>()
+        );
+    }
+    text
+}
+
+#[test]
+fn pieces_keep_names_texture_coordinates_and_normals() {
+    let folder = Folder::new();
+    folder.write("box.obj", named_box());
+    let planes = "--plane 0.4,0,0:1,0.1,0 --plane 0,0.3,0.2:0,1,0.3";
+    let output = folder.run(&format!(
+        "tearmesh cut box.obj {planes} --pieces p -o out.obj"
+    ));
+    assert!(output.status.success(), "{}", seen(&output));
+    assert_eq!(check(&folder, "out.obj", "p").len(), 4);
+    assert!(
+        folder
+            .read("p/piece_00000.obj")
+            .starts_with("mtllib box.mtl\nv ")
+    );
+    // A slit leaves one piece, which is torn all the same.
+    let slit = "--rays 0.5,0.5,9:0,0,-1 0.6,-0.2,9:0,0,-1";
+    let output = folder.run(&format!(
+        "tearmesh cut box.obj {slit} --pieces q -o slit.obj"
+    ));
+    assert!(output.status.success(), "{}", seen(&output));
+    assert_eq!(check(&folder, "slit.obj", "q").len(), 1);
+}
+
+/// What was torn in an earlier session too, and the paper's methods, which leave crumbs and bow-ties.
+#[test]
+fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
+    let folder = Folder::new();
+    let mut fans = 0;
+    for (file, rays) in [
+        ("flag", "--rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1"),
+        ("sheet", "--rays 0.1,0.1,5:0,0,-1 0.8,0.7,5:0,0,-1"),
+    ] {
+        for method in ["uniform", "alternating", "partition", "exact"] {
+            let name = format!("{file}_{method}");
+            let line = format!("tearmesh cut {file}.obj {rays} --method {method}");
+            let output = folder.run(&format!("{line} --pieces {name} -o {name}.obj"));
+            assert!(output.status.success(), "{}", seen(&output));
+            fans += usize::from(seen(&output).contains("[W-OBJ-FANS]"));
+            check(&folder, &format!("{name}.obj"), &name);
+            let again = "--plane 0,0.1,0:0.2,1,0 --allow-miss";
+            let line = format!("tearmesh cut {name}.obj {again} --pieces {name}2 -o again.obj");
+            let output = folder.run(&line);
+            assert!(output.status.success(), "{}", seen(&output));
+            check(&folder, "again.obj", &format!("{name}2"));
+        }
+    }
+    assert!(fans > 0, "a vertex of several fans");
+}
+
+#[test]
+fn a_piece_replaces_no_other_file_and_those_of_an_earlier_run_are_warned_of() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("p")).expect("a folder");
+    let line = format!("tearmesh cut flag.obj {CROSS} --pieces");
+    for (options, what) in [
+        ("p -o p/piece_00003.obj", "the output"),
+        ("p -o x.obj --report p/pieces.json", "the report"),
+        ("p -o x.obj --seam p/piece_00000.obj", "the seam"),
+    ] {
+        let output = folder.run(&format!("{line} {options}"));
+        assert_eq!(output.status.code(), Some(2), "{}", seen(&output));
+        assert!(
+            seen(&output).contains(&format!("a piece would replace {what}")),
+            "{}",
+            seen(&output)
+        );
+    }
+    let output = folder.run(&format!("{line} - -o x.obj"));
+    assert_eq!(output.status.code(), Some(2), "{}", seen(&output));
+    for (options, is_there) in [("--dry-run", false), ("-o x.obj", true)] {
+        let output = folder.run(&format!("{line} new {options}"));
+        assert!(output.status.success(), "{}", seen(&output));
+        assert_eq!(folder.path("new").is_dir(), is_there);
+    }
+    let output = folder.run("tearmesh cut flag.obj --plane 0,0.1,0:0,1,0 --pieces new -o x.obj");
+    assert!(
+        seen(&output).contains("[W-PIECES-OLD]")
+            && seen(&output).contains("from piece_00002.obj on"),
+        "{}",
+        seen(&output)
+    );
+    let output = folder.run("tearmesh cut flag.obj --plane 0,9,0:0,1,0 --pieces none -o x.obj");
+    assert_eq!(output.status.code(), Some(1), "{}", seen(&output));
+    assert!(!folder.path("none").exists(), "nothing was cut");
+}

@@ -1,0 +1,171 @@
+//! Pieces: numbered OBJ files, the largest first, and a list of them.
+
+use std::cmp::Reverse;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use tearmesh::{DerivedMesh, ExactSum, Mesh, Positions};
+use tearmesh_obj::{PieceNames, PieceWriter, TornDocument};
+
+use crate::args::CutArgs;
+use crate::exit::{Exit, Stop};
+use crate::measure::area;
+use crate::say::{Fault, count};
+use crate::{output, report};
+
+/// Where pieces go.
+pub(super) struct Pieces {
+    folder: PathBuf,
+}
+
+/// The name of the list.
+const LIST: &str = "pieces.json";
+
+/// The list of the pieces.
+#[derive(Serialize)]
+struct List {
+    schema: &'static str,
+    pieces: Vec<Entry>,
+}
+
+#[derive(Serialize)]
+struct Entry {
+    file: String,
+    vertices: usize,
+    faces: usize,
+    area: f64,
+    /// What the input calls its faces.
+    objects: Vec<String>,
+    groups: Vec<String>,
+    materials: Vec<String>,
+}
+
+impl Pieces {
+    /// Refuses to replace other files, if pieces are wanted.
+    pub(super) fn of(args: &CutArgs) -> Result<Option<Pieces>, Stop> {
+        let Some(folder) = args.pieces.clone().filter(|_| !args.files.dry_run) else {
+            return Ok(None);
+        };
+        if folder == Path::new("-") {
+            let message = "`--pieces` takes the name of a folder".to_owned();
+            let fault = Fault::error("E-USAGE", message);
+            let fault = fault.help("name one that is there, or that can be made");
+            return Err(Stop::new(Exit::Usage, fault));
+        }
+        let files = &args.files;
+        for (path, what) in [
+            (Some(&*files.input), "the input"),
+            (files.output.as_deref(), "the output"),
+            (files.report.as_deref(), "the report"),
+            (args.seam.as_deref(), "the seam"),
+            (args.map.as_deref(), "the map"),
+            (args.rays_file.as_deref(), "the rays"),
+        ] {
+            path.map_or(Ok(()), |path| refuse_replacing(&folder, path, what))?;
+        }
+        Ok(Some(Pieces { folder }))
+    }
+
+    /// Writes the pieces, and then their list: each file whole or not at all. Makes the folder where
+    /// there is none.
+    pub(super) fn write(
+        &self,
+        torn: &TornDocument<'_>,
+        mesh: &Mesh,
+        positions: &Positions,
+    ) -> Result<(report::Pieces, Option<Fault>), Stop> {
+        let folder = &self.folder;
+        if !folder.is_dir() {
+            fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
+        }
+        let mut pieces = mesh.pieces(&mesh.components());
+        // Of equal ones the one with the lowest face comes first, as it does now.
+        pieces.sort_by_key(|piece| Reverse(piece.faces().len()));
+        let writer = PieceWriter::new(torn);
+        let mut list = List {
+            schema: "tearmesh.pieces/1",
+            pieces: Vec::with_capacity(pieces.len()),
+        };
+        for (number, piece) in pieces.iter().enumerate() {
+            let file = name(number);
+            let path = self.folder.join(&file);
+            let written = output::write(&path, |mut out| writer.write(piece, positions, &mut out));
+            let written = written.map_err(|error| unwritable(&path, &error))?;
+            let PieceNames {
+                objects,
+                groups,
+                materials,
+            } = writer.names(piece);
+            list.pieces.push(Entry {
+                file,
+                vertices: written.vertices,
+                faces: written.faces,
+                area: area_of(piece, positions),
+                objects,
+                groups,
+                materials,
+            });
+        }
+        let json = serde_json::to_string_pretty(&list);
+        let json = json.expect("a list of strings and finite numbers is JSON") + "\n";
+        let path = self.folder.join(LIST);
+        output::write(&path, |out| out.write_all(json.as_bytes()))
+            .map_err(|error| unwritable(&path, &error))?;
+        let count = pieces.len();
+        let folder = self.folder.display().to_string();
+        Ok((report::Pieces { folder, count }, self.left_over(count)))
+    }
+
+    /// Says that an earlier run left more pieces than this one made.
+    fn left_over(&self, count: usize) -> Option<Fault> {
+        let next = name(count);
+        self.folder.join(&next).exists().then(|| {
+            let folder = self.folder.display();
+            let message = format!("`{folder}` has pieces of an earlier run, from {next} on");
+            Fault::warning("W-PIECES-OLD", message).help("write pieces into a folder of their own")
+        })
+    }
+}
+
+/// The line of the summary.
+pub(super) fn words(written: &report::Pieces) -> String {
+    let pieces = count(written.count, "piece", "pieces");
+    format!("{pieces} written into {}", written.folder)
+}
+
+/// The area of a piece, rounded once for each face and once as a whole.
+fn area_of(piece: &DerivedMesh, positions: &Positions) -> f64 {
+    let mesh = piece.mesh();
+    let areas = mesh.faces().map(|f| {
+        let corners = mesh.face_vertices(f);
+        area(corners.map(|v| positions.at(piece.vertices()[v.index()])))
+    });
+    areas.collect::<ExactSum>().to_f64()
+}
+
+fn name(number: usize) -> String {
+    format!("piece_{number:05}.obj")
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> Stop {
+    Stop::new(Exit::Output, output::cannot_write(path, error))
+}
+
+/// Refuses a file that a piece or the list would replace.
+fn refuse_replacing(folder: &Path, path: &Path, what: &str) -> Result<(), Stop> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let is_there = || {
+        let parent = path.parent().filter(|parent| *parent != Path::new(""));
+        output::is_same_file(folder, parent.unwrap_or(Path::new(".")))
+    };
+    let is_piece = name.starts_with("piece_") && name.ends_with(".obj");
+    if (is_piece || name == LIST) && is_there() {
+        let message = format!("a piece would replace {what}, `{}`", path.display());
+        let fault = Fault::error("E-USAGE", message);
+        let fault = fault.help("write pieces into a folder of their own");
+        return Err(Stop::new(Exit::Usage, fault));
+    }
+    Ok(())
+}

@@ -1,0 +1,287 @@
+//! A piece of a torn mesh as a file of its own.
+//!
+//! A piece is written for other programs, and for whoever goes on with it alone: its vertices, each with
+//! the numbers behind z, its faces with their texture coordinates and normals, and what the document
+//! says of those faces: `o`, `g`, `usemtl`, `s`, and every `mtllib`. The record stays with the whole, since
+//! what a cut parted it names on both sides: a piece cannot be sewn, and what was inserted cannot be taken
+//! out. Comments and other statements stay with the whole, too.
+
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+
+use tearmesh::{DerivedMesh, FaceId, HalfEdgeId, Positions};
+
+use super::WriteSummary;
+use super::number::write_integer;
+use super::output::Output;
+use super::separate::Separated;
+use crate::document::Document;
+use crate::read::statements;
+use crate::store::Kind;
+use crate::torn::TornDocument;
+
+/// Writes the pieces of a torn document, each by itself.
+///
+/// ```
+/// use tearmesh::{Edits, FaceId, Positions, VertexId, split};
+/// use tearmesh_obj::{Document, PieceWriter, TornDocument};
+///
+/// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\no left\nf 1 2 3\no right\ng hem\nf 3 2 4\n";
+/// let document = Document::read(&file[..])?;
+/// let mut mesh = document.mesh()?;
+/// let mut positions = Positions::new(document.positions().iter().copied())?;
+/// let mut torn = TornDocument::new(&document);
+/// let mut edits = Edits::new();
+/// for v in [1, 2] {
+///     let v = VertexId::new(v).expect("small");
+///     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+/// }
+/// edits.replay(&mut (&mut positions, &mut torn));
+///
+/// let pieces = mesh.pieces(&mesh.components());
+/// let writer = PieceWriter::new(&torn);
+/// let mut out = Vec::new();
+/// writer.write(&pieces[1], &positions, &mut out)?;
+/// assert_eq!(String::from_utf8(out)?, "v 1 1 0\nv 1 0 0\nv 0 1 0\no right\ng hem\nf 3 2 1\n");
+/// assert_eq!(writer.names(&pieces[1]).objects, ["right"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct PieceWriter<'t> {
+    torn: &'t TornDocument<'t>,
+    /// Where each face of the mesh stands among all, and the polygon where it does.
+    ranks: Vec<(u32, u32)>,
+    said: SaidOfFaces<'t>,
+}
+
+/// What a document calls the faces of a piece: each name once, in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PieceNames {
+    /// By `o`.
+    pub objects: Vec<String>,
+    /// By `g`.
+    pub groups: Vec<String>,
+    /// By `usemtl`.
+    pub materials: Vec<String>,
+}
+
+impl<'t> PieceWriter<'t> {
+    /// Linear in the document.
+    #[must_use]
+    pub fn new(torn: &'t TornDocument<'t>) -> PieceWriter<'t> {
+        let document = torn.document();
+        let slots = torn.slots();
+        let mut ranks = vec![(0, 0); slots.faces.len()];
+        let mut rank = 0;
+        for polygon in 0..document.polygon_count() {
+            for &face in &slots.faces[slots.of(document.polygons.triangles(polygon))] {
+                ranks[face as usize] = (rank, polygon as u32);
+                rank += 1;
+            }
+        }
+        PieceWriter {
+            torn,
+            ranks,
+            said: SaidOfFaces::of(document),
+        }
+    }
+
+    /// Writes a piece of the mesh that was followed, to its end. `positions` are those of the whole. A
+    /// vertex of several fans is several here.
+    ///
+    /// # Errors
+    ///
+    /// Those of the output.
+    ///
+    /// # Panics
+    ///
+    /// If the piece or the positions are those of another mesh.
+    pub fn write(
+        &self,
+        piece: &DerivedMesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        let torn = self.torn;
+        assert_eq!(
+            positions.len(),
+            torn.vertex_count(),
+            "every vertex has a position"
+        );
+        let mut out = Output::new(out);
+        for library in &self.said.libraries {
+            out.text(library)?;
+        }
+        let separated = Separated::new(piece.mesh(), None);
+        let copies = separated.copies.iter().copied();
+        for v in piece.mesh().vertices().chain(copies) {
+            let source = piece.vertices()[v.index()];
+            let place: [f64; 3] = positions.at(source).into();
+            out.statement(b"v", &place, torn.extra_numbers(source.index()))?;
+        }
+        let faces = self.in_order(piece);
+        let corners = |f: FaceId| f.half_edges().map(|h| (h, self.indices_of(piece, h)));
+        let all = || faces.iter().copied().flat_map(corners);
+        let used = [0, 1].map(|which| {
+            let mut used: Vec<u32> = all().filter_map(|(_, indices)| indices[which]).collect();
+            used.sort_unstable();
+            used.dedup();
+            used
+        });
+        for &index in &used[0] {
+            out.statement(b"vt", torn.texture_row(index), &[])?;
+        }
+        for &index in &used[1] {
+            out.statement(b"vn", &torn.normal(index), &[])?;
+        }
+        let mut said = [None; KEYWORDS.len()];
+        for &f in &faces {
+            let now = self.said_of(piece, f);
+            for (said, now) in said.iter_mut().zip(now) {
+                if let Some(statement) = now.filter(|_| *said != now) {
+                    out.text(statement)?;
+                }
+                *said = now;
+            }
+            out.pending.push(b'f');
+            for (h, indices) in corners(f) {
+                out.pending.push(b' ');
+                write_integer(
+                    &mut out.pending,
+                    u64::from(separated.indices[h.index()]) + 1,
+                );
+                let numbers = [0, 1].map(|which| {
+                    let at = used[which].binary_search(&indices[which]?);
+                    Some(at.expect("it is used") as u64 + 1)
+                });
+                if numbers != [None; 2] {
+                    for number in numbers
+                        .into_iter()
+                        .take(if numbers[1].is_some() { 2 } else { 1 })
+                    {
+                        out.pending.push(b'/');
+                        number
+                            .into_iter()
+                            .for_each(|n| write_integer(&mut out.pending, n));
+                    }
+                }
+            }
+            out.pending.push(b'\n');
+            out.flush_if_full()?;
+        }
+        out.flush()?;
+        Ok(WriteSummary {
+            vertices: piece.mesh().vertex_count() + separated.copies.len(),
+            faces: faces.len(),
+            separated: separated.copies.len(),
+        })
+    }
+
+    /// What the document calls the faces of a piece.
+    ///
+    /// # Panics
+    ///
+    /// If the piece is one of another mesh.
+    #[must_use]
+    pub fn names(&self, piece: &DerivedMesh) -> PieceNames {
+        let mut names = PieceNames::default();
+        let mut seen = BTreeSet::new();
+        let mut before = [None; KEYWORDS.len()];
+        for f in self.in_order(piece) {
+            let said = self.said_of(piece, f);
+            if said == before {
+                continue;
+            }
+            before = said;
+            let [object, group, material, _] = said.map(rest_of_statement);
+            let groups = group.split_whitespace().map(|name| (1, name.to_owned()));
+            for (which, name) in [(0, object), (2, material)].into_iter().chain(groups) {
+                if !name.is_empty() && seen.insert((which, name.clone())) {
+                    let PieceNames {
+                        objects,
+                        groups,
+                        materials,
+                    } = &mut names;
+                    [objects, groups, materials][which].push(name);
+                }
+            }
+        }
+        names
+    }
+
+    /// The faces of a piece in the order of the file.
+    fn in_order(&self, piece: &DerivedMesh) -> Vec<FaceId> {
+        let mut faces: Vec<FaceId> = piece.mesh().faces().collect();
+        faces.sort_unstable_by_key(|f| self.ranks[piece.faces()[f.index()].index()].0);
+        faces
+    }
+
+    fn said_of(&self, piece: &DerivedMesh, f: FaceId) -> [Option<&'t [u8]>; KEYWORDS.len()] {
+        let (_, polygon) = self.ranks[piece.faces()[f.index()].index()];
+        self.said.states[self.said.of_polygon[polygon as usize] as usize]
+    }
+
+    /// The texture coordinate and the normal of a corner of a piece.
+    fn indices_of(&self, piece: &DerivedMesh, h: HalfEdgeId) -> [Option<u32>; 2] {
+        self.torn.corner_of(piece.corners()[h.index()].index())
+    }
+}
+
+/// The statements that hold for all faces behind them, up to the next of their kind.
+const KEYWORDS: [&[u8]; 4] = [b"o", b"g", b"usemtl", b"s"];
+
+/// What statements say of faces.
+#[derive(Debug)]
+struct SaidOfFaces<'d> {
+    libraries: Vec<&'d [u8]>,
+    /// The statements in force, by [`KEYWORDS`], and which of these each polygon has.
+    states: Vec<[Option<&'d [u8]>; KEYWORDS.len()]>,
+    of_polygon: Vec<u32>,
+}
+
+impl<'d> SaidOfFaces<'d> {
+    fn of(document: &'d Document) -> SaidOfFaces<'d> {
+        let mut said = SaidOfFaces {
+            libraries: Vec::new(),
+            states: vec![[None; KEYWORDS.len()]],
+            of_polygon: Vec::with_capacity(document.polygon_count()),
+        };
+        let mut text = &document.text[..];
+        for run in document.layout.runs() {
+            let count = run.count as usize;
+            match run.kind {
+                Kind::Text => {
+                    let (lines, rest) = text.split_at(count);
+                    text = rest;
+                    statements(lines).for_each(|(keyword, line)| said.take(keyword, line));
+                }
+                Kind::Polygon => {
+                    let state = said.states.len() as u32 - 1;
+                    said.of_polygon.resize(said.of_polygon.len() + count, state);
+                }
+                Kind::Vertex | Kind::Texture | Kind::Normal => {}
+            }
+        }
+        said
+    }
+
+    fn take(&mut self, keyword: &[u8], statement: &'d [u8]) {
+        if keyword == b"mtllib" {
+            self.libraries.push(statement);
+        }
+        let Some(which) = KEYWORDS.iter().position(|own| *own == keyword) else {
+            return;
+        };
+        let mut state = self.states[self.states.len() - 1];
+        state[which] = Some(statement);
+        self.states.push(state);
+    }
+}
+
+/// What stands behind the keyword, without a comment.
+fn rest_of_statement(statement: Option<&[u8]>) -> String {
+    let text = String::from_utf8_lossy(statement.unwrap_or_default());
+    let text = text.split('#').next().unwrap_or_default().trim();
+    let rest = text.split_once(char::is_whitespace);
+    rest.map_or(String::new(), |(_, rest)| rest.trim().to_owned())
+}
