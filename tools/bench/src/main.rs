@@ -28,7 +28,7 @@
 //! company (`--only`). A record names the commit, the compiler and the CPU.
 //!
 //! `cut` has rivals in Python: `python3 -m venv DIR`, `DIR/bin/pip install numpy meshlib trimesh
-//! networkx scipy vtk`, and `--python DIR/bin/python`. One that is missing is said to be. Each is
+//! networkx scipy shapely vtk`, and `--python DIR/bin/python`. One that is missing is said to be. Each is
 //! a process of its own (`rivals/cut.py`) that gets the sheet as a file, once, and cuts once a
 //! round; what it measures is the cutting call alone. `cut` counts CPU time, all threads of a
 //! process together, and confines the rivals to one core; `taskset` gives ours the same one. Its
