@@ -26,7 +26,7 @@ use crate::rays::{self, Pair};
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, output, report};
+use crate::{files, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -135,14 +135,14 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
-        write_beside(path, |out| seam::write(&seams, out))?;
+        files::write_beside(path, |out| seam::write(&seams, out))?;
     }
     let asked = args.map.as_ref().zip(map);
     if let Some((path, map)) = asked.filter(|_| !args.files.dry_run) {
         let name = |file: &Option<report::File>| file.as_ref().and_then(|file| file.path.clone());
         let names = [&session.report.input, &session.report.output].map(name);
         let names = names.each_ref().map(Option::as_deref);
-        write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
+        files::write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
     }
     if let Some(pieces) = pieces {
         let (written, left_over) = pieces.write(&torn, &mesh, &positions)?;
@@ -153,15 +153,6 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
-}
-
-/// Writes a file beside the mesh.
-fn write_beside(
-    path: &Path,
-    fill: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-) -> Result<(), Stop> {
-    let written = output::write(path, fill);
-    written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))
 }
 
 /// Cuts of which each begins with the ray that ended the one before: where the first began, and where

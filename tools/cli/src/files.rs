@@ -1,5 +1,6 @@
 //! Where a verb reads and writes, and what it refuses to write over.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tearmesh::Mesh;
@@ -102,6 +103,26 @@ pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(
 /// Whether two names are of one file, which need not exist yet.
 pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a != Path::new("-") && b != Path::new("-") && (a == b || output::is_same_place(a, b))
+}
+
+/// Whether a path is of a file in this folder by a name like this; neither need exist yet.
+pub(crate) fn is_in(folder: &Path, path: &Path, is_name: impl Fn(&str) -> bool) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let parent = path.parent().filter(|parent| *parent != Path::new(""));
+    is_name(&name) && output::is_same_file(folder, parent.unwrap_or(Path::new(".")))
+}
+
+/// Writes a file beside the mesh.
+pub(crate) fn write_beside(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Stop> {
+    output::write(path, fill).map_err(|error| unwritable(path, &error))
+}
+
+/// That a file could not be written.
+pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Stop {
+    Stop::new(Exit::Output, output::cannot_write(path, error))
 }
 
 /// The last line of the summary.

@@ -30,7 +30,7 @@ use crate::interrupt::Guard;
 use crate::scene::{Source, method_name};
 use crate::session::{Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, output, report};
+use crate::{files, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -245,8 +245,7 @@ impl Play<'_> {
             .as_ref()
             .filter(|_| !self.args.files.dry_run)
         {
-            let written = output::write(path, |out| told::write_forces(&run, &chronicle, out));
-            written.map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+            files::write_beside(path, |out| told::write_forces(&run, &chronicle, out))?;
         }
         let mesh = run.mesh();
         let ending = files::ending(vertices_before, mesh, mass, &session.destination);

@@ -10,7 +10,7 @@ mod frame;
 mod plays;
 mod run;
 
-pub use chronicle::{Chronicle, FRAME_S, FirstTear, HoldForces, TearEvent};
+pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
     CutMade, Gain, Guarded, Limited, Names, Quality, Run, RunError, Shortened, Softness, Solved,
@@ -26,6 +26,10 @@ use crate::load::{Collider, Wind};
 use crate::pbd::Pbd;
 use crate::provot::Limiter;
 use crate::xpbd::Xpbd;
+
+/// A frame of films and screens, in seconds: steps are whole parts of it, forces are means over it, and
+/// energy is looked at once in it.
+pub const FRAME_S: f64 = 1.0 / 60.0;
 
 /// What shall happen to a cloth.
 #[derive(Clone, Debug)]

@@ -31,20 +31,18 @@ use std::time::Duration;
 use serde::Serialize;
 use tearmesh::{Mesh, Point, shapes};
 use tearmesh_cloth::StepError;
-use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh_cloth::scene::{Axis, FRAME_S, Frame, Run, Scene};
 
 use self::wanted::Wanted;
 use self::way::Way;
 use crate::provenance::Provenance;
+use crate::sample;
 
 /// Cells a side of the patches that are ripped unless one says otherwise.
 pub const CELLS: [u32; 4] = [8, 16, 32, 64];
 
 /// How often each split is timed, as in the paper.
 pub const ROUNDS: usize = 10;
-
-/// What is drawn in this time is a frame, in seconds.
-pub const FRAME_S: f64 = 1.0 / 60.0;
 
 /// The experiment, made.
 #[derive(Clone, Debug, Serialize)]
@@ -328,14 +326,9 @@ impl<'c> Stopwatch<'c> {
     }
 }
 
-/// The middle of some numbers, or the mean of the two in the middle; 0 of none.
-fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    match numbers.len() {
-        0 => 0.0,
-        n if n % 2 == 1 => numbers[n / 2],
-        n => (numbers[n / 2 - 1] + numbers[n / 2]) / 2.0,
-    }
+/// The median of some times; 0 of none.
+fn median(seconds: Vec<f64>) -> f64 {
+    sample::median(seconds).unwrap_or(0.0)
 }
 
 fn conclude(tests: &[Test]) -> String {

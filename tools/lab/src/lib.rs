@@ -15,6 +15,7 @@ pub mod pool;
 mod provenance;
 mod random;
 pub mod rk4;
+mod sample;
 pub mod tear;
 
 pub use provenance::Provenance;

@@ -2,7 +2,6 @@
 
 use std::cmp::Reverse;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -11,9 +10,10 @@ use tearmesh_obj::{PieceNames, PieceWriter, TornDocument};
 
 use crate::args::CutArgs;
 use crate::exit::{Exit, Stop};
+use crate::files::unwritable;
 use crate::measure::area;
 use crate::say::{Fault, count};
-use crate::{output, report};
+use crate::{files, output, report};
 
 /// Where pieces go.
 pub(super) struct Pieces {
@@ -149,19 +149,10 @@ fn name(number: usize) -> String {
     format!("piece_{number:05}.obj")
 }
 
-fn unwritable(path: &Path, error: &io::Error) -> Stop {
-    Stop::new(Exit::Output, output::cannot_write(path, error))
-}
-
 /// Refuses a file that a piece or the list would replace.
 fn refuse_replacing(folder: &Path, path: &Path, what: &str) -> Result<(), Stop> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let is_there = || {
-        let parent = path.parent().filter(|parent| *parent != Path::new(""));
-        output::is_same_file(folder, parent.unwrap_or(Path::new(".")))
-    };
-    let is_piece = name.starts_with("piece_") && name.ends_with(".obj");
-    if (is_piece || name == LIST) && is_there() {
+    let is_piece = |name: &str| name.starts_with("piece_") && name.ends_with(".obj");
+    if files::is_in(folder, path, |name| is_piece(name) || name == LIST) {
         let message = format!("a piece would replace {what}, `{}`", path.display());
         let fault = Fault::error("E-USAGE", message);
         let fault = fault.help("write pieces into a folder of their own");

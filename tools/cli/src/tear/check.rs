@@ -78,8 +78,7 @@ fn forces(args: &TearArgs) -> Result<(), Stop> {
         return refuse(message, "write the forces to another file");
     }
     files::keep(&args.files, Some(path), "the table of forces")?;
-    let unwritable = |error| Stop::new(Exit::Output, output::cannot_write(path, &error));
-    output::check(path).map_err(unwritable)
+    output::check(path).map_err(|error| files::unwritable(path, &error))
 }
 
 fn range(

@@ -17,8 +17,9 @@ use tearmesh_obj::{TornDocument, WriteSummary};
 use super::points::places;
 use crate::args::{TearArgs, Topology};
 use crate::exit::{Exit, Stop};
+use crate::files::unwritable;
 use crate::say::Fault;
-use crate::{output, report};
+use crate::{files, output, report};
 
 /// How many frames a second.
 pub(super) const RATE_PER_S: f64 = 30.0;
@@ -252,18 +253,10 @@ fn name(number: usize) -> String {
     format!("frame_{number:05}.obj")
 }
 
-fn unwritable(path: &Path, error: &io::Error) -> Stop {
-    Stop::new(Exit::Output, output::cannot_write(path, error))
-}
-
 /// Refuses a file that a frame would replace.
 fn refuse_replacing(folder: &Path, path: &Path, what: &str) -> Result<(), Stop> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let is_there = || {
-        let parent = path.parent().filter(|parent| *parent != Path::new(""));
-        output::is_same_file(folder, parent.unwrap_or(Path::new(".")))
-    };
-    if name.starts_with("frame_") && name.ends_with(".obj") && is_there() {
+    let is_frame = |name: &str| name.starts_with("frame_") && name.ends_with(".obj");
+    if files::is_in(folder, path, is_frame) {
         let message = format!("a frame would replace {what}, `{}`", path.display());
         let fault = Fault::error("E-USAGE", message);
         let fault = fault.help("write frames into a folder of their own");

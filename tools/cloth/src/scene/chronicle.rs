@@ -6,13 +6,9 @@ use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
 
 use super::run::{Run, Step};
-use super::{Hold, Method};
+use super::{FRAME_S, Hold, Method};
 use crate::balance::WIND_S;
 use crate::force;
-
-/// Forces are means over this time, in seconds: a frame. Those of single steps are as much the
-/// method's as the cloth's.
-pub const FRAME_S: f64 = 1.0 / 60.0;
 
 /// A step in which something tore.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +47,8 @@ pub struct HoldForces {
 
 /// The chronicle of a run, for who notes each step in it.
 ///
-/// Forces are what the method exerts: force times way is the work of the hands that lead, by every method
+/// Forces are means over a [`FRAME_S`], since those of single steps are as much the method's as the
+/// cloth's. They are what the method exerts: force times way is the work of the hands that lead, by every method
 /// but Provot's. Its limiter moves particles without a force, so by it none are known.
 ///
 /// It costs the valence of what is held, a step; where wind blows, a pass over all faces a millisecond

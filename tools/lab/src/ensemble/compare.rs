@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::random::Random;
+use crate::sample::{median, point};
 
 /// What can be said of two ensembles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -62,7 +63,7 @@ pub fn compare(first: &[f64], second: &[f64]) -> Comparison {
     let mut random = Random(2014);
     let mut drawn = |of: &[f64]| {
         let draw: Vec<f64> = (0..of.len()).map(|_| of[random.below(of.len())]).collect();
-        median(draw)
+        median(draw).expect("a draw is as large as its sample")
     };
     let mut ratios: Vec<f64> = (0..DRAWS)
         .map(|_| ratio(drawn(first), drawn(second)))
@@ -77,8 +78,9 @@ pub fn compare(first: &[f64], second: &[f64]) -> Comparison {
     } else {
         Verdict::CannotTell
     };
+    let whole = [first, second].map(|of| median(of.to_vec()).expect("numbers to compare"));
     Comparison {
-        ratio: ratio(median(first.to_vec()), median(second.to_vec())),
+        ratio: ratio(whole[0], whole[1]),
         interval,
         verdict,
     }
@@ -97,23 +99,5 @@ fn ratio(first: f64, second: f64) -> f64 {
 pub fn spread(numbers: &[f64]) -> [f64; 3] {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
-    [0.1, 0.5, 0.9].map(|part| point(&sorted, part))
-}
-
-fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_by(f64::total_cmp);
-    point(&numbers, 0.5)
-}
-
-fn point(sorted: &[f64], part: f64) -> f64 {
-    let last = sorted.len().checked_sub(1).expect("a sample of something");
-    let place = part * last as f64;
-    let (below, above) = (
-        sorted[place.floor() as usize],
-        sorted[place.ceil() as usize],
-    );
-    if below == above {
-        return below; // Infinities as well.
-    }
-    below + (above - below) * place.fract()
+    [0.1, 0.5, 0.9].map(|part| point(&sorted, part).expect("a sample of something"))
 }

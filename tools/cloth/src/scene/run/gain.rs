@@ -9,7 +9,7 @@
 //! energy is looked at, at every frame of 1/60 s; see [`EnergyBalance`].
 
 use crate::balance::EnergyBalance;
-use crate::scene::Method;
+use crate::scene::{FRAME_S, Method};
 use crate::system::System;
 
 /// Energy that the method made out of nothing.
@@ -42,9 +42,6 @@ impl Watch {
     /// per cent are in those; a quarter is beyond any of it.
     const SHARE: f64 = 0.25;
 
-    /// How far apart the looks are, in seconds.
-    const FRAME_S: f64 = 1.0 / 60.0;
-
     /// What rounding may make of the energy ½ k L² that all springs would have without length.
     const ROUNDING: f64 = 1e-9;
 
@@ -55,7 +52,7 @@ impl Watch {
             0.5 * spring.stiffness_n_per_m * spring.rest_length_m * spring.rest_length_m
         });
         Watch {
-            every: (Watch::FRAME_S / step_s).round().max(1.0) as u64,
+            every: (FRAME_S / step_s).round().max(1.0) as u64,
             least_j: Watch::ROUNDING * collapsed.sum::<f64>(),
             // A method that projects with few sweeps leaves lengths that it has no force for.
             has_lengths: !matches!(method, Method::Pbd(_) | Method::Xpbd(_)),

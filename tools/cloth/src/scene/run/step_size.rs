@@ -1,13 +1,10 @@
 //! Which step suits a scene, and how soft a method that sweeps is at the one it has.
 
 use super::engine::Engine;
-use crate::scene::{Method, Scene};
+use crate::scene::{FRAME_S, Method, Scene};
 use crate::sheet::Cloth;
 use crate::stability;
 use crate::system::System;
-
-/// Frames of films and screens are whole parts of this, in seconds.
-const FRAME_S: f64 = 1.0 / 60.0;
 
 /// The longest step in seconds that is chosen for any scene.
 const LONGEST_S: f64 = FRAME_S / 2.0;
