@@ -161,12 +161,8 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        let link = h.of(&self.link);
-        if link.is_torn() {
-            None
-        } else {
-            link.opposite()
-        }
+        let link = h.of(&self.link).0;
+        (link < Link::TORN).then(|| HalfEdgeId::from_u32(link))
     }
 
     /// The half-edge that was the pair of `h` before the edge between them was torn
@@ -243,8 +239,14 @@ impl Mesh {
     /// half-edge without a pair. A torn edge is two edges.
     #[must_use]
     pub fn edges(&self) -> impl FusedIterator<Item = HalfEdgeId> + Clone + '_ {
-        self.half_edges()
-            .filter(|&h| self.pair(h).is_none_or(|pair| h < pair))
+        self.half_edges().filter(|&h| self.is_edge(h))
+    }
+
+    /// Whether a half-edge is the one by which [`Mesh::edges`] lists its edge.
+    #[inline]
+    pub(crate) fn is_edge(&self, h: HalfEdgeId) -> bool {
+        // A link that is torn, and that of a boundary, is larger than any half-edge.
+        h.of(&self.link).0 > h.to_u32()
     }
 
     /// Makes room for `vertices` more vertices, so that as many splits

@@ -16,6 +16,7 @@ mod outcome;
 mod paper;
 mod partition;
 mod pieces;
+mod quality;
 mod seam;
 mod strip;
 mod unshare;
@@ -367,8 +368,8 @@ impl Scissor {
         Ok(())
     }
 
-    /// Cuts a mesh like [`Scissor::cut`], and measures what was done: that looks at the whole mesh
-    /// before and after, and takes up to twice as long as the cut and a walk over all components together.
+    /// Cuts a mesh like [`Scissor::cut`], and measures what was done: that looks at the whole mesh, and
+    /// adds to the cut what another one and a walk over all components would take together.
     ///
     /// # Errors
     ///

@@ -10,7 +10,9 @@ use tearmesh::{
 
 use crate::oracle::straight::{Cut, Surface, judge, judge_polyline};
 use crate::random::Random;
-use crate::straight::{Rays, built, cases, random_generic_rays, said, surface, surfaces};
+use crate::straight::{
+    Rays, built, cases, is_worst_of_faces, random_generic_rays, said, surface, surfaces,
+};
 use crate::straight_polylines::{random_corners, sheets};
 
 /// A mesh and all that follows it, in a cut.
@@ -164,7 +166,8 @@ fn cuts_across_cuts_satisfy_the_oracle_and_can_be_mended() {
                     .half_edges()
                     .filter(|&h| cutting.mesh.ghost_pair(h).is_some())
                     .count();
-                cutting.cut(&scissor(rays).through(cut.sides.is_empty()).snap(0.0));
+                let report = cutting.cut(&scissor(rays).through(cut.sides.is_empty()).snap(0.0));
+                is_worst_of_faces(&report, &cutting.mesh, &cutting.positions, name);
                 torn_edges_crossed += usize::from(ghosts > 0);
                 if let Err(faults) = judge(&before, &cut, &cutting.surface()) {
                     panic!("{name}: {}", said(&faults));

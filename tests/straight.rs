@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
-use tearmesh::{Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
+use tearmesh::{CutReport, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
 use crate::oracle::naive_cut;
 use crate::oracle::spoil::{BUGS, Bug, spoil};
@@ -349,4 +349,29 @@ fn what_the_naive_implementation_makes_is_a_mesh() {
         assert_eq!(mesh.check(), []);
         assert_eq!(mesh.components().count(), facts.pieces);
     }
+}
+
+/// Asserts that the smallest angle and the smallest altitude reported are those of a plain loop.
+pub(crate) fn is_worst_of_faces(
+    report: &CutReport,
+    mesh: &Mesh,
+    positions: &Positions,
+    name: &str,
+) {
+    let (mut angle, mut altitude) = (f64::INFINITY, f64::INFINITY);
+    for f in mesh.faces() {
+        let corners = mesh.face_vertices(f).map(|v| positions.at(v));
+        for i in 0..3 {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3]);
+            angle = angle.min((b - a).angle(&(c - a)).to_degrees());
+            let (along, across) = ((b - a).normalize(), c - a);
+            altitude = altitude.min((across - along * across.dot(&along)).norm());
+        }
+    }
+    let told = [report.angle_min_deg, report.altitude_min];
+    assert!((told[0] - angle).abs() < 1e-5, "{name}: {told:?}, {angle}");
+    assert!(
+        (told[1] - altitude).abs() < 1e-9,
+        "{name}: {told:?}, {altitude}"
+    );
 }

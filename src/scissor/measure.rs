@@ -9,9 +9,10 @@
 use super::exact::Way;
 use super::outcome::{Outcome, side_of};
 use super::pieces::Census;
+use super::quality::{MARGIN, Quality, squares_of_sides};
 use super::seam::Nodes;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
-use crate::geometry::{Point, Side, altitude, angle, cross, dot, length};
+use crate::geometry::{Point, Side, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -82,6 +83,8 @@ pub(super) struct Survey<'w> {
     pieces_before: usize,
     pieces_expected: usize,
     mean_edge: f64,
+    /// Of the faces that no cut changes: those far from the plane.
+    quality_far_away: Quality,
     nearest_vertex: f64,
 }
 
@@ -97,6 +100,7 @@ impl<'w> Survey<'w> {
         let joints = way.joints.iter().flatten();
         touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
         let census = Census::new(mesh, &touched);
+        let (mean_edge, quality_far_away) = edges_and_far_faces(mesh, positions, &census);
         let mut survey = Survey {
             way,
             pieces_before: census.before(mesh),
@@ -105,7 +109,8 @@ impl<'w> Survey<'w> {
             faces_crossed: 0,
             slit_length: 0.0,
             pieces_expected: 0,
-            mean_edge: mean_edge(mesh, positions),
+            mean_edge,
+            quality_far_away,
             nearest_vertex: nearest_vertex(way, mesh, positions),
         };
         survey.follow_slit(mesh, positions);
@@ -244,7 +249,13 @@ impl<'w> Survey<'w> {
         let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
         let mut ends: Vec<VertexId> = Vec::new();
         let pieces = self.census.after(mesh);
-        let (angle_min_deg, altitude_min) = quality(mesh, positions);
+        let mut quality = self.quality_far_away.clone();
+        for f in self.census.near_now(mesh) {
+            let corners = mesh.face_vertices(f).map(|v| positions.at(v));
+            if !quality.is_surely_better(squares_of_sides(corners)) {
+                quality.add(corners);
+            }
+        }
         let mut splits = 0;
         let mut vertices_inserted = 0;
         let mut seam_length = 0.0;
@@ -291,8 +302,8 @@ impl<'w> Survey<'w> {
             seam_deviation_max,
             seam_deviation_max_edges: ratio(seam_deviation_max, self.mean_edge),
             vertices_inserted,
-            angle_min_deg,
-            altitude_min,
+            angle_min_deg: quality.angle_min_deg(),
+            altitude_min: quality.altitude_min(),
             missed: self.slit.is_empty(),
             nearest_vertex: self.nearest_vertex,
             tip_overshoots: self.overshoots(mesh, positions, ends),
@@ -335,19 +346,17 @@ impl<'w> Survey<'w> {
         unjudged.sort_unstable();
         let is_tip = |v: VertexId| unjudged.binary_search(&v).is_ok();
         let label = |h: HalfEdgeId| side_of(&outcome.judged, h.face());
-        // A walk round each vertex would cost a hub the square of its faces.
-        let judged = outcome.judged.iter();
-        let sides = judged.filter_map(|&(f, side)| Some((f, side?)));
-        let corners = sides.flat_map(|(f, side)| mesh.face_vertices(f).map(|v| (v, side)));
-        let mut corners: Vec<(VertexId, Side)> = corners.collect();
-        corners.sort_unstable();
-        corners.dedup();
-        let of_both = corners.windows(2).filter(|two| two[0].0 == two[1].0);
-        let of_both: Vec<VertexId> = of_both.map(|two| two[0].0).collect();
+        // By vertex, a bit for each side on which it has a face: a walk round each vertex would cost a
+        // hub the square of its faces.
+        let mut sides_of = vec![0u8; mesh.vertex_count()];
+        for &(f, side) in &outcome.judged {
+            let bit = side.map_or(0, |side| 1 << side as u8);
+            for v in mesh.face_vertices(f) {
+                sides_of[v.index()] |= bit;
+            }
+        }
         let shared_vertex = |v: VertexId| {
-            of_both.binary_search(&v).is_ok()
-                && !is_tip(v)
-                && strip.depth(positions.at(v), bound) > 0.0
+            sides_of[v.index()] == 0b11 && !is_tip(v) && strip.depth(positions.at(v), bound) > 0.0
         };
         let shared_edge = |h: HalfEdgeId| {
             let Some(pair) = mesh.pair(h) else {
@@ -376,13 +385,26 @@ fn ends_of(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> [Point; 2] {
     [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v))
 }
 
-fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for h in mesh.edges() {
-        sum += length(positions.at(mesh.target(h)) - positions.at(mesh.origin(h)));
-        count += 1.0;
+/// The mean length of the edges, and the worst of the faces that the cut is far from.
+fn edges_and_far_faces(mesh: &Mesh, positions: &Positions, census: &Census) -> (f64, Quality) {
+    let (mut sum, mut count) = (0.0, 0u32);
+    let mut quality = Quality::OF_NOTHING;
+    let places = positions.as_slice();
+    for (f, triangle) in mesh.faces().zip(mesh.indices().as_chunks::<3>().0) {
+        let corners = || triangle.map(|v| places[v as usize]);
+        let squares = squares_of_sides(corners());
+        let [ab, bc, ca] = f.half_edges().map(|h| mesh.is_edge(h));
+        count += u32::from(ab) + u32::from(bc) + u32::from(ca);
+        for (is_edge, square) in [(ab, squares[0]), (bc, squares[1]), (ca, squares[2])] {
+            if is_edge {
+                sum += square.sqrt();
+            }
+        }
+        if !census.is_near(f) && !quality.is_surely_better(squares) {
+            quality.add(corners());
+        }
     }
-    if count > 0.0 { sum / count } else { 0.0 }
+    (sum / f64::from(count.max(1)), quality)
 }
 
 /// How far the vertex nearest to the slit is from it.
@@ -405,59 +427,4 @@ fn nearest_vertex(way: &Way<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
         offset_max = least * plane.offset_of_unit() * (1.0 + MARGIN);
     }
     least
-}
-
-/// By what part rounding makes nothing larger that was not: far more than it does.
-const MARGIN: f64 = 1e-6;
-
-/// The smallest angle in degrees and the smallest altitude of any face; zeros for a
-/// mesh without faces.
-fn quality(mesh: &Mesh, positions: &Positions) -> (f64, f64) {
-    // The smallest angle has the largest cotangent, which needs no arc function.
-    let mut cotangent_max = (f64::NEG_INFINITY, (0.0, 0.0));
-    let mut altitude_min = f64::INFINITY;
-    for f in mesh.faces() {
-        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
-        let sides = [b - a, c - b, a - c];
-        // Roots and quotients are for the few faces that could be the worst, and for those that are
-        // so small that their squares vanish.
-        let normal = cross(sides[0], sides[2]);
-        let twice_area = dot(normal, normal);
-        let squares = sides.map(|side| dot(side, side));
-        let longest = squares[0].max(squares[1]).max(squares[2]);
-        let shortest = squares[0].min(squares[1]).min(squares[2]);
-        let sum = squares[0] + squares[1] + squares[2];
-        // The product of the two longer sides, by the law of cosines.
-        let along_max = sum * (0.5 + MARGIN) - shortest;
-        let steepest = cotangent_max.0.max(0.0);
-        if twice_area > f64::MIN_POSITIVE / f64::EPSILON
-            && twice_area > altitude_min * altitude_min * longest * (1.0 + MARGIN)
-            && twice_area * steepest * steepest > along_max * along_max
-        {
-            continue;
-        }
-        altitude_min = altitude_min.min(altitude([a, b, c]));
-        for (one, other) in [(0, 2), (1, 0), (2, 1)] {
-            let along = dot(sides[one], -sides[other]);
-            let across = length(cross(sides[one], -sides[other]));
-            let cotangent = if across > 0.0 {
-                along / across
-            } else if along >= 0.0 {
-                f64::INFINITY
-            } else {
-                f64::NEG_INFINITY
-            };
-            if cotangent > cotangent_max.0 {
-                cotangent_max = (cotangent, (along, across));
-            }
-        }
-    }
-    if altitude_min == f64::INFINITY {
-        return (0.0, 0.0);
-    }
-    let (along, across) = cotangent_max.1;
-    (
-        angle(along, across) * (180.0 / std::f64::consts::PI),
-        altitude_min,
-    )
 }

@@ -18,7 +18,8 @@ use crate::sets::DisjointSets;
 
 /// The faces near the plane, and the parts of the rest that hang together.
 pub(super) struct Census {
-    /// The part of each face that is far away; NEAR of the others.
+    /// By face, the part that it is in if it is far away; `parts` and more of those near the plane, in
+    /// their order.
     part: Vec<u32>,
     parts: u32,
     /// Ascending.
@@ -31,46 +32,63 @@ const UNSEEN: u32 = u32::MAX - 1;
 impl Census {
     /// Looks at a mesh that is to be cut where `touched` faces are. Linear.
     pub(super) fn new(mesh: &Mesh, touched: &[FaceId]) -> Census {
-        // An insertion divides the faces on both sides of a torn edge.
-        let across = |h: HalfEdgeId| mesh.ghost_pair(h).map(HalfEdgeId::face);
-        let half_edges = touched.iter().flat_map(|f| f.half_edges());
-        let mut near = round(mesh, touched, mesh.faces());
-        near.extend(half_edges.filter_map(across));
-        near.sort_unstable();
-        near.dedup();
-        let mut census = Census {
-            part: vec![UNSEEN; mesh.face_count()],
-            parts: 0,
-            near,
+        let is_marked = corners(mesh, touched);
+        let triangles = mesh.indices().as_chunks::<3>().0.iter();
+        let is_round = |&[a, b, c]: &[u32; 3]| {
+            is_marked[a as usize] | is_marked[b as usize] | is_marked[c as usize]
         };
-        for f in &census.near {
-            census.part[f.index()] = NEAR;
+        let mut is_near: Vec<bool> = triangles.map(is_round).collect();
+        // An insertion divides the faces on both sides of a torn edge.
+        let half_edges = touched.iter().flat_map(|f| f.half_edges());
+        for across in half_edges.filter_map(|h| mesh.ghost_pair(h)) {
+            is_near[across.face().index()] = true;
         }
+        let near: Vec<FaceId> = mesh.faces().filter(|f| is_near[f.index()]).collect();
+        let mark = |&is_near: &bool| if is_near { NEAR } else { UNSEEN };
+        let mut part: Vec<u32> = is_near.iter().map(mark).collect();
+        let mut parts = 0;
         let mut stack = Vec::new();
         for seed in mesh.faces() {
-            if census.part[seed.index()] != UNSEEN {
+            if part[seed.index()] != UNSEEN {
                 continue;
             }
-            census.part[seed.index()] = census.parts;
+            part[seed.index()] = parts;
             stack.push(seed);
             while let Some(f) = stack.pop() {
-                for g in mesh.neighbours(f) {
-                    if census.part[g.index()] == UNSEEN {
-                        census.part[g.index()] = census.parts;
-                        stack.push(g);
+                for h in f.half_edges() {
+                    let Some(pair) = mesh.pair(h) else { continue };
+                    let of_neighbour = &mut part[pair.face().index()];
+                    if *of_neighbour == UNSEEN {
+                        *of_neighbour = parts;
+                        stack.push(pair.face());
                     }
                 }
             }
-            census.parts += 1;
+            parts += 1;
         }
-        census
+        for (f, node) in near.iter().zip(parts..) {
+            part[f.index()] = node;
+        }
+        Census { part, parts, near }
     }
 
     /// The faces that share a vertex with some that the cut met, once vertices are inserted;
     /// ascending.
     pub(super) fn round(&self, mesh: &Mesh, met: &[FaceId]) -> Vec<FaceId> {
-        let new = (self.part.len()..mesh.face_count()).filter_map(FaceId::new);
-        round(mesh, met, self.near.iter().copied().chain(new))
+        let is_marked = corners(mesh, met);
+        let is_round = |&f: &FaceId| mesh.face_vertices(f).iter().any(|v| is_marked[v.index()]);
+        self.near_now(mesh).filter(is_round).collect()
+    }
+
+    /// Whether a cut may change a face, or vertices of it.
+    pub(super) fn is_near(&self, f: FaceId) -> bool {
+        self.part[f.index()] >= self.parts
+    }
+
+    /// The faces near the plane, and those made since the census; ascending.
+    pub(super) fn near_now(&self, mesh: &Mesh) -> impl Iterator<Item = FaceId> {
+        let made = (self.part.len()..mesh.face_count()).filter_map(FaceId::new);
+        self.near.iter().copied().chain(made)
     }
 
     /// The pieces of the mesh as it was looked at.
@@ -102,13 +120,10 @@ impl Census {
 
     /// The number of a face, where each near the plane has so many, from 0.
     fn node(&self, f: FaceId, each: u32, which: u32) -> u32 {
-        match self.part[f.index()] {
-            NEAR => {
-                let at = self.near.binary_search(&f);
-                let at = at.expect("what a cut changes is near the plane");
-                self.parts + each * at as u32 + which
-            }
-            part => part,
+        let part = self.part[f.index()];
+        match part.checked_sub(self.parts) {
+            Some(at) => self.parts + each * at + which,
+            None => part,
         }
     }
 
@@ -124,28 +139,27 @@ impl Census {
         is_slit_along: impl Fn(HalfEdgeId) -> bool,
     ) -> usize {
         let signs = |f: FaceId| mesh.face_vertices(f).map(&sign);
-        let is_crossed = |f: FaceId| {
-            let signs = signs(f);
-            signs.iter().any(|&d| d < 0.0) && signs.iter().any(|&d| d > 0.0)
-        };
         // Of a face that is not crossed; one that lies on the plane is in front.
-        let lone_side = |f: FaceId| Side::of(signs(f).into_iter().fold(0.0, f64::min));
+        let lone_side = |signs: [f64; 3]| Side::of(signs.into_iter().fold(0.0, f64::min));
         let node = |f: FaceId, side: Side| self.node(f, 2, side as u32);
         let mut sets = DisjointSets::new(self.parts + 2 * self.near.len() as u32);
         let mut missing = 0;
         for &f in &self.near {
-            match (is_crossed(f), is_slit(f)) {
-                (true, true) => {}
-                (true, false) => sets.join(node(f, Side::Front), node(f, Side::Back)),
-                (false, _) => missing += 1, // It has one part.
+            let of_corners = signs(f);
+            let is_crossed =
+                of_corners.iter().any(|&d| d < 0.0) && of_corners.iter().any(|&d| d > 0.0);
+            match is_crossed {
+                true if is_slit(f) => {}
+                true => sets.join(node(f, Side::Front), node(f, Side::Back)),
+                false => missing += 1, // It has one part.
             }
-            for h in f.half_edges() {
+            for (h, i) in f.half_edges().into_iter().zip(0..) {
                 let Some(g) = mesh.pair(h).map(HalfEdgeId::face) else {
                     continue;
                 };
-                let ends = [mesh.origin(h), mesh.target(h)].map(&sign);
+                let ends = [of_corners[i], of_corners[(i + 1) % 3]];
                 if ends == [0.0; 2] && !is_slit_along(h) {
-                    sets.join(node(f, lone_side(f)), node(g, lone_side(g)));
+                    sets.join(node(f, lone_side(of_corners)), node(g, lone_side(signs(g))));
                 }
                 if ends.iter().any(|&d| d > 0.0) {
                     sets.join(node(f, Side::Front), node(g, Side::Front));
@@ -159,13 +173,12 @@ impl Census {
     }
 }
 
-/// Those of some faces that share a vertex with some others. Walks round a hub that is torn would
-/// cost the square of its faces.
-fn round(mesh: &Mesh, others: &[FaceId], of: impl Iterator<Item = FaceId>) -> Vec<FaceId> {
-    let mut marked = vec![false; mesh.vertex_count()];
-    for v in others.iter().flat_map(|&f| mesh.face_vertices(f)) {
-        marked[v.index()] = true;
+/// Whether each vertex is a corner of one of these faces. A walk round a hub that is torn would cost
+/// the square of its faces.
+fn corners(mesh: &Mesh, faces: &[FaceId]) -> Vec<bool> {
+    let mut is_corner = vec![false; mesh.vertex_count()];
+    for v in faces.iter().flat_map(|&f| mesh.face_vertices(f)) {
+        is_corner[v.index()] = true;
     }
-    let is_round = |&f: &FaceId| mesh.face_vertices(f).iter().any(|v| marked[v.index()]);
-    of.filter(is_round).collect()
+    is_corner
 }
