@@ -8,7 +8,7 @@ mod tables;
 mod ways;
 
 use crate::irregular::{self, Sheet};
-use crate::measure::{Contestant, median_seconds, rounds};
+use crate::measure::{Contestant, median_seconds, rounds, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 use facts::{Facts, mean_edge};
@@ -93,6 +93,12 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
             run,
         });
     }
+    let walk = |(mesh, _): &Sheet| Some(timed_on_cpu(|| mesh.components().count()).1);
+    contestants.push(Contestant {
+        name: "components",
+        note: "one walk over all: a report may add this and a cut",
+        run: &walk,
+    });
     for ((rival, _), run) in rivals.iter().zip(&theirs) {
         contestants.push(Contestant {
             name: rival.name,
