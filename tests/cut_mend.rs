@@ -6,8 +6,8 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Cursor, CutEnd, CutMethod, Edits, FaceId, Masses, Mesh, PerCorner, Point, Positions, Ray,
-    Scissor, Vector, VertexId, mend,
+    Cursor, CutEnd, CutLayers, CutMethod, Edits, FaceId, Masses, Mesh, PerCorner, Point, Positions,
+    Ray, Scissor, Vector, VertexId, mend,
 };
 
 /// A mesh, and what is done to it.
@@ -22,6 +22,7 @@ pub(crate) struct Case {
 enum Step {
     Cut {
         rays: [[Point; 2]; 2],
+        span: Span,
         method: CutMethod,
         snap: f64,
         snap_move: bool,
@@ -33,10 +34,24 @@ enum Step {
     Mend { near: u8, radius: f64 },
 }
 
+/// What rays stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Span {
+    /// Two rays, and all that their plane meets between them.
+    All,
+    /// Two rays, and what they see of it first.
+    First,
+    /// The plane alone.
+    Plane,
+}
+
 /// What was done.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Done {
     pub(crate) cuts: usize,
+    /// Cuts that split something: by a plane alone, and of what rays see first.
+    pub(crate) by_planes: usize,
+    pub(crate) of_first: usize,
     pub(crate) inserted: usize,
     pub(crate) splits: usize,
     pub(crate) merges: usize,
@@ -115,6 +130,11 @@ impl Step {
         };
         Step::Cut {
             rays,
+            span: match j / 3 % 8 {
+                1 => Span::Plane,
+                4 | 7 => Span::First,
+                _ => Span::All,
+            },
             method: [
                 CutMethod::Exact,
                 CutMethod::Exact,
@@ -174,6 +194,7 @@ impl World {
         match step {
             Step::Cut {
                 rays,
+                span,
                 method,
                 snap,
                 snap_move,
@@ -190,6 +211,11 @@ impl World {
                     _ => Scissor::new(a, b),
                 };
                 let Ok(scissor) = scissor else { return };
+                let scissor = match span {
+                    Span::All => scissor,
+                    Span::First => scissor.layers(CutLayers::First),
+                    Span::Plane => Scissor::by_plane(scissor.plane()),
+                };
                 let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
                 let first = self.edits.cursor();
                 let pieces_before = self.mesh.components().count();
@@ -210,6 +236,15 @@ impl World {
                 self.count(first);
                 self.done.told.cuts += 1;
                 self.done.told.splits += report.splits;
+                let splits = usize::from(report.splits > 0);
+                match span {
+                    Span::All => {}
+                    Span::First => self.done.told.of_first += splits,
+                    Span::Plane => self.done.told.by_planes += splits,
+                }
+                if report.splits == 0 && report.vertices_inserted == 0 {
+                    assert_eq!(self.edits.since(first).len(), 0, "nothing is cut");
+                }
                 self.done.told.inserted += report.vertices_inserted;
                 assert_eq!(report.pieces_before, pieces_before);
                 assert_eq!(report.pieces, self.mesh.components().count());

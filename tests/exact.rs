@@ -421,11 +421,14 @@ fn random_cuts_of_all_methods_can_be_mended() {
             panic!("{bytes:?}: {:?}", crate::cut_mend::Case::from_bytes(&bytes));
         };
         done.cuts += one.cuts;
+        done.by_planes += one.by_planes;
+        done.of_first += one.of_first;
         done.inserted += one.inserted;
         done.splits += one.splits;
         done.merges += one.merges;
     }
     println!("{done:?}");
+    assert!(done.by_planes >= 500 && done.of_first >= 500);
 }
 
 /// A slit that ends inside a sheet is one slit of about the right length, whatever was snapped: a
