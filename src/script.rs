@@ -109,12 +109,65 @@
 //! ```
 //!
 //! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. When
-//! it fails, the message ends with the script as text: put that into a regression test, and run it
-//! with `text.parse::<Script>()`. The folder `fuzz` of this library's repository runs its targets
-//! on the stable toolchain (`fuzz/run`), and can be copied.
+//! it fails, [`Script::shrink`] leaves the few lines that matter; the message ends with the script as
+//! text, which goes into a regression test and is run there with `text.parse::<Script>()`. The folder
+//! `fuzz` of this library's repository runs its targets on the stable toolchain (`fuzz/run`), and
+//! can be copied.
+//!
+//! # Drive a mesh kernel of your own
+//!
+//! A script needs no follower: each [`Step`] says what was asked and what came of it, so another
+//! kernel can be asked the same and compared. Leave out the operations that yours does not have.
+//!
+//! ```
+//! use tearmesh::script::{Operation, Script, Step};
+//!
+//! /// Your kernel: here, triangles of which some can get a vertex of their own.
+//! struct Triangles { corners: Vec<[u32; 3]>, vertices: u32 }
+//!
+//! impl Triangles {
+//!     /// The new vertex; none if no face of the vertex would move, or none stay.
+//!     fn split(&mut self, vertex: u32, moving: &[usize]) -> Option<u32> {
+//!         let faces = (0..self.corners.len()).filter(|&f| self.corners[f].contains(&vertex));
+//!         let (moves, stays): (Vec<_>, Vec<_>) = faces.partition(|f| moving.contains(f));
+//!         if moves.is_empty() || stays.is_empty() {
+//!             return None;
+//!         }
+//!         for f in moves {
+//!             let new = self.vertices;
+//!             self.corners[f] = self.corners[f].map(|v| if v == vertex { new } else { v });
+//!         }
+//!         self.vertices += 1;
+//!         Some(self.vertices - 1)
+//!     }
+//! }
+//!
+//! pub fn check_splits(script: &Script) {
+//!     let known = |operation: &Operation| matches!(operation, Operation::Split { .. });
+//!     let mut script = script.clone();
+//!     script.operations.retain(known);
+//!     let mut mine: Option<Triangles> = None;
+//!     script.run(|world, step| {
+//!         let theirs = world.mesh.indices().as_chunks::<3>().0;
+//!         let vertices = world.mesh.vertex_count() as u32;
+//!         let mine = mine.get_or_insert_with(|| Triangles { corners: theirs.to_vec(), vertices });
+//!         if let Step::Split { vertex, faces, outcome: Ok(_) } = step {
+//!             let faces: Vec<usize> = faces.iter().map(|f| f.index()).collect();
+//!             mine.split(vertex.index() as u32, &faces);
+//!         }
+//!         assert_eq!(mine.corners, theirs, "after {step:?} of\n{script}");
+//!     });
+//! }
+//!
+//! for seed in 0..200_u8 {
+//!     let bytes: Vec<u8> = (0..100).map(|i: u8| seed.wrapping_mul(i).rotate_left(3) ^ i).collect();
+//!     check_splits(&Script::from_bytes(&bytes));
+//! }
+//! ```
 
 mod bytes;
 mod shape;
+mod shrink;
 mod text;
 mod triangles;
 mod world;

@@ -33,6 +33,7 @@ mod random;
 mod rays;
 mod same_bytes;
 mod scissor;
+mod shrink;
 mod straight;
 mod straight_polylines;
 mod tear;

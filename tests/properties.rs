@@ -1,6 +1,7 @@
 //! Properties of random scripts and of random triangle lists.
 
 use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestError, TestRunner};
@@ -20,20 +21,50 @@ fn for_all<S: Strategy>(strategy: &S, property: impl Fn(S::Value)) -> u32
 where
     S::Value: std::fmt::Display,
 {
+    match run(strategy, Config::default().max_shrink_iters, property) {
+        Ok(cases) => cases,
+        Err((reason, case)) => panic!("{reason}\nthe smallest failing case:\n{case}"),
+    }
+}
+
+/// Runs a property on random scripts. What fails is made small by [`Script::shrink`], which knows what a
+/// script is.
+fn for_all_scripts(property: impl Fn(&Script)) -> u32 {
+    let failed = match run(&scripts(), 0, |script| property(&script)) {
+        Ok(cases) => return cases,
+        Err((_, script)) => script,
+    };
+    let least = failed.shrink(|script| {
+        let property = AssertUnwindSafe(|| property(script));
+        catch_unwind(property).is_err()
+    });
+    println!("the least script that fails:\n{least}");
+    property(&least);
+    panic!("fails at times only:\n{failed}");
+}
+
+/// The number of cases, or why one failed, and that one.
+fn run<S: Strategy>(
+    strategy: &S,
+    max_shrink_iters: u32,
+    property: impl Fn(S::Value),
+) -> Result<u32, (String, S::Value)> {
     let cases = cases(CASES.into()).try_into().expect("below 2^32");
     let config = Config {
+        cases,
         failure_persistence: None,
-        ..Config::with_cases(cases)
+        max_shrink_iters,
+        ..Config::default()
     };
     let result = TestRunner::new(config).run(strategy, |case| {
         property(case);
         Ok(())
     });
-    if let Err(TestError::Fail(reason, case)) = &result {
-        panic!("{reason}\nthe smallest failing case:\n{case}");
+    match result {
+        Ok(()) => Ok(cases),
+        Err(TestError::Fail(reason, case)) => Err((reason.to_string(), case)),
+        Err(error) => panic!("{error}"),
     }
-    result.unwrap_or_else(|error| panic!("{error:?}"));
-    cases
 }
 
 /// Scripts of up to 60 operations. Shape and operations have bytes of their own, so that a
@@ -57,8 +88,8 @@ fn scripts() -> impl Strategy<Value = Script> {
 #[test]
 fn every_step_agrees_with_the_oracle() {
     let sum = Cell::new(Done::default());
-    let cases = for_all(&scripts(), |script| {
-        let (done, more) = (sum.get(), lockstep::check(&script));
+    let cases = for_all_scripts(|script| {
+        let (done, more) = (sum.get(), lockstep::check(script));
         sum.set(Done {
             splits: done.splits + more.splits,
             insertions: done.insertions + more.insertions,
