@@ -21,6 +21,7 @@ mod memory;
 mod numbers;
 mod odd;
 mod pareto;
+mod pictures;
 mod pieces;
 mod places;
 mod step;

@@ -239,6 +239,7 @@ impl Play<'_> {
         let positions = places(&run)?;
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
+        session.show_mesh(run.mesh(), &positions, self.frame.up.vector())?;
         if let Some(path) = self
             .args
             .forces
