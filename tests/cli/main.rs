@@ -3,6 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod cache;
 mod check;
 mod cut;
 mod edited;

@@ -208,6 +208,7 @@ impl Play<'_> {
                 _ => None,
             },
             frames: None,
+            cache: None,
         };
         session.faults.extend(words::infeasible(&run));
         session.faults.extend(words::residual(&run));
@@ -269,6 +270,7 @@ impl Play<'_> {
         session.faults.extend(shown.warnings);
         if let Some(tear) = &mut session.report.tear {
             tear.frames = shown.report;
+            tear.cache = shown.cache;
         }
         if session.exit == Exit::Done && self.guard.is_interrupted() {
             session.exit = Exit::Interrupted;
