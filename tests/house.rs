@@ -15,11 +15,13 @@ const CRATES: &[(&str, &str, usize)] = &[
     ("tools/cloth/src", "lib.rs", 50),
     ("tools/obj/src", "lib.rs", 30),
     ("tools/lab/src", "lib.rs", 4),
+    ("tools/view/src", "lib.rs", 8),
     ("tools/cli/src", "lib.rs", 25),
     ("tools/bench/src", "main.rs", 20),
     ("tests", "main.rs", 30),
     ("tests/cloth", "main.rs", 30),
     ("tests/obj", "main.rs", 12),
+    ("tests/view", "main.rs", 3),
     ("tests/cli", "main.rs", 8),
 ];
 

@@ -11,13 +11,14 @@ use tearmesh_cli::{Exit, Streams, run};
 use tearmesh_obj::Document;
 
 /// Options that take the name of a file. Here each means the standard stream.
-pub(crate) const PATHS: [&str; 7] = [
+pub(crate) const PATHS: [&str; 8] = [
     "--output",
     "--report",
     "--rays-file",
     "--seam",
     "--map",
     "--pieces",
+    "--picture",
     "-o",
 ];
 

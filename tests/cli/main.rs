@@ -3,6 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod cache;
 mod check;
 mod cut;
 mod edited;
@@ -21,6 +22,7 @@ mod memory;
 mod numbers;
 mod odd;
 mod pareto;
+mod pictures;
 mod pieces;
 mod places;
 mod step;

@@ -6,6 +6,7 @@ mod cut;
 mod files;
 mod mend;
 mod read;
+mod render;
 mod tear;
 
 use std::ffi::{OsStr, OsString};
@@ -18,6 +19,7 @@ pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_
 pub(crate) use self::files::{FileArgs, Format};
 pub(crate) use self::mend::MendArgs;
 pub(crate) use self::read::{Gap, numbers};
+pub(crate) use self::render::RenderArgs;
 pub(crate) use self::tear::{TearArgs, Topology};
 
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
@@ -33,6 +35,7 @@ pub(crate) enum Verb {
     Cut(Box<CutArgs>),
     Tear(Box<TearArgs>),
     Mend(MendArgs),
+    Render(Box<RenderArgs>),
     Check(CheckArgs),
     Chart(ChartArgs),
 }

@@ -11,8 +11,8 @@ pub(crate) mod words;
 use std::ffi::OsString;
 use std::path::Path;
 
-use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor};
-use tearmesh_obj::{Repair, TornDocument};
+use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor, Vector};
+use tearmesh_obj::TornDocument;
 
 use self::map::Map;
 use self::nothing::Obstacle;
@@ -48,7 +48,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         document,
         mut mesh,
         mut positions,
-    } = session.open(repair(args), streams)?;
+    } = session.open(session::repair(args.repair, args.separate_fans), streams)?;
     let vertices_before = mesh.vertex_count();
     let mut masses = session::masses(match args.mass {
         Mass::Area => Masses::area(&mesh, &positions, 1.0),
@@ -121,6 +121,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
     }
+    let mut shown = None;
     if let Some(gap) = gap {
         let gapped = gap::gapped(&mesh, &positions, gap);
         session.words.push(words::gap(gap, &gapped));
@@ -130,10 +131,13 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
             vertices_moved: gapped.moved,
             vertices_clamped: gapped.clamped,
         });
+        shown = Some(gapped.points.clone());
         torn.set_apart(gapped.points);
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
+    let shown = shown.as_deref().unwrap_or(positions.as_slice());
+    session.show_mesh(&mesh, shown, Vector::y())?;
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
         files::write_beside(path, |out| seam::write(&seams, out))?;
     }
@@ -297,13 +301,4 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
         return usage(&message, "leave it out: the other methods move no vertex");
     }
     Ok(())
-}
-
-/// What may be done to the input.
-fn repair(args: &CutArgs) -> Option<Repair> {
-    match (args.repair, args.separate_fans) {
-        (true, _) => Some(Repair::All),
-        (false, true) => Some(Repair::SeparateFans),
-        (false, false) => None,
-    }
 }

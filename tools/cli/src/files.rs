@@ -83,21 +83,46 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         let message = "the report would replace the mesh".to_owned();
         return usage(message, "write the report to a file of its own");
     }
+    let mut taken = vec![input, output, report];
+    for (option, path) in seen(args) {
+        let is_taken = taken.iter().any(|&other| same(other, Some(path)));
+        if is_taken || is_stream(path) {
+            let message = format!("`{option}` takes the name of a file of its own");
+            return usage(
+                message,
+                "name a file that nothing else is read from or written to",
+            );
+        }
+        output::check(path).map_err(|error| unwritable(path, &error))?;
+        taken.push(Some(path));
+    }
     Ok(())
+}
+
+/// The files that show the mesh, by their options, as far as they are wanted.
+fn seen(args: &FileArgs) -> impl Iterator<Item = (&'static str, &PathBuf)> {
+    let files = [("--picture", &args.picture)];
+    files
+        .into_iter()
+        .filter_map(|(option, path)| Some((option, path.as_ref()?)))
 }
 
 /// Refuses to write over a file that is read beside the mesh: `what`.
 pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(), Stop> {
     let is_it = |written: &&PathBuf| path.is_some_and(|path| is_same(path, written));
-    let written = [&args.output, &args.report];
-    match written.into_iter().flatten().find(is_it) {
-        Some(written) => {
-            let message = format!("`{}` is {what}, and would be replaced", written.display());
-            let fault = Fault::error("E-USAGE", message).help("write to another file");
-            Err(Stop::new(Exit::Usage, fault))
-        }
+    let written = [&args.output, &args.report].into_iter().flatten();
+    let mut written = written.chain(seen(args).map(|(_, path)| path));
+    match written.find(is_it) {
+        Some(written) => Err(replaced(written, what)),
         None => Ok(()),
     }
+}
+
+/// That a file would be written over that is `what`.
+pub(crate) fn replaced(path: &Path, what: &str) -> Stop {
+    let message = format!("`{}` is {what}, and would be replaced", path.display());
+    let fault = Fault::error("E-USAGE", message).help("write to another file");
+    Stop::new(Exit::Usage, fault)
 }
 
 /// Whether two names are of one file, which need not exist yet.

@@ -2,8 +2,8 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `camera` makes rays of pixels, `scene` reads scenes, `cut`, `tear`,
-//! `mend`, `check` and `chart` carry out the verbs, `session` is what the first three have in
+//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`,
+//! `mend`, `check`, `render` and `chart` carry out the verbs, `picture` draws for them, `session` is what the first three have in
 //! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `measure` how large it is, `say` puts
 //! diagnostics on a screen, `output` writes files whole or not at all, `files` says where, `bug`
 //! writes a reproducer when an invariant broke, `streams` is what a run reads and writes, and `exit`
@@ -11,7 +11,6 @@
 
 mod args;
 mod bug;
-mod camera;
 mod chart;
 mod check;
 mod cut;
@@ -23,7 +22,9 @@ mod interrupt;
 mod measure;
 mod mend;
 mod output;
+mod picture;
 mod rays;
+mod render;
 mod report;
 mod say;
 mod scene;
@@ -56,6 +57,9 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Args {
             verb: Verb::Mend(mend),
         }) => mend::run(&mend, &args, &mut streams),
+        Ok(Args {
+            verb: Verb::Render(render),
+        }) => render::run(&render, &mut streams),
         Ok(Args {
             verb: Verb::Check(check),
         }) => check::run(&check, &mut streams),

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
-use tearmesh::{Edits, Masses, Mesh, Positions};
+use tearmesh::{Edits, Masses, Mesh, Positions, Vector};
 use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 
 use crate::args::MendArgs;
@@ -116,6 +116,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
             session.write(&mesh, fill, streams)?;
         }
     }
+    session.show_mesh(&mesh, &positions, Vector::y())?;
     let taken_out = vertices_mended - mesh.vertex_count();
     let pieces = mesh.components().count();
     session.report.mend = Some(report::Mend {

@@ -151,6 +151,15 @@ pub(crate) struct Gap {
     pub(crate) vertices_clamped: usize,
 }
 
+/// The point cache of a simulation.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Cache {
+    pub(crate) path: String,
+    pub(crate) samples: usize,
+    /// As many as the mesh that was written has `v`.
+    pub(crate) points: usize,
+}
+
 /// What was mended.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Mend {
@@ -207,6 +216,8 @@ pub(crate) struct Tear {
     pub(crate) step_check: Option<StepCheck>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) frames: Option<Frames>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) cache: Option<Cache>,
 }
 
 /// How a cloth tore first.

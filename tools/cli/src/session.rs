@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use tearmesh::{MassError, MassLedger, Masses, Mesh, Point, Positions};
+use tearmesh::{MassError, MassLedger, Masses, Mesh, Place, Point, Positions, Vector};
 use tearmesh_obj::{Document, Repair, WriteSummary};
 
 use crate::args::{FileArgs, Format};
@@ -16,7 +16,7 @@ use crate::input::Input;
 use crate::report::{self, Entry, Report};
 use crate::say::{Fault, Screen, Severity, count, is_colored};
 use crate::streams::Streams;
-use crate::{bug, defects, files, output};
+use crate::{bug, defects, files, output, picture};
 
 /// A run in progress, and all that will be said about it.
 pub(crate) struct Session<'a> {
@@ -96,35 +96,10 @@ impl<'a> Session<'a> {
         let refused = |fault| Stop::new(Exit::Input, fault);
         let input = Input::find(&self.files.input, streams.input).map_err(refused)?;
         let input = &*self.input.insert(input);
-        let clock = Clock::start();
-        let mut document = input.document().map_err(refused)?;
-        if let Some(repair) = repair {
-            document = document.repaired(repair);
-        }
-        let diagnostics = document.diagnostics().iter();
-        let faults = diagnostics.map(|one| Fault::of_file(&input.name, one));
-        self.faults.extend(faults);
         let timing = self.report.timing_ms.get_or_insert_default();
-        timing.read = clock.milliseconds();
-        let clock = Clock::start();
-        let mesh = match document.mesh() {
-            Ok(mesh) => mesh,
-            Err(error) => {
-                return Err(Stop {
-                    exit: Exit::Input,
-                    faults: defects::faults(input, document, error, "or add"),
-                });
-            }
-        };
-        timing.build = clock.milliseconds();
-        self.report.input = Some(report::File::of(Some(input.name.clone()), &mesh));
-        let positions = Positions::new(document.positions().iter().copied())
-            .expect("the reader accepts no coordinate that positions refuse");
-        Ok(Opened {
-            document,
-            mesh,
-            positions,
-        })
+        let opened = open(input, repair, &mut self.faults, timing)?;
+        self.report.input = Some(report::File::of(Some(input.name.clone()), &opened.mesh));
+        Ok(opened)
     }
 
     /// Checks every invariant and the ledger of masses. `broken` is what is wrong besides.
@@ -226,6 +201,19 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
+    /// Draws the picture of the mesh as it is in the end, if one is wanted.
+    pub(crate) fn show_mesh(
+        &self,
+        mesh: &Mesh,
+        place: &(impl Place + ?Sized),
+        up: Vector,
+    ) -> Result<(), Stop> {
+        match self.files.picture.as_ref().filter(|_| !self.files.dry_run) {
+            Some(path) => picture::write_beside(path, mesh, place, up),
+            None => Ok(()),
+        }
+    }
+
     /// Shows the warnings so far, unless they are to be JSON: before something that takes long.
     pub(crate) fn warn_now(&mut self, streams: &mut Streams<'_>) {
         if self.files.format == Format::Text {
@@ -317,6 +305,51 @@ impl<'a> Session<'a> {
         let said = output::print(streams.output, |out| out.write_all(words.as_bytes()));
         said.map(|_| ())
     }
+}
+
+/// What may be done to an input: all there is, or only giving each fan its own vertex.
+pub(crate) fn repair(all: bool, fans: bool) -> Option<Repair> {
+    match (all, fans) {
+        (true, _) => Some(Repair::All),
+        (false, true) => Some(Repair::SeparateFans),
+        (false, false) => None,
+    }
+}
+
+/// Reads a document and builds its mesh; says what there is to say of it.
+pub(crate) fn open(
+    input: &Input,
+    repair: Option<Repair>,
+    faults: &mut Vec<Fault>,
+    timing: &mut report::Timing,
+) -> Result<Opened, Stop> {
+    let clock = Clock::start();
+    let document = input.document();
+    let mut document = document.map_err(|fault| Stop::new(Exit::Input, fault))?;
+    if let Some(repair) = repair {
+        document = document.repaired(repair);
+    }
+    let diagnostics = document.diagnostics().iter();
+    faults.extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
+    timing.read = clock.milliseconds();
+    let clock = Clock::start();
+    let mesh = match document.mesh() {
+        Ok(mesh) => mesh,
+        Err(error) => {
+            return Err(Stop {
+                exit: Exit::Input,
+                faults: defects::faults(input, document, error, "or add"),
+            });
+        }
+    };
+    timing.build = clock.milliseconds();
+    let positions = Positions::new(document.positions().iter().copied())
+        .expect("the reader accepts no coordinate that positions refuse");
+    Ok(Opened {
+        document,
+        mesh,
+        positions,
+    })
 }
 
 /// What is not where it was, in words: a corner, or where faces were divided, a vertex of the

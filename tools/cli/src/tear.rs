@@ -208,6 +208,7 @@ impl Play<'_> {
                 _ => None,
             },
             frames: None,
+            cache: None,
         };
         session.faults.extend(words::infeasible(&run));
         session.faults.extend(words::residual(&run));
@@ -239,6 +240,7 @@ impl Play<'_> {
         let positions = places(&run)?;
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
+        session.show_mesh(run.mesh(), &positions, self.frame.up.vector())?;
         if let Some(path) = self
             .args
             .forces
@@ -268,6 +270,7 @@ impl Play<'_> {
         session.faults.extend(shown.warnings);
         if let Some(tear) = &mut session.report.tear {
             tear.frames = shown.report;
+            tear.cache = shown.cache;
         }
         if session.exit == Exit::Done && self.guard.is_interrupted() {
             session.exit = Exit::Interrupted;

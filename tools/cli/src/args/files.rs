@@ -35,8 +35,14 @@ pub(crate) struct FileArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
 
+    /// Draw a picture of the mesh as it is in the end, as PNG.
+    ///
+    /// All of it, from its broad side: pieces in colours, torn edges red. `tearmesh render` draws others.
+    #[arg(long, value_name = "F.png")]
+    pub(crate) picture: Option<PathBuf>,
+
     /// Leave times out of the report, so that it is the same on every run.
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     pub(crate) no_timing: bool,
 
     /// When to use colours.

@@ -1,6 +1,7 @@
 //! Numbers as people type them.
 
 use tearmesh::Point;
+use tearmesh_view::{PIXELS_MAX, PictureSize};
 
 /// Reads a point.
 pub(super) fn point(text: &str) -> Result<Point, String> {
@@ -24,6 +25,16 @@ pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
         [width, height] if width > 0.0 && height > 0.0 => Ok([width, height]),
         _ => Err("expected width and height with an x between them, as in 1920x1080".to_owned()),
     }
+}
+
+/// Reads the size of a picture that is drawn.
+pub(super) fn picture_size(text: &str) -> Result<PictureSize, String> {
+    let (width, height) = text
+        .split_once('x')
+        .ok_or("expected width and height with an x between them, as in 1920x1080")?;
+    let pixels = |text: &str| text.trim().parse().map_err(|_| "expected whole pixels");
+    PictureSize::new(pixels(width)?, pixels(height)?)
+        .ok_or_else(|| format!("expected from 1 to {PIXELS_MAX} pixels in all"))
 }
 
 /// How far apart the lips of a cut are to stand.

@@ -133,6 +133,14 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) frames_topology: Topology,
 
+    /// Write a point cache (PC2), 30 samples a second, for the mesh of -o.
+    ///
+    /// Blender: import OUT, add the modifier Mesh Cache, and choose this file; the scene at 30 frames a
+    /// second. It has the last one's faces, as with --frames-topology final: a vertex that is not yet born
+    /// stands where it will come from. Coordinates are as in OUT, so axes stay as they are imported.
+    #[arg(long, value_name = "F.pc2")]
+    pub(crate) cache: Option<PathBuf>,
+
     #[command(flatten)]
     pub(crate) files: FileArgs,
 }

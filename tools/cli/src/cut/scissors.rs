@@ -1,12 +1,13 @@
 //! From what was typed to scissors.
 
 use tearmesh::{Plane, Point, Ray, Scissor, ScissorError};
+use tearmesh_view::Camera;
 
 use crate::args::{CameraArgs, CutArgs, numbers};
-use crate::camera::{Camera, CameraError};
 use crate::exit::{Exit, Stop};
 use crate::input::Input;
-use crate::rays::{self, Pair};
+use crate::picture;
+use crate::rays::{self, Pair, refused};
 use crate::say::{Fault, short};
 use crate::streams::Streams;
 
@@ -28,13 +29,6 @@ impl Along {
 
 /// What was given for each cut.
 pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Along>, Stop> {
-    let refused = |fault: Fault| {
-        let exit = match fault.code {
-            "E-RAY-ZERO" | "E-PLANE-ZERO" => Exit::NoPlane,
-            _ => Exit::Usage,
-        };
-        Stop::new(exit, fault)
-    };
     if !args.plane.is_empty() {
         let planes = args.plane.iter().map(|text| rays::plane(text, "--plane"));
         let planes: Result<Vec<Plane>, Fault> = planes.collect();
@@ -75,18 +69,7 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
         |message: &str, help: &str| Fault::error("E-CAMERA", message.to_owned()).help(help);
     let fov = args.fov.expect("a camera requires it");
     let viewport = args.viewport.expect("a camera requires it");
-    let camera = Camera::new(look, args.up.coords, fov, viewport);
-    let camera = camera.map_err(|error| match error {
-        CameraError::At => refused("the camera looks at its own eye", "aim it at another point"),
-        CameraError::Up => refused(
-            "the camera looks along what is to be upright in its picture",
-            "name another direction with --up, as in --up 0,0,1",
-        ),
-        CameraError::Angle => refused(
-            "the angle of view is not between 0 and 180 degrees",
-            "it is the one from the lower edge of the picture to the upper, as in --fov 40",
-        ),
-    })?;
+    let camera = Camera::new(look, args.up.coords, fov, viewport).map_err(picture::no_camera)?;
     let pairs = args.points.iter().map(|text| {
         let points = rays::split_pair(text).map(|span| numbers(&text[span], ','));
         let points: Vec<Vec<f64>> = points.collect();

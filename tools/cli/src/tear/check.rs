@@ -17,7 +17,8 @@ use crate::scene::Source;
 use crate::session::Opened;
 use crate::{files, output};
 
-/// Refuses numbers out of range, and streams that are wanted twice.
+/// Refuses numbers out of range, streams that are wanted twice, and files that would replace what is
+/// read or what else is written.
 pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
     let from = |least: f64| move |x: f64| x >= least && x.is_finite();
     let above = |least: f64| move |x: f64| x > least && x.is_finite();
@@ -55,30 +56,23 @@ pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
         let message = "two inputs both come from standard input".to_owned();
         return refuse(message, "name a file for one of them");
     }
-    forces(args)
-}
-
-/// Refuses a table of forces that would replace what is read, or what else is written.
-fn forces(args: &TearArgs) -> Result<(), Stop> {
-    let Some(path) = &args.forces else {
-        return Ok(());
-    };
     let scene = PathBuf::from(&args.scene);
-    let read = [
-        Some(&args.files.input),
-        Some(&scene),
-        args.strength.as_ref(),
-    ];
-    let is_read = read
-        .into_iter()
-        .flatten()
-        .any(|other| files::is_same(path, other));
-    if path == Path::new("-") || is_read {
-        let message = "`--forces` takes the name of a file of its own".to_owned();
-        return refuse(message, "write the forces to another file");
+    let mut taken = vec![&args.files.input, &scene];
+    taken.extend(&args.strength);
+    for (option, what, path) in [
+        ("--forces", "the table of forces", &args.forces),
+        ("--cache", "the point cache", &args.cache),
+    ] {
+        let Some(path) = path else { continue };
+        if path == dash || taken.iter().any(|other| files::is_same(path, other)) {
+            let message = format!("`{option}` takes the name of a file of its own");
+            return refuse(message, &format!("write {what} to another file"));
+        }
+        files::keep(&args.files, Some(path), what)?;
+        output::check(path).map_err(|error| files::unwritable(path, &error))?;
+        taken.push(path);
     }
-    files::keep(&args.files, Some(path), "the table of forces")?;
-    output::check(path).map_err(|error| files::unwritable(path, &error))
+    Ok(())
 }
 
 fn range(

@@ -1,4 +1,5 @@
-//! Frames: numbered OBJ files of a simulation, with their own faces or those of the last one.
+//! Frames: numbered OBJ files of a simulation, with their own faces or those of the last one, and a point
+//! cache, which has those of the last one.
 //!
 //! A split adds no face, so the faces of the last frame serve all, where a vertex that is
 //! not yet born stands where its ancestor is. A vertex that a cut inserts is born on an edge or in
@@ -13,6 +14,7 @@ use std::rc::Rc;
 use tearmesh::{Blend, Edits, Mesh, Mix, Point, Positions, VertexId, VertexOp};
 use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
+use tearmesh_view::write_pc2;
 
 use super::points::places;
 use crate::args::{TearArgs, Topology};
@@ -27,6 +29,7 @@ pub(super) const RATE_PER_S: f64 = 30.0;
 /// The frames of a run, if any are wanted.
 pub(super) struct Frames {
     folder: Option<PathBuf>,
+    cache: Option<PathBuf>,
     topology: Topology,
     /// The number of frames so far.
     count: usize,
@@ -53,6 +56,7 @@ struct Shot {
 #[derive(Default)]
 pub(super) struct Shown {
     pub(super) report: Option<report::Frames>,
+    pub(super) cache: Option<report::Cache>,
     pub(super) warnings: Vec<Fault>,
 }
 
@@ -61,6 +65,7 @@ impl Frames {
     pub(super) fn open(args: &TearArgs, run: &Run) -> Result<Frames, Stop> {
         let frames = Frames {
             folder: args.frames.clone().filter(|_| !args.files.dry_run),
+            cache: args.cache.clone().filter(|_| !args.files.dry_run),
             topology: args.frames_topology,
             count: 0,
             waiting: Vec::new(),
@@ -77,6 +82,8 @@ impl Frames {
                 (Some(Path::new(&args.scene)), "the scene"),
                 (args.strength.as_deref(), "the strengths"),
                 (args.forces.as_deref(), "the table of forces"),
+                (args.cache.as_deref(), "the point cache"),
+                (files.picture.as_deref(), "the picture"),
             ] {
                 path.map_or(Ok(()), |path| refuse_replacing(folder, path, what))?;
             }
@@ -110,16 +117,18 @@ impl Frames {
     /// Takes a frame if it is time for one.
     pub(super) fn shoot(&mut self, run: &Run, torn: &TornDocument<'_>) -> Result<(), Stop> {
         let step = (self.count as f64 / RATE_PER_S / run.step_s()).round();
-        if self.folder.is_none() || (run.tally().steps as f64) < step {
+        let (has_folder, has_cache) = (self.folder.is_some(), self.cache.is_some());
+        if !(has_folder || has_cache) || (run.tally().steps as f64) < step {
             return Ok(());
         }
-        if self.topology == Topology::Own {
+        if has_folder && self.topology == Topology::Own {
             let positions = places(run)?;
             // Fans stay together: the number of a copy is that of the vertex born next.
             self.write(self.count, |mut out| {
                 torn.write_unseparated(run.mesh(), &positions, &mut out)
             })?;
-        } else {
+        }
+        if has_cache || self.topology == Topology::Final {
             let now = run.mesh().indices();
             let last = self.waiting.last().filter(|shot| *shot.indices == now);
             let indices = match last {
@@ -136,28 +145,35 @@ impl Frames {
         Ok(())
     }
 
-    /// Writes the frames that waited, each checked against its own mesh, until it is enough.
+    /// Writes the point cache, and then the frames that waited until it is enough; each sample and frame
+    /// is checked against its own mesh.
     pub(super) fn finish(
         mut self,
         run: &Run,
         torn: &TornDocument<'_>,
         is_enough: impl Fn() -> bool,
     ) -> Result<Shown, Stop> {
-        let Some(folder) = self.folder.clone() else {
-            return Ok(Shown::default());
+        let cache = match &self.cache {
+            Some(path) => Some(self.write_cache(path, run, torn)?),
+            None => None,
         };
+        let Some(folder) = self.folder.clone() else {
+            return Ok(Shown {
+                cache,
+                ..Shown::default()
+            });
+        };
+        let is_final = self.topology == Topology::Final;
+        let waiting = if is_final { &self.waiting[..] } else { &[] };
         let (mut checked, mut warnings) = (0, Vec::new());
-        for (number, shot) in self.waiting.iter().enumerate() {
+        for (number, shot) in waiting.iter().enumerate() {
             if is_enough() {
                 warnings.push(interrupted(&folder, number, self.count));
                 self.count = number;
                 break;
             }
-            let points = self.grown(shot);
-            checked += self.check(shot, &points, run.mesh()).map_err(|broken| {
-                let message = format!("frame {number} is not its own mesh: {broken}");
-                Stop::new(Exit::Bug, Fault::error("E-BUG-INVARIANT", message))
-            })?;
+            let (points, corners) = self.checked(number, shot, run.mesh())?;
+            checked += corners;
             let positions = Positions::new(points).map_err(|error| {
                 let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
                 Stop::new(Exit::Simulation, fault)
@@ -166,10 +182,10 @@ impl Frames {
                 torn.write(run.mesh(), &positions, &mut out)
             })?;
         }
-        let is_final = self.topology == Topology::Final;
         warnings.extend(self.left_over(&folder));
         Ok(Shown {
             warnings,
+            cache,
             report: Some(report::Frames {
                 folder: folder.display().to_string(),
                 count: self.count,
@@ -177,6 +193,39 @@ impl Frames {
                 corners_checked: is_final.then_some(checked),
             }),
         })
+    }
+
+    /// Writes where every `v` of the last mesh's file is in every frame.
+    fn write_cache(
+        &self,
+        path: &Path,
+        run: &Run,
+        torn: &TornDocument<'_>,
+    ) -> Result<report::Cache, Stop> {
+        let statements = torn.statements_in_order(run.mesh());
+        for (number, shot) in self.waiting.iter().enumerate() {
+            self.checked(number, shot, run.mesh())?;
+        }
+        let samples = self.waiting.iter().map(|shot| {
+            let points = self.grown(shot);
+            statements.iter().map(move |v| points[v.index()])
+        });
+        files::write_beside(path, |out| write_pc2(out, statements.len(), samples))?;
+        Ok(report::Cache {
+            path: path.display().to_string(),
+            samples: self.waiting.len(),
+            points: statements.len(),
+        })
+    }
+
+    /// The points of a frame, and how many corners of its own mesh they were compared with.
+    fn checked(&self, number: usize, shot: &Shot, mesh: &Mesh) -> Result<(Vec<Point>, u64), Stop> {
+        let points = self.grown(shot);
+        let checked = self.check(shot, &points, mesh).map_err(|broken| {
+            let message = format!("frame {number} is not its own mesh: {broken}");
+            Stop::new(Exit::Bug, Fault::error("E-BUG-INVARIANT", message))
+        })?;
+        Ok((points, checked))
     }
 
     /// The points of a frame, and of all that were born later.

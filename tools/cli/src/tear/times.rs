@@ -14,7 +14,8 @@ const DIFFERENCE_MAX: f64 = 0.01;
 /// What is to be said before the first step.
 pub(super) fn warnings(run: &Run, args: &TearArgs) -> Vec<Fault> {
     let mut warnings = Vec::from_iter(seconds(run));
-    if args.frames.is_some() && !args.files.dry_run {
+    let are_wanted = args.frames.is_some() || args.cache.is_some();
+    if are_wanted && !args.files.dry_run {
         warnings.extend(frames(run));
     }
     warnings

@@ -1,15 +1,18 @@
-//! The camera through which somebody saw the mesh: from points of its picture to rays.
+//! The camera through which somebody sees the mesh: from points of its picture to rays, and from points
+//! in space to its picture.
 
+use std::error::Error;
+use std::fmt;
+
+use tearmesh::geometry::{cross, dot, length, max_abs};
 use tearmesh::{Point, Ray, RayError, Vector};
-
-use crate::rays::Pair;
 
 /// A camera that shows what it looks at in the middle of its picture, in perspective.
 ///
 /// Computed with + − × ÷ √ alone, as everything that decides where a cut goes: the same pixels give
 /// the same bytes on every machine.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Camera {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
     eye: Point,
     /// To the middle of the picture, and from there to the middles of its right and its upper edge.
     middle: Vector,
@@ -21,7 +24,7 @@ pub(crate) struct Camera {
 
 /// Why there is no such camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CameraError {
+pub enum CameraError {
     /// It looks at its own eye.
     At,
     /// Up is the way in which it looks.
@@ -30,10 +33,41 @@ pub(crate) enum CameraError {
     Angle,
 }
 
+impl fmt::Display for CameraError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            CameraError::At => "the camera looks at its own eye",
+            CameraError::Up => "the camera looks along what is to be upright in its picture",
+            CameraError::Angle => "the angle of view is not between 0 and 180 degrees",
+        })
+    }
+}
+
+impl Error for CameraError {}
+
 impl Camera {
     /// The camera at `eye` that looks at `at`, with `up` upright in its picture, and sees so many
-    /// degrees from the lower edge to the upper one.
-    pub(crate) fn new(
+    /// degrees from the lower edge to the upper one. `size` is the width and height of the picture in
+    /// pixels.
+    ///
+    /// ```
+    /// use tearmesh::{Point, Vector};
+    /// use tearmesh_view::Camera;
+    ///
+    /// let (eye, at) = (Point::new(0.0, 0.0, 5.0), Point::origin());
+    /// let camera = Camera::new([eye, at], Vector::y(), 90.0, [800.0, 600.0])?;
+    /// // 5 in front of the eye it sees 5 up and 5 down.
+    /// let ray = camera.ray([400.0, 0.0])?;
+    /// assert!((ray.direction() - Vector::new(0.0, 1.0, -1.0)).norm() < 1e-15);
+    /// let seen = camera.seen(Point::new(0.0, 5.0, 0.0));
+    /// assert!((camera.pixel(seen)[0] - 400.0).abs() < 1e-12 && camera.pixel(seen)[1].abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If there is no such camera, why.
+    pub fn new(
         [eye, at]: [Point; 2],
         up: Vector,
         degrees: f64,
@@ -43,14 +77,16 @@ impl Camera {
             return Err(CameraError::Angle);
         }
         let middle = unit(at - eye).ok_or(CameraError::At)?;
-        let right = unit(up).and_then(|up| unit(middle.cross(&up)));
-        let right = right.ok_or(CameraError::Up)?;
+        let across = unit(up).map(|up| cross(middle, up));
+        // Two directions of length 1 whose product is nothing but rounding span no plane.
+        let across = across.filter(|&across| max_abs(across) > 1e-12);
+        let right = across.and_then(unit).ok_or(CameraError::Up)?;
         let half = tangent(degrees / 2.0);
         let [width, height] = size;
         Ok(Camera {
             eye,
             middle,
-            up: right.cross(&middle) * half,
+            up: cross(right, middle) * half,
             right: right * (half * width / height),
             size,
         })
@@ -58,7 +94,11 @@ impl Camera {
 
     /// The ray through a point of the picture, so many pixels right of its left edge and below its
     /// upper one.
-    fn ray(&self, [x, y]: [f64; 2]) -> Result<Ray, RayError> {
+    ///
+    /// # Errors
+    ///
+    /// If the eye is too far away, or the point too far from the picture.
+    pub fn ray(&self, [x, y]: [f64; 2]) -> Result<Ray, RayError> {
         let [width, height] = self.size;
         let across = self.right * (2.0 * x / width - 1.0);
         let upward = self.up * (1.0 - 2.0 * y / height);
@@ -67,24 +107,64 @@ impl Camera {
     }
 
     /// The rays through two points.
-    pub(crate) fn pair(&self, points: [[f64; 2]; 2]) -> Result<Pair, RayError> {
+    ///
+    /// # Errors
+    ///
+    /// As of [`Camera::ray`].
+    pub fn pair(&self, points: [[f64; 2]; 2]) -> Result<[Ray; 2], RayError> {
         let [one, other] = points.map(|point| self.ray(point));
         Ok([one?, other?])
     }
+
+    /// The width and height of the picture in pixels.
+    #[must_use]
+    pub fn size(&self) -> [f64; 2] {
+        self.size
+    }
+
+    /// A point as the camera sees it: divided by z, x is how far right of the middle of the picture it is
+    /// seen, in halves of its width, and y how far above, in halves of its height; z is how far in front
+    /// of the eye it is.
+    #[must_use]
+    pub fn seen(&self, p: Point) -> Vector {
+        let from_eye = p - self.eye;
+        let part = |axis: Vector| dot(from_eye, axis) / dot(axis, axis);
+        Vector::new(part(self.right), part(self.up), dot(from_eye, self.middle))
+    }
+
+    /// Where in the picture a point is, in pixels from the top left, that is seen like this
+    /// ([`Camera::seen`]) and is in front of the eye.
+    #[must_use]
+    pub fn pixel(&self, seen: Vector) -> [f64; 2] {
+        let [width, height] = self.size;
+        [
+            (seen.x / seen.z + 1.0) / 2.0 * width,
+            (1.0 - seen.y / seen.z) / 2.0 * height,
+        ]
+    }
+
+    /// The direction from the surface to the eye and those of the picture, each of length one: backward,
+    /// right and up.
+    pub(crate) fn axes(&self) -> [Vector; 3] {
+        [
+            -self.middle,
+            self.right / length(self.right),
+            self.up / length(self.up),
+        ]
+    }
 }
 
-/// The vector of this direction and length 1, if that can be computed.
-fn unit(v: Vector) -> Option<Vector> {
-    let largest = v.amax();
+/// The vector of this direction and length 1, if it has a direction.
+pub(crate) fn unit(v: Vector) -> Option<Vector> {
+    let largest = max_abs(v);
     let scaled = v / largest;
-    let length = scaled.norm();
-    // Two directions of length 1 whose product is nothing but rounding span no plane.
-    (largest > 1e-12 && length.is_finite()).then(|| scaled / length)
+    let length = length(scaled);
+    (largest > 0.0 && length.is_finite()).then(|| scaled / length)
 }
 
 /// The tangent of an angle in degrees, from 0 to 90: that of its half by Lambert's continued fraction,
 /// which twelve terms give to the last digits up to 45 degrees.
-fn tangent(degrees: f64) -> f64 {
+pub(crate) fn tangent(degrees: f64) -> f64 {
     let x = degrees / 2.0 * (std::f64::consts::PI / 180.0);
     let fraction = (1..=12).rev().map(|k| f64::from(2 * k - 1));
     let below = fraction.fold(f64::INFINITY, |below, odd| odd - x * x / below);
@@ -139,6 +219,10 @@ mod tests {
                 ];
                 let off = (seen[0] - x).abs().max((seen[1] - y).abs());
                 assert!(off < 1e-9, "{x} {y}: {seen:?}");
+                let shown = camera.pixel(camera.seen(p));
+                let off = (shown[0] - x).abs().max((shown[1] - y).abs());
+                assert!(off < 1e-9, "{x} {y}: {shown:?}");
+                assert!((camera.seen(p).z + pz).abs() < 1e-12);
             }
         }
     }

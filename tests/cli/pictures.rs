@@ -1,0 +1,80 @@
+//! Pictures: by `render`, and those that other verbs leave beside a mesh.
+
+use std::fs;
+
+use crate::harness::{Folder, seen};
+
+const CUT: &str = "tearmesh cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1";
+
+/// The width and height that a PNG file says it has.
+fn size(folder: &Folder, name: &str) -> [u32; 2] {
+    let bytes = fs::read(folder.path(name)).expect("a picture");
+    assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n", "{name}");
+    [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().expect("four bytes")))
+}
+
+#[test]
+fn every_verb_that_changes_a_mesh_draws_it() {
+    let folder = Folder::new();
+    folder.write("s.toml", "base = \"hang\"\nseconds = 0.1\n");
+    for (line, name) in [
+        (format!("{CUT} -o torn.obj --picture cut.png"), "cut.png"),
+        (
+            "tearmesh mend torn.obj -o m.obj --picture mend.png".to_owned(),
+            "mend.png",
+        ),
+        (
+            "tearmesh tear sheet.obj --scene s.toml -o t.obj --picture tear.png".to_owned(),
+            "tear.png",
+        ),
+    ] {
+        let output = folder.run(&line);
+        assert_eq!(output.status.code(), Some(0), "{line}\n{}", seen(&output));
+        assert_eq!(size(&folder, name), [960, 720]);
+    }
+    // It is the picture that `render` draws of the mesh that was written.
+    let output = folder.run("tearmesh render torn.obj -o again.png");
+    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    let [cut, again] =
+        ["cut.png", "again.png"].map(|name| fs::read(folder.path(name)).expect("a file"));
+    assert!(cut == again);
+    let output = folder.run("tearmesh render torn.obj --size 64x32 -o -");
+    fs::write(folder.path("streamed.png"), output.stdout).expect("a file");
+    assert_eq!(size(&folder, "streamed.png"), [64, 32]);
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn a_picture_replaces_nothing_and_is_not_begun_where_it_cannot_be_written() {
+    let folder = Folder::new();
+    folder.write("r.txt", "0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1\n");
+    let from_file = "tearmesh cut sheet.obj --rays-file r.txt -o x.obj";
+    for (line, exit) in [
+        (format!("{CUT} -o x.obj --picture sheet.obj"), 2),
+        (format!("{CUT} -o x.obj --picture ./x.obj"), 2),
+        (
+            format!("{CUT} -o x.obj --report r.json --picture r.json"),
+            2,
+        ),
+        (format!("{CUT} -o x.obj --seam s.png --picture s.png"), 2),
+        (format!("{CUT} -o x.obj --picture -"), 2),
+        (format!("{from_file} --picture r.txt"), 2),
+        ("tearmesh render sheet.obj -o ./sheet.obj".to_owned(), 2),
+        (format!("{CUT} -o x.obj --picture no/x.png"), 7),
+        ("tearmesh render sheet.obj -o no/x.png".to_owned(), 7),
+    ] {
+        let before = folder.names();
+        let output = folder.run(&line);
+        assert_eq!(
+            output.status.code(),
+            Some(exit),
+            "{line}\n{}",
+            seen(&output)
+        );
+        assert_eq!(folder.names(), before, "{line}");
+    }
+    assert_eq!(folder.read("r.txt").lines().count(), 1);
+    let output = folder.run(&format!("{CUT} --dry-run --picture x.png"));
+    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    assert!(!folder.path("x.png").exists());
+}

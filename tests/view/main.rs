@@ -1,0 +1,6 @@
+//! Tests of pictures: which face is seen, what lines are drawn, and what strange meshes do.
+
+mod coverage;
+mod lines;
+mod meshes;
+mod pictures;

@@ -1,0 +1,87 @@
+//! What `render` takes.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+use tearmesh::Point;
+use tearmesh_view::PictureSize;
+
+use crate::say::Color;
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh render torn.obj -o torn.png
+      the whole mesh, from its broad side: pieces in colours, torn edges red
+  tearmesh render flag.obj --rays 0.3,2,5:0,0,-1 0.3,-2,5:0,0,-1 --edges -o cut.png
+      where the mesh would be cut between two rays, and its edges";
+
+/// Draw a picture of a mesh, as PNG.
+///
+/// Each piece has a colour, torn edges are red, and the boundary is dark. No window and no graphics card
+/// are needed, and the same input gives the same picture on every machine.
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct RenderArgs {
+    /// The OBJ file to read; `-` is standard input.
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the picture; `-` is standard output.
+    #[arg(short, long, value_name = "F.png")]
+    pub(crate) output: PathBuf,
+
+    /// The width and height of the picture in pixels.
+    #[arg(long, value_name = "WxH", value_parser = super::read::picture_size, default_value = "960x720")]
+    pub(crate) size: PictureSize,
+
+    /// From where to look, and at which point: eye@target.
+    ///
+    /// As `cut --camera`: two pixels of the picture are where it cuts with --points, with the same
+    /// --camera, --up and --fov, and with --viewport as --size here. Without it all of the mesh is seen from
+    /// its broad side, a little from above.
+    #[arg(long, value_name = "EYE@AT", allow_hyphen_values = true, value_parser = super::read::look)]
+    pub(crate) camera: Option<[Point; 2]>,
+
+    /// What is upright in the picture.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
+        default_value = "0,1,0")]
+    pub(crate) up: Point,
+
+    /// The angle of view, from the lower edge to the upper one, in degrees.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, default_value_t = tearmesh_view::ANGLE_OF_VIEW)]
+    pub(crate) fov: f64,
+
+    /// Draw two rays and where they would cut; may be given repeatedly.
+    ///
+    /// As `cut --rays` takes them.
+    #[arg(long, value_name = "A B")]
+    pub(crate) rays: Vec<String>,
+
+    /// Draw where a plane would cut, as point:normal; may be given repeatedly.
+    #[arg(long, value_name = "P:N", allow_hyphen_values = true)]
+    pub(crate) plane: Vec<String>,
+
+    /// Draw the box round the mesh.
+    #[arg(long = "box")]
+    pub(crate) bounding_box: bool,
+
+    /// Draw the edges between faces.
+    #[arg(long)]
+    pub(crate) edges: bool,
+
+    /// Repair the input, as `cut` does.
+    #[arg(long)]
+    pub(crate) repair: bool,
+
+    /// Give each fan of an input vertex a vertex of its own, as `cut` does.
+    #[arg(long, hide_short_help = true)]
+    pub(crate) separate_fans: bool,
+
+    /// When to use colours on the screen.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summary.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

@@ -1,0 +1,57 @@
+//! Pictures: of the verb `render`, and those that other verbs leave beside a mesh.
+
+use std::path::Path;
+
+use tearmesh::{Mesh, Place, Vector};
+use tearmesh_view::{
+    ANGLE_OF_VIEW, Camera, CameraError, Picture, PictureSize, RenderOptions, fit, render,
+};
+
+use crate::exit::{Exit, Stop};
+use crate::files;
+use crate::say::Fault;
+
+/// The camera that sees all of a mesh.
+pub(crate) fn camera(
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    up: Vector,
+    angle: f64,
+    size: PictureSize,
+) -> Result<Camera, Stop> {
+    let fitted = fit(mesh, place, up, angle, size.as_f64());
+    let fitted = fitted.map_err(|error| Stop::new(Exit::Usage, no_camera(error)))?;
+    fitted.ok_or_else(|| {
+        let fault = Fault::error("E-VIEW-EMPTY", "the mesh has no face to be seen".to_owned());
+        Stop::new(Exit::Input, fault)
+    })
+}
+
+/// Why there is no such camera.
+pub(crate) fn no_camera(error: CameraError) -> Fault {
+    Fault::error("E-CAMERA", error.to_string()).help(match error {
+        CameraError::At => "aim it at another point",
+        CameraError::Up => "name another direction with --up, as in --up 0,0,1",
+        CameraError::Angle => {
+            "it is the one from the lower edge of the picture to the upper, as in --fov 40"
+        }
+    })
+}
+
+/// Writes a picture beside a mesh that has a face, by a camera that has to be found.
+pub(crate) fn write_beside(
+    path: &Path,
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    up: Vector,
+) -> Result<(), Stop> {
+    let size = PictureSize::default();
+    let camera = camera(mesh, place, up, ANGLE_OF_VIEW, size)?;
+    let picture = render(mesh, place, &camera, size, &RenderOptions::default());
+    write(path, &picture)
+}
+
+/// Writes a picture into a file.
+pub(crate) fn write(path: &Path, picture: &Picture) -> Result<(), Stop> {
+    files::write_beside(path, |out| picture.write_png(out))
+}

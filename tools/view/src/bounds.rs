@@ -1,0 +1,60 @@
+//! The box round all faces.
+
+use tearmesh::geometry::{dot, length};
+use tearmesh::{Mesh, Place, Point, Ray};
+
+/// The box round all faces of a mesh, along the axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates.
+    pub least: Point,
+    /// The corner with the largest.
+    pub most: Point,
+}
+
+impl Bounds {
+    /// The box of a mesh; none if it has no face. Vertices without a face do not count.
+    ///
+    /// # Panics
+    ///
+    /// If a vertex of the mesh is unknown to `place`.
+    #[must_use]
+    pub fn of(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Option<Bounds> {
+        let with_face = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
+        Bounds::around(with_face.map(|v| place.at(v)))
+    }
+
+    /// The box round points; none if there are none.
+    #[must_use]
+    pub fn around(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
+        let boxes = points.into_iter().map(|p| Bounds { least: p, most: p });
+        boxes.reduce(|a, b| Bounds {
+            // Adding zero turns −0 into 0.
+            least: Point::from(
+                a.least
+                    .coords
+                    .zip_map(&b.least.coords, |x, y| x.min(y) + 0.0),
+            ),
+            most: Point::from(a.most.coords.zip_map(&b.most.coords, |x, y| x.max(y) + 0.0)),
+        })
+    }
+
+    /// Its twelve edges.
+    pub fn edges(&self) -> impl Iterator<Item = [Point; 2]> {
+        let ends = [self.least, self.most];
+        let corner =
+            move |bits: usize| Point::from([0, 1, 2].map(|axis| ends[bits >> axis & 1][axis]));
+        let pairs = (0..8).flat_map(|bits| [1, 2, 4].map(|axis| (bits, axis)));
+        let upward = pairs.filter(|(bits, axis)| bits & axis == 0);
+        upward.map(move |(bits, axis)| [corner(bits), corner(bits | axis)])
+    }
+
+    /// A point of a ray beyond the box; none if the whole box is behind its origin.
+    pub(crate) fn beyond(&self, ray: &Ray) -> Option<Point> {
+        let direction = ray.direction() / length(ray.direction());
+        let middle = self.least + (self.most - self.least) / 2.0;
+        let half = length(self.most - self.least) / 2.0;
+        let far = dot(middle - ray.origin(), direction) + half;
+        (far > 0.0).then(|| ray.origin() + direction * far)
+    }
+}

@@ -1,0 +1,131 @@
+//! A camera that nobody had to place: it has all of the mesh in its picture, as large as it can be.
+
+use tearmesh::geometry::{check_point, cross, dot, max_abs};
+use tearmesh::{Mesh, Place, Point, Vector};
+
+use crate::camera::{Camera, CameraError, tangent, unit};
+
+/// The part of the picture, across and upward, that the mesh may fill.
+const FILLED: f64 = 0.92;
+
+/// How deep a box is, as a part of its longest side, that is looked at from a corner and not from
+/// its broad side.
+const DEEP: f64 = 0.4;
+
+/// The angle of view of a camera for which none was asked, in degrees.
+pub const ANGLE_OF_VIEW: f64 = 35.0;
+
+/// The box of the faces of a mesh along three axes: the middle, and half of each side.
+struct Sides {
+    middle: Point,
+    halves: [f64; 3],
+}
+
+/// The camera that sees all faces of a mesh, from its broad side and a little from above: what lies flat
+/// is seen from higher up, and what is deep from a corner. None if the mesh has no face.
+///
+/// `up` is upright in its picture, the angle of view is in degrees, and the size of the picture in pixels.
+///
+/// ```
+/// use tearmesh::{shapes, Vector};
+///
+/// let (mesh, positions) = shapes::grid(8, 8);
+/// let camera = tearmesh_view::fit(&mesh, &positions, Vector::y(), 35.0, [800.0, 600.0]);
+/// let camera = camera?.expect("the grid has faces");
+/// let [x, y] = camera.pixel(camera.seen(positions.as_slice()[0]));
+/// assert!((0.0..800.0).contains(&x) && (0.0..600.0).contains(&y));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// If up is no direction, or the angle is not between 0 and 180 degrees.
+///
+/// # Panics
+///
+/// If a vertex of the mesh is unknown to `place`.
+pub fn fit(
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    up: Vector,
+    degrees: f64,
+    size: [f64; 2],
+) -> Result<Option<Camera>, CameraError> {
+    let up = unit(up).ok_or(CameraError::Up)?;
+    let across = match up.x.abs() < 0.9 {
+        true => Vector::x() - up * up.x,
+        false => Vector::y() - up * up.y,
+    };
+    let across = unit(across).ok_or(CameraError::Up)?;
+    let axes = [across, up, cross(across, up)];
+    let shown: Vec<Point> = mesh
+        .vertices()
+        .filter(|&v| mesh.half_edge_of(v).is_some())
+        .map(|v| place.at(v))
+        .filter(|&p| check_point(p).is_ok())
+        .collect();
+    let Some(sides) = Sides::of(&shown, axes) else {
+        return Ok(None);
+    };
+    let backward = unit(backward(axes, sides.halves)).expect("a sum of axes with positive weights");
+    let right = unit(cross(up, backward)).expect("it is never looked straight down");
+    let upward = cross(backward, right);
+    let [width, height] = size;
+    let tall = tangent(degrees / 2.0) * FILLED;
+    let wide = tall * width / height;
+
+    // The point at x, y, z from the middle, z away from the eye, is in the picture of a camera at
+    // cx, cy, −far if |x − cx| ≤ wide (z + far), and likewise for y: four half-planes.
+    let mut reach = [f64::NEG_INFINITY; 4];
+    let mut nearest = f64::INFINITY;
+    for &p in &shown {
+        let from = p - sides.middle;
+        let [x, y, z] = [dot(from, right), dot(from, upward), -dot(from, backward)];
+        nearest = nearest.min(z);
+        let needed = [x - wide * z, -x - wide * z, y - tall * z, -y - tall * z];
+        for (reach, needed) in reach.iter_mut().zip(needed) {
+            *reach = reach.max(needed);
+        }
+    }
+    let [r, l, t, b] = reach;
+    let size_of = 2.0 * sides.halves.into_iter().fold(0.0, f64::max);
+    // What is a point has no size, and must be seen from somewhere.
+    let least = size_of.max(max_abs(sides.middle.coords) * 1e-6);
+    let least = if least > 0.0 { least } else { 1.0 };
+    let far = ((r + l) / 2.0 / wide).max((t + b) / 2.0 / tall);
+    let far = far.max(least * 0.1 - nearest);
+    let at = sides.middle + right * ((r - l) / 2.0) + upward * ((t - b) / 2.0);
+    Camera::new([at + backward * far, at], up, degrees, size).map(Some)
+}
+
+/// From what is looked at towards the eye, if half of the box along these axes is so long.
+fn backward([across, up, depth]: [Vector; 3], halves: [f64; 3]) -> Vector {
+    let [a, u, d] = halves;
+    let longest = a.max(u).max(d);
+    if u < a && u < d {
+        // It lies flat.
+        up * 0.9 + depth * 0.8 + across * 0.3
+    } else if a < d {
+        let aside = if a > DEEP * longest { 0.5 } else { 0.3 };
+        across + depth * aside + up * 0.3
+    } else {
+        let aside = if d > DEEP * longest { 0.5 } else { 0.3 };
+        depth + across * aside + up * 0.3
+    }
+}
+
+impl Sides {
+    fn of(points: &[Point], axes: [Vector; 3]) -> Option<Sides> {
+        let first = points.first()?;
+        let bounds = axes.map(|axis| {
+            let along = points.iter().map(|&p| dot(p - first, axis));
+            along.fold([0.0f64; 2], |[least, most], x| [least.min(x), most.max(x)])
+        });
+        let mut middle = *first;
+        for (axis, [least, most]) in axes.into_iter().zip(bounds) {
+            middle += axis * (least / 2.0 + most / 2.0);
+        }
+        let halves = bounds.map(|[least, most]| most / 2.0 - least / 2.0);
+        Some(Sides { middle, halves })
+    }
+}

@@ -1,0 +1,130 @@
+//! Pictures, and files of them.
+
+use std::io::{self, Write};
+
+use crate::palette::Color;
+
+/// A picture: rows of pixels from the top, each from the left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    width: u32,
+    height: u32,
+    pixels: Vec<u8>,
+}
+
+/// The most pixels that a picture may have.
+pub const PIXELS_MAX: u64 = 1 << 26;
+
+/// The width and height of a picture in pixels: each at least 1, and at most [`PIXELS_MAX`] together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureSize {
+    width: u32,
+    height: u32,
+}
+
+impl PictureSize {
+    /// A size; none if a picture cannot have it.
+    ///
+    /// ```
+    /// use tearmesh_view::PictureSize;
+    ///
+    /// assert!(PictureSize::new(1920, 1080).is_some());
+    /// assert!(PictureSize::new(0, 1080).is_none() && PictureSize::new(1 << 20, 1 << 20).is_none());
+    /// ```
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Option<PictureSize> {
+        let pixels = u64::from(width) * u64::from(height);
+        (1..=PIXELS_MAX)
+            .contains(&pixels)
+            .then_some(PictureSize { width, height })
+    }
+
+    /// In pixels.
+    #[must_use]
+    pub fn width(self) -> u32 {
+        self.width
+    }
+
+    /// In pixels.
+    #[must_use]
+    pub fn height(self) -> u32 {
+        self.height
+    }
+
+    /// Width and height as a camera takes them.
+    #[must_use]
+    pub fn as_f64(self) -> [f64; 2] {
+        [f64::from(self.width), f64::from(self.height)]
+    }
+}
+
+/// 960 by 720 pixels.
+impl Default for PictureSize {
+    fn default() -> PictureSize {
+        PictureSize {
+            width: 960,
+            height: 720,
+        }
+    }
+}
+
+impl Picture {
+    /// A picture of these pixels, whose count the caller answers for.
+    pub(crate) fn new(size: PictureSize, pixels: Vec<Color>) -> Picture {
+        assert_eq!(
+            pixels.len() as u64,
+            u64::from(size.width) * u64::from(size.height),
+            "there is a colour for each pixel"
+        );
+        Picture {
+            width: size.width,
+            height: size.height,
+            pixels: pixels.into_flattened(),
+        }
+    }
+
+    /// In pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// In pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Red, green and blue of each pixel, row by row.
+    #[must_use]
+    pub fn pixels(&self) -> &[u8] {
+        &self.pixels
+    }
+
+    /// The colour of a pixel, counted from the left and from the top.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such pixel.
+    #[must_use]
+    pub fn at(&self, x: u32, y: u32) -> Color {
+        assert!(x < self.width && y < self.height, "no pixel {x}, {y}");
+        let first = 3 * (y as usize * self.width as usize + x as usize);
+        [0, 1, 2].map(|i| self.pixels[first + i])
+    }
+
+    /// Writes a PNG file. The same picture gives the same bytes.
+    ///
+    /// # Errors
+    ///
+    /// As of writing.
+    pub fn write_png(&self, out: impl Write) -> io::Result<()> {
+        let mut encoder = png::Encoder::new(out, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.pixels)?;
+        writer.finish()?;
+        Ok(())
+    }
+}
