@@ -73,3 +73,40 @@ fn sizes_are_those_of_the_file() {
         assert_eq!(counts.sum::<u64>(), faces.len() as u64);
     }
 }
+
+#[test]
+fn folders_and_patterns_name_the_files_that_they_should() {
+    let folder = Folder::new();
+    let mesh = folder.read("sheet.obj");
+    std::fs::create_dir_all(folder.path("many/deep")).expect("folders");
+    std::fs::create_dir(folder.path("none")).expect("a folder");
+    for name in [
+        "many/b.obj",
+        "many/A.OBJ",
+        "many/deep/c.Obj",
+        "many/.hidden.obj",
+        "many/no.txt",
+    ] {
+        folder.write(name, &mesh);
+    }
+    let checked = |args: &str| {
+        let output = folder.run(&format!("tearmesh check {args}"));
+        let text = String::from_utf8(output.stdout).expect("text");
+        let names = text.lines().filter_map(|line| line.split(' ').next());
+        let names: Vec<String> = names.map(str::to_owned).collect();
+        (output.status.code(), names.join(" "))
+    };
+    // A folder's files by name, those of the folders in it included.
+    let all = "many/.hidden.obj many/A.OBJ many/b.obj many/deep/c.Obj";
+    assert_eq!(checked("-r many"), (Some(0), all.to_owned()));
+    // No shell has seen these. What begins with a dot has to be asked for.
+    assert_eq!(checked("many/*.obj"), (Some(0), "many/b.obj".to_owned()));
+    assert_eq!(
+        checked("many/.*.obj"),
+        (Some(0), "many/.hidden.obj".to_owned())
+    );
+    assert_eq!(checked("*/?.obj"), (Some(0), "many/b.obj".to_owned()));
+    // Nothing at all is no success.
+    assert_eq!(checked("-r none"), (Some(3), "none".to_owned()));
+    assert_eq!(checked("none/*.obj"), (Some(3), "none/*.obj".to_owned()));
+}

@@ -4,24 +4,9 @@
 use std::collections::BTreeMap;
 
 use serde_json::Value;
-use tearmesh_cli::{Exit, Streams, run};
+use tearmesh_cli::Exit;
 
-use crate::harness::{Folder, seen};
-
-/// Runs a verb on a mesh in memory: its exit status, its mesh, and what it says.
-fn ran(typed: &str, mesh: &[u8]) -> (Exit, Vec<u8>, String) {
-    let (mut output, mut error) = (Vec::new(), Vec::new());
-    let streams = Streams {
-        input: &mut &mesh[..],
-        output: &mut output,
-        error: &mut error,
-        output_is_terminal: false,
-        error_is_terminal: false,
-    };
-    let exit = run(typed.split(' ').map(Into::into), streams);
-    let said = String::from_utf8(error).expect("words are text");
-    (exit, output, said)
-}
+use crate::harness::{Folder, in_memory, seen};
 
 /// A file as its lines have it: where each `v` says that it is, where the record says so, and faces.
 struct Plain {
@@ -132,17 +117,17 @@ struct Tally {
 /// A cut with a gap, against the same without: `second` is cut after it.
 fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), tally: &mut Tally) {
     let cut = format!("tearmesh cut - {cut}");
-    let (exit, plain, _) = ran(&format!("{cut} -q -o -"), mesh);
+    let (exit, plain, _) = in_memory(&format!("{cut} -q -o -"), mesh, false);
     if exit != Exit::Done {
         return;
     }
     tally.made += 1;
     let line = format!("{cut} --gap {gap}");
-    let (exit, gapped, said) = ran(&format!("{line} -q -o -"), mesh);
+    let (exit, gapped, said) = in_memory(&format!("{line} -q -o -"), mesh, false);
     assert_eq!(exit, Exit::Done, "{said}");
-    let (_, report, _) = ran(&format!("{line} --format json"), mesh);
+    let (_, report, _) = in_memory(&format!("{line} --format json"), mesh, false);
     let report: Value = serde_json::from_slice(&report).expect("JSON");
-    let (_, report_of_plain, _) = ran(&format!("{cut} --format json"), mesh);
+    let (_, report_of_plain, _) = in_memory(&format!("{cut} --format json"), mesh, false);
     let report_of_plain: Value = serde_json::from_slice(&report_of_plain).expect("JSON");
     assert_eq!(
         report["mass"], report_of_plain["mass"],
@@ -206,15 +191,17 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     // Mended it is what it was; cut again, what the file without a gap is.
     for options in ["", " --simplify"] {
         let mend = format!("tearmesh mend -{options} -q -o -");
-        let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&mend, bytes));
+        let [(_, one, _), (_, other, _)] =
+            [&gapped, &plain].map(|bytes| in_memory(&mend, bytes, false));
         assert!(one == other, "{name} {line}{options}");
     }
     let again = format!("tearmesh cut - {second} --gap 0 --allow-miss -q -o -");
-    let [(_, one, _), (_, other, _)] = [&gapped, &plain].map(|bytes| ran(&again, bytes));
+    let [(_, one, _), (_, other, _)] =
+        [&gapped, &plain].map(|bytes| in_memory(&again, bytes, false));
     assert!(one == other, "{name} {line}, then {second}");
     // One that says nothing of the gap leaves it open, where it is not cut across.
     let again = format!("tearmesh cut - {second} --allow-miss -q -o -");
-    let (_, one, _) = ran(&again, &gapped);
+    let (_, one, _) = in_memory(&again, &gapped, false);
     let one = Plain::read(&one);
     assert_eq!(one.is, Plain::read(&other).shown);
     assert!(count("vertices_moved") == 0 || one.is != one.shown);
@@ -287,7 +274,7 @@ fn real_files_with_a_gap_are_what_they_were() {
             continue;
         }
         let bytes = std::fs::read(&path).expect("a file");
-        let (exit, checked, _) = ran("tearmesh check - --format json", &bytes);
+        let (exit, checked, _) = in_memory("tearmesh check - --format json", &bytes, false);
         if exit != Exit::Done {
             continue;
         }

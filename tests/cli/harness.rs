@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use tearmesh_cli::{Exit, Streams, run};
+
 /// The repository.
 pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -114,6 +116,21 @@ impl Folder {
         }
         command.output().expect("the command runs")
     }
+}
+
+/// Runs a command line on a mesh in memory: its exit status, its output, and what it says.
+pub(crate) fn in_memory(typed: &str, mesh: &[u8], terminal: bool) -> (Exit, Vec<u8>, String) {
+    let (mut output, mut error) = (Vec::new(), Vec::new());
+    let streams = Streams {
+        input: &mut &mesh[..],
+        output: &mut output,
+        error: &mut error,
+        output_is_terminal: terminal,
+        error_is_terminal: terminal,
+    };
+    let exit = run(typed.split(' ').map(Into::into), streams);
+    let said = String::from_utf8(error).expect("words are text");
+    (exit, output, said)
 }
 
 /// What a person sees: the words on standard error, those on standard output, and the exit

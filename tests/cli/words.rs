@@ -1,9 +1,9 @@
 //! What is said of cuts that split nothing: where it is cut already, where the mesh is only touched,
 //! and advice that works when it is typed.
 
-use tearmesh_cli::{Exit, Streams, run};
+use tearmesh_cli::Exit;
 
-use crate::harness::{Folder, seen};
+use crate::harness::{Folder, in_memory, seen};
 use crate::in_process::Case;
 
 /// Two squares side by side, each of two faces.
@@ -73,25 +73,6 @@ fn regression_what_is_only_touched_is_not_0_away() {
     }
 }
 
-/// A run, as exit status, standard output and words.
-fn cut(args: &str, mesh: &[u8]) -> (Exit, Vec<u8>, String) {
-    let (mut output, mut error) = (Vec::new(), Vec::new());
-    let streams = Streams {
-        input: &mut &mesh[..],
-        output: &mut output,
-        error: &mut error,
-        output_is_terminal: false,
-        error_is_terminal: false,
-    };
-    let typed = format!("tearmesh cut - {args}");
-    let exit = run(typed.split(' ').map(Into::into), streams);
-    (
-        exit,
-        output,
-        String::from_utf8(error).expect("words are text"),
-    )
-}
-
 /// Every cut between two points of a lattice, some of which lie on corners and edges and some within
 /// the snap of them; and each of them twice.
 #[test]
@@ -108,16 +89,16 @@ fn cuts_on_a_lattice_say_what_is_so() {
                 if Case::from_bytes(bytes.as_bytes()).check() != Exit::Done {
                     continue;
                 }
-                let args = format!("{rays} --snap={snap}");
-                let (_, torn, _) = cut(&args, SQUARES.as_bytes());
-                let (exit, _, said) = cut(&args, &torn);
+                let cut = format!("tearmesh cut - {rays} --snap={snap}");
+                let (_, torn, _) = in_memory(&cut, SQUARES.as_bytes(), false);
+                let (exit, _, said) = in_memory(&cut, &torn, false);
                 if exit == Exit::Done {
                     continue; // A seam that was snapped is not where the plane is.
                 }
                 twice += 1;
                 let is_said = said.contains("it is already cut there");
                 let is_advised = said.contains("--snap 0 makes it");
-                assert!(is_said || is_advised, "{cases}: {args}\n{said}");
+                assert!(is_said || is_advised, "{cases}: {cut}\n{said}");
                 let mut again = format!("{rays}|--snap={snap}\n").into_bytes();
                 again.extend(torn);
                 Case::from_bytes(&again).check();
@@ -126,4 +107,22 @@ fn cuts_on_a_lattice_say_what_is_so() {
     }
     println!("{cases} cuts, {twice} of them made twice");
     assert!(twice > 100);
+}
+
+#[test]
+fn on_a_terminal_it_is_said_first_that_no_mesh_will_be_written() {
+    let cut = "tearmesh cut - --plane 0.5,0,0:1,0,0";
+    let (exit, output, said) = in_memory(cut, SQUARES.as_bytes(), true);
+    assert_eq!(exit, Exit::Done);
+    assert!(said.contains("W-OUTPUT-NONE"), "{said}");
+    assert!(output.starts_with(b"cut: "), "words, and no mesh");
+    for meant in ["--dry-run", "--format json", "-o -"] {
+        let (_, _, said) = in_memory(&format!("{cut} {meant}"), SQUARES.as_bytes(), true);
+        assert!(!said.contains("W-OUTPUT-NONE"), "{meant}: {said}");
+    }
+    let (_, output, said) = in_memory(cut, SQUARES.as_bytes(), false);
+    assert!(
+        !said.contains("W-OUTPUT-NONE") && output.starts_with(b"v "),
+        "a pipe takes the mesh"
+    );
 }

@@ -9,9 +9,11 @@ mod read;
 mod render;
 mod tear;
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 
 use clap::{Parser, Subcommand};
+
+use crate::rays;
 
 pub(crate) use self::chart::{ChartArgs, DrawArgs, Fig7Args, ParetoArgs, What};
 pub(crate) use self::check::CheckArgs;
@@ -24,10 +26,27 @@ pub(crate) use self::tear::{TearArgs, Topology};
 
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
-#[command(name = "tearmesh", version, disable_help_subcommand = true)]
+#[command(name = "tearmesh", version)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) verb: Verb,
+}
+
+impl Args {
+    /// Reads arguments, the first of which is the program's name.
+    pub(crate) fn read(args: &[OsString]) -> Result<Args, clap::Error> {
+        let mut args = Args::try_parse_from(join_rays(args))?;
+        let files = match &mut args.verb {
+            Verb::Cut(cut) => Some(&mut cut.files),
+            Verb::Tear(tear) => Some(&mut tear.files),
+            Verb::Mend(mend) => Some(&mut mend.files),
+            _ => None,
+        };
+        if let Some(files) = files.filter(|files| files.in_place) {
+            files.output.get_or_insert_with(|| files.input.clone());
+        }
+        Ok(args)
+    }
 }
 
 #[derive(Debug, Subcommand)]
@@ -40,32 +59,57 @@ pub(crate) enum Verb {
     Chart(ChartArgs),
 }
 
+/// The options whose values are numbers with commas between them, and how many of these each takes.
+const OF_NUMBERS: [(&str, usize); 6] = [
+    ("--rays", 2),
+    ("--points", 2),
+    ("--plane", 1),
+    ("--camera", 1),
+    ("--up", 1),
+    ("--near", 1),
+];
+
 /// Makes one argument of `--rays A B`, so that a negative number is no option, and an option is
-/// no second ray; and likewise of `--points A B`.
+/// no second ray; and likewise of `--points A B`. A blank beside a comma, a colon or `@` makes two
+/// arguments of one ray: they are joined again.
 ///
 /// `--rays A B`, `--rays "A B"`, `--rays "A;B"` and `--rays=A B` all become `--rays=A;B`. What
 /// does not look like a ray is left to the parser.
-pub(crate) fn join_rays(args: &[OsString]) -> Vec<OsString> {
+fn join_rays(args: &[OsString]) -> Vec<OsString> {
     let mut joined = Vec::with_capacity(args.len());
-    let mut rest = args.iter().peekable();
-    while let Some(arg) = rest.next() {
+    let mut rest = args;
+    while let [arg, after @ ..] = rest {
+        rest = after;
         if arg == "--" {
             joined.push(arg.clone());
-            joined.extend(rest.by_ref().cloned());
+            joined.extend_from_slice(rest);
             break;
         }
         let text = arg.to_str().unwrap_or_default();
         let (name, given) = text.split_once('=').unwrap_or((text, ""));
-        if !["--rays", "--points"].contains(&name) {
+        let Some(&(_, takes)) = OF_NUMBERS.iter().find(|(option, _)| *option == name) else {
             joined.push(arg.clone());
             continue;
-        }
+        };
         let mut value = given.to_owned();
-        while crate::rays::split_pair(&value).count() < 2
-            && let Some(ray) = rest.next_if(|next| looks_like_rays(next))
-        {
-            value.push(';');
-            value.push_str(&ray.to_string_lossy());
+        while let [next, after @ ..] = rest {
+            let next = next.to_string_lossy();
+            let following = after.first().map(|arg| arg.to_string_lossy());
+            let is_split = following.is_some_and(|arg| rays::is_continued(&arg));
+            if !value.is_empty() && (rays::goes_on(&value) || rays::is_continued(&next)) {
+                if !is_of_numbers(&next) {
+                    break;
+                }
+                value.push(' ');
+            } else if rays::split_pair(&value).count() < takes
+                && (looks_like_rays(&next) || is_split && is_of_numbers(&next))
+            {
+                value.push(';');
+            } else {
+                break;
+            }
+            value.push_str(&next);
+            rest = after;
         }
         if value.is_empty() && arg == name {
             joined.push(arg.clone());
@@ -78,12 +122,17 @@ pub(crate) fn join_rays(args: &[OsString]) -> Vec<OsString> {
 
 /// Whether an argument is meant as a ray: numbers with commas between them, or what is written like
 /// one, for which an error about the ray says more than one about an argument too many.
-fn looks_like_rays(arg: &OsStr) -> bool {
-    let text = arg.to_string_lossy();
+fn looks_like_rays(text: &str) -> bool {
     let number = text.trim_start().trim_start_matches(['+', '-']);
     let is_number = number.starts_with(|c: char| c.is_ascii_digit() || c == '.');
     let is_ray = !text.starts_with('-') && text.contains([':', '@']);
     text.contains(',') && (is_number || is_ray)
+}
+
+/// Whether an argument is made of nothing but numbers and the marks between those of a ray.
+fn is_of_numbers(text: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_digit() || c.is_whitespace() || "+-.eE,:@>;".contains(c);
+    !text.is_empty() && text.chars().all(is_part)
 }
 
 #[cfg(test)]
@@ -129,6 +178,23 @@ mod tests {
         for args in ["cut|--points|-1,2|3,-4|-o|x", "cut|--points=-1,2|3,-4|-o|x"] {
             assert_eq!(joined(args), one);
         }
+    }
+
+    #[test]
+    fn a_blank_beside_a_mark_does_not_divide_a_ray() {
+        let one = "cut|in|--rays=1,2,3: 4,5,6;-1,0, 0 @7,8,9|-o|x";
+        let args = "cut|in|--rays|1,2,3:|4,5,6|-1,0,|0|@7,8,9|-o|x";
+        assert_eq!(joined(args), one);
+        assert_eq!(
+            joined("cut|--rays|1|,2,3:4,5,6|1,2,3|:|4,5,-6|in"),
+            "cut|--rays=1 ,2,3:4,5,6;1,2,3 : 4,5,-6|in"
+        );
+        assert_eq!(
+            joined("cut|--plane|0,0,0:|-1,0,0|in|--up|0,|1,0"),
+            "cut|--plane=0,0,0: -1,0,0|in|--up=0, 1,0"
+        );
+        // An option ends a ray that is not whole.
+        assert_eq!(joined("cut|--rays|1,2,3:|-o|x"), "cut|--rays=1,2,3:|-o|x");
     }
 
     #[test]

@@ -59,6 +59,18 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         args.report.as_ref(),
     );
     let is_stream = |path: &PathBuf| path == Path::new("-");
+    if args.in_place && is_stream(&args.input) {
+        let message = "standard input cannot be replaced".to_owned();
+        return usage(message, "name the file to read, or leave out --in-place");
+    }
+    if let Some((path, foreign)) = output.and_then(|path| Some((path, Foreign::of(path)?))) {
+        let name = path.display();
+        let message = format!(
+            "`{name}` is named like {}, and the mesh is written as OBJ",
+            foreign.what
+        );
+        return usage(message, foreign.help);
+    }
     if args.format == Format::Json && output.is_some_and(is_stream) {
         let message = "`-o -` and `--format json` both want standard output".to_owned();
         return usage(
@@ -97,6 +109,49 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         taken.push(Some(path));
     }
     Ok(())
+}
+
+/// The format that a file's name promises, and that is not what `-o` writes.
+struct Foreign {
+    what: &'static str,
+    help: &'static str,
+}
+
+impl Foreign {
+    fn of(path: &Path) -> Option<Foreign> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        let foreign = |what, help| Some(Foreign { what, help });
+        match &*ending {
+            "png" => foreign(
+                "a picture",
+                "name it x.obj, and draw a picture with --picture F.png",
+            ),
+            "pc2" => foreign(
+                "a point cache",
+                "name it x.obj, and write the cache of `tear` with --cache F.pc2",
+            ),
+            "json" => foreign(
+                "JSON",
+                "name it x.obj, and write the report with --report F.json",
+            ),
+            "3ds" | "3mf" | "abc" | "blend" | "bmp" | "dae" | "dxf" | "fbx" | "glb" | "gltf"
+            | "jpeg" | "jpg" | "mdd" | "mtl" | "off" | "ply" | "step" | "stl" | "stp" | "svg"
+            | "usd" | "usda" | "usdc" | "usdz" | "vtk" | "vtp" | "vtu" | "wrl" | "x3d" => foreign(
+                "a file of another format",
+                "name it x.obj, and convert that, as with `assimp export x.obj x.ply`",
+            ),
+            _ => None,
+        }
+    }
+}
+
+/// What to say before anything is done, if a run writes no mesh and was not told so: it may take long.
+pub(crate) fn unwritten(args: &FileArgs, output_is_terminal: bool) -> Option<Fault> {
+    let is_meant = args.dry_run || args.format == Format::Json || args.output.is_some();
+    (output_is_terminal && !is_meant).then(|| {
+        let message = "the mesh will not be written: no -o OUT was given".to_owned();
+        Fault::warning("W-OUTPUT-NONE", message).help("add -o OUT, or --dry-run if that is meant")
+    })
 }
 
 /// The files that show the mesh, by their options, as far as they are wanted.

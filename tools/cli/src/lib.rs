@@ -34,8 +34,6 @@ mod tear;
 
 use std::ffi::OsString;
 
-use clap::Parser as _;
-
 pub use exit::Exit;
 pub use interrupt::interrupt;
 pub use output::abandon as abandon_output;
@@ -47,7 +45,7 @@ use say::Color;
 /// Runs the command with these arguments, the first of which is the program's name.
 pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -> Exit {
     let args: Vec<OsString> = args.into_iter().collect();
-    match Args::try_parse_from(args::join_rays(&args)) {
+    match Args::read(&args) {
         Ok(Args {
             verb: Verb::Cut(cut),
         }) => cut::run(&cut, &args, &mut streams),

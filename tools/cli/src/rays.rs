@@ -1,8 +1,8 @@
 //! Rays and planes as people write them.
 //!
 //! `ox,oy,oz:dx,dy,dz` is an origin and a direction, `ox,oy,oz@tx,ty,tz` an origin and a target;
-//! `->` means the same as `@`. Two rays are separated by blanks or a semicolon. A plane is a point and a
-//! normal, `px,py,pz:nx,ny,nz`.
+//! `->` means the same as `@`. Two rays are separated by blanks or a semicolon; blanks beside a comma, a
+//! colon, `@` or `->` separate nothing. A plane is a point and a normal, `px,py,pz:nx,ny,nz`.
 
 use std::ops::Range;
 
@@ -20,12 +20,32 @@ pub(crate) fn split_pair(text: &str) -> impl Iterator<Item = Range<usize>> + '_ 
     let mut at = 0;
     std::iter::from_fn(move || {
         let start = at + text[at..].find(|c| !is_separator(c))?;
-        let end = text[start..]
-            .find(is_separator)
-            .map_or(text.len(), |length| start + length);
+        let mut end = start;
+        loop {
+            let rest = &text[end..];
+            end += rest.find(is_separator).unwrap_or(rest.len());
+            // Blanks beside a mark are part of a ray.
+            let after = text[end..].trim_start();
+            let is_one = goes_on(&text[start..end]) || is_continued(after);
+            if after.is_empty() || after.starts_with(';') || !is_one {
+                break;
+            }
+            end = text.len() - after.len();
+            end += after.chars().next().map_or(0, char::len_utf8);
+        }
         at = end;
         Some(start..end)
     })
+}
+
+/// Whether the text of a ray ends with a mark, so that it has to go on.
+pub(crate) fn goes_on(text: &str) -> bool {
+    text.ends_with([',', ':', '@']) || text.ends_with("->")
+}
+
+/// Whether a text begins with a mark, so that it goes on with what stands before it.
+pub(crate) fn is_continued(text: &str) -> bool {
+    text.starts_with([',', ':', '@']) || text.starts_with("->")
 }
 
 /// Two rays as they can be typed, to the last digit.
@@ -213,9 +233,10 @@ fn triple(text: &str, part: Range<usize>, what: &str) -> Result<[f64; 3], Unread
     let mut count = 0;
     let mut at = part.start;
     for number in text[part.clone()].split(',') {
-        let span = at..at + number.len();
-        at = span.end + 1;
-        let parsed = number.parse().ok().filter(|x: &f64| x.is_finite());
+        let blanks = number.len() - number.trim_start().len();
+        let span = at + blanks..at + blanks + number.trim().len();
+        at += number.len() + 1;
+        let parsed = number.trim().parse().ok().filter(|x: &f64| x.is_finite());
         let (Some(slot), Some(x)) = (numbers.get_mut(count), parsed) else {
             let label = if count < 3 {
                 "expected a finite number"
@@ -273,6 +294,7 @@ mod tests {
         assert_eq!(read("0,1,5:0,0,-1 -.5,1e-3,2@1,0,0"), expected);
         assert_eq!(read("0,1,5@0,1,4;-.5,1e-3,2->1,0,0"), expected);
         assert_eq!(read(" 0,1,5@0,1,4 ; -.5,1e-3,2->1,0,0 "), expected);
+        assert_eq!(read("0, 1,5 @ 0,1, 4 -.5 ,1e-3 , 2 -> 1,0,0"), expected);
     }
 
     #[test]
@@ -302,6 +324,11 @@ mod tests {
         );
         assert_eq!(read("0,1,5:0,0,0 0,1,5:0,1,1"), Err(("E-RAY-ZERO", 6, 11)));
         assert_eq!(read("0,1,5@0,1,5 0,1,5:0,1,1"), Err(("E-RAY-ZERO", 6, 11)));
+        assert_eq!(
+            read("0, 1,5: 0,0,-1 0,1, x :0,1,1"),
+            Err(("E-RAY-SYNTAX", 20, 21))
+        );
+        assert_eq!(read("0,1,5:0,0,-1 0,1,"), Err(("E-RAY-SYNTAX", 13, 17)));
         assert_eq!(
             read("0,1,1e99:0,1,5 0,1,5:0,1,1"),
             Err(("E-RAY-ZERO", 0, 8))

@@ -62,6 +62,10 @@ impl<'a> Session<'a> {
         // A panic is a broken invariant too, and deserves a reproducer as much.
         let ended = catch_unwind(AssertUnwindSafe(|| {
             files::check(files)?;
+            if let Some(unwritten) = files::unwritten(files, streams.output_is_terminal) {
+                session.faults.push(unwritten);
+                session.warn_now(streams);
+            }
             work(&mut session, streams)
         }));
         let exit = match ended {

@@ -15,11 +15,12 @@ pub(crate) struct FileArgs {
 
     /// Where to write the mesh; `-` is standard output.
     ///
-    /// Without it the mesh goes to standard output if that is a pipe or a file.
+    /// Without it the mesh goes to standard output if that is a pipe or a file. What is written is OBJ:
+    /// a name that ends like that of another format is refused.
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Allow the output to replace the input.
+    /// Allow the output to replace the input; without -o, replace it.
     #[arg(long)]
     pub(crate) in_place: bool,
 

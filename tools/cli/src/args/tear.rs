@@ -24,11 +24,11 @@ Examples:
 #[derive(Debug, Parser)]
 #[command(after_long_help = format!("{EXAMPLES}{}", crate::scene::schema()))]
 pub(crate) struct TearArgs {
-    /// hang, flag, rip, trouser, or a scene file in TOML.
+    /// hang, flag, rip, trouser, fall, or a scene file in TOML.
     ///
     /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung by its
     /// upper edge, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
-    /// apart. A scene file can start from one of these; its keys are listed below.
+    /// apart. `fall`: nothing is held. A scene file can start from one of these; its keys are listed below.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: String,
 
@@ -68,7 +68,7 @@ pub(crate) struct TearArgs {
 
     /// How long, in seconds (default: as the scene says).
     ///
-    /// hang 2, flag and rip 3, trouser 4.
+    /// hang and fall 2, flag and rip 3, trouser 4.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seconds: Option<f64>,
 

@@ -51,23 +51,38 @@ pub(crate) enum Kind {
 impl Kind {
     /// In words.
     pub(crate) fn name(self) -> String {
+        let words = match self {
+            Kind::Positive => "a number above 0",
+            Kind::NotNegative => "a number from 0 up",
+            Kind::Ratio => "a number above 1",
+            Kind::Part => "a number from 0 to 1",
+            Kind::Count => "a whole number from 1 up",
+            Kind::Bool => "true or false",
+            Kind::Word(words) => return format!("one of {}", words.join(", ")),
+            Kind::Range => "two ascending numbers",
+            Kind::Pair => "two numbers",
+            Kind::Vector => "three numbers",
+            Kind::NumberOrVector => "a number from 0 up, or three",
+            Kind::Rays => "two rays",
+            Kind::Numbers => "numbers of vertices from 1 up",
+            Kind::Moves => "seconds and three metres each, seconds ascending",
+        };
+        match self.example() {
+            Some(example) => format!("{words}, as in {example}"),
+            None => words.to_owned(),
+        }
+    }
+
+    /// How a value is written that is more than a number or a word.
+    fn example(self) -> Option<&'static str> {
         match self {
-            Kind::Positive => "a number above 0".to_owned(),
-            Kind::NotNegative => "a number from 0 up".to_owned(),
-            Kind::Ratio => "a number above 1".to_owned(),
-            Kind::Part => "a number from 0 to 1".to_owned(),
-            Kind::Count => "a whole number from 1 up".to_owned(),
-            Kind::Bool => "true or false".to_owned(),
-            Kind::Word(words) => format!("one of {}", words.join(", ")),
-            Kind::Range => "two ascending numbers, as in [0, 0.5]".to_owned(),
-            Kind::Pair => "two numbers, as in [0.5, 1]".to_owned(),
-            Kind::Vector => "three numbers, as in [0, 1.5, 0]".to_owned(),
-            Kind::NumberOrVector => "a number from 0 up, or three".to_owned(),
-            Kind::Rays => "two rays, as in [\"0,2,5:0,0,-1\", \"0,-2,5:0,0,-1\"]".to_owned(),
-            Kind::Numbers => "numbers of vertices from 1 up, as in [1, 33]".to_owned(),
-            Kind::Moves => "seconds and three metres each, seconds ascending, as in \
-                            [[0, 0, 0, 0], [1, 0, -0.5, 0]]"
-                .to_owned(),
+            Kind::Range => Some("[0, 0.5]"),
+            Kind::Pair => Some("[0.5, 1]"),
+            Kind::Vector => Some("[0, 1.5, 0]"),
+            Kind::Rays => Some(r#"["0,2,5:0,0,-1", "0,-2,5:0,0,-1"]"#),
+            Kind::Numbers => Some("[1, 33]"),
+            Kind::Moves => Some("[[0, 0, 0, 0], [1, 0, -0.5, 0]]"),
+            _ => None,
         }
     }
 }
@@ -189,7 +204,8 @@ pub(crate) fn tables() -> Vec<&'static str> {
 /// The schema in words, for `--help`.
 pub(crate) fn schema() -> String {
     let mut text = String::from(
-        "Scene files (TOML): all keys are optional but those marked; what stands last is the default.\n\
+        "Scene files (TOML): all keys are optional but those marked; what stands last is the default,\n\
+         or after `as` how a value is written.\n\
          Any [[hold]], [[cut]], [[strength]] or [[collider]] replace all of that kind that the base\n\
          has, and any [tear] lets the scene tear, also base = \"flag\", but for never = true.\n\
          Vertices count from 1 as in OBJ, without the last ones that lines `#~ fan` of a torn file name.\n",
@@ -202,7 +218,10 @@ pub(crate) fn schema() -> String {
         };
         text.push_str(&title);
         for key in keys_of(table) {
-            writeln!(text, "    {:<18} {}", key.name, key.about).expect("a string grows");
+            let example = key.kind.example();
+            let example = example.map(|example| format!(", as {example}"));
+            let (name, about, example) = (key.name, key.about, example.unwrap_or_default());
+            writeln!(text, "    {name:<18} {about}{example}").expect("a string grows");
         }
     }
     text.pop();
