@@ -25,6 +25,7 @@ mod pareto;
 mod pictures;
 mod pieces;
 mod places;
+mod shell;
 mod step;
 mod tear;
 mod through;

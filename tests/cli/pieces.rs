@@ -251,10 +251,17 @@ fn a_piece_replaces_no_other_file_and_those_of_an_earlier_run_are_warned_of() {
     let folder = Folder::new();
     fs::create_dir(folder.path("p")).expect("a folder");
     let line = format!("tearmesh cut flag.obj {CROSS} --pieces");
-    for (options, what) in [
-        ("p -o p/piece_00003.obj", "the output"),
-        ("p -o x.obj --report p/pieces.json", "the report"),
-        ("p -o x.obj --seam p/piece_00000.obj", "the seam"),
+    folder.write("p/piece_00001.obj", folder.read("flag.obj"));
+    folder.write("p/piece_00002.obj", "0,2,5:0,0,-1 0,-2,5:0,0,-1\n");
+    let of_piece = line.replace("flag.obj", "p/piece_00001.obj");
+    let of_file = "tearmesh cut flag.obj --rays-file p/piece_00002.obj --pieces";
+    for (line, options, what) in [
+        (&*line, "p -o p/piece_00003.obj", "the output"),
+        (&line, "p -o x.obj --report p/pieces.json", "the report"),
+        (&line, "p -o x.obj --seam p/piece_00000.obj", "the seam"),
+        (&line, "p -o x.obj --map p/piece_00000.obj", "the map"),
+        (&of_piece, "p -o x.obj", "the input"),
+        (of_file, "p -o x.obj", "the rays"),
     ] {
         let output = folder.run(&format!("{line} {options}"));
         assert_eq!(output.status.code(), Some(2), "{}", seen(&output));

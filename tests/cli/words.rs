@@ -57,6 +57,22 @@ fn regression_a_second_cut_in_the_same_place_is_told_that_it_is_cut() {
 }
 
 #[test]
+fn a_cut_beside_the_seam_is_not_told_that_it_is_cut() {
+    let cut = "tearmesh cut - --rays 0.5,2,5:0,0,-1 0.5,-1,5:0,0,-1";
+    let (_, torn, _) = in_memory(cut, SQUARES.as_bytes(), false);
+    let (exit, _, said) = in_memory(cut, &torn, false);
+    assert_eq!(exit, Exit::NothingCut);
+    assert!(said.contains("it is already cut there"), "{said}");
+    let beside = "tearmesh cut - --rays 0.5,5,5:0,0,-1 0.5,4,5:0,0,-1";
+    let (exit, _, said) = in_memory(beside, &torn, false);
+    assert_eq!(exit, Exit::NothingCut);
+    assert!(
+        !said.contains("already cut") && said.contains("nearest"),
+        "{said}"
+    );
+}
+
+#[test]
 fn regression_what_is_only_touched_is_not_0_away() {
     let folder = Folder::new();
     folder.write("squares.obj", SQUARES);

@@ -7,6 +7,7 @@ mod files;
 mod mend;
 mod read;
 mod render;
+mod shell;
 mod tear;
 
 use std::ffi::OsString;
@@ -22,6 +23,7 @@ pub(crate) use self::files::{FileArgs, Format};
 pub(crate) use self::mend::MendArgs;
 pub(crate) use self::read::{Gap, numbers};
 pub(crate) use self::render::RenderArgs;
+pub(crate) use self::shell::{CompletionsArgs, ManArgs};
 pub(crate) use self::tear::{TearArgs, Topology};
 
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
@@ -57,6 +59,8 @@ pub(crate) enum Verb {
     Render(Box<RenderArgs>),
     Check(CheckArgs),
     Chart(ChartArgs),
+    Completions(CompletionsArgs),
+    Man(ManArgs),
 }
 
 /// The options whose values are numbers with commas between them, and how many of these each takes.

@@ -2,10 +2,11 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes, `cut`, `tear`,
-//! `mend`, `check`, `render` and `chart` carry out the verbs, `picture` draws for them, `session` is what the first three have in
-//! common, `report` is their JSON, `defects` shows what is wrong with a mesh, `measure` how large it is, `say` puts
-//! diagnostics on a screen, `output` writes files whole or not at all, `files` says where, `bug`
+//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes; `cut`, `tear`, `mend`,
+//! `check`, `render` and `chart` carry out the verbs, and `shell` prints completions and pages of the
+//! manual; `picture` draws for the verbs that change a mesh, `session` is what these have in common,
+//! `report` is their JSON; `defects` shows what is wrong with a mesh, `measure` how large it is, `say`
+//! puts diagnostics on a screen; `output` writes files whole or not at all, `files` says where; `bug`
 //! writes a reproducer when an invariant broke, `streams` is what a run reads and writes, and `exit`
 //! how it ends.
 
@@ -29,6 +30,7 @@ mod report;
 mod say;
 mod scene;
 mod session;
+mod shell;
 mod streams;
 mod tear;
 
@@ -64,6 +66,12 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Args {
             verb: Verb::Chart(chart),
         }) => chart::run(&chart, &mut streams),
+        Ok(Args {
+            verb: Verb::Completions(completions),
+        }) => shell::complete(&completions, &mut streams),
+        Ok(Args {
+            verb: Verb::Man(man),
+        }) => shell::man(&man, &mut streams),
         Err(help) if !help.use_stderr() => {
             let text = help.render();
             let is_terminal = streams.output_is_terminal;

@@ -1,0 +1,31 @@
+//! What `completions` and `man` take.
+
+use clap::Parser;
+use clap_complete::Shell;
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh completions bash > ~/.local/share/bash-completion/completions/tearmesh
+  tearmesh completions zsh > \"${fpath[1]}/_tearmesh\"";
+
+/// Print what a shell needs to complete commands and options
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct CompletionsArgs {
+    /// The shell.
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  tearmesh man | man -l -
+  tearmesh man cut > tearmesh-cut.1";
+
+/// Print a page of the manual, of the command or of one verb.
+#[derive(Debug, Parser)]
+#[command(after_long_help = MAN_EXAMPLES)]
+pub(crate) struct ManArgs {
+    /// The verb, as in `cut` or `chart fig7`.
+    pub(crate) verb: Vec<String>,
+}
