@@ -62,7 +62,7 @@ impl Folder {
         names
     }
 
-    /// Adds the names and bytes of all files to a number that stands for them (FNV-1a).
+    /// Adds the names and bytes of all files to a digest.
     pub(crate) fn digest(&self, digest: &mut u64) {
         let mut paths = vec![self.folder.path().to_owned()];
         let mut next = 0;
@@ -77,9 +77,7 @@ impl Folder {
         for path in paths.iter().filter(|path| path.is_file()) {
             let name = path.strip_prefix(self.folder.path()).expect("in here");
             let bytes = fs::read(path).expect("a file");
-            for byte in name.to_string_lossy().bytes().chain(bytes) {
-                *digest = (*digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
+            digested(digest, name.to_string_lossy().bytes().chain(bytes));
         }
     }
 
@@ -115,6 +113,13 @@ impl Folder {
             }
         }
         command.output().expect("the command runs")
+    }
+}
+
+/// Adds bytes to a number that stands for all before them (FNV-1a).
+pub(crate) fn digested(digest: &mut u64, bytes: impl Iterator<Item = u8>) {
+    for byte in bytes {
+        *digest = (*digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     }
 }
 

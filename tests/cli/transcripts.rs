@@ -4,11 +4,22 @@
 //! empty line, are the answer: standard error, then standard output, then `(exit N)` unless N
 //! is 0. The files that commands leave behind stay for the commands after them.
 //! `TEARMESH_BLESS=1` writes the answers anew; read the difference before you keep it.
+//!
+//! What a cloth does once it tears is chaotic: each change to a solver gives other digits, which tell a
+//! reader nothing. There `…` stands for a number, and one digest a file is kept of all such lines.
 
 use std::fs;
 use std::path::Path;
 
-use crate::harness::{Folder, root, seen};
+use crate::harness::{Folder, digested, root, seen};
+
+const NOTHING_DIGESTED: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
+const CHAOTIC: [(&str, u64); 2] = [
+    ("README.md", NOTHING_DIGESTED),
+    ("tear.txt", NOTHING_DIGESTED),
+];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
@@ -23,7 +34,7 @@ fn transcripts_are_answered_to_the_letter() {
         .collect();
     paths.sort();
     let mut commands = 0;
-    let mut digest = 0xcbf2_9ce4_8422_2325;
+    let mut digest = NOTHING_DIGESTED;
     for path in paths {
         let folder = Folder::new();
         bad_inputs(&folder);
@@ -44,11 +55,13 @@ fn the_commands_of_the_readme_answer_as_it_says() {
 
 /// Plays the commands of a file, and counts them. In Markdown only `console` blocks count.
 fn play(path: &Path, folder: &Folder, plain: bool) -> usize {
+    let name = path.file_name().expect("a name").display().to_string();
     let text = fs::read_to_string(path).expect("a transcript");
     let mut lines = text.lines().peekable();
     let mut played = String::new();
     let mut in_block = plain;
     let mut commands = 0;
+    let mut chaotic = NOTHING_DIGESTED;
     while let Some(line) = lines.next() {
         played.push_str(line);
         played.push('\n');
@@ -60,36 +73,69 @@ fn play(path: &Path, folder: &Folder, plain: bool) -> usize {
         };
         if let Some(names) = typed.strip_prefix("cmp ") {
             let files: Vec<_> = names.split(' ').map(|name| folder.read(name)).collect();
-            assert!(
-                files[0] == files[1],
-                "{names} differ, in {}",
-                path.display()
-            );
+            assert!(files[0] == files[1], "{names} differ, in {name}");
             continue;
         }
         if !typed.starts_with("tearmesh ") && !typed.starts_with("cargo run ") {
             continue; // A command of the shell, which is not ours to test.
         }
         let is_answer = |line: &str| !line.is_empty() && !line.starts_with("$ ") && line != "```";
-        while lines.next_if(|line| is_answer(line)).is_some() {}
+        let mut expected = std::iter::from_fn(|| lines.next_if(|line| is_answer(line)));
         let answer = seen(&folder.run(typed));
         for line in answer.lines() {
             // An empty line would end the answer.
             let line = line.trim_end();
-            played.push_str(if line.is_empty() { "." } else { line });
+            let line = if line.is_empty() { "." } else { line };
+            let masked = expected.next().filter(|masked| stands_for(masked, line));
+            if masked.is_some() {
+                digested(&mut chaotic, line.bytes());
+            }
+            played.push_str(masked.unwrap_or(line));
             played.push('\n');
         }
+        expected.for_each(drop);
         commands += 1;
     }
     if std::env::var_os("TEARMESH_BLESS").is_some() {
         fs::write(path, &played).expect("a blessed transcript");
     }
-    let name = path.file_name().expect("a name").display();
     assert!(
         played == text,
         "{name} reads otherwise; the answers are now:\n{played}"
     );
+    let known = CHAOTIC.iter().find(|(file, _)| *file == name);
+    let known = known.map_or(NOTHING_DIGESTED, |(_, digest)| *digest);
+    assert_eq!(chaotic, known, "{name}: {chaotic:#018x}");
     commands
+}
+
+/// Whether a line with `…` in it is this one but for the numbers that stand in their places.
+fn stands_for(masked: &str, line: &str) -> bool {
+    let mut parts = masked.split('…');
+    let mut rest = parts.next().and_then(|part| line.strip_prefix(part));
+    for part in parts {
+        rest = rest.and_then(|rest| {
+            let after = rest.trim_start_matches(|c: char| c.is_ascii_digit() || "-.e".contains(c));
+            let is_number = after.len() < rest.len();
+            after.strip_prefix(part).filter(|_| is_number)
+        });
+    }
+    masked.contains('…') && rest == Some("")
+}
+
+#[test]
+fn a_mask_stands_for_numbers_alone() {
+    for (masked, line, is) in [
+        ("… m torn", "8.4088 m torn", true),
+        ("… J, … J", "-1.5e-5 J, 0 J", true),
+        ("at …", "at 7", true),
+        ("at …", "at ", false),
+        ("at …", "at once", false),
+        ("… m", "8 km", false),
+        ("8 m", "8 m", false),
+    ] {
+        assert_eq!(stands_for(masked, line), is, "{masked} {line}");
+    }
 }
 
 /// The bad files that the transcripts speak of.

@@ -70,6 +70,13 @@ fn a_cut_beside_the_seam_is_not_told_that_it_is_cut() {
         !said.contains("already cut") && said.contains("nearest"),
         "{said}"
     );
+    // The seam's faces lie on both sides of this one, but the seam is further off than the snap.
+    let cut = "tearmesh cut - --rays 0.4,2,5:0,0,-1 0.4,-1,5:0,0,-1";
+    let (_, torn, _) = in_memory(cut, SQUARES.as_bytes(), false);
+    let short = "tearmesh cut - --rays 0.5,0.7,5:0,0,-1 0.5,0.72,5:0,0,-1";
+    let (exit, _, said) = in_memory(short, &torn, false);
+    assert_eq!(exit, Exit::NothingCut);
+    assert!(said.contains("shorter than the snap"), "{said}");
 }
 
 #[test]
