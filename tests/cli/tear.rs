@@ -134,6 +134,47 @@ fn the_report_says_what_the_method_says_of_its_steps() {
     }
 }
 
+#[test]
+fn the_report_lists_the_features_in_use_and_their_shares() {
+    let folder = Folder::new();
+    for (scene, features) in [
+        ("hang", &["springs", "tearing", "measuring"][..]),
+        ("flag", &["springs", "wind", "measuring"]),
+        (
+            "tests/data/woven.toml",
+            &["springs", "triangles", "tearing", "measuring"],
+        ),
+        (
+            "tests/data/folds.toml",
+            &["springs", "bending", "measuring"],
+        ),
+    ] {
+        let line = format!("tearmesh tear sheet.obj --scene {scene} --seconds 0.1 --dry-run");
+        let said = seen(&folder.run(&format!("{line} --report r.json")));
+        let report: serde_json::Value =
+            serde_json::from_str(&folder.read("r.json")).expect("a report");
+        let told = report["counters"]["features"].as_array().expect("a list");
+        let names: Vec<_> = told.iter().map(|one| one["name"].as_str()).collect();
+        let expected: Vec<_> = features.iter().map(|&name| Some(name)).collect();
+        assert_eq!(names, expected, "{scene}");
+        let visits: u64 = told
+            .iter()
+            .map(|one| one["visits"].as_u64().expect("a count"))
+            .sum();
+        let mut words = Vec::new();
+        for one in told {
+            let share = one["visits"].as_f64().expect("a count") / visits as f64;
+            assert!((one["share"].as_f64().expect("a part") - share).abs() < 1e-12);
+            let name = one["name"].as_str().expect("a name");
+            words.push(format!("{name} {:.0} %", 100.0 * share));
+        }
+        assert!(
+            said.contains(&format!("elements: {}", words.join(", "))),
+            "{said}"
+        );
+    }
+}
+
 /// A step that was divided is limited as often as it has parts.
 #[test]
 fn the_limiter_counts_in_the_unit_that_it_names() {

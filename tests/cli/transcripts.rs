@@ -23,7 +23,7 @@ const CHAOTIC: [(&str, u64); 2] = [
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0xd7c8_e95b_4fd0_33cf;
+const DIGEST: u64 = 0xe802_5eeb_3f18_8b59;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

@@ -16,6 +16,7 @@ mod implicit;
 mod limiter;
 mod lookout;
 mod losses;
+mod parsimony;
 mod parts;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]

@@ -333,7 +333,7 @@ pub(crate) enum Quality {
 }
 
 /// What was computed.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub(crate) struct Counters {
     pub(crate) force_evaluations: u64,
     pub(crate) matrix_products: u64,
@@ -342,6 +342,17 @@ pub(crate) struct Counters {
     pub(crate) substeps: u64,
     pub(crate) overshoots: u64,
     pub(crate) visits: Visits,
+    /// What the scene uses, and what it paid for each.
+    pub(crate) features: Vec<FeatureCost>,
+}
+
+/// What a scene paid for a feature: visits of springs, triangles, faces or particles, and which part of
+/// all visits that is.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct FeatureCost {
+    pub(crate) name: &'static str,
+    pub(crate) visits: u64,
+    pub(crate) share: f64,
 }
 
 /// Visits of single constraints by what they were for.

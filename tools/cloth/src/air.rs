@@ -47,6 +47,7 @@ pub fn wind_rate(system: &mut System) -> Option<AirRate> {
         return None;
     }
     system.counters.area_evaluations += 1;
+    system.counters.features.wind += faces.len() as u64 / 3;
     let areas = &mut system.scratch.areas;
     areas.clear();
     areas.resize(system.positions.len(), 0.0);

@@ -17,6 +17,7 @@ pub(crate) fn push_out(system: &mut System) {
     let (model, x, v) = (&system.model, &mut system.positions, &mut system.velocities);
     for collider in &model.loads.colliders {
         system.counters.collider_passes += 1;
+        system.counters.features.collider += x.len() as u64;
         collider.push_out(&model.inverse_masses, x, v);
     }
 }
@@ -25,6 +26,7 @@ fn push_out_and_sum(system: &mut System) {
     let mut made_j = 0.0;
     for i in 0..system.model.loads.colliders.len() {
         system.counters.collider_passes += 1;
+        system.counters.features.collider += system.positions.len() as u64;
         for particle in 0..system.positions.len() {
             if system.model.inverse_masses[particle] <= 0.0 {
                 continue;

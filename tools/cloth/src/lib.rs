@@ -99,7 +99,7 @@ pub use solver::{Abilities, Failure, SettingError, Solver, StepError, StepReport
 pub use spectrum::Frequency;
 pub use stability::{carried_count, stable_step_s, suited_step_s};
 pub use step::{Observer, Substep};
-pub use system::{Counters, System, SystemError, Unstable, Visits};
+pub use system::{Counters, FeatureVisits, System, SystemError, Unstable, Visits};
 pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;
 pub use verlet::Verlet;

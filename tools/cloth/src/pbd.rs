@@ -86,9 +86,14 @@ impl Solver for Pbd {
         } = system;
         model.clear_multipliers();
         for _ in 0..self.sweeps.max(1) {
-            for (family, fraction) in [(&mut model.stretch, stretch), (&mut model.bend, bend)] {
+            let features = &mut counters.features;
+            for (family, fraction, of_family) in [
+                (&mut model.stretch, stretch, &mut features.stretch),
+                (&mut model.bend, bend, &mut features.bend),
+            ] {
                 for (batch, memories) in family.batches_mut() {
                     counters.visits.project += batch.ends.len() as u64;
+                    *of_family += batch.ends.len() as u64;
                     Failure::unless(spring::project(
                         batch,
                         memories.multipliers,

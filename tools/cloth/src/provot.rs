@@ -119,6 +119,7 @@ impl Provot {
             largest = 0.0;
             for (batch, memories) in model.stretch.batches_mut() {
                 counters.visits.project += batch.ends.len() as u64;
+                counters.features.stretch += batch.ends.len() as u64;
                 let masses = &model.inverse_masses;
                 let met = spring::limit(batch, memories.multipliers, masses, ratio_max, positions);
                 largest = largest.max(met);

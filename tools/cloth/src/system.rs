@@ -9,7 +9,7 @@ mod counters;
 mod error;
 mod model;
 
-pub use counters::{Counters, Visits};
+pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::SystemError;
 pub(crate) use model::{Family, KINDS, Model};
 

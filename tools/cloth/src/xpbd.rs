@@ -69,9 +69,14 @@ impl Xpbd {
                 0 => spring::project_compliant::<true>,
                 _ => spring::project_compliant::<false>,
             };
-            for family in [&mut model.stretch, &mut model.bend] {
+            let features = &mut counters.features;
+            for (family, of_family) in [
+                (&mut model.stretch, &mut features.stretch),
+                (&mut model.bend, &mut features.bend),
+            ] {
                 for (batch, memories) in family.batches_mut() {
                     counters.visits.project += batch.ends.len() as u64;
+                    *of_family += batch.ends.len() as u64;
                     let sane = project(
                         batch,
                         memories.multipliers,

@@ -233,7 +233,47 @@ pub(super) fn counters(run: &Run) -> report::Counters {
             detect: counters.visits.detect,
             meter: counters.visits.meter,
         },
+        features: features(run),
     }
+}
+
+/// The features that a scene uses, and which part of the work each is. What is measured is the balance
+/// of energy, the largest stretch, and the bound of frequencies.
+fn features(run: &Run) -> Vec<report::FeatureCost> {
+    let (system, scene) = (run.cloth().system(), run.scene());
+    let counters = system.counters();
+    let cost = counters.features;
+    let features = [
+        ("springs", true, cost.stretch),
+        ("bending", !system.bends().is_empty(), cost.bend),
+        ("triangles", cost.triangle > 0, cost.triangle),
+        ("wind", scene.breeze.is_some(), cost.wind),
+        ("colliders", !scene.colliders.is_empty(), cost.collider),
+        ("tearing", scene.tearing.is_some(), counters.visits.detect),
+        ("measuring", true, counters.visits.meter),
+    ];
+    let all: u64 = features.iter().map(|&(_, _, visits)| visits).sum();
+    let used = features.into_iter().filter(|&(_, is_used, _)| is_used);
+    used.map(|(name, _, visits)| report::FeatureCost {
+        name,
+        visits,
+        share: visits as f64 / all.max(1) as f64,
+    })
+    .collect()
+}
+
+/// The line of the summary that says what the work was for.
+pub(super) fn work(features: &[report::FeatureCost]) -> String {
+    let shares = features
+        .iter()
+        .map(|feature| format!("{} {:.0} %", feature.name, 100.0 * feature.share));
+    let visits: u64 = features.iter().map(|feature| feature.visits).sum();
+    let visits = match visits {
+        0..1_000_000 => visits.to_string(),
+        _ => format!("{:.1} million", visits as f64 / 1e6),
+    };
+    let shares = shares.collect::<Vec<_>>().join(", ");
+    format!("work: {visits} visits of elements: {shares}")
 }
 
 /// Why the simulation failed, with vertices counted as in OBJ, and what would help.

@@ -425,7 +425,7 @@ impl Solver for Implicit {
             + work.hessian_evaluations
             + work.energy_evaluations;
         // And one to see that nothing has blown up.
-        counters.visits.force += (sums + 1) * model.constraint_count();
+        model.count_visits(sums + 1, counters);
         if !model.triangles.as_slice().is_empty() {
             counters.triangle_evaluations +=
                 work.force_evaluations + work.hessian_evaluations + work.energy_evaluations;

@@ -20,8 +20,10 @@ pub struct Counters {
     pub substeps: u64,
     /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
     pub overshoots: u64,
-    /// Visits of single constraints.
+    /// Visits of single constraints by what they were for.
     pub visits: Visits,
+    /// Visits of single elements by which feature of the model they belong to.
+    pub features: FeatureVisits,
 }
 
 /// Visits of single constraints, springs, bends and triangles alike, by what they were for.
@@ -37,4 +39,21 @@ pub struct Visits {
     pub detect: u64,
     /// To tell the largest stretch, and energy.
     pub meter: u64,
+}
+
+/// Visits of single elements by which feature of the model they belong to: what a scene pays for each
+/// feature, without a clock. Those of constraints are the sum of [`Visits::project`] and
+/// [`Visits::force`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FeatureVisits {
+    /// Of springs along edges.
+    pub stretch: u64,
+    /// Of springs and arcs across edges.
+    pub bend: u64,
+    /// Of triangles with a modulus.
+    pub triangle: u64,
+    /// Of faces, by wind.
+    pub wind: u64,
+    /// Of particles, by colliders.
+    pub collider: u64,
 }

@@ -117,6 +117,15 @@ impl Model {
         self.kinds().iter().map(|kind| kind.len() as u64).sum()
     }
 
+    /// Counts so many visits of each constraint for forces.
+    pub(crate) fn count_visits(&self, times: u64, counters: &mut Counters) {
+        let features = &mut counters.features;
+        features.stretch += times * self.stretch.len() as u64;
+        features.bend += times * self.bend.len() as u64;
+        features.triangle += times * self.triangles.len() as u64;
+        counters.visits.force += times * self.constraint_count();
+    }
+
     /// The elastic energy of all constraints, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
         self.elastic_and_look_j(x, None)
@@ -231,7 +240,7 @@ impl Model {
         counters: &mut Counters,
     ) -> bool {
         counters.force_evaluations += 1;
-        counters.visits.force += self.constraint_count();
+        self.count_visits(1, counters);
         counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
         forces.fill(Vector::zeros());
         let mut sane = true;
@@ -251,6 +260,7 @@ impl Model {
     ) {
         if let Some(wind) = self.loads.wind {
             counters.wind_evaluations += 1;
+            counters.features.wind += self.faces.len() as u64 / 3;
             wind.press(&self.faces, positions, velocities, forces);
         }
     }
@@ -275,7 +285,7 @@ impl Model {
         counters: &mut Counters,
     ) {
         counters.matrix_products += 1;
-        counters.visits.force += self.constraint_count();
+        self.count_visits(1, counters);
         counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
         for kind in &self.kinds() {
             kind.stiffness_times(slope, positions, displacements, product);
