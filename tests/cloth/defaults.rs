@@ -295,7 +295,7 @@ fn a_crushed_sheet_makes_no_energy_up_to_the_limit_of_the_plain_method() {
 /// What is estimated of XPBD's softness is what a sheet droops by.
 #[test]
 fn xpbd_is_as_soft_as_is_said() {
-    use tearmesh_cloth::scene::{Frame, Hold, Region, Run};
+    use tearmesh_cloth::scene::{Frame, HeldVertices, Region, Run};
 
     for (sweeps, part, least) in [(1, 1.0, 0.5), (1, 0.5, 0.1), (1, 0.25, 0.02), (2, 1.0, 0.2)] {
         let drooped = |solver: Method, step_s: Option<f64>| {
@@ -311,7 +311,7 @@ fn xpbd_is_as_soft_as_is_said() {
                 duration_s: 0.6,
                 drag_per_s: 30.0,
                 gravity_m_per_s2: Vector::new(0.0, -100.0, 0.0),
-                holds: vec![Hold::still(top)],
+                holds: vec![HeldVertices::still(top)],
                 tearing: None,
                 ..Scene::fall(Axis::Y)
             };

@@ -10,8 +10,8 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::blow_up::Longest;
 use crate::crush::Crush;
-use crate::culprit::Longest;
 use crate::lookout::Lookout;
 use crate::matrix::Hessian;
 

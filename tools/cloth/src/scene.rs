@@ -13,8 +13,8 @@ mod run;
 pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
-    CutMade, Gain, Guarded, Limited, Names, Quality, Run, RunError, Shortened, Softness, Solved,
-    Step, Tally, suggested_step_s,
+    CutMade, EnergyGain, GuardStats, LimiterStats, Names, NewtonStats, Quality, Run, RunError,
+    RunTally, Softness, StableSteps, Step, suggested_step_s,
 };
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
@@ -50,11 +50,11 @@ pub struct Scene {
     /// The rate at which velocities fade, in 1/s; 0 for none.
     pub drag_per_s: f64,
     /// Wind, if there is any.
-    pub breeze: Option<Breeze>,
+    pub wind: Option<SwayingWind>,
     /// What the cloth cannot enter.
     pub colliders: Vec<Collider>,
     /// What is held, and led about.
-    pub holds: Vec<Hold>,
+    pub holds: Vec<HeldVertices>,
     /// What is cut, and when; ascending in time.
     pub cuts: Vec<TimedCut>,
     /// When edges tear by themselves; `None` for never.
@@ -113,7 +113,7 @@ impl Method {
 /// Wind that may turn to and fro: u(t) = steady + sway · triangle(t / period), where the triangle
 /// wave starts at 0, rises, and stays within −1 … 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Breeze {
+pub struct SwayingWind {
     /// The wind without its sway.
     pub steady: Wind,
     /// The largest addition to its velocity, in m/s; zero for none.
@@ -122,7 +122,7 @@ pub struct Breeze {
     pub period_s: f64,
 }
 
-impl Breeze {
+impl SwayingWind {
     /// The wind after so many seconds.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Wind {
@@ -145,13 +145,13 @@ impl Breeze {
     /// wind itself: its field, and the number as given.
     pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
         if !(self.period_s > 0.0 && self.period_s.is_finite()) {
-            return Some(("breeze.period_s", self.period_s));
+            return Some(("wind.period_s", self.period_s));
         }
         let parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
         let beyond =
             |(u, sway): &(&f64, &f64)| u.is_finite() && !(u.abs() + sway.abs()).is_finite();
         let mut beyond = parts.filter(beyond);
-        Some(("breeze.sway_m_per_s", *beyond.next()?.1))
+        Some(("wind.sway_m_per_s", *beyond.next()?.1))
     }
 
     /// Whether it changes with time.
@@ -166,7 +166,7 @@ impl Breeze {
 /// Where several hold one vertex, the one that took it last leads it. When that lets go, the one
 /// before it holds on: where the vertex then is, or along its own way from there on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hold {
+pub struct HeldVertices {
     /// Which ones, by where they are at rest.
     pub region: Region,
     /// When they are taken, in seconds: where they then are.
@@ -178,11 +178,11 @@ pub struct Hold {
     pub moves: Vec<(f64, Vector)>,
 }
 
-impl Hold {
+impl HeldVertices {
     /// Vertices that are held where they are, all the time.
     #[must_use]
-    pub fn still(region: Region) -> Hold {
-        Hold {
+    pub fn still(region: Region) -> HeldVertices {
+        HeldVertices {
             region,
             from_s: 0.0,
             until_s: None,

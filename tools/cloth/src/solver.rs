@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::air::AirRate;
-use crate::culprit::Culprit;
+use crate::blow_up::BlowUpSite;
 use crate::digits::Digits;
 use crate::implicit;
 use crate::spectrum::Frequency;
@@ -228,7 +228,7 @@ pub enum StepError {
         /// The first particle that is not finite, or the constraint or triangle that is
         /// longest for its rest length, where the step began or where it was given up: before
         /// constraints that are beyond all measure are projected or limited.
-        at: Culprit,
+        at: BlowUpSite,
     },
     /// An implicit method found no state that solves its equation as exactly as its
     /// [`Settings`](implicit::Settings) say: no blow-up. A shorter step helps, and so do more of

@@ -5,8 +5,8 @@
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
+use crate::blow_up::BlowUpSite;
 use crate::contact;
-use crate::culprit::Culprit;
 use crate::moment::Moment;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
@@ -167,7 +167,7 @@ fn unless_broken(system: &System, error: StepError) -> StepError {
     }
     StepError::BlowUp {
         elapsed_s: system.elapsed_s,
-        at: culprit(&system.model, &[(&system.positions, &system.velocities)]),
+        at: blow_up_site(&system.model, &[(&system.positions, &system.velocities)]),
     }
 }
 
@@ -205,11 +205,11 @@ fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
 }
 
 /// What is wrong with a step that blew up, by where it began, and where it was given up.
-fn given_up(system: &System) -> Culprit {
+fn given_up(system: &System) -> BlowUpSite {
     let scratch = &system.scratch;
     let began = (&scratch.positions[..], &scratch.velocities[..]);
     let now = (&system.positions[..], &system.velocities[..]);
-    culprit(&system.model, &[began, now])
+    blow_up_site(&system.model, &[began, now])
 }
 
 /// Positions and velocities.
@@ -218,25 +218,25 @@ type State<'a> = (&'a [Point], &'a [Vector]);
 /// What is wrong with a step that was given up, by the states that are known of it, the oldest first:
 /// the first particle that is not finite, or the longest constraint beyond all measure, or the first
 /// particle that is, of the first state that has one.
-fn culprit(model: &Model, states: &[State<'_>]) -> Culprit {
+fn blow_up_site(model: &Model, states: &[State<'_>]) -> BlowUpSite {
     let shown = states.iter().find_map(|&state| {
         let too_long = || model.longest(state.0).beyond(model.stretch_ratio_max);
         let named = broken(state).or_else(too_long);
         named.or_else(|| beyond(state))
     });
     let last = || model.longest(states.last()?.0).beyond(f64::NEG_INFINITY);
-    shown.or_else(last).unwrap_or(Culprit::Unknown)
+    shown.or_else(last).unwrap_or(BlowUpSite::Unknown)
 }
 
-fn broken((positions, velocities): State<'_>) -> Option<Culprit> {
+fn broken((positions, velocities): State<'_>) -> Option<BlowUpSite> {
     let mut particles = positions.iter().zip(velocities);
     let bad = |(p, v): (&Point, &Vector)| !p.iter().chain(v.iter()).all(|x| x.is_finite());
-    particles.position(bad).map(Culprit::Particle)
+    particles.position(bad).map(BlowUpSite::Particle)
 }
 
-fn beyond((positions, velocities): State<'_>) -> Option<Culprit> {
+fn beyond((positions, velocities): State<'_>) -> Option<BlowUpSite> {
     let mut particles = positions.iter().zip(velocities);
     let far =
         |(&p, &v): (&Point, &Vector)| [p, v.into()].map(check_point).iter().any(Result::is_err);
-    particles.position(far).map(Culprit::Beyond)
+    particles.position(far).map(BlowUpSite::Beyond)
 }

@@ -27,8 +27,8 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
+use crate::blow_up::{BlowUpSite, Longest};
 use crate::crush::Crush;
-use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
 use crate::lookout::Lookout;
@@ -456,7 +456,7 @@ impl Element for Triangles {
         for t in &self.list {
             let derivatives = t.derivatives(t.corners(x));
             let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
-            longest.weigh(stretch_ratio, || Culprit::Triangle {
+            longest.weigh(stretch_ratio, || BlowUpSite::Triangle {
                 corners: t.vertices.map(|v| v as usize),
                 stretch_ratio,
             });

@@ -5,7 +5,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot};
 
-use super::pcg::{End, Pcg, Solved, Stop};
+use super::pcg::{End, LinearSolution, Pcg, Stop};
 use super::problem::{Potential, Problem};
 use super::settings::{Jacobian, Settings, StepError, StepReport, Work};
 use super::{Layout, Method};
@@ -131,7 +131,7 @@ impl Equation {
         shift: Option<&[Vector]>,
         settings: &Settings,
         report: &mut StepReport,
-    ) -> Result<Solved, StepError> {
+    ) -> Result<LinearSolution, StepError> {
         let mut clamp = settings.jacobian == Jacobian::Clamped;
         loop {
             let clamped = problem.hessian(x, &self.layout, clamp, &mut self.hessian);

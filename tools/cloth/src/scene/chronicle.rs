@@ -6,7 +6,7 @@ use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
 
 use super::run::{Run, Step};
-use super::{FRAME_S, Hold, Method};
+use super::{FRAME_S, HeldVertices, Method};
 use crate::balance::WIND_S;
 use crate::force;
 
@@ -96,7 +96,7 @@ impl Chronicle {
     #[must_use]
     pub fn new(run: &Run) -> Chronicle {
         let holds = &run.scene().holds;
-        let is_led = |hold: &Hold| !hold.moves.is_empty();
+        let is_led = |hold: &HeldVertices| !hold.moves.is_empty();
         let has_led = holds.iter().any(is_led);
         Chronicle {
             events: Vec::new(),

@@ -13,8 +13,8 @@ mod quality;
 mod step_size;
 
 pub use self::error::{Names, RunError};
-pub use self::gain::Gain;
-pub use self::quality::{Guarded, Limited, Quality, Solved};
+pub use self::gain::EnergyGain;
+pub use self::quality::{GuardStats, LimiterStats, NewtonStats, Quality};
 pub use self::step_size::{Softness, suggested_step_s};
 
 use std::num::NonZero;
@@ -25,9 +25,9 @@ use tearmesh::{CutReport, Edits, Masses, Mesh, PositionError, Positions, Scissor
 use self::engine::Engine;
 use self::gain::Watch;
 use self::held::Held;
-use super::{Breeze, Frame, Scene, TimedCut};
+use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
-use crate::culprit::Culprit;
+use crate::blow_up::BlowUpSite;
 use crate::frequency;
 use crate::load::{Collider, Loads};
 use crate::sheet::{Cloth, ClothError};
@@ -65,14 +65,14 @@ pub struct Run {
     cuts_made: Vec<CutMade>,
     step_s: f64,
     steps_planned: u64,
-    tally: Tally,
+    tally: RunTally,
     balance: Balance,
     watch: Watch,
 }
 
 /// What has happened in a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tally {
+pub struct RunTally {
     /// The steps that were taken.
     pub steps: u64,
     /// The vertices that tearing has split.
@@ -109,12 +109,12 @@ pub struct CutMade {
     pub report: CutReport,
     /// What it did to the steps that Provot's method may take: slivers shorten them. `None` for the
     /// others: Verlet has slivers carried.
-    pub stability: Option<Shortened>,
+    pub stability: Option<StableSteps>,
 }
 
 /// The longest stable step before a cut and after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shortened {
+pub struct StableSteps {
     /// Before, in seconds.
     pub before_s: f64,
     /// After, in seconds.
@@ -138,14 +138,14 @@ impl Run {
         let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
             .map_err(ClothError::from)?;
         let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
-        if let Some((field, given)) = scene.breeze.and_then(|breeze| breeze.fault()) {
-            return Err(RunError::Breeze { field, given });
+        if let Some((field, given)) = scene.wind.and_then(|wind| wind.fault()) {
+            return Err(RunError::Wind { field, given });
         }
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
             drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
-            wind: scene.breeze.map(|breeze| breeze.at(0.0)),
+            wind: scene.wind.map(|wind| wind.at(0.0)),
             colliders: scene.colliders.clone(),
         };
         let system = cloth.system_mut();
@@ -198,11 +198,11 @@ impl Run {
             return Err(RunError::Times { step_s, duration_s });
         }
         let last_s = Run::STEPS_MAX as f64 * step_s;
-        let uncounted = |breeze: &Breeze| !(last_s / breeze.period_s).is_finite();
-        if let Some(breeze) = scene.breeze.filter(uncounted) {
-            return Err(RunError::Breeze {
-                field: "breeze.period_s",
-                given: breeze.period_s,
+        let uncounted = |wind: &SwayingWind| !(last_s / wind.period_s).is_finite();
+        if let Some(wind) = scene.wind.filter(uncounted) {
+            return Err(RunError::Wind {
+                field: "wind.period_s",
+                given: wind.period_s,
             });
         }
         if scene.step_s.is_none() {
@@ -224,9 +224,9 @@ impl Run {
             step_s,
             steps_planned: steps_planned as u64,
             balance,
-            tally: Tally {
+            tally: RunTally {
                 stretch_ratio_max: 1.0,
-                ..Tally::default()
+                ..RunTally::default()
             },
             scene,
         })
@@ -369,7 +369,7 @@ impl Run {
             }
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
-            let stability = step_before_s.map(|before_s| self.shortened(before_s));
+            let stability = step_before_s.map(|before_s| self.stable_steps(before_s));
             self.cuts_made.push(CutMade {
                 number: self.next_cut,
                 report,
@@ -389,8 +389,8 @@ impl Run {
         stability::whole_step_s(self.cloth.system_mut(), &self.engine)
     }
 
-    fn shortened(&mut self, before_s: f64) -> Shortened {
-        Shortened {
+    fn stable_steps(&mut self, before_s: f64) -> StableSteps {
+        StableSteps {
             before_s,
             after_s: self.stable_step_s().unwrap_or(before_s),
             ends: frequency::largest(self.cloth.system_mut()).ends,
@@ -404,18 +404,18 @@ impl Run {
             Ok(positions) => Ok(positions.starting_at(self.edits.cursor())),
             Err(error) => Err(StepError::BlowUp {
                 elapsed_s: self.elapsed_s(),
-                at: Culprit::Particle(error.unusable()[0].0.index()),
+                at: BlowUpSite::Particle(error.unusable()[0].0.index()),
             }),
         }
     }
 
     fn blow(&mut self, now: u64) {
-        let Some(breeze) = self.scene.breeze.filter(Breeze::sways) else {
+        let Some(wind) = self.scene.wind.filter(SwayingWind::sways) else {
             return;
         };
         let system = self.cloth.system_mut();
         let loads = Loads {
-            wind: Some(breeze.at(now as f64 * self.step_s)),
+            wind: Some(wind.at(now as f64 * self.step_s)),
             ..system.loads().clone()
         };
         let set = system.set_loads(loads);
@@ -509,7 +509,7 @@ impl Run {
 
     /// What has happened so far.
     #[must_use]
-    pub fn tally(&self) -> Tally {
+    pub fn tally(&self) -> RunTally {
         self.tally
     }
 
@@ -530,7 +530,7 @@ impl Run {
     /// cloth tears more than it should, and its pieces fly about. Looked at every 1/60 s. A shorter
     /// step helps, or a method that damps, or drag.
     #[must_use]
-    pub fn gain(&self) -> Option<Gain> {
+    pub fn energy_gain(&self) -> Option<EnergyGain> {
         self.watch.gain()
     }
 

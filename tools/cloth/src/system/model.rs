@@ -6,9 +6,9 @@ use tearmesh::geometry::{Point, Vector};
 
 use super::Counters;
 use crate::bend::Buckling;
+use crate::blow_up::{BlowUpSite, Longest};
 use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
-use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Element, Forces, Slope};
 use crate::load::{Loads, Path};
 use crate::lookout::Lookout;
@@ -57,11 +57,12 @@ impl Model {
 
     /// All kinds of constraints, in the order of every sum.
     pub(crate) fn kinds(&self) -> [Kind<'_>; KINDS] {
-        let stretch: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Constraint {
-            ends,
-            stretch_ratio,
-        };
-        let bend: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Bend {
+        let stretch: fn([usize; 2], f64) -> BlowUpSite =
+            |ends, stretch_ratio| BlowUpSite::Constraint {
+                ends,
+                stretch_ratio,
+            };
+        let bend: fn([usize; 2], f64) -> BlowUpSite = |ends, stretch_ratio| BlowUpSite::Bend {
             ends,
             stretch_ratio,
         };

@@ -26,7 +26,7 @@ pub enum RunError {
     Loads(SystemError),
     /// The wind would not be usable at all times: its sway added to it is no number, or its period
     /// is not positive and finite, or too short for a time to be counted in it.
-    Breeze {
+    Wind {
         /// The field.
         field: &'static str,
         /// The number as given; of a vector, the component.
@@ -113,7 +113,7 @@ impl fmt::Display for RunError {
                 write!(f, "{duration_s} s cannot be taken in steps of {step_s} s")
             }
             RunError::Loads(error) => error.fmt(f),
-            RunError::Breeze { field, given } => {
+            RunError::Wind { field, given } => {
                 write!(f, "{field} is {given}, with which no wind can blow")
             }
             RunError::NothingHeld { number } => {

@@ -14,7 +14,7 @@ use crate::system::System;
 
 /// Energy that the method made out of nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gain {
+pub struct EnergyGain {
     /// When it was noticed first, in seconds: at most 1/60 s after it was beyond the margin.
     pub since_s: f64,
     /// The largest that was made so far, in joules.
@@ -32,7 +32,7 @@ pub(super) struct Watch {
     least_j: f64,
     /// Whether the elastic energy is that of the method's forces.
     has_lengths: bool,
-    gain: Option<Gain>,
+    gain: Option<EnergyGain>,
 }
 
 impl Watch {
@@ -80,7 +80,7 @@ impl Watch {
                 (gain.made_j, gain.put_in_j) = (made_j, put_in_j);
             }
             None if is_beyond => {
-                self.gain = Some(Gain {
+                self.gain = Some(EnergyGain {
                     since_s: elapsed_s,
                     made_j,
                     put_in_j,
@@ -90,7 +90,7 @@ impl Watch {
         }
     }
 
-    pub(super) fn gain(&self) -> Option<Gain> {
+    pub(super) fn gain(&self) -> Option<EnergyGain> {
         self.gain
     }
 }

@@ -9,9 +9,9 @@ use crate::provot::LimiterReport;
 #[non_exhaustive]
 pub enum Quality {
     /// The guards of velocity Verlet.
-    Guarded(Guarded),
+    Guards(GuardStats),
     /// Provot's limiter.
-    Limited(Limited),
+    Limiter(LimiterStats),
     /// PBD: constraints are rigid to it, so all strain is what its sweeps have left. The root mean
     /// square now.
     Strain(f64),
@@ -20,12 +20,12 @@ pub enum Quality {
     /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
     Residual(f64),
     /// An implicit method.
-    Solved(Solved),
+    Newton(NewtonStats),
 }
 
 /// What the guards of velocity Verlet did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Guarded {
+pub struct GuardStats {
     /// The vertices that are carried by their neighbours now, as they are too light for the step.
     pub carried: usize,
     /// The energy that damping took from what was crushed in all steps, in joules.
@@ -34,7 +34,7 @@ pub struct Guarded {
 
 /// What Provot's limiter did in all steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limited {
+pub struct LimiterStats {
     /// The passes over all constraints.
     pub passes: u64,
     /// The steps (or substeps) after which some edge was still longer than the limit.
@@ -49,7 +49,7 @@ pub struct Limited {
 
 /// What the implicit method did in all steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solved {
+pub struct NewtonStats {
     /// Newton's iterations; one a step if linearised.
     pub newton_iterations: u64,
     /// Halvings of the line search.
@@ -67,7 +67,7 @@ pub struct Solved {
     pub excess_max: f64,
 }
 
-impl Limited {
+impl LimiterStats {
     pub(super) fn note(&mut self, report: &LimiterReport) {
         self.passes += u64::from(report.passes);
         self.steps_limited += u64::from(report.has_shortened);
@@ -78,7 +78,7 @@ impl Limited {
     }
 }
 
-impl Solved {
+impl NewtonStats {
     pub(super) fn note(&mut self, report: &StepReport) {
         self.newton_iterations += u64::from(report.newton_iterations);
         self.halvings += u64::from(report.halvings);
