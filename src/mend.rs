@@ -399,7 +399,7 @@ impl fmt::Display for MergeRefusal {
             } => {
                 write!(
                     f,
-                    "nothing was merged: the weights {one} and {other} are not finite numbers from zero up"
+                    "nothing was merged: the weights {one} and {other} must be finite and not negative"
                 )
             }
         }
@@ -445,7 +445,7 @@ impl fmt::Display for SewError {
         write!(f, "{kept} and {gone} cannot be sewn: ")?;
         match why {
             StitchError::Roots => f.write_str("they were never one vertex")?,
-            StitchError::Weights => f.write_str("their weights are not finite numbers from zero up")?,
+            StitchError::Weights => f.write_str("their weights must be finite and not negative")?,
             StitchError::Distance { distance } => write!(f, "they are {distance} apart")?,
         }
         match self.refused.len() {

@@ -18,7 +18,7 @@ fn now(balance: &Balance, system: &System) -> EnergyBalance {
     balance.now(system, 0.0)
 }
 
-/// Takes so many steps before the eyes of a balance.
+/// Takes a number of steps while a balance observes.
 fn watch(
     system: &mut System,
     balance: &mut Balance,

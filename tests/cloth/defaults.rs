@@ -13,7 +13,7 @@ use self::sheets::{ORDERS, Sheet};
 use crate::parts::mechanical_j;
 use crate::random::Random;
 
-/// Advances until nothing moves faster than 1e-7 m/s, or for so many seconds.
+/// Advances until nothing moves faster than 1e-7 m/s, or for a number of seconds.
 fn settle(system: &mut System, solver: &mut dyn Solver, dt_s: f64, seconds: f64) {
     for step in 0..(seconds / dt_s) as usize {
         system.step(&mut *solver, dt_s).expect("a step");
@@ -38,7 +38,7 @@ fn default_step(system: &mut System) -> (Verlet, f64) {
     (Verlet::new(), suited_step_s(system))
 }
 
-/// R2, link by link: the link above so many masses is stretched by m g times their number over k.
+/// R2, link by link: a link above n masses is stretched by n m g / k.
 #[test]
 fn every_link_of_a_hanging_chain_is_as_long_as_it_should_be_in_any_order() {
     let (mass, stiffness, rest) = (0.01, 50.0, 0.1);
@@ -199,7 +199,7 @@ fn energy_j(system: &System) -> f64 {
     mechanical_j(system) + potential
 }
 
-/// The largest energy of so many seconds, and the last.
+/// The largest energy within a number of seconds, and the last.
 fn energies(system: &mut System, dt_s: f64, seconds: f64) -> [f64; 2] {
     let mut solver = Verlet::new();
     let mut largest = f64::MIN;

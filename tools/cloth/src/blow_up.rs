@@ -1,40 +1,42 @@
-//! Where a blow-up showed: what is not finite, too long, or too large, in a state that is given up.
+//! The place where a blow-up showed: a number that is not finite, too long or too large in a state
+//! that was discarded.
 
 use std::fmt;
 
 use crate::digits::Digits;
 
-/// Where a blow-up showed.
+/// The particle or constraint at which a blow-up was noticed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BlowUpSite {
     /// A particle whose position or velocity is not finite.
     Particle(usize),
-    /// A particle that is farther off than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX) metres, or
-    /// faster than as many metres in a second.
+    /// A particle that is farther than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX) metres from the
+    /// origin, or faster than that many metres per second.
     Beyond(usize),
-    /// A stretch constraint.
+    /// A stretch constraint that became too long.
     Constraint {
         /// Its particles.
         ends: [usize; 2],
         /// Its length as a multiple of its rest length.
         stretch_ratio: f64,
     },
-    /// A bend constraint.
+    /// A bend constraint that became too long.
     Bend {
         /// Its particles.
         ends: [usize; 2],
         /// Its length as a multiple of its rest length.
         stretch_ratio: f64,
     },
-    /// A triangle.
+    /// A triangle that was stretched too far.
     Triangle {
         /// Its particles.
         corners: [usize; 3],
         /// The length of its warp or weft as a multiple of the rest length.
         stretch_ratio: f64,
     },
-    /// Nothing: the method gave up a system without constraints, in which all numbers are sane.
+    /// No place was found: the method gave up on a system without constraints in which all numbers
+    /// are finite.
     Unknown,
 }
 

@@ -138,7 +138,7 @@ fn links<L: Law>(batch: Batch<'_>, law: L) -> impl Iterator<Item = ([usize; 2], 
     named_links(batch, law).map(|(_, ends, rest, link)| (ends, rest, link))
 }
 
-/// The same with their ids.
+/// The links of a family, each with its id.
 fn named_links<L: Law>(
     batch: Batch<'_>,
     law: L,

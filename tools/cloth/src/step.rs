@@ -1,7 +1,8 @@
-//! One step of a system, and the way back.
+//! Advances a system by one step, or restores it if the step fails.
 //!
-//! [`System::step`] is the one way to advance. It asks the stability limit of an explicit method
-//! before, looks for blow-up after, and leaves the last good state where something failed.
+//! [`System::step`] is the only way to advance a system. It checks the stability limit of an
+//! explicit method before the step and looks for blow-up after it. If anything fails, the last good
+//! state is kept.
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
@@ -12,7 +13,7 @@ use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
 use crate::system::{Model, System};
 
-/// Who looks at a system before and after each substep, from outside.
+/// An observer that sees a system before and after each substep.
 pub trait Observer {
     /// A substep is about to be taken; who is led has got the velocity for it.
     fn before(&mut self, system: &System);
@@ -40,16 +41,17 @@ impl Observer for () {
     fn ended(&mut self, _: bool) {}
 }
 
-/// A substep that was taken.
+/// The report of a substep that was taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Substep {
-    /// Its length, in seconds.
+    /// The length of the substep, in seconds.
     pub dt_s: f64,
-    /// Whether the method moved particles by the forces at its end, as those do that have no stability
-    /// limit.
+    /// Whether the method moved particles by the forces at the end of the substep, as methods
+    /// without a stability limit do.
     pub moves_at_end: bool,
-    /// What the method itself made of energy in it, or took where negative, in joules; with what it
-    /// took from wind. `None` where the method does not say, or [nobody asked](Observer::meters).
+    /// The energy that the method itself made in the substep, in joules, including its error in the
+    /// work of wind; negative if it took some. `None` if the method does not compute it, or if [no
+    /// observer wants it](Observer::meters).
     pub made_j: Option<f64>,
 }
 
@@ -68,11 +70,12 @@ impl System {
         self.step_observed(solver, dt_s, &mut ())
     }
 
-    /// Advances the system by `dt_s` seconds under the eyes of an observer, as [`Balance`](crate::Balance)'s.
+    /// Advances the system by `dt_s` seconds, and shows each substep to an observer such as a
+    /// [`Balance`](crate::Balance).
     ///
     /// # Errors
     ///
-    /// Those of [`System::step`].
+    /// The errors of [`System::step`].
     pub fn step_observed(
         &mut self,
         solver: &mut (impl Solver + ?Sized),
@@ -215,9 +218,10 @@ fn given_up(system: &System) -> BlowUpSite {
 /// Positions and velocities.
 type State<'a> = (&'a [Point], &'a [Vector]);
 
-/// What is wrong with a step that was given up, by the states that are known of it, the oldest first:
-/// the first particle that is not finite, or the longest constraint beyond all measure, or the first
-/// particle that is, of the first state that has one.
+/// What is wrong with a step that was given up, by the states that are known of it, the oldest
+/// first: the first particle that is not finite, or else the longest constraint beyond the largest
+/// stretch ratio, or else the first particle that is too far away or too fast. The first state that
+/// shows any of these counts.
 fn blow_up_site(model: &Model, states: &[State<'_>]) -> BlowUpSite {
     let shown = states.iter().find_map(|&state| {
         let too_long = || model.longest(state.0).beyond(model.stretch_ratio_max);

@@ -37,7 +37,7 @@ pub(super) fn stable_steps(stability: &StableSteps) -> String {
     format!(" · stable steps {before} s -> {after} s{at}")
 }
 
-/// The same for the report.
+/// What a cut did to the steps of an explicit method, for the report.
 pub(super) fn stable_step(stability: StableSteps) -> report::StableStep {
     report::StableStep {
         before: stability.before_s,

@@ -110,7 +110,7 @@ impl Equation {
         }
     }
 
-    /// The same less H `shift`, with the second derivatives as they are.
+    /// The imbalance of the equation less H `shift`, with the exact second derivatives.
     fn imbalance_less(&mut self, problem: Problem<'_>, stage: Stage, shift: &[Vector]) {
         self.hessian
             .product(self.layout.pairs(), shift, &mut self.product);

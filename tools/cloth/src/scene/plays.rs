@@ -1,4 +1,4 @@
-//! The scenes that stand ready, sized to the mesh that they are given.
+//! The built-in scenes, which are sized to the mesh that they are given.
 
 use tearmesh::geometry::{Ray, Vector};
 
@@ -16,7 +16,7 @@ impl Scene {
     pub const GRAVITY_M_PER_S2: f64 = 9.81;
     /// The rate at which velocities fade, in 1/s.
     pub const DRAG_PER_S: f64 = 0.5;
-    /// How many times its rest length an edge may have before it tears.
+    /// The stretch ratio at which an edge tears in the built-in scenes.
     pub const STRETCH_RATIO: f64 = 1.5;
 
     /// A cloth that nothing holds: it falls for two seconds, and can tear.
@@ -39,8 +39,8 @@ impl Scene {
         }
     }
 
-    /// Hung by its two upper corners. Each is clamped over a patch of a fixed size, a tenth
-    /// of the sheet: what is strained at the pin of a single vertex grows as the mesh gets finer.
+    /// A sheet that hangs by its two upper corners. Each is clamped over a patch of a tenth of the
+    /// sheet, because the strain at a single pinned vertex would grow as the mesh gets finer.
     #[must_use]
     pub fn hang(frame: &Frame) -> Scene {
         let corner = |across: f64| {

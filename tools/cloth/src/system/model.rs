@@ -123,7 +123,8 @@ impl Model {
         self.elastic_and_look_j(x, None)
     }
 
-    /// The same, while the lookout is told of stretch constraints that are as long as it asks for.
+    /// The elastic energy in joules. The lookout is told of stretch constraints that are as long as
+    /// it asks for.
     pub(crate) fn elastic_and_look_j(&self, x: &[Point], mut lookout: Option<&mut Lookout>) -> f64 {
         let kinds = self.kinds();
         kinds

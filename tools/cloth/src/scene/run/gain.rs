@@ -12,14 +12,15 @@ use crate::balance::EnergyBalance;
 use crate::scene::{FRAME_S, Method};
 use crate::system::System;
 
-/// Energy that the method made out of nothing.
+/// The energy that a method made out of nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyGain {
-    /// When it was noticed first, in seconds: at most 1/60 s after it was beyond the margin.
+    /// The time at which it was first noticed, in seconds: at most 1/60 s after it exceeded the
+    /// margin.
     pub since_s: f64,
-    /// The largest that was made so far, in joules.
+    /// The largest amount that was made so far, in joules.
     pub made_j: f64,
-    /// What had been put in by then: see [`EnergyBalance::put_in_j`].
+    /// The energy that had been put in by then, in joules: see [`EnergyBalance::put_in_j`].
     pub put_in_j: f64,
 }
 
@@ -60,7 +61,7 @@ impl Watch {
         }
     }
 
-    /// Whether it is time for a look after so many steps.
+    /// Whether it is time to look at the balance, after `steps` steps.
     pub(super) fn is_time(&self, steps: u64) -> bool {
         steps.is_multiple_of(self.every)
     }
