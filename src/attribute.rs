@@ -1,13 +1,13 @@
-//! Data beside the mesh: values of vertices, of corners and of faces.
+//! Data kept beside the mesh: one value for each vertex, corner or face.
 //!
-//! A split duplicates a vertex and moves corners. What belongs to the vertex is copied
-//! to the new one ([`PerVertex`]). What belongs to the corner, such as a texture
-//! coordinate, stays with it ([`PerCorner`]): a split never makes a texture seam. Where a vertex
-//! is inserted, values are interpolated, corner by corner, so a texture seam stays one; where two
-//! are merged, those of the vertex are joined by weight. [`Blend`] says how. What belongs to a face
-//! ([`PerFace`]) is copied to its children.
+//! A split duplicates a vertex and moves corners. What belongs to the vertex is copied to the new
+//! one ([`PerVertex`]). What belongs to the corner, such as a texture coordinate, stays with it
+//! ([`PerCorner`]): a split never makes a texture seam. Where a vertex is inserted, values are
+//! interpolated corner by corner, so a texture seam stays a seam. Where two vertices are merged,
+//! their values are averaged by weight ([`Blend`]). What belongs to a face ([`PerFace`]) is copied
+//! to its children.
 //!
-//! Each is a list with its place in the log. A list of another type follows a log without these:
+//! Each of these lists carries its place in the log. A list of any other type can follow a log too:
 //! see [`Edits::replay_vertices`](crate::Edits::replay_vertices).
 
 use crate::edit::{Cursor, Edit, Follower, Mix};
@@ -16,8 +16,8 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A value that can be interpolated.
 ///
-/// Implemented for floats, arrays of what can be blended, [`Point`] and [`Vector`]. Equal
-/// corners of a vertex are taken for one value.
+/// Implemented for floats, [`Point`], [`Vector`], and arrays of values that can be blended. Corners
+/// of a vertex that hold equal values are treated as sharing one value.
 pub trait Blend: Clone + PartialEq {
     /// The value at the part `t` of the way from `self` to `other`: `self + t (other − self)`.
     /// Equal values have to give that value.
@@ -90,7 +90,7 @@ impl Blend for Point {
     }
 }
 
-/// One value for each vertex. The new vertex of a split has a copy of the old one's.
+/// One value for each vertex. A split copies the value of the old vertex to the new one.
 ///
 /// ```
 /// use tearmesh::{shapes, split, Edits, FaceId, PerVertex, VertexId};
@@ -111,27 +111,27 @@ pub struct PerVertex<T> {
 }
 
 impl<T: Blend> PerVertex<T> {
-    /// The values of vertices 0, 1, 2, …, which have seen no edit yet.
+    /// Takes one value for each vertex, in the order of the ids, before any edit has been replayed.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
         let seen = Cursor::START;
         PerVertex { values, seen }
     }
 
-    /// Takes the values for those of the mesh at this place in its log.
+    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
         PerVertex { seen, ..self }
     }
 
-    /// Up to where the values have seen the log of the mesh.
+    /// The place in the mesh's log up to which edits have been replayed on these values.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Makes room for this many more vertices, so that as many splits can be replayed without
-    /// allocation but that of the clones.
+    /// Makes room for `vertices` more vertices, so that replaying that many splits allocates
+    /// nothing apart from what cloning a value allocates.
     pub fn reserve(&mut self, vertices: usize) {
         self.values.reserve(vertices);
     }
@@ -146,7 +146,7 @@ impl<T: Blend> PerVertex<T> {
         v.of(&self.values)
     }
 
-    /// The value of a vertex, to be changed.
+    /// Mutable access to the value of a vertex.
     ///
     /// # Panics
     ///
@@ -162,7 +162,7 @@ impl<T: Blend> PerVertex<T> {
         &self.values
     }
 
-    /// The values of all vertices, by id, to be changed.
+    /// Mutable access to the values of all vertices, indexed by id.
     #[must_use]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.values
@@ -181,10 +181,10 @@ impl<T: Blend> Follower for PerVertex<T> {
     }
 }
 
-/// One value for each corner. A split or a merge leaves them where they are; where a face is
-/// divided, its children get theirs from the corners of that face alone. Where a vertex slides,
-/// the corners in the faces of the edge are interpolated along it, and all others with the same
-/// value go with them.
+/// One value for each corner. A split or a merge leaves corner values alone. Where a face is
+/// divided, the corners of its children get values interpolated from the corners of that face
+/// alone. Where a vertex slides along an edge, its corners in the faces of that edge are
+/// interpolated along it; its other corners that hold the same value are changed with them.
 ///
 /// ```
 /// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerCorner};
@@ -207,14 +207,15 @@ pub struct PerCorner<T> {
 }
 
 impl<T: Blend> PerCorner<T> {
-    /// The values of corners 0, 1, 2, … (three a face), which have seen no edit yet.
+    /// Takes three values per face, in the order of the half-edge ids, before any edit has been
+    /// replayed.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
         let seen = Cursor::START;
         PerCorner { values, seen }
     }
 
-    /// Takes the values for those of the mesh at this place in its log.
+    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
         PerCorner { seen, ..self }
@@ -249,8 +250,8 @@ impl<T: Blend> Follower for PerCorner<T> {
     }
 }
 
-/// One value for each face, such as a material. Where a face is divided, each of its children has a
-/// copy; nothing else changes a face.
+/// One value for each face, such as a material. Where a face is divided, each of its children gets
+/// a copy. No other edit changes a face.
 ///
 /// ```
 /// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerFace};
@@ -272,14 +273,14 @@ pub struct PerFace<T> {
 }
 
 impl<T: Clone> PerFace<T> {
-    /// The values of faces 0, 1, 2, …, which have seen no edit yet.
+    /// Takes one value for each face, in the order of the ids, before any edit has been replayed.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
         let seen = Cursor::START;
         PerFace { values, seen }
     }
 
-    /// Takes the values for those of the mesh at this place in its log.
+    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
         PerFace { seen, ..self }

@@ -1,11 +1,11 @@
-//! The faces round a vertex, before and behind a plane.
+//! Sorts the faces around a vertex into those in front of a plane and those behind it.
 //!
-//! A face is behind a plane where its centre is strictly behind it (Souza et al. 2014
-//! §IV: "the ones whose centers are behind the plane are assigned to the new vertex"). Three
-//! times the signed distance of the centre is the sum of those of the corners, which are
-//! summed in ascending vertex order, so the answer does not depend on the order of
-//! corners. Zero is front. For a plane through one of the vertices that vertex contributes
-//! an exact zero, and the rule reads n·(b − v) + n·(c − v) < 0.
+//! A face is behind a plane where its centre is strictly behind it (Souza et al. 2014 §IV: "the
+//! ones whose centers are behind the plane are assigned to the new vertex"). Three times the signed
+//! distance of the centre is the sum of the signed distances of the corners. They are summed in
+//! ascending vertex order, so the answer does not depend on the order of corners. Zero counts as
+//! front. For a plane through one of the vertices that vertex contributes an exact zero, and the
+//! rule reads n·(b − v) + n·(c − v) < 0.
 
 use crate::geometry::{Plane, Side};
 use crate::id::{FaceId, VertexId};
@@ -16,13 +16,13 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If the face is not one of this mesh (I2), or `place` does not know its vertices.
+/// If the face is not in this mesh (I2), or `place` does not know its vertices.
 #[must_use]
 pub fn face(mesh: &Mesh, f: FaceId, plane: &Plane, place: &(impl Place + ?Sized)) -> Side {
     side(mesh, f, |v| plane.offset(place.at(v)))
 }
 
-/// The same, of offsets that are known already.
+/// The side of a face's centre, from the offsets of its vertices that were computed before.
 pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> Side {
     let mut corners = mesh.face_vertices(f);
     corners.sort();
@@ -30,12 +30,12 @@ pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> 
     Side::of(a + b + c)
 }
 
-/// The faces of a vertex, each with its side of the plane: the two sets of Souza et al.
-/// 2014 §IV-B, in the order of [`Mesh::corners_of`].
+/// The faces of a vertex, each with its side of the plane, in the order of [`Mesh::corners_of`].
+/// The two sides are the two sets of faces of Souza et al. 2014 §IV-B.
 ///
 /// # Panics
 ///
-/// If the vertex is not one of this mesh (I2), or `place` does not know its neighbours.
+/// If the vertex is not in this mesh (I2), or `place` does not know its neighbours.
 pub fn faces_of<'m, P: Place + ?Sized>(
     mesh: &'m Mesh,
     v: VertexId,

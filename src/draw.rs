@@ -1,9 +1,10 @@
-//! Vertex and index buffers for a GPU, with seams, kept up to date by what changed.
+//! Vertex and index buffers for a GPU, with texture seams, updated only where the mesh changed.
 //!
-//! A GPU has one list of vertices, each with all that belongs to it. So a vertex of the mesh is as many
-//! *slots* of that list as its corners have different values: one, or along a texture seam two. A split
-//! that leaves corners with a new vertex makes slots; a merge takes them out, and the last one moves into
-//! the gap. What was written since it was last asked is listed, so that an engine uploads that alone.
+//! A GPU has one list of vertices, each with all of its attributes. A vertex of the mesh therefore
+//! takes one *slot* of that list for each distinct value at its corners: usually one, and two along
+//! a texture seam. A split adds slots. A merge removes some, and the last slot moves into the gap.
+//! The buffers list which slots were written since the last query, so that an engine uploads only
+//! those.
 //!
 //! ```text
 //!      mesh            slots
@@ -22,9 +23,10 @@ use crate::place::Place;
 /// The vertex and index buffer of a mesh whose corners have values, such as texture coordinates: a
 /// [`Follower`] of its log.
 ///
-/// The index buffer names for each corner its slot. Corners of one vertex with equal values share one,
-/// and every slot has a corner. (A value that is not equal to itself, such as NaN, shares with none.)
-/// Memory beside the values: 12 bytes a corner, 20 a slot or less.
+/// The index buffer gives the slot of each corner. Corners of one vertex with equal values share a
+/// slot, and every slot has at least one corner. (A value that is not equal to itself, such as NaN,
+/// never shares a slot.) Beside the values, the buffers take 12 bytes per corner and at most 20
+/// bytes per slot.
 ///
 /// ```
 /// use tearmesh::{shapes, split, DrawBuffers, Edits, FaceId, VertexId};
@@ -80,18 +82,22 @@ struct Slot {
 
 const NONE: u32 = u32::MAX;
 
-/// What was written in the buffers: see [`DrawBuffers::take_changes`].
+/// The parts of the buffers that were written since the last query: see
+/// [`DrawBuffers::take_changes`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DrawChanges {
-    /// The slots of the vertex buffer, ascending. What lies beyond its length is gone.
+    /// The slots of the vertex buffer that were written, ascending. A slot beyond the length of the
+    /// buffer no longer exists.
     pub slots: Vec<u32>,
-    /// The places of the index buffer, ascending: corners.
+    /// The entries of the index buffer that were written, ascending. Entry `i` belongs to corner
+    /// `i`.
     pub corners: Vec<u32>,
 }
 
 impl<T: Blend> DrawBuffers<T> {
-    /// The buffers of a mesh, by the values of its corners (three a face), which have seen no edit yet.
-    /// Slots come in the order of their vertices, and of the first corners of each. O(n log n).
+    /// Builds the buffers of a mesh from the values at its corners, three per face, before any edit
+    /// has been replayed. Slots are ordered by vertex, and then by the first corner that uses them.
+    /// O(n log n).
     ///
     /// # Panics
     ///
@@ -120,31 +126,31 @@ impl<T: Blend> DrawBuffers<T> {
         buffers
     }
 
-    /// Takes the values for those of the mesh at this place in its log.
+    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> DrawBuffers<T> {
         DrawBuffers { seen, ..self }
     }
 
-    /// The number of slots: of vertices for a GPU.
+    /// The number of slots, which is the number of vertices as a GPU counts them.
     #[must_use]
     pub fn len(&self) -> usize {
         self.slots.len()
     }
 
-    /// Whether there is no slot.
+    /// Whether the vertex buffer is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()
     }
 
-    /// The index buffer: the slot of each corner, three a face.
+    /// The index buffer: the slot of each corner, three per face.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
 
-    /// The vertex of the mesh that a slot is of.
+    /// The mesh vertex that a slot belongs to.
     ///
     /// # Panics
     ///
@@ -171,7 +177,7 @@ impl<T: Blend> DrawBuffers<T> {
         slots.map(|slot| (slot.vertex, &self.values[slot.corner as usize]))
     }
 
-    /// Where a slot is, rounded to `f32`.
+    /// The position of a slot, rounded to `f32`.
     ///
     /// # Panics
     ///
@@ -182,7 +188,7 @@ impl<T: Blend> DrawBuffers<T> {
         [point.x as f32, point.y as f32, point.z as f32]
     }
 
-    /// Where all slots are: for a mesh that moves as a whole.
+    /// The positions of all slots, rounded to `f32`: for a mesh whose vertices all move.
     ///
     /// # Panics
     ///
@@ -193,8 +199,9 @@ impl<T: Blend> DrawBuffers<T> {
         slots.map(|slot| self.place_f32(slot, place)).collect()
     }
 
-    /// What edits changed since this was last asked. The place of a slot counts as changed where an edit
-    /// moved its vertex; what else moves, as by a simulation, is not seen here.
+    /// Returns what edits have changed since the last call, and starts a new list. A slot counts as
+    /// changed if an edit moved its vertex. Motion that is not in the log, such as that of a
+    /// simulation, is not tracked here.
     #[must_use = "what was changed is not told again"]
     pub fn take_changes(&mut self) -> DrawChanges {
         DrawChanges {

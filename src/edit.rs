@@ -1,21 +1,23 @@
-//! The log of what was changed, and those who replay it.
+//! The log of edits, and the followers that replay it.
 //!
-//! An operation on a mesh appends a record to [`Edits`]. Whoever keeps data beside the
-//! mesh (positions, masses, texture coordinates, particles, a GPU buffer) is a
-//! [`Follower`] and replays the records when it suits; nobody registers a callback, and a
-//! floor below never calls a floor above. A new cloth model is one new follower, which is what
-//! makes the technique "easily adapted to nearly any cloth model" (Souza et al. 2014 §I).
+//! An operation on a mesh appends a record to [`Edits`]. Anything that keeps data beside the mesh
+//! (positions, masses, texture coordinates, particles, a GPU buffer) is a [`Follower`], and replays
+//! the records when it suits. There are no callbacks, and a lower layer never calls a higher one. A
+//! new cloth model is one new follower, which is what makes the technique "easily adapted to nearly
+//! any cloth model" (Souza et al. 2014 §I).
 //!
-//! A record is self-contained: a follower never looks at the mesh, which is already
-//! further on. A follower has a [`Cursor`]: its place in the log, which replaying moves. So nothing
-//! is applied twice, and a follower that comes too late or has followed another log is told so.
+//! A record is self-contained: a follower never looks at the mesh, which may have changed again
+//! since. A follower holds a [`Cursor`], its place in the log, which replaying advances. So no
+//! record is applied twice. A follower that is too late, or has followed another log, is caught by
+//! a panic that says so.
 //!
-//! A record has two faces. [`Edit`] is what happened, for those who need structure: constraints, the
-//! record in a file, masses. For values there is a normal form ([`VertexOp`], [`CornerOp`],
-//! [`FaceFamily`]): [`Edits::replay_vertices`] and its like bring a list of any type up to date.
+//! A record can be read in two forms. [`Edit`] says what happened, for followers that need
+//! structure: constraints, the record in a file, masses. For plain values there is a normal form
+//! ([`VertexOp`], [`CornerOp`], [`FaceFamily`]): [`Edits::replay_vertices`] and its siblings bring
+//! a list of any type up to date.
 //!
-//! The log is flat: lists of all records lie one after the other in a few vectors, which
-//! [`Edits::reserve`] can make room in beforehand, so that splits do not allocate.
+//! The log is flat: the lists of all records lie one after another in a few vectors.
+//! [`Edits::reserve`] makes room in them beforehand, so that splits do not allocate.
 
 mod cursor;
 mod form;
@@ -108,14 +110,14 @@ struct SlideRest {
 }
 
 impl Edits {
-    /// An empty log, whose first record will have number 0.
+    /// An empty log. Its first record will have the number 0.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// An empty log that goes on where another one ended: for a mesh that was saved, and whose
-    /// followers were saved with their cursors.
+    /// An empty log that continues where another one ended: for a mesh that was saved together with
+    /// its followers and their cursors.
     #[must_use]
     pub fn starting_at(cursor: Cursor) -> Self {
         Edits {
@@ -124,8 +126,8 @@ impl Edits {
         }
     }
 
-    /// Makes room for this many splits with, in all, so many moved corners and newly
-    /// torn links. A corner moves with each split that moves it, and a link tears once.
+    /// Makes room for `splits` splits that together move `corners` corners and tear `torn` links. A
+    /// corner counts once for each split that moves it. A link tears only once.
     pub fn reserve(&mut self, splits: usize, corners: usize, torn: usize) {
         self.records.reserve(splits);
         self.corners.reserve(corners);
@@ -144,8 +146,8 @@ impl Edits {
         self.records.is_empty()
     }
 
-    /// The place after the last record: that of a follower whose values are those of the mesh as
-    /// it is now.
+    /// The place after the last record, which is the cursor of a follower that is up to date with
+    /// the mesh.
     #[must_use]
     pub fn cursor(&self) -> Cursor {
         self.place(self.records.len())
@@ -157,11 +159,11 @@ impl Edits {
         (0..self.records.len()).map(|i| self.record(i))
     }
 
-    /// The records after a place, oldest first.
+    /// The records after a given place, oldest first.
     ///
     /// # Panics
     ///
-    /// If the place is not one of this log, or records after it were cleared.
+    /// If the place is not in this log, or if records after it were cleared.
     #[must_use]
     pub fn since(
         &self,
@@ -191,20 +193,21 @@ impl Edits {
         (skipped..self.records.len()).map(|i| self.record(i))
     }
 
-    /// Brings a follower, or each of a tuple of them, up to date: it sees every record that it has
-    /// not yet seen, in order, and its cursor is moved behind them.
+    /// Brings a follower, or each follower of a tuple, up to date: shows it every record that it
+    /// has not seen yet, in order, and advances its cursor.
     ///
     /// # Panics
     ///
-    /// If a follower has seen the records of another log, or records that it has not seen were
-    /// cleared. The message says which of these, and what to call.
+    /// If a follower has seen the records of another log, or if records that it has not seen were
+    /// cleared. The message says which of the two happened, and what to call.
     pub fn replay<F: Followers + ?Sized>(&self, followers: &mut F) {
         followers.see(self);
     }
 
-    /// Brings values of vertices up to date. `mix` makes a value of those that it comes from.
+    /// Brings a list of vertex values up to date. `mix` makes a new value from the ones that it
+    /// derives from.
     ///
-    /// Values may be of any type: to follow a log takes no trait of this crate.
+    /// Values may be of any type. They need not implement any trait of this crate.
     ///
     /// ```
     /// use tearmesh::{shapes, insert::Plan, Cursor, Edits, HalfEdgeId, Mix};
@@ -236,11 +239,11 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Brings values of corners up to date, three for each face. `mix` makes a value of those that
-    /// it comes from.
+    /// Brings a list of corner values, three per face, up to date. `mix` makes a new value from the
+    /// ones that it derives from.
     ///
-    /// Where a vertex slides, corners with equal values go together: that is why values can be
-    /// compared.
+    /// Where a vertex slides, its corners with equal values change together. That is why values
+    /// must be comparable.
     ///
     /// # Panics
     ///
@@ -257,8 +260,8 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Brings an index buffer up to date: the vertex of each corner, as in
-    /// [`Mesh::indices`](crate::Mesh::indices).
+    /// Brings an index buffer, which holds the vertex of each corner as
+    /// [`Mesh::indices`](crate::Mesh::indices) does, up to date.
     ///
     /// # Panics
     ///
@@ -271,7 +274,8 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Brings values of faces up to date: where a face is divided, each of its children has a copy.
+    /// Brings a list of face values up to date. Where a face is divided, each of its children gets
+    /// a copy of its value.
     ///
     /// # Panics
     ///
@@ -284,7 +288,8 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Forgets the records, and keeps the memory and the place. Replay first.
+    /// Forgets the records. Keeps the allocated memory and goes on counting records. Let all
+    /// followers replay first.
     pub fn clear(&mut self) {
         self.first = self.cursor();
         self.records.clear();
@@ -503,11 +508,12 @@ impl Edits {
     }
 }
 
-/// Whoever keeps data beside a mesh and brings it up to date from the log.
+/// Anything that keeps data beside a mesh and brings it up to date from the log.
 ///
-/// Values of vertices, corners and faces need no follower of their own: [`Edits::replay_vertices`]
-/// and its like bring any list up to date, and [`PerVertex`](crate::PerVertex) is such a list with
-/// its cursor. A follower is for what has more to say, and may use them for its parts:
+/// Plain values of vertices, corners and faces need no follower of their own:
+/// [`Edits::replay_vertices`] and its siblings bring any list up to date, and
+/// [`PerVertex`](crate::PerVertex) is such a list with its cursor. Implement a follower for data
+/// with more structure; it may use those lists for its parts:
 ///
 /// ```
 /// use tearmesh::{Cursor, Edit, Follower, Masses, Mix};
@@ -555,8 +561,8 @@ impl<F: Follower + ?Sized> Follower for &mut F {
 }
 
 impl Edit<'_> {
-    /// Shows this record to one follower, and moves its cursor: for a follower that has others as
-    /// its parts.
+    /// Shows this record to one follower and advances its cursor: for a follower that is made of
+    /// other followers.
     ///
     /// # Panics
     ///
@@ -573,7 +579,8 @@ impl Edit<'_> {
     }
 }
 
-/// A follower, or a tuple of up to six, each of which sees what it has not yet seen.
+/// One follower, or a tuple of up to six. Each of them is shown the records that it has not seen
+/// yet.
 pub trait Followers {
     /// Brings them up to date. See [`Edits::replay`].
     fn see(&mut self, edits: &Edits);

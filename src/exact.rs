@@ -1,11 +1,10 @@
 //! Exact arithmetic on `f64`: powers of two, and sums without rounding.
 //!
-//! A ledger that compares float sums needs a tolerance, and a tolerance hides
-//! lost mass. [`ExactSum`] has none: it adds every bit, in any order, and two sums
-//! are equal exactly when the numbers they stand for are. It is a fixed-point
-//! number as wide as the whole range of `f64` (Kulisch's long accumulator), cut
-//! into digits of 32 bits with room for carries. Adding costs two multiplications
-//! of a digit; 2^30 additions fit between two normalisations.
+//! A ledger that compares float sums needs a tolerance, and a tolerance hides lost mass.
+//! [`ExactSum`] has none: it adds every bit, in any order, and two sums are equal exactly when the
+//! numbers they stand for are. It is a fixed-point number as wide as the whole range of `f64`
+//! (Kulisch's long accumulator), cut into 32-bit digits with room for carries. An addition costs
+//! two digit multiplications, and 2^30 additions fit between two normalisations.
 
 /// Numbers whose size rounding alone explains: 32 · 2^-53 of what they were computed
 /// from. An error bound, not a tolerance.

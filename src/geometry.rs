@@ -1,9 +1,9 @@
-//! Points, planes and rays, the rule for what lies on a plane, and arithmetic with the same bits
+//! Points, planes and rays, the rule for points on a plane, and arithmetic that gives the same bits
 //! on every machine.
 //!
-//! The types stand at the root of the crate too. The functions are for whoever follows a mesh with
-//! numbers of their own and wants the same promise: each depends on `+ − × ÷ √` in the order that is
-//! written here, where a linear algebra library may sum in any order. Nothing here has a hidden
+//! The types are re-exported at the root of the crate. The functions are for programs that compute
+//! beside a mesh and want the same promise: each uses only `+ − × ÷ √`, in the order that is
+//! written here, whereas a linear algebra library may sum in any order. Nothing here has a hidden
 //! epsilon.
 //!
 //! ```
@@ -27,25 +27,25 @@ pub type Point = nalgebra::Point3<f64>;
 /// A direction or a difference of points.
 pub type Vector = nalgebra::Vector3<f64>;
 
-/// The largest coordinate that is accepted: 2^250, about 1.8e75.
+/// The largest coordinate that is accepted, by absolute value: 2^250, about 1.8e75.
 ///
-/// Up to here the square of an area is a finite `f64`, so no operation of this
-/// library can overflow.
+/// Up to this size the square of an area is a finite `f64`, so no operation of this library can
+/// overflow.
 pub const COORDINATE_MAX: f64 = f64::from_bits((250 + 1023) << 52);
 
 /// The side of a plane on which a face or a point counts as lying.
 ///
-/// Zero is front: `Front` means "on the plane or before it".
+/// Zero counts as front: `Front` means "on the plane or in front of it".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
-    /// Where the normal points, and the plane itself.
+    /// The side to which the normal points, and the plane itself.
     Front,
     /// Strictly behind the plane.
     Back,
 }
 
 impl Side {
-    /// The side of a signed distance, or of a sum of them.
+    /// The side that a signed distance, or a sum of signed distances, stands for.
     #[inline]
     #[must_use]
     pub fn of(offset: f64) -> Side {
@@ -98,24 +98,24 @@ impl Plane {
         self.point
     }
 
-    /// The normal, of length one.
+    /// The normal, as a unit vector.
     #[must_use]
     pub fn normal(&self) -> Vector {
         self.normal / self.length
     }
 
-    /// A number with the sign of the distance, and zero where that is zero:
-    /// n · (p − o), the normal scaled but not to length one.
+    /// A number with the same sign as the distance, and zero where the distance is zero: n · (p −
+    /// o), where n is the normal scaled by a power of two rather than to unit length.
     ///
-    /// Compared with [`Plane::distance`] it is one rounding nearer to the truth, so
-    /// whatever decides a side uses this.
+    /// It has one rounding fewer than [`Plane::distance`], so every decision about a side uses it.
     #[inline]
     #[must_use]
     pub fn offset(&self, p: Point) -> f64 {
         dot(self.normal, p - self.point)
     }
 
-    /// The signed distance of a point, positive on the side of the normal.
+    /// The signed distance of a point from the plane, positive on the side to which the normal
+    /// points.
     #[inline]
     #[must_use]
     pub fn distance(&self, p: Point) -> f64 {
@@ -133,7 +133,7 @@ impl Plane {
         Plane { point, ..*self }
     }
 
-    /// The same plane, seen from its other side.
+    /// This plane with its normal reversed.
     #[must_use]
     pub fn flipped(&self) -> Plane {
         Plane {
@@ -201,13 +201,13 @@ impl Ray {
         Ok(Ray { origin, direction })
     }
 
-    /// Where the ray starts.
+    /// The point at which the ray starts.
     #[must_use]
     pub fn origin(&self) -> Point {
         self.origin
     }
 
-    /// The direction as it was given.
+    /// The direction, as it was given.
     #[must_use]
     pub fn direction(&self) -> Vector {
         self.direction
@@ -256,12 +256,12 @@ fn list(v: Vector) -> String {
     format!("{}, {}, {}", v.x, v.y, v.z)
 }
 
-/// Whether a point can be used: every coordinate is finite, and none is larger than
-/// [`COORDINATE_MAX`] in size.
+/// Checks that every coordinate of a point is finite and at most [`COORDINATE_MAX`] in absolute
+/// value.
 ///
 /// # Errors
 ///
-/// The first coordinate for which that does not hold.
+/// The first coordinate that fails the check.
 pub fn check_point(p: Point) -> Result<(), f64> {
     match p
         .coords
@@ -286,7 +286,7 @@ pub(crate) fn scaled(v: Vector) -> Option<Vector> {
     Some(v * power_of_two(exponent / 2) * power_of_two(exponent - exponent / 2))
 }
 
-/// The largest component of a vector, by absolute value. NaN counts as nothing.
+/// The largest absolute value among the components of a vector. NaN components are ignored.
 #[inline]
 #[must_use]
 pub fn max_abs(v: Vector) -> f64 {
@@ -311,8 +311,8 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
     )
 }
 
-/// The point at the part `t` of the way from `p` to `q`: p − (p − q) t, which is `p` to the bit
-/// where both are one point.
+/// The point at the fraction `t` of the way from `p` to `q`, computed as p − (p − q) t. If `p` and
+/// `q` are equal, the result is bit-equal to `p`.
 #[inline]
 #[must_use]
 pub fn between(p: Point, q: Point, t: f64) -> Point {
@@ -371,13 +371,14 @@ pub(crate) fn angle(x: f64, y: f64) -> f64 {
     }
 }
 
-/// The sine and the cosine of an angle in radians, of at most 8 in size: a turn and more.
+/// The sine and the cosine of an angle in radians, for angles of at most 8 in absolute value, which
+/// is more than a full turn.
 ///
-/// In a fixed order of our own, so that it is the same on every machine. The nearest multiple of π/2 is taken off in three parts, of which the
-/// first two have so few bits that their multiples are exact (Cody and Waite, "Software Manual for
-/// the Elementary Functions", 1980). What is left is at most π/4, where eight terms of Taylor's
-/// series leave out less than 1e-17 of the result. Few enough operations round for each
-/// result to be less than two units in its last place off.
+/// Computed in a fixed order, so that the result is the same on every machine. The nearest multiple
+/// of π/2 is taken off in three parts, of which the first two have so few bits that their multiples
+/// are exact (Cody and Waite, "Software Manual for the Elementary Functions", 1980). The remainder
+/// is at most π/4, where eight terms of the Taylor series leave out less than 1e-17 of the result.
+/// Each result is off by less than two units in its last place.
 #[must_use]
 pub fn sine_and_cosine(angle: f64) -> (f64, f64) {
     debug_assert!(angle.abs() <= 8.0);

@@ -14,17 +14,17 @@ macro_rules! id {
         pub struct $name(u32);
 
         impl $name {
-            /// The number of ids of this kind: ids run from 0 to `LIMIT - 1`.
+            /// The number of ids of this kind. Indices run from 0 to `LIMIT - 1`.
             pub const LIMIT: usize = $limit as usize;
 
-            /// The id with this index, or `None` from [`Self::LIMIT`] on.
+            /// The id with this index, or `None` if the index is [`Self::LIMIT`] or more.
             #[inline]
             #[must_use]
             pub const fn new(index: usize) -> Option<Self> {
                 if index < Self::LIMIT { Some(Self(index as u32)) } else { None }
             }
 
-            /// The index, for use with slices.
+            /// The index of this id, for use with slices.
             #[inline]
             #[must_use]
             pub const fn index(self) -> usize {
@@ -77,16 +77,17 @@ macro_rules! id {
 }
 
 id!(
-    /// A vertex. Written `v7`.
+    /// The id of a vertex, displayed as `v7`.
     ///
-    /// Ids are stable: a split appends a vertex and never renumbers one.
+    /// A split appends a vertex and never renumbers one. A merge may give the last vertex the id
+    /// that becomes free.
     VertexId,
     "v",
     "vertex",
     u32::MAX
 );
 id!(
-    /// A half-edge, which is also a corner of a face. Written `h7`.
+    /// The id of a half-edge, which is also the id of a corner of a face; displayed as `h7`.
     ///
     /// The half-edge `h` of a face starts at the corner `h`, so one id names both.
     HalfEdgeId,
@@ -95,7 +96,7 @@ id!(
     u32::MAX
 );
 id!(
-    /// A face, always a triangle. Written `f7`.
+    /// The id of a face, which is always a triangle; displayed as `f7`.
     FaceId,
     "f",
     "face",
@@ -115,14 +116,14 @@ impl HalfEdgeId {
         self.0
     }
 
-    /// The face of this half-edge.
+    /// The face that this half-edge belongs to.
     #[inline]
     #[must_use]
     pub const fn face(self) -> FaceId {
         FaceId(self.0 / 3)
     }
 
-    /// Which corner of its face this is: 0, 1 or 2.
+    /// The corner of its face at which this half-edge starts: 0, 1 or 2.
     #[inline]
     #[must_use]
     pub const fn corner(self) -> usize {

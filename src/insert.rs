@@ -1,20 +1,20 @@
 //! Inserting vertices on edges and in faces.
 //!
-//! A cut that runs straight needs vertices where there are none. All points of a cut are
-//! inserted at once ([`Plan`], [`Plan::apply`]), and each face that gets one is
-//! retriangulated once; edge by edge, the order of insertion would decide the diagonals.
-//! The surface stays what it was, and so does every tear: an edge that was a pair is a chain of
-//! pairs, and a torn edge a chain of ghost pairs. A point on a torn edge is inserted on *both*
-//! sides of the ghost link, as two vertices of one root; with a point on one side
-//! alone, the walk round a vertex could not cross the link any more. No mark is made or
-//! lost here: only `split.rs` tears, and only `mend.rs` sews.
+//! A straight cut needs vertices where there are none. All points of a cut are inserted at once
+//! ([`Plan`], [`Plan::apply`]), and each face that gets any is retriangulated once. (Inserted edge
+//! by edge, the order of insertion would decide the diagonals.) The surface keeps its shape, and
+//! every tear stays: a paired edge becomes a chain of pairs, and a torn edge a chain of ghost
+//! pairs. A point on a torn edge is inserted on *both* sides of the ghost link, as two vertices of
+//! one root; with a point on one side alone, the walk around a vertex could no longer cross the
+//! link. No link is torn or sewn here: only `split.rs` tears, and only `mend.rs` sews.
 //!
-//! The rule of retriangulation (`insert/face.rs`) needs no coordinates: it compares areas
-//! as parts of the divided face, which no affine map changes.
+//! The rule of retriangulation (`insert/face.rs`) needs no coordinates: it compares areas as
+//! fractions of the divided face, which no affine map changes.
 //!
-//! Ids: new vertices are the last ones, in the order of the plan. The first child of a divided
-//! face has its id, the others are the last faces. Cost: linear in what is
-//! inserted and in the faces round the corners of divided faces, besides sorting the plan.
+//! New vertices get the highest ids, in the order of the plan. The first child of a divided face
+//! keeps the id of that face, and the other children get the highest face ids. The cost is linear
+//! in the number of points and of faces around the corners of divided faces, plus the sorting of
+//! the plan.
 
 mod face;
 mod plan;
@@ -32,8 +32,9 @@ use plan::{Chord, Point};
 impl Plan {
     /// Inserts the points.
     ///
-    /// The new vertices are in the order of the plan. A point on a torn edge has two: first that
-    /// on the side of the half-edge that was given, then that on the other.
+    /// The new vertices are numbered in the order of the plan. A point on a torn edge becomes two
+    /// vertices: the one on the side of the half-edge that was given, then the one on the other
+    /// side.
     ///
     /// ```text
     ///   on an edge                on a torn edge              in a face
@@ -56,7 +57,7 @@ impl Plan {
     ///
     /// # Panics
     ///
-    /// If an id is not one of this mesh (I2) or of this plan.
+    /// If an id is not in this mesh (I2) or not in this plan.
     pub fn apply<'e>(
         &self,
         mesh: &mut Mesh,
@@ -465,26 +466,26 @@ pub enum InsertRefusal {
         /// The weights.
         weights: [f64; 3],
     },
-    /// Two points are at the same place of an edge.
+    /// Two points coincide on an edge.
     Repeated {
         /// The half-edge, as the second point has it.
         half_edge: HalfEdgeId,
         /// The parameter, as the second point has it.
         t: f64,
     },
-    /// A chord does not run between two places on the outline of its face with something to
-    /// divide on both sides, crosses another, or passes points inside.
+    /// A chord does not divide its face (its ends must be two places on the outline, with area on
+    /// both sides), it crosses another chord, or its face has points inside.
     Chord {
         /// The face.
         face: FaceId,
     },
-    /// Points in a face are at the same place, or on its outline, up to rounding.
+    /// Two points in a face coincide up to rounding, or a point lies on the outline of its face.
     Crowded {
         /// The face.
         face: FaceId,
     },
-    /// A part of a face would be too small for its share of the face to be a positive number:
-    /// between points that are very near a corner.
+    /// A child face would be so small that its share of the parent's area rounds to zero. This
+    /// happens between points that are very near a corner.
     Share {
         /// The face.
         face: FaceId,

@@ -1,12 +1,11 @@
 //! A strict, verification-first half-edge kernel for triangle meshes that tear.
 //!
-//! A [`Mesh`] is built from triangles and split at its vertices. A split that separates two
-//! faces turns the pair between them into a *ghost pair*, so that all faces of a vertex are
-//! found however torn the mesh is, also where it is no longer a 2-manifold. On this stand a
-//! [`Scissor`] that cuts along two rays or a plane, and exact [`Masses`]. The technique is that of
-//! M. S. Souza, A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC
-//! Journal on Interactive Systems 5(1), 2014; where this library differs, the module
-//! concerned says why.
+//! A [`Mesh`] is built from triangles and split at its vertices. A split that separates two faces
+//! turns the pair between them into a *ghost pair*, so that all faces of a vertex are found however
+//! torn the mesh is, also where it is no longer a 2-manifold. A [`Scissor`] that cuts along two
+//! rays or a plane, and exact [`Masses`], are built on this. The technique is that of M. S. Souza,
+//! A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC Journal on
+//! Interactive Systems 5(1), 2014; where this library differs, the module concerned says why.
 //!
 //! # Build, split, upload
 //!
@@ -134,7 +133,8 @@ pub use mesh::{
     BoundaryLoop, BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fan, Fans,
     Invariant, Mesh, TornError, Violation,
 };
-/// The linear algebra of [`Point`] and [`Vector`], in the version that this crate has.
+/// The linear algebra crate that defines [`Point`] and [`Vector`], in the version that this crate
+/// uses.
 pub use nalgebra;
 pub use pick::RayHit;
 pub use place::{Place, PositionError, Positions};

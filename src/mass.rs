@@ -1,22 +1,20 @@
 //! Masses of vertices, conserved exactly.
 //!
-//! Two rules, both followers of the log and both with the same [`MassLedger`]:
+//! There are two rules. Both follow the log, and both keep a [`MassLedger`]:
 //!
-//! * **area** (the default choice): a vertex weighs a third of each of its faces, so
-//!   after a split each half weighs what its faces weigh. In plain floats
-//!   `m_old + m_new` would differ from the mass before in a quarter of all splits. So each
-//!   corner's mass is rounded once, when masses are made, to a whole number of *units*: 2^-52 of
-//!   the power of two above the total. Sums of units are exact in any order.
-//!   An insertion shares the units of a face among its children by their areas.
-//! * **half** (Souza et al. 2014 §IV-A): each half weighs half, however many faces it
-//!   has. Halving a float is exact as long as it stays normal. A mass is kept as those of the
-//!   vertices that it came from and the parts of them that it has, ½, ¼, …, because merges in another
-//!   order than that of the splits may leave ½ + ¼, and its product with the mass need not be an
-//!   `f64`.
-//!   This rule knows no insertion: there is no vertex to be halved.
+//! * **area** (the default choice): a vertex weighs a third of each of its faces, so after a split
+//!   each half weighs what its faces weigh. In plain floats `m_old + m_new` would differ from the
+//!   mass before in a quarter of all splits. So each corner's mass is rounded once, when masses are
+//!   made, to a whole number of *units*: 2^-52 of the power of two above the total. Sums of units
+//!   are exact in any order. An insertion divides the units of a face among its children by area.
+//! * **half** (Souza et al. 2014 §IV-A): each half weighs half, however many faces it has. Halving
+//!   a float is exact as long as it stays normal. A mass is stored as fractions ½, ¼, … of the
+//!   masses of the original vertices, because merges that do not reverse the order of the splits
+//!   may leave ½ + ¼, and that fraction of a mass need not be an `f64`. This rule cannot follow an
+//!   insertion: there is no vertex to be halved.
 //!
-//! A follower cannot refuse a split that has happened, so what could go wrong later
-//! is refused when masses are made.
+//! A follower cannot refuse a split that has already happened. So masses that could become too
+//! small later are refused when they are made.
 
 use std::fmt;
 
@@ -131,11 +129,11 @@ fn added(parts: impl Iterator<Item = Part>) -> Vec<Part> {
 }
 
 impl Masses {
-    /// Masses by area: each face gives a third of its mass to each of its corners.
+    /// Computes masses by area: each face gives a third of its mass to each of its corners.
     ///
-    /// `density` is mass per area, in the units of the model. A corner weighs at least
-    /// one unit ([`Masses::unit`]), so that a face without area does not make a vertex without
-    /// mass. A vertex without a face weighs nothing. Linear.
+    /// `density` is mass per area, in the units of the model. A corner weighs at least one unit
+    /// ([`Masses::unit`]), so that a face of zero area does not leave a vertex without mass. A
+    /// vertex without faces has zero mass. Linear.
     ///
     /// # Errors
     ///
@@ -153,8 +151,8 @@ impl Masses {
         Ok(Masses::opened(Store::Area { corners, vertices }, unit))
     }
 
-    /// Masses by halves, starting from those of [`Masses::area`]. They can follow splits and
-    /// merges, and panic at an insertion.
+    /// Computes masses that are halved at each split, starting from those of [`Masses::area`]. They
+    /// can follow splits and merges, and panic at an insertion.
     ///
     /// # Errors
     ///
@@ -209,20 +207,20 @@ impl Masses {
         masses
     }
 
-    /// Takes the masses for those of the mesh at this place in its log.
+    /// Declares that these masses belong to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Masses {
         Masses { seen, ..self }
     }
 
-    /// Up to where the masses have seen the log of the mesh.
+    /// The place in the mesh's log up to which edits have been replayed on these masses.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Makes room for this many more vertices, so that as many splits can be replayed without
-    /// allocation.
+    /// Makes room for `vertices` more vertices, so that replaying that many splits allocates
+    /// nothing.
     pub fn reserve(&mut self, vertices: usize) {
         match &mut self.store {
             Store::Area {
@@ -234,9 +232,9 @@ impl Masses {
 
     /// The mass of a vertex.
     ///
-    /// It is zero for a vertex without a face, and may become so for one with faces: where a
-    /// face of no more than a few units is divided, not every corner gets one, and a split may
-    /// leave a vertex with only such corners. Who divides by masses takes the larger of this and
+    /// The mass is zero for a vertex without faces. It may become zero for a vertex with faces:
+    /// where a face of only a few units is divided, not every corner gets a unit, and a split may
+    /// leave a vertex with only such corners. Before dividing by a mass, take the larger of it and
     /// [`Masses::unit`].
     ///
     /// # Panics
@@ -250,14 +248,15 @@ impl Masses {
         }
     }
 
-    /// What masses were rounded to when they were made, and what a corner weighed at least:
-    /// 2^-52 of the power of two above the total.
+    /// The unit that masses were rounded to when they were made, and the least that a corner then
+    /// weighed: 2^-52 of the power of two above the total.
     #[must_use]
     pub fn unit(&self) -> f64 {
         self.unit
     }
 
-    /// Whether these masses can follow an insertion: those by area can, those by halves cannot.
+    /// Whether these masses can follow an insertion: true for masses by area, false for masses by
+    /// halves.
     #[must_use]
     pub fn knows_insertions(&self) -> bool {
         matches!(self.store, Store::Area { .. })
@@ -272,7 +271,7 @@ impl Masses {
         }
     }
 
-    /// Whether there is no vertex.
+    /// Whether there are no vertices.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -290,7 +289,7 @@ impl Masses {
         }
     }
 
-    /// What there was when the masses were made, and what there is now.
+    /// The total mass when the masses were made, and the total now.
     #[must_use]
     pub fn ledger(&self) -> MassLedger {
         MassLedger {
@@ -461,17 +460,17 @@ fn divide(family: &[ChildFace], corners: &mut Vec<u64>, vertices: &mut [u64]) {
     }
 }
 
-/// Exact sums of masses, before and after.
+/// Exact totals of the masses, before and after all edits so far.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MassLedger {
-    /// When the masses were made.
+    /// The total when the masses were made.
     pub before: ExactSum,
-    /// Now.
+    /// The total now.
     pub after: ExactSum,
 }
 
 impl MassLedger {
-    /// Whether nothing was lost or made: exactly, without a tolerance.
+    /// Whether the two totals are equal. The comparison is exact, without a tolerance.
     #[must_use]
     pub fn is_balanced(&self) -> bool {
         self.before == self.after
@@ -487,16 +486,16 @@ pub enum MassError {
         /// The density as given.
         given: f64,
     },
-    /// No face has an area, or a position is not a number. An area of less than 1e-140, of all faces
-    /// together, is none: edges of about 1e-70 are the shortest that can be computed with.
+    /// The total area is below 1e-140, or a position is not a number. Edges of about 1e-70 are the
+    /// shortest that can be computed with.
     NoArea,
-    /// The total is so large or so small that its parts are no normal numbers.
+    /// The total is so large or so small that its parts are not normal floating-point numbers.
     OutOfRange {
         /// The total, rounded.
         total: f64,
     },
-    /// Half of half of … these masses, as often as they could be split, would fall below the
-    /// normal numbers, and halving would no longer be exact.
+    /// A mass, halved as often as its vertex could be split, would fall below the normal
+    /// floating-point numbers, and halving would no longer be exact.
     TooLight {
         /// The vertices, ascending.
         vertices: Vec<VertexId>,

@@ -1,11 +1,11 @@
-//! The merge, inverse of the split, and the sewing of seams.
+//! The merge, which is the inverse of the split, and the sewing of seams.
 //!
-//! Two vertices that were split from the same one become one again, and ghost pairs whose ends
-//! agree again become pairs. This is the only code that sews a link. Undoing splits in
-//! reverse order gives back the mesh as it was, bit for bit; in any other order the last
-//! vertex takes the id that became free, and the record says so. Any two vertices of one
-//! root may be merged, so part of a seam may be mended: what is left is a torn mesh like any
-//! other (the corners of a vertex still lie in one orbit, I8).
+//! Two vertices that were split from the same vertex become one again, and ghost pairs whose ends
+//! agree again become pairs. This is the only code that sews a link. Undoing splits in reverse
+//! order restores the mesh bit for bit. In any other order the last vertex takes the id that
+//! becomes free, and the record says so. Any two vertices of one root may be merged, so a seam may
+//! be mended in part. The result is a torn mesh like any other: the corners of a vertex still lie
+//! in one orbit (I8).
 //!
 //! Souza et al. 2014 has no merge. That a split only relabels corners makes it simple.
 
@@ -32,12 +32,12 @@ use crate::place::Place;
 ///   o-----o-----o
 /// ```
 ///
-/// Positions that moved apart, velocities and the like are joined at the mean with these
-/// weights, which belong to `one` and `other` and are masses as a rule. Where both weights are
-/// zero they count as equal.
+/// `weights` belong to `one` and `other`, and are usually their masses. Followers join positions,
+/// velocities and other values at the mean with these weights. If both weights are zero, they count
+/// as equal.
 ///
-/// Cost: linear in the faces that the vertex had before it was first split, and
-/// nothing is allocated where the log has room.
+/// The cost is linear in the number of faces that the vertex had before it was first split. Nothing
+/// is allocated if the log has room.
 ///
 /// # Errors
 ///
@@ -45,7 +45,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If a vertex is not one of this mesh (I2).
+/// If a vertex is not in this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{mend, shapes, split, Edits, FaceId, VertexId};
@@ -165,7 +165,7 @@ fn free(
     (gone != last).then_some((last, start))
 }
 
-/// Two vertices of one root that are to become one.
+/// A request to merge two vertices of one root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Stitch {
     /// The vertex that goes: the higher id.
@@ -175,7 +175,7 @@ pub struct Stitch {
 }
 
 impl Stitch {
-    /// The stitch that joins two different vertices; `None` for one vertex.
+    /// The stitch that joins two different vertices; `None` if both are the same vertex.
     #[must_use]
     pub fn new(one: VertexId, other: VertexId) -> Option<Stitch> {
         (one != other).then(|| Stitch {
@@ -184,7 +184,7 @@ impl Stitch {
         })
     }
 
-    /// The vertex that goes.
+    /// The vertex that disappears.
     #[must_use]
     pub fn gone(&self) -> VertexId {
         self.gone
@@ -197,8 +197,8 @@ impl Stitch {
     }
 }
 
-/// The stitches that sew together all vertices of one root that are `chosen`: each to the lowest
-/// of them. Linear in the mesh.
+/// The stitches that sew together all `chosen` vertices of the same root, each to the lowest of
+/// them. Linear in the mesh.
 ///
 /// ```
 /// use tearmesh::{mend, shapes, split, Edits};
@@ -231,21 +231,21 @@ pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
     stitches
 }
 
-/// Merges the vertices of many stitches, those with the highest ids first, and returns the
-/// number of merges. Where a vertex goes in two stitches, all three become one.
+/// Carries out many stitches, those with the highest ids first, and returns the number of merges.
+/// If a vertex disappears in two stitches, all three vertices become one.
 ///
-/// `place` is read before anything is changed. `weight` is the mass of each vertex, as for
-/// [`merge`]. Undoing the splits of a mesh pops them one by one, so
-/// ids come out as they were before. Linear in the mesh, where the faces of each copy lie together.
+/// `place` is read before anything is changed. `weight` gives the mass of each vertex, as for
+/// [`merge`]. If all splits of a mesh are undone, ids are what they were before. Linear in the mesh
+/// if the faces of each copy lie together.
 ///
 /// # Errors
 ///
-/// [`SewError`], and nothing has changed: two vertices are not of one root, have no weight that
-/// can be used, or are farther apart than `max_distance`. All of them are listed.
+/// [`SewError`] lists every stitch whose vertices are not of one root, have no usable weight, or
+/// are farther apart than `max_distance`. Nothing has changed then.
 ///
 /// # Panics
 ///
-/// If a vertex is not one of this mesh (I2), or unknown to `place`.
+/// If a vertex is not in this mesh (I2), or unknown to `place`.
 pub fn sew(
     mesh: &mut Mesh,
     place: &(impl Place + ?Sized),
@@ -365,12 +365,12 @@ impl Copies {
 /// Why a merge was refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MergeRefusal {
-    /// Both vertices are one already.
+    /// Both ids name the same vertex.
     Same {
         /// The vertex.
         vertex: VertexId,
     },
-    /// The vertices were never one.
+    /// The vertices were not split from the same vertex.
     Roots {
         /// The first vertex.
         one: VertexId,
@@ -399,7 +399,7 @@ impl fmt::Display for MergeRefusal {
             } => {
                 write!(
                     f,
-                    "nothing was merged: the weights {one} and {other} are no masses"
+                    "nothing was merged: the weights {one} and {other} must be finite and not negative"
                 )
             }
         }
@@ -426,7 +426,7 @@ impl SewError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StitchError {
-    /// The vertices were never one.
+    /// The vertices were not split from the same vertex.
     Roots,
     /// A weight is negative or not finite.
     Weights,
@@ -445,7 +445,7 @@ impl fmt::Display for SewError {
         write!(f, "{kept} and {gone} cannot be sewn: ")?;
         match why {
             StitchError::Roots => f.write_str("they were never one vertex")?,
-            StitchError::Weights => f.write_str("their weights are no masses")?,
+            StitchError::Weights => f.write_str("their weights must be finite and not negative")?,
             StitchError::Distance { distance } => write!(f, "they are {distance} apart")?,
         }
         match self.refused.len() {

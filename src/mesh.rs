@@ -1,12 +1,11 @@
 //! The half-edge mesh: which triangles meet where, and nothing else.
 //!
-//! A [`Mesh`] is made of triangles by [`Mesh::build`], which accepts an oriented
-//! 2-manifold with or without boundary and refuses anything else. From then on three
-//! operations change it: the vertex split (`split.rs`), its inverse the merge (`mend.rs`), and
-//! the insertion of vertices (`insert.rs`). A torn mesh need no longer be a manifold:
-//! two fans of triangles may share a vertex without sharing an edge (Souza et al. 2014,
-//! Fig. 2). All faces of such a vertex are still found, because a half-edge
-//! that loses its pair keeps it as its *ghost pair* (§IV-B, Fig. 3).
+//! A [`Mesh`] is made of triangles by [`Mesh::build`], which accepts an oriented 2-manifold with or
+//! without boundary and refuses anything else. After that three operations change it: the vertex
+//! split (`split.rs`), its inverse the merge (`mend.rs`), and the insertion of vertices
+//! (`insert.rs`). A torn mesh need no longer be a manifold: two fans of triangles may share a
+//! vertex without sharing an edge (Souza et al. 2014, Fig. 2). All faces of such a vertex are still
+//! found, because a half-edge that loses its pair keeps it as its *ghost pair* (§IV-B, Fig. 3).
 //!
 //! **The state of a half-edge.** In the paper, `pair` is erased when an edge is
 //! torn, and saved in `ghost pair`. At any time at most one of the two is set, and
@@ -92,22 +91,22 @@ impl Link {
         self.0 >= Self::TORN && self.0 != Self::BOUNDARY.0
     }
 
-    /// The same link, to a half-edge that has another number now.
+    /// This link with its torn mark, redirected to the half-edge `opposite`.
     const fn renumbered(self, opposite: HalfEdgeId) -> Link {
         Link(Link::to(opposite).0 | self.0 & Self::TORN)
     }
 }
 
 impl Mesh {
-    /// The most faces a mesh can have: three half-edges each, below 2^31, so that
-    /// a half-edge and a torn mark fit 32 bits.
+    /// The most faces that a mesh can have. Each has three half-edges, whose ids stay below 2^31,
+    /// so that a half-edge and a torn mark fit into 32 bits.
     pub const MAX_FACES: usize = (1 << 31) / 3;
 
-    /// The most vertices that a mesh can be built with. Beside those without a face there are
-    /// never more than half-edges, and the sum still fits the id type.
+    /// The most vertices that a mesh can be built with. Vertices with faces are never more than
+    /// there are half-edges, so the ids of all vertices, including later ones, fit the id type.
     pub const MAX_VERTICES: usize = 1 << 31;
 
-    /// The number of vertices, those without a face included.
+    /// The number of vertices, including those without faces.
     #[inline]
     #[must_use]
     pub fn vertex_count(&self) -> usize {
@@ -121,14 +120,14 @@ impl Mesh {
         self.origin.len() / 3
     }
 
-    /// The number of half-edges: three a face.
+    /// The number of half-edges: three per face.
     #[inline]
     #[must_use]
     pub fn half_edge_count(&self) -> usize {
         self.origin.len()
     }
 
-    /// All vertices, ascending.
+    /// All vertices, in ascending order.
     pub fn vertices(
         &self,
     ) -> impl ExactSizeIterator<Item = VertexId> + DoubleEndedIterator + FusedIterator + Clone + use<>
@@ -136,7 +135,7 @@ impl Mesh {
         (0..self.vertex_count() as u32).map(VertexId::from_u32)
     }
 
-    /// All faces, ascending.
+    /// All faces, in ascending order.
     pub fn faces(
         &self,
     ) -> impl ExactSizeIterator<Item = FaceId> + DoubleEndedIterator + FusedIterator + Clone + use<>
@@ -144,7 +143,7 @@ impl Mesh {
         (0..self.face_count() as u32).map(FaceId::from_u32)
     }
 
-    /// All half-edges, ascending.
+    /// All half-edges, in ascending order.
     pub fn half_edges(
         &self,
     ) -> impl ExactSizeIterator<Item = HalfEdgeId> + DoubleEndedIterator + FusedIterator + Clone + use<>
@@ -152,12 +151,12 @@ impl Mesh {
         (0..self.half_edge_count() as u32).map(HalfEdgeId::from_u32)
     }
 
-    /// The half-edge on the other side of the same edge, where the edge has two faces
-    /// and is not torn.
+    /// The half-edge on the other side of the edge of `h`, if that edge has two faces and is not
+    /// torn.
     ///
     /// # Panics
     ///
-    /// Like all queries: if the id is not one of this mesh. The message names the id and I2.
+    /// If the id is not in this mesh, as for all queries. The message names the id and I2.
     #[inline]
     #[must_use]
     pub fn pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
@@ -165,8 +164,8 @@ impl Mesh {
         (link < Link::TORN).then(|| HalfEdgeId::from_u32(link))
     }
 
-    /// The half-edge that was the pair of `h` before the edge between them was torn
-    /// (Souza et al. 2014 §IV-B).
+    /// The half-edge that was the pair of `h` before their edge was torn (Souza et al. 2014 §IV-B);
+    /// `None` if the edge is not torn.
     #[inline]
     #[must_use]
     pub fn ghost_pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
@@ -178,8 +177,8 @@ impl Mesh {
         }
     }
 
-    /// The pair, or else the ghost pair: `None` only on the boundary of the mesh
-    /// as it was built.
+    /// The pair of `h`, or else its ghost pair. `None` only on the boundary of the mesh as it was
+    /// built.
     #[inline]
     #[must_use]
     pub fn pair_or_ghost(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
@@ -228,15 +227,16 @@ impl Mesh {
         }
     }
 
-    /// The vertices of all faces, three a face: an index buffer, at no cost.
+    /// The vertices of all faces, three per face. This is an index buffer, and it costs nothing to
+    /// get.
     #[inline]
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.origin
     }
 
-    /// Every edge once, by one of its half-edges: the smaller one of a pair, and each
-    /// half-edge without a pair. A torn edge is two edges.
+    /// Every edge once, as one of its half-edges: the smaller one of each pair, and each half-edge
+    /// that has no pair. A torn edge counts as two edges.
     #[must_use]
     pub fn edges(&self) -> impl FusedIterator<Item = HalfEdgeId> + Clone + '_ {
         self.half_edges().filter(|&h| self.is_edge(h))
@@ -249,14 +249,13 @@ impl Mesh {
         h.of(&self.link).0 > h.to_u32()
     }
 
-    /// Makes room for `vertices` more vertices, so that as many splits
-    /// do not allocate.
+    /// Makes room for `vertices` more vertices, so that that many splits do not allocate.
     pub fn reserve(&mut self, vertices: usize) {
         self.outgoing.reserve(vertices);
     }
 
-    /// Makes room for `faces` more faces, so that as many can be inserted without moving what is
-    /// there: on a large mesh that takes longer than a cut.
+    /// Makes room for `faces` more faces, so that that many can be inserted without reallocating.
+    /// On a large mesh a reallocation takes longer than a cut.
     pub fn reserve_faces(&mut self, faces: usize) {
         self.origin.reserve(3 * faces);
         self.link.reserve(3 * faces);
@@ -306,7 +305,7 @@ impl Mesh {
         self.link.extend([Link::BOUNDARY; 3]);
     }
 
-    /// Takes a half-edge from its opposite, which has to be told.
+    /// Removes the link of a half-edge. The caller must also update the opposite half-edge.
     pub(crate) fn unlink(&mut self, h: HalfEdgeId) {
         self.link[h.index()] = Link::BOUNDARY;
     }

@@ -1,4 +1,4 @@
-//! The face that a ray meets first: what lies under a mouse.
+//! Finds the face that a ray meets first, such as the one under the mouse pointer.
 //!
 //! ```text
 //!            ray
@@ -16,8 +16,8 @@
 //! where rounding could have changed the sign, by products without rounding.) That holds while no product
 //! of three coordinates is below the range of `f64`: from 1e-90 units on.
 //!
-//! All faces are looked at, in the order of their ids: linear, and no tree to keep up to date on a mesh
-//! that moves and tears.
+//! All faces are tested, in the order of their ids. That is linear, and there is no search tree to
+//! keep up to date on a mesh that moves and tears.
 
 use crate::exact::{ExactSum, ROUNDING, product};
 use crate::geometry::{Point, Ray, Vector, cross, dot, length, scaled};
@@ -25,15 +25,16 @@ use crate::id::FaceId;
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// Where a ray meets a face: see [`first_hit`].
+/// The place where a ray meets a face: see [`first_hit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
-    /// The face.
+    /// The face that the ray meets.
     pub face: FaceId,
-    /// The weights of its corners, of sum one up to rounding. That of a corner is exactly zero where the
-    /// ray goes through the edge opposite, and exactly one where it goes through the corner.
+    /// The barycentric coordinates of the hit point. They sum to one up to rounding. The weight of
+    /// a corner is exactly zero if the ray goes through the opposite edge, and exactly one if it
+    /// goes through the corner.
     pub weights: [f64; 3],
-    /// How far from the origin of the ray, in units of the model.
+    /// The distance from the origin of the ray, in units of the model.
     pub distance: f64,
 }
 

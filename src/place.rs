@@ -1,7 +1,8 @@
-//! Where the vertices are.
+//! The positions of the vertices.
 //!
-//! The mesh has no coordinates. What needs them reads a [`Place`], which any storage
-//! can be; what cuts also writes [`Positions`], the library's own, in step with the mesh.
+//! The mesh has no coordinates. Code that needs them reads a [`Place`], which any storage can
+//! implement. Code that cuts also writes [`Positions`], the library's own storage, in step with the
+//! mesh.
 
 use std::fmt;
 
@@ -10,10 +11,10 @@ use crate::edit::{Cursor, Edit, Follower};
 use crate::geometry::{Point, check_point};
 use crate::id::VertexId;
 
-/// Where vertices are: read-only, whatever the storage.
+/// Read access to vertex positions, whatever their storage.
 ///
-/// Implemented for [`Positions`] and for slices of points and of `[f64; 3]`. Coordinates
-/// should be finite; a face with a NaN counts as lying in front of every plane.
+/// Implemented for [`Positions`] and for slices of points and of `[f64; 3]`. Coordinates should be
+/// finite. A face with a NaN coordinate counts as lying in front of every plane.
 pub trait Place {
     /// The point at which a vertex is.
     ///
@@ -54,12 +55,13 @@ pub struct Positions {
 }
 
 impl Positions {
-    /// The positions of vertices 0, 1, 2, …, which have seen no edit yet.
+    /// Takes the positions of all vertices, in the order of the ids, before any edit has been
+    /// replayed.
     ///
     /// # Errors
     ///
-    /// Where coordinates are not finite or beyond
-    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX): all such vertices.
+    /// [`PositionError`] lists every vertex with a coordinate that is not finite or is beyond
+    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX).
     pub fn new(
         points: impl IntoIterator<Item = impl Into<Point>>,
     ) -> Result<Positions, PositionError> {
@@ -83,12 +85,12 @@ impl Positions {
         }
     }
 
-    /// The positions of vertices 0, 1, 2, …, as an engine has them. Each `f32` is an `f64` too, so
-    /// [`Positions::tail_f32`] gives the same bits back.
+    /// Takes the positions of all vertices as `f32`, as a game engine stores them. Every `f32` is
+    /// also an `f64`, so [`Positions::tail_f32`] gives the same bits back.
     ///
     /// # Errors
     ///
-    /// Where coordinates are not finite: all such vertices.
+    /// [`PositionError`] lists every vertex with a coordinate that is not finite.
     ///
     /// ```
     /// use tearmesh::Positions;
@@ -103,20 +105,20 @@ impl Positions {
         Positions::new(points.into_iter().map(|point| point.map(f64::from)))
     }
 
-    /// Takes the positions for those of the mesh at this place in its log.
+    /// Declares that these positions belong to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Positions {
         Positions { seen, ..self }
     }
 
-    /// Up to where the positions have seen the log of the mesh.
+    /// The place in the mesh's log up to which edits have been replayed on these positions.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Makes room for this many more vertices, so that as many splits can be replayed without
-    /// allocation.
+    /// Makes room for `vertices` more vertices, so that replaying that many splits allocates
+    /// nothing.
     pub fn reserve(&mut self, vertices: usize) {
         self.points.reserve(vertices);
     }
@@ -138,7 +140,7 @@ impl Positions {
         self.points.len()
     }
 
-    /// Whether there is no vertex.
+    /// Whether there are no vertices.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
@@ -150,8 +152,8 @@ impl Positions {
         &self.points
     }
 
-    /// The positions from vertex number `start` on, rounded to `f32`: what a vertex
-    /// buffer lacks after splits and insertions. `start = 0` gives all of it.
+    /// The positions of the vertices from index `start` on, rounded to `f32`: the part that a
+    /// vertex buffer lacks after splits and insertions. `start = 0` gives all positions.
     ///
     /// # Panics
     ///
@@ -185,15 +187,15 @@ impl Follower for Positions {
     }
 }
 
-/// Vertices whose coordinates were refused.
+/// The vertices whose coordinates were refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PositionError {
     unusable: Vec<(VertexId, Point)>,
 }
 
 impl PositionError {
-    /// Every vertex with a coordinate that is not finite or too large, and where it was
-    /// to be; ascending, never empty.
+    /// Every vertex with a coordinate that is not finite or is too large, with its position; in
+    /// ascending order, never empty.
     #[must_use]
     pub fn unusable(&self) -> &[(VertexId, Point)] {
         &self.unusable

@@ -4,9 +4,9 @@
 //! (Souza et al. 2014 §V, with two errata of the paper mended: see `scissor/strip.rs`). A plane alone
 //! cuts wherever it goes.
 //!
-//! Methods differ in what they split: see [`CutMethod`]. Each returns a [`Cut`] that tells what was
-//! made: sides, seam, tips, and ends from which another cut can go on. A [`CutReport`] that measures
-//! it has to be asked for.
+//! Methods differ in which vertices they split: see [`CutMethod`]. Each returns a [`Cut`], which
+//! has the sides, the seam, its tips, and the ends from which another cut can continue.
+//! [`Scissor::cut_measured`] also measures the cut, and returns a [`CutReport`].
 
 mod cut;
 mod exact;
@@ -38,7 +38,8 @@ use outcome::Outcome;
 use paper::Form;
 use strip::Strip;
 
-/// A cut to be made: a plane, and between rays two planes that bound it at the sides.
+/// A description of a cut: a plane, and for a cut between two rays also the two side planes that
+/// bound it.
 ///
 /// ```
 /// use tearmesh::{shapes, CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
@@ -56,7 +57,8 @@ use strip::Strip;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A slit follows a mouse: each call goes on from the vertex where the one before ended.
+/// In this example a slit follows a mouse: each cut continues from the vertex at which the previous
+/// one ended.
 ///
 /// ```
 /// use tearmesh::{shapes, Cut, CutMethod, Edits, Point, Ray, Scissor, Vector};
@@ -87,34 +89,34 @@ pub struct Scissor {
     joints: [Option<CutEnd>; 2],
 }
 
-/// How a cut is made. All methods share the rays, the report and the log.
+/// The method by which a cut is made. All methods take the same rays and return the same report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CutMethod {
-    /// Insert vertices where the plane crosses edges, so that the seam is straight. Adds faces,
-    /// always divides; with a snap ([`Scissor::snap`]) no face gets thin, and the seam is as far
-    /// from the plane as that allows.
+    /// Inserts vertices where the plane crosses edges, so that the seam is straight. It adds faces
+    /// and always divides the mesh. A snap ([`Scissor::snap`]) avoids thin faces, and the seam may
+    /// then deviate from the plane by as much as the snap allows.
     #[default]
     Exact,
-    /// Label every face by its side of the plane, smooth the labels, and give
-    /// each side its own vertices along the seam. Adds no face, always divides, and the seam
-    /// runs along edges: on irregular meshes 1.04 to 1.15 times as long as the plane's line,
-    /// and up to 0.9 edges away from it.
+    /// Labels every face by its side of the plane, smooths the labels, and gives each side its own
+    /// vertices along the seam. It adds no face and always divides the mesh. The seam runs along
+    /// edges: on irregular meshes it is 1.04 to 1.15 times as long as the straight line, and up to
+    /// 0.9 edge lengths away from it.
     Partition,
-    /// The paper's first form (Souza et al. 2014 §V): split the vertices on the positive side by
+    /// The paper's first form (Souza et al. 2014 §V): splits the vertices on the positive side by
     /// the normal of the plane. Irregular meshes stay in one piece.
     Uniform,
-    /// The paper's better form: where two vertices of a face are on the positive side, split
-    /// along the edge between them. Mostly divides, and leaves crumbs and a seam up to twice as
-    /// long as it need be.
+    /// The paper's better form: where two vertices of a face are on the positive side, splits along
+    /// the edge between them. It usually divides the mesh, but leaves crumbs and a seam up to twice
+    /// as long as necessary.
     Alternating,
 }
 
 impl Scissor {
-    /// The scissor that two rays span.
+    /// The scissor spanned by two rays.
     ///
-    /// The plane passes through both origins and holds the direction of `a`. If the rays
-    /// are skew, `b` leaves the plane; [`Scissor::skew`] says how far.
+    /// The plane passes through both origins and contains the direction of `a`. If the rays are
+    /// skew, `b` leaves the plane; [`Scissor::skew`] says by how much.
     ///
     /// # Errors
     ///
@@ -124,7 +126,7 @@ impl Scissor {
         Ok(Scissor::along(strip, Some([a, b])))
     }
 
-    /// The scissor that cuts wherever a plane goes.
+    /// The scissor that cuts along the whole of a plane, with no bounds at the sides.
     ///
     /// ```
     /// use tearmesh::{shapes, CutMethod, Edits, Plane, Point, Scissor, Vector};
@@ -158,16 +160,17 @@ impl Scissor {
     /// The default of [`Scissor::snap`].
     pub const SNAP: f64 = 0.05;
 
-    /// How near an end of its edge, as a part of it, a crossing may be before the method `exact`
-    /// takes the end for the crossing. Brought into 0 … 0.49; NaN counts as 0.
+    /// Sets how near to an end of its edge a crossing may be, as a fraction of the edge, before the
+    /// method `exact` uses that end instead of a new vertex. Clamped to 0 … 0.49; NaN counts as 0.
     ///
-    /// With 0 the seam is straight to the last digits, and thin faces are what they are. With
-    /// r, no new face has an altitude below r (1 − r) of that of the face it was part of. An end of
-    /// the slit that would leave a thinner one moves, as little as it has to and by less than the way
-    /// through one face: along the slit, or away from an edge that it is too near. It never goes on to
-    /// a boundary. On sheets of some hundred triangles slits are .008 of an edge longer or shorter
-    /// than asked for in the mean, and .13 at most; on two triangles alone an end is .06 of an edge off
-    /// in one of ten cuts, and .7 at most. [`CutReport::tip_overshoots`] says how far.
+    /// With 0 the seam is straight to the last digits, and thin faces may result. With a snap of r,
+    /// no new face has an altitude below r (1 − r) times that of the face it was cut from. An end
+    /// of the slit that would leave a thinner face is moved, by as little as possible and by less
+    /// than the width of one face: along the slit, or away from an edge that it is too near. It is
+    /// never moved onto a boundary. On sheets of some hundred triangles, slits are on average 0.008
+    /// of an edge longer or shorter than requested, and at most 0.13. On a mesh of only two
+    /// triangles one cut in ten has an end that is 0.06 of an edge off, and the worst was 0.7.
+    /// [`CutReport::tip_overshoots`] reports the difference for each cut.
     #[must_use]
     pub fn snap(mut self, snap: f64) -> Scissor {
         self.exact.snap = if snap.is_nan() {
@@ -178,25 +181,25 @@ impl Scissor {
         self
     }
 
-    /// Whether the method `exact` moves a vertex that was taken for a crossing onto the plane,
-    /// along the edge of that crossing: the seam is straight then, and faces do not get thin
-    /// either, but the surface changes a little where it is curved.
+    /// Sets whether the method `exact` moves a vertex that stands for a crossing onto the plane,
+    /// along the edge of that crossing. The seam is then straight without thin faces, but a curved
+    /// surface changes a little.
     ///
-    /// A vertex stays where it is if a face would turn over or lose 70 % of its altitude, if it
-    /// is torn already, or if it is on the boundary and the edge is not.
+    /// A vertex is not moved if a face would turn over or lose 70 % of its altitude, if the vertex
+    /// is already torn, or if it is on the boundary and the edge is not.
     #[must_use]
     pub fn snap_move(mut self, snap_move: bool) -> Scissor {
         self.exact.snap_move = snap_move;
         self
     }
 
-    /// The scissor that goes on from an end of a cut to another ray.
+    /// The scissor that continues from an end of a previous cut to another ray.
     ///
-    /// After a cut by the method `exact` the two cuts meet in one vertex (on each sheet of
-    /// the mesh that both rays meet): the new plane passes through its actual position, and the
-    /// vertex counts as lying on it. (Where tips on several sheets moved, to leave no thin face, the
-    /// plane may pass too far from some.) After another method, and where the cut had no end at the
-    /// ray, this is the scissor of the two rays.
+    /// After a cut by the method `exact`, the two cuts meet in one vertex on each sheet of the mesh
+    /// that both rays meet. The new plane passes through the actual position of that vertex. (Where
+    /// tips on several sheets were moved to avoid thin faces, the plane may miss some of them.)
+    /// After a cut by another method, or if the cut had no end at the ray, this is the scissor of
+    /// the two rays.
     ///
     /// # Errors
     ///
@@ -204,7 +207,7 @@ impl Scissor {
     ///
     /// # Panics
     ///
-    /// If the end is of another mesh than the positions.
+    /// If the end and the positions belong to different meshes.
     pub fn continued(
         from: &CutEnd,
         to: Ray,
@@ -213,12 +216,12 @@ impl Scissor {
         Scissor::joined([from.ray, to], [Some(from), None], positions)
     }
 
-    /// The scissor that goes on from an end of a cut and comes back to another: a polyline's last cut,
-    /// which closes it where its first one began.
+    /// The scissor that continues from an end of one cut to an end of another. It makes the last
+    /// cut of a closed polyline.
     ///
-    /// As [`Scissor::continued`] finds the vertex where the cut goes on, so this finds that where it
-    /// ends. Going back to the same *place* would leave the slit open wherever the first tip is not
-    /// exactly on its ray.
+    /// The cut starts at the vertex where one cut ended, as with [`Scissor::continued`], and ends
+    /// at the vertex where the other began. Merely aiming at the same *place* would leave the slit
+    /// open wherever that first tip is not exactly on its ray.
     ///
     /// # Errors
     ///
@@ -226,7 +229,7 @@ impl Scissor {
     ///
     /// # Panics
     ///
-    /// If an end is of another mesh than the positions.
+    /// If an end and the positions belong to different meshes.
     pub fn closed(
         from: &CutEnd,
         to: &CutEnd,
@@ -265,20 +268,21 @@ impl Scissor {
         Ok(scissor)
     }
 
-    /// Whether to ignore the side planes, and cut wherever the plane goes. A plane alone always does.
+    /// Sets whether to ignore the side planes and cut along the whole plane. A scissor made by
+    /// [`Scissor::by_plane`] always does.
     #[must_use]
     pub fn through(mut self, through: bool) -> Scissor {
         self.strip.through = through || self.rays.is_none();
         self
     }
 
-    /// Where a finite cut of the method `partition` ends; the paper's methods know one rule.
+    /// Sets where a finite cut of the method `partition` ends. The other methods ignore this.
     #[must_use]
     pub fn tips(self, tips: CutTips) -> Scissor {
         Scissor { tips, ..self }
     }
 
-    /// Which layers of the mesh are cut, where the plane meets several between the rays.
+    /// Sets which layers of the mesh are cut where the plane meets several layers between the rays.
     ///
     /// ```
     /// use tearmesh::{CutLayers, CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector};
@@ -306,15 +310,15 @@ impl Scissor {
         self.strip.plane
     }
 
-    /// The side planes, through the origins of the first and second ray; none where a plane was
-    /// given. What lies in front of both is between the rays.
+    /// The side planes, through the origins of the first and second ray. A point in front of both
+    /// is between the rays. `None` for a scissor made by [`Scissor::by_plane`].
     #[must_use]
     pub fn sides(&self) -> Option<[Plane; 2]> {
         self.strip.sides
     }
 
-    /// How far the second ray leaves the cutting plane for each unit of its length: the
-    /// sine of the angle between them, 0 unless the rays are skew.
+    /// The sine of the angle between the second ray and the cutting plane: 0 unless the rays are
+    /// skew.
     #[must_use]
     pub fn skew(&self) -> f64 {
         self.strip.skew
@@ -322,13 +326,13 @@ impl Scissor {
 
     /// Cuts a mesh.
     ///
-    /// Positions follow at once, because later cuts read points that earlier ones
-    /// made; everything else beside the mesh replays the log. To find where the plane passes, all
-    /// vertices and faces are looked at once; the rest costs what the cut touches.
+    /// Positions are updated at once, because later cuts read points that earlier cuts made. All
+    /// other followers replay the log. Every vertex and face is visited once to find where the
+    /// plane passes. The rest of the cost is proportional to what the cut touches.
     ///
     /// # Errors
     ///
-    /// [`CutError`]; then nothing has changed.
+    /// [`CutError`] says why the cut was refused. Nothing has changed then.
     ///
     /// # Panics
     ///
@@ -345,12 +349,12 @@ impl Scissor {
         Ok(cut)
     }
 
-    /// Cuts a mesh like [`Scissor::cut`], and tells of it in the place of another cut, whose memory it
-    /// takes over: for many cuts of one mesh.
+    /// Cuts a mesh like [`Scissor::cut`], and writes the result into an existing [`Cut`], whose
+    /// memory is reused. This is for many cuts of one mesh.
     ///
     /// # Errors
     ///
-    /// [`CutError`]; then nothing has changed, `cut` included.
+    /// [`CutError`] says why the cut was refused. Nothing has changed then, `cut` included.
     ///
     /// # Panics
     ///
@@ -368,12 +372,12 @@ impl Scissor {
         Ok(())
     }
 
-    /// Cuts a mesh like [`Scissor::cut`], and measures what was done: that looks at the whole mesh, and
-    /// adds to the cut what another one and a walk over all components would take together.
+    /// Cuts a mesh like [`Scissor::cut`], and measures the result. Measuring visits the whole mesh,
+    /// and takes as long as another cut plus a walk over all components.
     ///
     /// # Errors
     ///
-    /// [`CutError`]; then nothing has changed.
+    /// [`CutError`] says why the cut was refused. Nothing has changed then.
     ///
     /// # Panics
     ///
@@ -512,7 +516,7 @@ impl Scissor {
     }
 }
 
-/// Why two rays make no scissor.
+/// Why no scissor could be made from two rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ScissorError {
@@ -532,7 +536,7 @@ impl std::error::Error for ScissorError {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CutError {
-    /// The positions are of another number of vertices.
+    /// The mesh and the positions have different numbers of vertices.
     Positions {
         /// The vertices of the mesh.
         vertices: usize,
@@ -546,7 +550,7 @@ pub enum CutError {
         /// The end of this one.
         made: Cursor,
     },
-    /// The end from which the cut was to go on has not seen all edits.
+    /// The end from which the cut should continue has not seen all edits.
     End {
         /// Up to where it has seen a log.
         seen: Cursor,

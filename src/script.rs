@@ -108,16 +108,17 @@
 //! }
 //! ```
 //!
-//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. When
-//! it fails, [`Script::shrink`] leaves the few lines that matter; the message ends with the script as
-//! text, which goes into a regression test and is run there with `text.parse::<Script>()`. The folder
-//! `fuzz` of this library's repository runs its targets on the stable toolchain (`fuzz/run`), and
-//! can be copied.
+//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`.
+//! When it fails, [`Script::shrink`] leaves the few lines that matter. The message ends with the
+//! script as text, which goes into a regression test and is run there with
+//! `text.parse::<Script>()`. The folder `fuzz` of this library's repository runs its targets on the
+//! stable toolchain (`fuzz/run`), and can be copied.
 //!
 //! # Drive a mesh kernel of your own
 //!
-//! A script needs no follower: each [`Step`] says what was asked and what came of it, so another
-//! kernel can be asked the same and compared. Leave out the operations that yours does not have.
+//! A script needs no follower: each [`Step`] says what was requested and what came of it, so
+//! another kernel can be given the same requests and be compared. Leave out the operations that
+//! yours does not have.
 //!
 //! ```
 //! use tearmesh::script::{Operation, Script, Step};
@@ -182,9 +183,9 @@ use crate::scissor::CutTips;
 /// A mesh to start with, and what is done to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Script {
-    /// The mesh to start with.
+    /// The mesh that the script starts with.
     pub shape: Shape,
-    /// What is done, in order.
+    /// The operations, in the order in which they are carried out.
     pub operations: Vec<Operation>,
 }
 
@@ -205,7 +206,7 @@ pub enum Operation {
         /// ascending order, whatever the order of a walk. The empty and the full set are
         /// there too, and are refused.
         mask: u16,
-        /// What is wrong with the set otherwise.
+        /// A deliberate mistake in the set.
         fault: Fault,
     },
     /// Split a vertex by a plane through it.
@@ -235,30 +236,32 @@ pub enum Operation {
         /// of the spots.
         chord: Option<[u8; 2]>,
     },
-    /// Merge two vertices, as a rule copies of one.
+    /// Merge two vertices, usually copies of the same vertex.
     Merge {
-        /// The first vertex: number so many of those that have copies, or of all where none has.
+        /// The first vertex, as a number among the vertices that have copies, or among all vertices
+        /// if none has.
         vertex: u16,
-        /// The second: number so many of the copies of the first, which is one of them.
+        /// The second vertex, as a number among the copies of the first, which itself counts as one
+        /// of them.
         other: u16,
-        /// Whether the second is number so many of all vertices instead.
+        /// Whether `other` counts among all vertices instead.
         any: bool,
         /// The weights of both. Negative ones are refused.
         weights: [i8; 2],
     },
-    /// Slide a vertex, as a rule along an edge.
+    /// Slide a vertex, usually along an edge.
     Slide {
         /// The vertex.
         vertex: u16,
-        /// Where to: number so many of its neighbours in ascending order, or of all vertices where
-        /// it has none.
+        /// The vertex to slide towards, as a number among the neighbours in ascending order, or
+        /// among all vertices where it has none.
         toward: u16,
-        /// Whether it slides towards number so many of all vertices instead.
+        /// Whether the target counts among all vertices instead.
         any: bool,
         /// How far along, in parts of 64: 0 to 64. Both ends are refused.
         part: u8,
     },
-    /// Sew together all copies that are chosen, weighed by their masses.
+    /// Sew together all chosen copies, weighted by their masses.
     Sew {
         /// Which vertices are chosen: bit `i % 16` for vertex `i`.
         mask: u16,
@@ -269,13 +272,13 @@ pub enum Operation {
     Clear,
 }
 
-/// The most spots of an insertion.
+/// The most spots that one insertion has.
 pub const SPOTS_MAX: usize = 4;
 
 /// The offsets of spots are below this: the half-edges of four faces.
 const OFFSETS: u8 = 12;
 
-/// Where to insert a vertex. What is wrong with a spot is refused with all others of its insertion.
+/// A place at which to insert a vertex. If one spot is invalid, its whole insertion is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
     /// On an edge.
@@ -294,14 +297,14 @@ pub enum Spot {
     },
 }
 
-/// What is deliberately wrong with a set of faces.
+/// A deliberate mistake in a set of faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Nothing.
     None,
-    /// Face number `.0` of the set is named a second time.
+    /// The set names the face at this place in it a second time.
     Repeated(u8),
-    /// This face of the mesh is named too, after the others. It may happen to be a face of
+    /// The set also names this face of the mesh, after the others. It may happen to be a face of
     /// the vertex.
     Foreign(u16),
 }

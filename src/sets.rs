@@ -1,6 +1,6 @@
 //! Disjoint sets of numbers.
 
-/// The numbers 0, 1, 2, … in sets, which can be joined: a union–find forest.
+/// A union–find forest over the numbers 0, 1, 2, …: disjoint sets that can be joined.
 ///
 /// The leader of a set is its smallest number, so results do not depend on the order of joins. A
 /// look-up halves the path that it walks; n operations take O(n log n).
@@ -20,7 +20,7 @@ pub struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// The numbers below `count`, each in a set of its own.
+    /// Puts each of the numbers below `count` into a set of its own.
     #[must_use]
     pub fn new(count: u32) -> DisjointSets {
         DisjointSets {
@@ -28,7 +28,8 @@ impl DisjointSets {
         }
     }
 
-    /// The numbers below `count`, each in a set of its own, in the memory of these sets.
+    /// Starts again with each of the numbers below `count` in a set of its own, and keeps the
+    /// allocated memory.
     pub fn reset(&mut self, count: u32) {
         self.above.clear();
         self.above.extend(0..count);
@@ -47,13 +48,13 @@ impl DisjointSets {
         self.above.len()
     }
 
-    /// Whether there is no number.
+    /// Whether there are no numbers.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.above.is_empty()
     }
 
-    /// The smallest number of a set.
+    /// The smallest number of the set that a number belongs to.
     ///
     /// # Panics
     ///
@@ -67,7 +68,7 @@ impl DisjointSets {
         number
     }
 
-    /// Joins the sets of two numbers.
+    /// Joins the sets that two numbers belong to.
     ///
     /// # Panics
     ///
@@ -84,8 +85,8 @@ impl DisjointSets {
         numbers.filter(|&(&above, number)| above == number).count()
     }
 
-    /// The leader of each number. Linear: a leader is smaller than the others of its set, so one
-    /// pass makes every path a step.
+    /// The leader of each number. Linear: a leader is smaller than the other numbers of its set, so
+    /// one pass shortens every path to one step.
     pub fn leaders(&mut self) -> &[u32] {
         for number in 0..self.above.len() {
             self.above[number] = self.above[self.above[number] as usize];

@@ -1,4 +1,4 @@
-//! Small meshes with names, for documentation, tests and benchmarks.
+//! Small named meshes for documentation, tests and benchmarks.
 //!
 //! Each function gives a mesh and the positions of its vertices. Faces are oriented
 //! counter-clockwise seen from +z, or from outside.
@@ -30,18 +30,18 @@ pub fn triangle() -> (Mesh, Positions) {
 ///
 /// # Panics
 ///
-/// If there is no cell, or more than a mesh can have.
+/// If there are no cells, or more than a mesh can have.
 #[must_use]
 pub fn grid(columns: u32, rows: u32) -> (Mesh, Positions) {
     grid_with_diagonals(columns, rows, |_, _| true)
 }
 
-/// Like [`grid`]; `rising(column, row)` says whether the diagonal of a cell rises from
-/// left to right.
+/// A unit square in `columns` × `rows` cells of two triangles, numbered as in [`grid`].
+/// `rising(column, row)` says whether the diagonal of a cell rises from left to right.
 ///
 /// # Panics
 ///
-/// If there is no cell, or more than a mesh can have.
+/// If there are no cells, or more than a mesh can have.
 #[must_use]
 pub fn grid_with_diagonals(
     columns: u32,
@@ -131,8 +131,8 @@ pub fn octahedron() -> (Mesh, Positions) {
     made(points, &triangles)
 }
 
-/// A tube round the z-axis, open at both ends: a sleeve. `around` cells in a ring,
-/// `along` rings of cells.
+/// A tube around the z-axis that is open at both ends, like a sleeve. It has `along` rings of
+/// `around` cells each.
 ///
 /// # Panics
 ///
@@ -186,9 +186,9 @@ fn ring_cells(around: u32, rows: u32, rings: u32) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The saddle of eight faces that one plane cuts into four arcs: the ring vertex at the
-/// angle 45° k has the height ½ cos(2 · 45° k), and the plane is z = 0. Splitting the
-/// centre gives two bow-ties at once.
+/// A saddle of eight faces that one plane cuts into four arcs. The ring vertex at the angle 45° k
+/// has the height ½ cos(2 · 45° k), and the plane is z = 0. Splitting the centre by that plane
+/// leaves two bow-ties at once.
 #[must_use]
 pub fn saddle() -> (Mesh, Positions) {
     let heights = [0.0, 0.5, 0.0, -0.5, 0.0, 0.5, 0.0, -0.5, 0.0];

@@ -1,9 +1,9 @@
 //! Sliding a vertex along an edge.
 //!
 //! A straight cut may move a vertex that is nearly on its plane onto it ([`Scissor::snap_move`]).
-//! The mesh does not change, but everything beside it does: the vertex takes its values with
-//! it along the edge, so a picture on the surface stays where it was, and the rest state of a
-//! cloth stays that of the same piece of cloth. Masses stay: cloth is neither made nor lost.
+//! The mesh does not change, but its positions and other values do. Values at the vertex are
+//! interpolated along the edge, so a picture on the surface stays where it was, and the rest state
+//! of a cloth still describes the same cloth. Masses do not change: cloth is neither made nor lost.
 //!
 //! [`Scissor::snap_move`]: crate::Scissor::snap_move
 
@@ -13,7 +13,7 @@ use crate::edit::{Edits, Slide};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
 
-/// Slides a vertex towards a neighbour by the part `t` of the way.
+/// Slides a vertex towards a neighbour, by the fraction `t` of the distance.
 ///
 /// ```text
 ///   o-----o-----o            o-----o-----o
@@ -27,11 +27,11 @@ use crate::mesh::Mesh;
 ///
 /// # Errors
 ///
-/// [`SlideRefusal`]; then nothing has changed.
+/// [`SlideRefusal`] says why nothing was changed.
 ///
 /// # Panics
 ///
-/// If a vertex is not one of this mesh (I2).
+/// If a vertex is not in this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{shapes, slide, Edits, VertexId};

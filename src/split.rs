@@ -8,10 +8,10 @@
 //! is not the case, the routine of vertex splitting simply does nothing" (§IV-A): a
 //! refused split leaves mesh and log bit-identical, and is a value rather than an error.
 //!
-//! Cost: at most linear in the faces that the vertex had when the mesh was built; to tear off all
-//! its faces one by one is linear in the mesh, all in all. Nothing is allocated where
-//! [`Mesh::reserve`] and [`Edits::reserve`] made room. The sets are told apart without a table: a
-//! corner that moves is relabelled at once, and relabelled back if the split turns out to be none.
+//! The cost is at most linear in the number of faces that the vertex had when the mesh was built.
+//! Nothing is allocated if [`Mesh::reserve`] and [`Edits::reserve`] made room. The two sets of
+//! faces are told apart without a table: a corner that moves is relabelled at once, and relabelled
+//! back if the split is refused.
 
 use std::fmt;
 
@@ -22,9 +22,10 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// Splits a vertex: these of its faces move to a new vertex at the same place.
+/// Splits a vertex: the given faces move to a new vertex at the same place.
 ///
-/// The new vertex is the last one of the mesh; the old one keeps the other faces. Here those above move:
+/// The new vertex gets the highest id, and the old one keeps the other faces. In this example the
+/// upper faces move:
 ///
 /// ```text
 ///   o-----o-----o            o-----o-----o
@@ -44,7 +45,7 @@ use crate::place::Place;
 ///
 /// # Panics
 ///
-/// If the vertex or a face is not one of this mesh (I2).
+/// If the vertex or a face is not in this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{split, Edits, FaceId, Mesh, VertexId};
@@ -113,9 +114,9 @@ pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &m
     commit(mesh, v, stays, edits);
 }
 
-/// Splits a vertex by a plane: its faces whose centres are strictly behind the plane move
-/// to a new vertex (Souza et al. 2014 §IV). `None` if all are on one side: then
-/// nothing has changed.
+/// Splits a vertex by a plane: its faces whose centres are strictly behind the plane move to a new
+/// vertex (Souza et al. 2014 §IV). Returns `None`, and changes nothing, if all faces are on one
+/// side.
 ///
 /// ```text
 ///          front                 front
@@ -136,7 +137,7 @@ pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &m
 ///
 /// # Panics
 ///
-/// If the vertex is not one of this mesh (I2), or `place` does not know one of its neighbours.
+/// If the vertex is not in this mesh (I2), or `place` does not know one of its neighbours.
 pub fn by_plane<'e>(
     mesh: &mut Mesh,
     v: VertexId,
@@ -238,24 +239,24 @@ fn corner_at(mesh: &Mesh, face: FaceId, v: VertexId) -> Option<HalfEdgeId> {
 /// Why a split was refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SplitRefusal {
-    /// No face was to move.
+    /// The set of faces to move is empty.
     Empty {
         /// The vertex that was to be split.
         vertex: VertexId,
     },
-    /// All faces of the vertex were to move.
+    /// The set holds all faces of the vertex, which would leave none behind.
     Everything {
         /// The vertex that was to be split.
         vertex: VertexId,
     },
-    /// A face does not have the vertex.
+    /// A face of the set does not have the vertex.
     Foreign {
         /// The vertex that was to be split.
         vertex: VertexId,
         /// The face.
         face: FaceId,
     },
-    /// A face was named twice.
+    /// The set names a face twice.
     Repeated {
         /// The vertex that was to be split.
         vertex: VertexId,

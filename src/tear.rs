@@ -1,4 +1,4 @@
-//! The tearing rule: what becomes of an edge that is stretched too far.
+//! The tearing rule: which vertex of an overstretched edge is split, and how.
 //!
 //! "Whenever the stretching of an edge reaches a specified threshold value, we select one of the
 //! edge's adjacent vertices to be split. If both vertices can be split, we choose the one with the
@@ -8,8 +8,8 @@
 //! chosen, so the result does not depend on which way an edge is named.
 //!
 //! The rule knows no cloth. It asks where vertices are ([`Place`]), how heavy they are, and writes
-//! what it did to the log; which edge is stretched too far, and what a split means for
-//! particles and constraints, is for the simulation to say. Below is a whole one, of one's own:
+//! what it did to the log; The simulation decides which edge is stretched too far, and what a split
+//! means for its particles and constraints. Here is a complete simulation that uses it:
 //!
 //! ```
 //! use tearmesh::{shapes, tear, Blend, Cursor, Edits, Masses, Vector, VertexId};
@@ -53,18 +53,19 @@ use crate::mesh::Mesh;
 use crate::place::Place;
 use crate::split;
 
-/// Tears an overstretched edge, named by either of its half-edges: splits one of its ends by
+/// Tears an overstretched edge, given as either of its half-edges. One end of the edge is split by
 /// the plane through it whose normal points to the other end.
 ///
-/// `mass` gives the mass of a vertex, or `None` for one that must not be split, because it is
-/// pinned, say. Faces whose centres are behind the plane, away from the other end, go to the new
-/// vertex. `None` if neither end can be split: there has to be a face on each side.
+/// `mass` gives the mass of a vertex, or `None` for a vertex that must not be split, such as a
+/// pinned one. Faces whose centres are behind the plane, away from the other end, go to the new
+/// vertex. Returns `None` if neither end can be split: there must be a face on each side of the
+/// plane.
 ///
-/// Cost: a walk round both ends; nothing is allocated where mesh and log have room.
+/// The cost is a walk around both ends. Nothing is allocated if the mesh and the log have room.
 ///
 /// # Panics
 ///
-/// If the half-edge is not one of this mesh (I2), or `place` does not know its surroundings.
+/// If the half-edge is not in this mesh (I2), or `place` does not know its surroundings.
 pub fn edge<'e>(
     mesh: &mut Mesh,
     edge: HalfEdgeId,
@@ -76,7 +77,7 @@ pub fn edge<'e>(
     split::by_plane(mesh, vertex, &plane, place, edits)
 }
 
-/// The vertex that [`edge`] would split, and the plane. Changes nothing.
+/// The vertex that [`edge`] would split, and the plane by which it would. Changes nothing.
 ///
 /// # Panics
 ///

@@ -1,8 +1,8 @@
-//! Taking out again what was inserted.
+//! Removes inserted vertices that no cut needs any more.
 //!
-//! A cut inserts vertices and divides faces. When it is sewn again ([`mend`](crate::mend)) they are still
-//! there. [`Insertions`] remembers them from the log, and gives the mesh without those that keep nothing
-//! apart any more.
+//! A cut inserts vertices and divides faces. After it is sewn again ([`mend`](crate::mend)) they
+//! are still there. [`Insertions`] remembers them from the log, and makes a mesh without those that
+//! no longer separate anything.
 //!
 //! ```text
 //!      c              c            v was put on an edge, and divided a face on each side: two families.
@@ -26,7 +26,7 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::{DerivedMesh, Mesh};
 use crate::sets::DisjointSets;
 
-/// The insertions of a log: a [`Follower`].
+/// A [`Follower`] that remembers the insertions of a log, so that they can be undone.
 ///
 /// ```
 /// use tearmesh::{mend, shapes, CutMethod, Edits, Insertions, Plane, Point, Scissor, Vector};
@@ -79,7 +79,7 @@ struct Child {
 const NONE: u32 = u32::MAX;
 
 impl Insertions {
-    /// Nothing was inserted yet. Linear in the mesh.
+    /// Starts with a mesh in which nothing was inserted yet. Linear in the mesh.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Insertions {
         Insertions {
@@ -91,15 +91,16 @@ impl Insertions {
         }
     }
 
-    /// Takes the mesh for that at this place in its log.
+    /// Declares that the mesh is at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Insertions {
         Insertions { seen, ..self }
     }
 
-    /// The mesh without the inserted vertices that keep nothing apart, with the faces that they divided
-    /// whole again; `None` if there are none. A restored face has the place of the parent, so once all
-    /// that was torn is sewn this is the mesh that there was.
+    /// The mesh without the inserted vertices that no longer separate anything, in which the faces
+    /// that they divided are whole again; `None` if there are no such vertices. A restored face
+    /// takes the place of the divided one. Once all tears are sewn, this is the mesh from before
+    /// the cuts.
     ///
     /// * `may_go`: whether an inserted vertex may be taken out. One that was moved since may hold a
     ///   shape.

@@ -1,9 +1,10 @@
-//! Meshes as engines have them: a vertex is repeated wherever a texture seam or a hard edge passes.
+//! Builds meshes from an engine's buffers, in which a vertex is repeated along texture seams and
+//! hard edges.
 //!
 //! An engine's vertex has a place, a texture coordinate and a normal in one, so where one of these
-//! differs from face to face there are several at one place. As a mesh that would be a cut along every
-//! seam. Vertices at one place are welded here; what differed goes to the corners, and back into a vertex
-//! buffer by [`DrawBuffers`](crate::DrawBuffers).
+//! differs from face to face there are several at one place. Taken literally, such a mesh is cut
+//! along every seam. Here vertices at one place are welded. The values that differed belong to the
+//! corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
 
 use std::fmt;
 
@@ -11,21 +12,22 @@ use crate::id::VertexId;
 use crate::mesh::{BuildError, Mesh};
 use crate::place::{PositionError, Positions};
 
-/// A mesh that was built of an engine's buffers: see [`by_place`].
+/// A mesh that was built from an engine's buffers: see [`by_place`].
 #[derive(Clone, Debug)]
 pub struct Welded {
-    /// The mesh. Its faces are those of the index buffer, in that order.
+    /// The mesh. Its faces are those of the index buffer, in the same order.
     pub mesh: Mesh,
-    /// Where its vertices are.
+    /// The positions of the vertices of the mesh.
     pub positions: Positions,
-    /// By vertex of the buffer, the vertex of the mesh that it is.
+    /// For each vertex of the buffer, the vertex of the mesh that it became.
     pub vertices: Vec<VertexId>,
 }
 
 /// Builds the mesh of an engine's vertex and index buffer, in which vertices at one place are one.
 ///
-/// Places are one if all coordinates are equal as numbers: there is no tolerance, since engines copy
-/// what they repeat. Vertices of the mesh are numbered as places first appear in the buffer.
+/// Two places count as one if all coordinates are equal as numbers. There is no tolerance, since
+/// engines copy the vertices that they repeat. Vertices of the mesh are numbered as places first
+/// appear in the buffer.
 ///
 /// ```
 /// use tearmesh::{weld, DrawBuffers, PerCorner};
@@ -45,8 +47,8 @@ pub struct Welded {
 ///
 /// # Errors
 ///
-/// [`WeldError`]. Where a surface touches itself at vertices of one place, the welded mesh is no manifold
-/// there, and is refused with all that is wrong: give such vertices different places.
+/// [`WeldError`]. Where a surface touches itself at a vertex, the welded mesh is not a manifold,
+/// and is refused with a list of the defects. Give such vertices different places.
 pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, WeldError> {
     let known = places.len();
     let indices = triangles.as_flattened();
@@ -87,17 +89,17 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum WeldError {
-    /// A triangle names a vertex that the buffer has not.
+    /// A triangle names a vertex that the buffer does not have.
     Index {
         /// The index.
         index: u32,
         /// How many vertices there are.
         known: usize,
     },
-    /// Coordinates are not finite: of these vertices of the buffer.
+    /// These vertices of the buffer have coordinates that are not finite.
     Place(PositionError),
-    /// The triangles form no oriented 2-manifold once vertices at one place are one: by faces of the
-    /// index buffer and vertices of the welded mesh.
+    /// After welding, the triangles do not form an oriented 2-manifold. The error names faces of
+    /// the index buffer and vertices of the welded mesh.
     Build(BuildError),
 }
 

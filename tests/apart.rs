@@ -15,7 +15,7 @@ use crate::cases::scripts;
 
 /// How much was seen.
 #[derive(Clone, Copy, Debug, Default)]
-struct Tally {
+struct Counts {
     meshes: usize,
     pieces: usize,
     /// Meshes of several pieces.
@@ -56,7 +56,7 @@ fn joined(count: usize, links: &[(usize, usize)]) -> Vec<usize> {
     number
 }
 
-fn check(mesh: &Mesh, positions: &Positions, tally: &mut Tally) {
+fn check(mesh: &Mesh, positions: &Positions, tally: &mut Counts) {
     let components = mesh.components();
     let pieces = mesh.pieces(&components);
     let triangles = mesh.indices().as_chunks::<3>().0;
@@ -118,7 +118,7 @@ fn check_piece(
     twins: &[Option<usize>],
     is_torn: &impl Fn(usize, usize) -> bool,
     orbit_of: &[usize],
-    tally: &mut Tally,
+    tally: &mut Counts,
 ) {
     let own = piece.mesh();
     assert_eq!(own.check(), []);
@@ -198,7 +198,7 @@ fn check_piece(
 
 #[test]
 fn pieces_of_torn_meshes_are_what_the_whole_is_there() {
-    let mut tally = Tally::default();
+    let mut tally = Counts::default();
     for script in scripts(5_000) {
         let mut steps = 0;
         let world = script.run(|world, _| {

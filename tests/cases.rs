@@ -4,19 +4,20 @@ use tearmesh::script::Script;
 
 use crate::random::Random;
 
-/// What `TEARMESH_CASES` says, or else so many.
+/// The number of cases that `TEARMESH_CASES` gives, or else `usual`.
 pub(crate) fn cases(usual: u64) -> u64 {
     std::env::var("TEARMESH_CASES").map_or(usual, |cases| {
         cases.parse().expect("TEARMESH_CASES is a number")
     })
 }
 
-/// The same where there are no more than these.
+/// The number of cases that `TEARMESH_CASES` gives, but at most `all`, which is also the default.
 pub(crate) fn cases_of(all: u64) -> u64 {
     cases(all).min(all)
 }
 
-/// So many random scripts, or as many as `TEARMESH_CASES` says, the same on every machine.
+/// `usual` random scripts, or as many as `TEARMESH_CASES` gives. They are the same on every
+/// machine.
 pub(crate) fn scripts(usual: u64) -> impl Iterator<Item = Script> {
     (0..cases(usual)).map(|seed| {
         let mut random = Random(seed);

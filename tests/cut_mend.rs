@@ -152,7 +152,7 @@ impl Step {
     }
 }
 
-struct Tally {
+struct Counts {
     inserted: usize,
     /// Of the inserted, those that are copies of others, on torn edges.
     twins: usize,
@@ -167,7 +167,7 @@ struct World {
     corners: PerCorner<[f64; 3]>,
     edits: Edits,
     area: f64,
-    done: Tally,
+    done: Counts,
 }
 
 impl World {
@@ -182,7 +182,7 @@ impl World {
             mesh: mesh.clone(),
             positions: positions.clone(),
             edits: Edits::new(),
-            done: Tally {
+            done: Counts {
                 inserted: 0,
                 twins: 0,
                 told: Done::default(),

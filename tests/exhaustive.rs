@@ -1,11 +1,11 @@
-//! The exhaustive small scope: every small mesh, every edit of it, and every sequence of so many.
+//! The exhaustive small scope: every small mesh, every edit of it, and every short sequence of
+//! edits.
 //!
-//! A mesh here is a connected oriented gluing of N triangles that is an oriented
-//! 2-manifold, up to isomorphism: any genus, any boundary. On each, every nonempty proper subset
-//! of the faces of every vertex is split off, so many times in a row; and on smaller ones splits
-//! take turns with all merges of two copies and with insertions: on every edge, in every
-//! face, and two at once. All properties are checked after each. What goes wrong at all goes wrong
-//! on a small mesh.
+//! A mesh here is a connected oriented gluing of N triangles that is an oriented 2-manifold, up to
+//! isomorphism: any genus, any boundary. On each, every nonempty proper subset of the faces of
+//! every vertex is split off, several times in a row; and on smaller ones splits take turns with
+//! all merges of two copies and with insertions: on every edge, in every face, and two at once. All
+//! properties are checked after each. What goes wrong at all goes wrong on a small mesh.
 
 use tearmesh::script::{Asked, Step, World};
 use tearmesh::{FaceId, HalfEdgeId, Mesh, Positions, VertexId};
@@ -84,8 +84,8 @@ fn edits(faces_max: usize, in_a_row: usize) -> [usize; 3] {
     edits_of_meshes(Kinds::All, faces_max, in_a_row).counts()
 }
 
-/// Checks all sequences of so many edits on all meshes of up to so many faces; returns how many
-/// edits that were.
+/// Checks all edit sequences of a given length on all meshes up to a given number of faces; returns
+/// how many edits that were.
 fn edits_of_meshes(kinds: Kinds, faces_max: usize, in_a_row: usize) -> Count {
     let mut count = Count::default();
     for faces in 1..=faces_max {
@@ -228,7 +228,7 @@ impl State {
 /// A side of a face that has no other side.
 const BOUNDARY: usize = usize::MAX;
 
-/// Shows every connected oriented gluing of so many triangles, up to isomorphism: for each side
+/// Shows every connected oriented gluing of `triangles` triangles, up to isomorphism: for each side
 /// (three a face) the side that it is glued to, or [`BOUNDARY`].
 fn for_each_gluing(faces: usize, show: &mut impl FnMut(&[usize])) {
     let mut opposite = vec![None; 3];
@@ -284,7 +284,7 @@ fn decide(
     opposite[side] = None;
 }
 
-/// The same gluing, numbered from another side.
+/// A gluing, renumbered as seen from another side.
 fn seen_from(opposite: &[usize], root: usize) -> Vec<usize> {
     let turn = |side: usize, by: usize| side / 3 * 3 + (side + by) % 3;
     let mut number = vec![None; opposite.len()];

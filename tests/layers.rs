@@ -208,7 +208,7 @@ fn mean_edge(mesh: &Mesh, points: &[Point]) -> f64 {
 
 /// What was seen in many cuts.
 #[derive(Debug, Default)]
-struct Tally {
+struct Counts {
     cuts: usize,
     /// Of which some of what lies between the rays was left whole.
     chose: usize,
@@ -221,7 +221,7 @@ struct Tally {
     special: usize,
 }
 
-impl Tally {
+impl Counts {
     /// Cuts a mesh by the first layers, and holds it against the oracle.
     fn check(&mut self, mesh: &Mesh, positions: &Positions, rays: [Ray; 2], what: &str) {
         let Ok(scissor) = Scissor::new(rays[0], rays[1]) else {
@@ -363,7 +363,7 @@ fn garments() -> Vec<(String, (Mesh, Positions))> {
 #[test]
 fn the_first_layers_are_the_chains_that_brute_force_finds() {
     let mut random = Random(83);
-    let mut tally = Tally::default();
+    let mut tally = Counts::default();
     let mut meshes = vec![
         ("folded", folded(14, 2.0, &mut random)),
         ("much folded", folded(24, 4.0, &mut random)),

@@ -21,7 +21,7 @@ const CUTS: usize = 40;
 
 /// What came of the cuts of one method.
 #[derive(Debug, Default)]
-struct Tally {
+struct Counts {
     /// How often two pieces were left that share no vertex. (Pieces that share only a
     /// vertex are apart for the report, which counts by edges: those are crumbs.)
     divided: usize,
@@ -36,7 +36,7 @@ struct Tally {
     deviation_max_edges: f64,
 }
 
-impl Tally {
+impl Counts {
     fn count(&mut self, report: &CutReport) {
         self.separated += usize::from(report.separated);
         self.with_crumbs += usize::from(report.crumbs > 0);
@@ -53,8 +53,8 @@ impl Tally {
 }
 
 /// Random through cuts of the unit square by each method, in the order of [`METHODS`].
-fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Tally; 3] {
-    let mut tallies = [Tally::default(), Tally::default(), Tally::default()];
+fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Counts; 3] {
+    let mut tallies = [Counts::default(), Counts::default(), Counts::default()];
     let mut random = Random(7);
     for _ in 0..CUTS {
         let (sin, cos) = (std::f64::consts::PI * random.next()).sin_cos();

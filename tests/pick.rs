@@ -100,7 +100,7 @@ impl Lattice {
 
 /// What was seen in many rays.
 #[derive(Debug, Default)]
-struct Tally {
+struct Counts {
     rays: u64,
     inside: u64,
     on_edges: u64,
@@ -114,7 +114,7 @@ fn whole_number(random: &mut Random, size: i64) -> i64 {
     ((2.0 * random.next() - 1.0) * size as f64).round() as i64
 }
 
-impl Tally {
+impl Counts {
     fn check(&mut self, lattice: &Lattice, origin: Whole, along: Whole) {
         let points = lattice.positions();
         let triangles = lattice.mesh.indices().as_chunks::<3>().0;
@@ -223,7 +223,7 @@ fn the_first_hit_is_that_of_exact_numbers() {
         let (x, y) = (v.index() as i64 % 9, v.index() as i64 / 9);
         [x % 2, y, 0]
     }));
-    let mut tally = Tally::default();
+    let mut tally = Counts::default();
     for lattice in &lattices {
         tally.shoot(lattice, &mut random, cases(RAYS));
     }

@@ -49,8 +49,8 @@ fn pieces(sheet: &Surface, corners: &[[f64; 2]], snap: f64) -> usize {
     mesh.components().count()
 }
 
-/// Fails where more than `most` of so many polygons, or as many as `TEARMESH_CASES` asks for if those
-/// are fewer, stay open.
+/// Fails if more than `most` of a number of polygons, or as many as `TEARMESH_CASES` asks for if
+/// those are fewer, stay open.
 fn open_at_most(most: usize, snap: f64, count: u64) {
     let sheets = sheets();
     let mut random = Random(97);

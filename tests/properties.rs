@@ -114,7 +114,7 @@ fn a_script_survives_bytes_and_text() {
     });
 }
 
-/// Triangles over so many vertices, right or wrong.
+/// Triangles over a number of vertices, valid or not.
 #[derive(Clone, Debug)]
 struct Triangles {
     vertices: usize,

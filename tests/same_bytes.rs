@@ -1,5 +1,5 @@
-//! The same input gives the same bytes, on every machine and after every change of the code that
-//! promises to change none: one number stands for all that twenty thousand scripts leave.
+//! Equal inputs give equal bytes, on every machine and after every change of the code that promises
+//! to change none: one number stands for all that twenty thousand scripts leave.
 
 use tearmesh::script::{Script, World};
 use tearmesh::{Edit, HalfEdgeId, VertexId};

@@ -1,12 +1,11 @@
-//! Where a follower stands in a log.
+//! The place of a follower in a log.
 
-/// A place in a log: after so many of its records, and after *these* ones.
+/// A place in a log. It knows how many records come before it, and a hash of what they say.
 ///
 /// A follower starts at [`Cursor::START`], the beginning of every log, and
 /// [`Edits::replay`](crate::Edits::replay) moves its cursor on. Beside the number of records, a
-/// cursor holds a running hash of what they say. So a follower that has seen the records of another
-/// log is not taken for one that has seen those of this: replaying would skip edits in silence, and
-/// no ledger would notice.
+/// cursor holds a running hash of what they say. So a follower of another log cannot be replayed by
+/// mistake, which would silently skip edits.
 ///
 /// The hash depends on the records alone. It is the same on every machine and in every run, so a
 /// cursor may be saved ([`Cursor::to_bytes`]) together with the values that have been brought up to
@@ -39,14 +38,14 @@ impl Cursor {
         self.hash
     }
 
-    /// Sixteen bytes from which [`Cursor::from_bytes`] makes this cursor again.
+    /// This cursor as sixteen bytes, from which [`Cursor::from_bytes`] makes it again.
     #[must_use]
     pub fn to_bytes(self) -> [u8; 16] {
         let both = u128::from(self.number) << 64 | u128::from(self.hash);
         both.to_be_bytes()
     }
 
-    /// The cursor of which [`Cursor::to_bytes`] gave these bytes.
+    /// The cursor that [`Cursor::to_bytes`] turned into these bytes.
     #[must_use]
     pub fn from_bytes(bytes: [u8; 16]) -> Cursor {
         let both = u128::from_be_bytes(bytes);

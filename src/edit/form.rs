@@ -1,10 +1,10 @@
-//! The normal form of records, for whoever keeps *values* beside a mesh.
+//! The normal form of records, for code that keeps plain *values* beside a mesh.
 //!
-//! There are four kinds of [`Edit`], and each says why something changed. Someone who keeps one
-//! value for each vertex, corner or face need not know why: a value is pushed, set, or taken out,
-//! and a new one comes from up to three others. That is what [`VertexOp`], [`CornerOp`] and
-//! [`FaceFamily`] say. They are derived from a record without allocation, and a new kind of edit would
-//! be made of the same operations.
+//! There are four kinds of [`Edit`], and each says why something changed. Code that keeps one value
+//! for each vertex, corner or face need not know why: a value is pushed, set or removed, and a new
+//! value derives from up to three others. That is what [`VertexOp`], [`CornerOp`] and
+//! [`FaceFamily`] express. They are derived from a record without allocation, and a new kind of
+//! edit would be made of the same operations.
 //!
 //! | edit | vertices | corners | faces |
 //! |---|---|---|---|
@@ -13,28 +13,29 @@
 //! | merge | set the one kept between both; take out the other, whose place the last one takes | those of both become others' | |
 //! | slide | set the vertex between itself and its neighbour | carry them along | |
 //!
-//! What is *shared out* rather than copied, such as mass, is not a value in this sense: the halves
-//! of a split vertex do not weigh what the whole did. [`Masses`](crate::Masses) reads the records.
+//! A quantity that is *divided* rather than copied, such as mass, is not a value in this sense:
+//! each half of a split vertex weighs less than the whole did. [`Masses`](crate::Masses) therefore
+//! reads the records themselves.
 
 use super::record::{ChildFace, CornerSource, Edit, Insert, InsertLocation};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
-/// Where a value comes from: one, two or three others.
+/// The one, two or three values that a new value derives from.
 ///
 /// These are three cases and not one with three weights, because a copy must be exact to the bit,
 /// and a value between two equal ones must be that value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mix<I> {
-    /// The value of this one.
+    /// A copy of this value.
     Copy(I),
-    /// The value at `ends[0] + t (ends[1] − ends[0])`.
+    /// The interpolated value `ends[0] + t (ends[1] − ends[0])`.
     Between {
         /// The two that it lies between.
         ends: [I; 2],
         /// The parameter, from 0 to 1.
         t: f64,
     },
-    /// The weighted sum of three.
+    /// The weighted sum of three values.
     Weighted {
         /// The three.
         of: [I; 3],
@@ -44,7 +45,7 @@ pub enum Mix<I> {
 }
 
 impl<I> Mix<I> {
-    /// The mix of other things in the same parts: of the values for ids, say.
+    /// This mix with each source replaced by `f` of it: for example, ids replaced by their values.
     #[must_use]
     pub fn map<J>(self, f: impl FnMut(I) -> J) -> Mix<J> {
         let mut f = f;
@@ -61,8 +62,8 @@ impl<I> Mix<I> {
         }
     }
 
-    /// The one with the largest part, and of equal ones the first: for what has no value in
-    /// between, such as the number of a bone or a material.
+    /// The source with the largest weight; of equal ones, the first. For values that cannot be
+    /// interpolated, such as the index of a bone or a material.
     ///
     /// ```
     /// use tearmesh::Mix;
@@ -109,8 +110,8 @@ impl From<InsertLocation> for Mix<VertexId> {
     }
 }
 
-/// What an edit does to a list of values, one for each vertex. Those of an edit come in an order in
-/// which they can be carried out one after the other.
+/// A change to a list that has one value for each vertex. The operations of one edit must be
+/// carried out in the order in which they come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VertexOp {
     /// A value is pushed.
@@ -127,7 +128,7 @@ pub enum VertexOp {
         /// Where the new value comes from, perhaps from the old one too.
         from: Mix<VertexId>,
     },
-    /// A value is taken out, and the last one takes its place, as in [`Vec::swap_remove`].
+    /// A value is removed, and the last one takes its place, as in [`Vec::swap_remove`].
     SwapRemove {
         /// The vertex that is no more.
         gone: VertexId,
@@ -135,7 +136,8 @@ pub enum VertexOp {
 }
 
 impl VertexOp {
-    /// Does this to a list of values. `mix` makes a value of those that it comes from.
+    /// Carries out this operation on a list of values. `mix` makes a new value from the ones that
+    /// it derives from.
     ///
     /// # Panics
     ///
@@ -165,8 +167,8 @@ impl VertexOp {
 
 /// A face that was divided, and its children.
 ///
-/// The first child has the id of its parent; all others are new faces, in the order in which they
-/// are to be pushed. So what the parent had is to be read before anything is written.
+/// The first child keeps the id of its parent. The others are new faces, in the order in which they
+/// must be pushed. So read the parent's values before writing anything.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceFamily<'e> {
     children: &'e [ChildFace],
@@ -179,7 +181,7 @@ impl<'e> FaceFamily<'e> {
         self.children[0].parent
     }
 
-    /// The faces that took its place: at least two.
+    /// The faces that replaced the parent: at least two.
     #[must_use]
     pub fn children(&self) -> &'e [ChildFace] {
         self.children
@@ -236,7 +238,8 @@ impl CornerSource {
 }
 
 impl ChildFace {
-    /// The corners of the parent, as they were before, that each corner of this child lies between.
+    /// For each corner of this child, the corners of the parent that it lies between, as they were
+    /// before the insertion.
     #[must_use]
     pub fn corner_mixes(&self) -> [Mix<HalfEdgeId>; 3] {
         let parent = self.parent.half_edges();
@@ -244,11 +247,11 @@ impl ChildFace {
     }
 }
 
-/// What an edit does to corners: to the vertices that they are of, and to a list of values, one for
-/// each. Those of an edit are to be carried out one after the other.
+/// A change to the corners: to the vertex that each belongs to, and to a list that has one value
+/// for each corner. The operations of one edit must be carried out in the order in which they come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CornerOp<'e> {
-    /// Corners become those of another vertex, and keep their values.
+    /// Corners now belong to another vertex. Their values stay.
     Relabel {
         /// The corners.
         corners: &'e [HalfEdgeId],
@@ -257,7 +260,7 @@ pub enum CornerOp<'e> {
     },
     /// A face is divided. See [`ChildFace::corner_mixes`].
     Divide(FaceFamily<'e>),
-    /// A vertex slides, and takes with it the values of its corners.
+    /// A vertex slides along an edge, and the values of its corners change with it.
     Carry {
         /// For each face of the edge along which it slides, up to two, its corner at the vertex and
         /// that at the other end. The first gets the value at the part `t` of the way to the second.
@@ -271,7 +274,8 @@ pub enum CornerOp<'e> {
 }
 
 impl CornerOp<'_> {
-    /// Does this to a list of values. `mix` makes a value of those that it comes from.
+    /// Carries out this operation on a list of values. `mix` makes a new value from the ones that
+    /// it derives from.
     ///
     /// # Panics
     ///
@@ -284,7 +288,7 @@ impl CornerOp<'_> {
         }
     }
 
-    /// Keeps an index buffer up to date: the vertex of each corner.
+    /// Carries out this operation on an index buffer, which holds the vertex of each corner.
     ///
     /// # Panics
     ///
@@ -341,7 +345,7 @@ fn carry<T: PartialEq>(
 }
 
 impl<'e> Edit<'e> {
-    /// What this edit does to values of vertices, in order.
+    /// The operations by which this edit changes vertex values, in order.
     pub fn vertex_ops(&self) -> impl Iterator<Item = VertexOp> + use<'e> {
         let (mut points, mut changes) = (&[][..], [None; 2]);
         match self {
@@ -373,7 +377,7 @@ impl<'e> Edit<'e> {
         pushes.chain(changes.into_iter().flatten())
     }
 
-    /// What this edit does to corners, in order.
+    /// The operations by which this edit changes corners, in order.
     pub fn corner_ops(&self) -> impl Iterator<Item = CornerOp<'e>> + use<'e> {
         let mut changes = [None; 2];
         match *self {
@@ -399,7 +403,7 @@ impl<'e> Edit<'e> {
         divisions.chain(changes.into_iter().flatten())
     }
 
-    /// The faces that this edit divides, and their children; none but of an insertion.
+    /// The faces that this edit divides, with their children. Only an insertion divides faces.
     pub fn families(&self) -> impl Iterator<Item = FaceFamily<'e>> + use<'e> {
         families(match self {
             Edit::Insert(insert) => insert.children,
@@ -409,7 +413,7 @@ impl<'e> Edit<'e> {
 }
 
 impl<'e> Insert<'e> {
-    /// The divided faces and their children.
+    /// The faces that this insertion divided, with their children.
     pub fn families(&self) -> impl Iterator<Item = FaceFamily<'e>> + use<'e> {
         families(self.children)
     }

@@ -1,4 +1,4 @@
-//! The records of the log: what a split, an insertion and a merge did.
+//! The records of the log: what each split, insertion, merge and slide did.
 
 use super::cursor::{Cursor, RunningHash};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -10,14 +10,14 @@ pub enum Edit<'e> {
     Split(Split<'e>),
     /// Vertices were inserted on edges and in faces.
     Insert(Insert<'e>),
-    /// Two vertices became one again.
+    /// Two vertices were merged.
     Merge(Merge<'e>),
     /// A vertex slid along an edge.
     Slide(Slide<'e>),
 }
 
 impl Edit<'_> {
-    /// The number of the record. Records are numbered from 0.
+    /// The number of this record. Records are numbered from 0.
     #[must_use]
     pub fn number(&self) -> u64 {
         self.before().number()
@@ -103,34 +103,35 @@ fn add_corners(hash: &mut RunningHash, corners: &[HalfEdgeId]) {
     corners.iter().for_each(|&h| hash.add(u32::from(h).into()));
 }
 
-/// A vertex was split: some of its corners now belong to a new vertex at the same place.
+/// The record of a split: some corners of a vertex now belong to a new vertex at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Split<'e> {
     /// The place in the log before this record.
     pub before: Cursor,
     /// The vertex that was split. It keeps at least one face.
     pub old: VertexId,
-    /// The new vertex, the last one of the mesh.
+    /// The new vertex, which has the highest id of the mesh.
     pub new: VertexId,
-    /// The corners that moved to the new vertex: at least one, in the order of a walk
-    /// round the old vertex.
+    /// The corners that moved to the new vertex: at least one, in the order of a walk around the
+    /// old vertex.
     pub corners: &'e [HalfEdgeId],
     /// The links that this split tore.
     pub torn: &'e [TornLink],
 }
 
-/// A link between a face that stays with a vertex and one that has, or had, a copy of it.
+/// A link between a face that stayed with a vertex and a face that went to its copy.
 ///
 /// A split makes it a ghost pair, and a merge makes it a pair again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TornLink {
-    /// The half-edge of a face that stayed.
+    /// The half-edge in the face that stayed.
     pub stayed: HalfEdgeId,
-    /// Its opposite, of a face that moved.
+    /// The opposite half-edge, in the face that moved.
     pub moved: HalfEdgeId,
 }
 
-/// Vertices were inserted, and each face that got one was divided into *children*.
+/// The record of an insertion: vertices were inserted, and each face that got any was divided into
+/// *children*.
 ///
 /// The record is complete: from it alone a follower can compute what a new vertex or corner
 /// should have. Weights refer to what was there before the insertion.
@@ -138,10 +139,11 @@ pub struct TornLink {
 pub struct Insert<'e> {
     /// The place in the log before this record.
     pub before: Cursor,
-    /// The new vertices, ascending: the last ones of the mesh, without a gap. On a torn edge
-    /// there are two for each point, one after the other.
+    /// The new vertices, ascending. They have the highest ids of the mesh, without a gap. A point
+    /// on a torn edge has two vertices, one after the other.
     pub points: &'e [InsertedPoint],
-    /// The faces that took the place of others, those of one parent together.
+    /// The faces that replaced divided ones. Children of the same parent are neighbours in this
+    /// list.
     pub children: &'e [ChildFace],
 }
 
@@ -150,7 +152,7 @@ pub struct Insert<'e> {
 pub struct InsertedPoint {
     /// The new vertex.
     pub vertex: VertexId,
-    /// Where it is, between vertices that were there before.
+    /// Where the new vertex is, relative to vertices that existed before.
     pub at: InsertLocation,
 }
 
@@ -173,30 +175,30 @@ pub enum InsertLocation {
     },
 }
 
-/// A face that took the place of (a part of) another.
+/// A face that replaced part of a divided face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChildFace {
     /// The face that was divided.
     pub parent: FaceId,
-    /// This child; the first of a family has the id of the parent.
+    /// The id of this child. The first child of a family has the id of the parent.
     pub face: FaceId,
     /// The vertices of the child.
     pub vertices: [VertexId; 3],
-    /// Where each of its corners lies in the parent.
+    /// Where each corner of the child lies in the parent.
     pub sources: [CornerSource; 3],
-    /// The part of the parent's area that the child covers. Those of a family add up to one, up
-    /// to rounding.
+    /// The fraction of the parent's area that the child covers. The shares of all children of a
+    /// parent add up to one, up to rounding.
     pub share: f64,
 }
 
-/// Where a corner of a child lies in its parent: half-edges are corners of the parent, as
-/// they were before the insertion.
+/// Where a corner of a child lies in its parent. The half-edges are corners of the parent, as they
+/// were before the insertion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CornerSource {
-    /// At a corner.
+    /// At a corner of the parent.
     Corner(HalfEdgeId),
-    /// On an edge, at `ends[0] + t (ends[1] − ends[0])`. Both faces of the edge have the same
-    /// `t` and the same direction.
+    /// On an edge of the parent, at `ends[0] + t (ends[1] − ends[0])`. Both faces of the edge have
+    /// the same `t` and the same direction.
     Edge {
         /// The corners at the ends of the edge.
         ends: [HalfEdgeId; 2],
@@ -210,51 +212,55 @@ pub enum CornerSource {
     },
 }
 
-/// Two vertices of one root became one.
+/// The record of a merge: two vertices of one root became one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Merge<'e> {
     /// The place in the log before this record.
     pub before: Cursor,
-    /// The vertex that has all corners now: the one with the lower id.
+    /// The vertex that now has all corners: the one with the lower id.
     pub kept: VertexId,
-    /// The vertex that is no more.
+    /// The vertex that disappeared.
     pub gone: VertexId,
-    /// The weight of `kept` in what the two become: values are joined at
-    /// `kept + (1 − share) (gone − kept)`, so equal ones stay as they are.
+    /// The weight of `kept` in the merged value, which is `kept + (1 − share) (gone − kept)`. Equal
+    /// values stay as they are.
     pub share: f64,
-    /// The corners that went from `gone` to `kept`: at least one, in the order of a walk.
+    /// The corners that went from `gone` to `kept`: at least one, in the order of a walk around
+    /// `gone`.
     pub corners: &'e [HalfEdgeId],
     /// The vertex that took the freed id, unless `gone` was the last one.
     pub renumbered: Option<Renumbered<'e>>,
-    /// The links that are pairs again: `stayed` in a face of `kept`, `moved` in one that
-    /// came from `gone`.
+    /// The links that became pairs again. `stayed` is in a face of `kept`, and `moved` in a face
+    /// that came from `gone`.
     pub sewn: &'e [TornLink],
 }
 
-/// The last vertex of a mesh got the id of a vertex that is no more.
+/// The last vertex of a mesh took the id of a vertex that disappeared in a merge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Renumbered<'e> {
-    /// The id it had.
+    /// The id that the vertex had before.
     pub from: VertexId,
-    /// The id it has.
+    /// The id that the vertex has now.
     pub to: VertexId,
-    /// Its corners.
+    /// The corners of the renumbered vertex.
     pub corners: &'e [HalfEdgeId],
 }
 
-/// A vertex slid along an edge of the surface, and what it carries with it. The mesh is as it was.
+/// The record of a slide: a vertex moved along an edge of the surface. The mesh itself did not
+/// change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slide<'e> {
     /// The place in the log before this record.
     pub before: Cursor,
-    /// The vertex.
+    /// The vertex that slid.
     pub vertex: VertexId,
-    /// The vertex towards which it slid, which stays where it is.
+    /// The vertex towards which it slid, which did not move.
     pub toward: VertexId,
-    /// How far: it is now at `vertex + t (toward − vertex)`, with t strictly between 0 and 1.
+    /// The fraction of the way: the vertex is now at `vertex + t (toward − vertex)`, with t
+    /// strictly between 0 and 1.
     pub t: f64,
-    /// For each face of the edge, up to two, its corner at the vertex and that at `toward`.
+    /// For each of the up to two faces of the edge, its corner at `vertex` and its corner at
+    /// `toward`.
     pub along: [Option<[HalfEdgeId; 2]>; 2],
-    /// All corners of the vertex, in the order of a walk.
+    /// All corners of `vertex`, in the order of a walk around it.
     pub corners: &'e [HalfEdgeId],
 }

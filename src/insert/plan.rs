@@ -1,8 +1,8 @@
-//! What to insert: points on edges and in faces, and edges that are demanded between them.
+//! What to insert: points on edges and in faces, and edges that are required between them.
 
 use crate::id::{FaceId, HalfEdgeId};
 
-/// What to insert, all at once.
+/// A set of points, on edges and in faces, that are inserted all at once.
 ///
 /// ```
 /// use tearmesh::{shapes, insert::Plan, Edits, FaceId, HalfEdgeId};
@@ -45,14 +45,14 @@ impl Plan {
         self.points.len()
     }
 
-    /// Whether nothing is to be inserted.
+    /// Whether the plan has no points.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// Adds a point on an edge, at the part `t` of the way from the origin of `h` to its target;
-    /// on a torn edge also on the other side, at the same `t`.
+    /// Adds a point on an edge, at the fraction `t` of the way from the origin of `h` to its
+    /// target. On a torn edge a point is also added on the other side, at the same `t`.
     pub fn on_edge(&mut self, h: HalfEdgeId, t: f64) -> PointId {
         self.push(Point::Edge {
             h,
@@ -61,8 +61,9 @@ impl Plan {
         })
     }
 
-    /// Adds a point on an edge, at the part `t` of the way from the target of `h` to its origin; on a
-    /// torn edge also on the other side. [`Plan::on_edge`] with `1 − t` may differ in the last bit.
+    /// Adds a point on an edge, at the fraction `t` of the way from the target of `h` to its
+    /// origin. On a torn edge a point is also added on the other side. [`Plan::on_edge`] with `1 −
+    /// t` may differ in the last bit.
     pub fn on_edge_backward(&mut self, h: HalfEdgeId, t: f64) -> PointId {
         self.push(Point::Edge {
             h,
@@ -74,8 +75,8 @@ impl Plan {
     /// Adds a point in a face, at the weighted mean of its corners in their order. The
     /// weights are divided by their sum.
     ///
-    /// The first point of a face is joined to all its corners and all points on its edges;
-    /// any other to the corners of the triangle in which it then lies.
+    /// The first point of a face is joined to all corners of the face and all points on its edges.
+    /// Each further point is joined to the corners of the triangle in which it then lies.
     pub fn in_face(&mut self, f: FaceId, weights: [f64; 3]) -> PointId {
         self.push(Point::Face { f, weights })
     }
@@ -85,9 +86,9 @@ impl Plan {
         PointId(self.points.len() as u32 - 1)
     }
 
-    /// Demands that an edge of the result run straight across a face, which must not
-    /// have points inside. Needed only where a face has more than two points on its edges: two
-    /// on different edges are joined anyway, and so is a single one to the corner opposite.
+    /// Requires that an edge of the result run straight across a face, which must not have points
+    /// inside. This is needed only if the face has more than two points on its edges: two points on
+    /// different edges are joined anyway, and a single point is joined to the opposite corner.
     pub fn chord(&mut self, f: FaceId, ends: [ChordEnd; 2]) {
         self.chords.push(Chord { f, ends });
     }
@@ -98,7 +99,7 @@ impl Plan {
 pub struct PointId(pub(super) u32);
 
 impl PointId {
-    /// The index, for use with slices.
+    /// The index of the point in its plan, for use with slices.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize

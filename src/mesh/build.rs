@@ -1,4 +1,4 @@
-//! Triangles to half-edges, or an error that lists every offender.
+//! Builds half-edges from triangles, or an error that lists every defect.
 //!
 //! The half-edges of an edge find each other by a counting sort into a bucket for the
 //! smaller of its two vertices; within the bucket, which has a handful of entries, those with

@@ -50,7 +50,7 @@ pub enum Invariant {
     Fans = 19,
 }
 
-/// A broken invariant, and where.
+/// A broken invariant, and where it is broken.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     /// Which invariant is broken.
@@ -70,10 +70,10 @@ impl fmt::Display for Violation {
 }
 
 impl Mesh {
-    /// Checks every invariant and lists what is broken: nothing, for every mesh that can be
-    /// made with this library.
+    /// Checks every invariant and lists all violations. The list is empty for every mesh that can
+    /// be made with this library.
     ///
-    /// Where sizes or ranges are broken, the rest is not looked at. O(n log n).
+    /// If table sizes or id ranges are wrong, nothing else is checked. O(n log n).
     #[must_use]
     pub fn check(&self) -> Vec<Violation> {
         let mut report = Report {
@@ -94,7 +94,7 @@ impl Mesh {
     }
 }
 
-/// So many copies of a vertex, those with the lowest ids, are walked round.
+/// The most copies of a vertex that are walked around: those with the lowest ids.
 const WALKS: u8 = 32;
 
 struct Report<'m> {

@@ -15,7 +15,7 @@ use std::fmt;
 use super::Mesh;
 use crate::id::{FaceId, VertexId};
 
-/// Why triangles were refused: every defect, in the order of [`Defect`]'s variants and
+/// Why triangles were refused: a list of every defect, in the order of [`Defect`]'s variants and
 /// then by ids.
 #[derive(Clone)]
 pub struct BuildError {
@@ -27,7 +27,8 @@ pub struct BuildError {
 }
 
 impl BuildError {
-    /// All defects; never none. Reading one takes as long as its lists.
+    /// All defects; there is always at least one. Reading a defect takes time proportional to its
+    /// lists.
     ///
     /// ```
     /// use tearmesh::{Defect, Mesh};
@@ -90,18 +91,19 @@ impl BuildError {
     }
 }
 
-/// One reason to refuse triangles, with all ids concerned; a view into a [`BuildError`].
+/// One reason why triangles were refused, with all ids concerned. It is a view into a
+/// [`BuildError`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Defect<'e> {
-    /// More vertices than ids.
+    /// There are more vertices than ids.
     TooManyVertices {
         /// How many there are.
         given: usize,
         /// [`Mesh::MAX_VERTICES`].
         limit: usize,
     },
-    /// More faces than ids.
+    /// There are more faces than ids.
     TooManyFaces {
         /// How many there are.
         given: usize,
@@ -126,28 +128,28 @@ pub enum Defect<'e> {
         /// The vertex.
         vertex: VertexId,
     },
-    /// Faces on the same three vertices, at least two of them facing the same way.
+    /// Several faces have the same three vertices, and at least two of them face the same way.
     DuplicateFaces {
         /// The vertices, ascending.
         vertices: [VertexId; 3],
         /// All faces on them.
         faces: Faces<'e>,
     },
-    /// Two faces on the same three vertices, back to back.
+    /// Two faces have the same three vertices and lie back to back.
     Pillow {
         /// The vertices, ascending.
         vertices: [VertexId; 3],
         /// The two faces, ascending.
         faces: [FaceId; 2],
     },
-    /// Three faces or more on an edge.
+    /// Three or more faces share an edge.
     CrowdedEdge {
         /// The ends, ascending.
         ends: [VertexId; 2],
         /// All faces on the edge.
         faces: Faces<'e>,
     },
-    /// Two faces run along an edge in the same direction: one of them is flipped.
+    /// Two faces traverse an edge in the same direction, so one of them is flipped.
     FlippedFace {
         /// Where both half-edges start.
         from: VertexId,
@@ -156,7 +158,7 @@ pub enum Defect<'e> {
         /// The two faces, ascending.
         faces: [FaceId; 2],
     },
-    /// A vertex with several fans of faces that share no edge (Souza et al. 2014, Fig. 2).
+    /// A vertex has several fans of faces that share no edge (Souza et al. 2014, Fig. 2).
     BowTie {
         /// The vertex.
         vertex: VertexId,
@@ -165,7 +167,7 @@ pub enum Defect<'e> {
     },
 }
 
-/// The faces that a [`Defect`] lists, ascending; never none.
+/// The faces that a [`Defect`] lists, in ascending order. There is always at least one.
 #[derive(Clone, Copy)]
 pub struct Faces<'e> {
     count: usize,
@@ -188,7 +190,7 @@ impl<'e> Faces<'e> {
         self.count
     }
 
-    /// Each of them.
+    /// Iterates over the faces.
     #[must_use]
     pub fn iter(self) -> impl ExactSizeIterator<Item = FaceId> + Clone + use<'e> {
         let Faces { count, mut bytes } = self;
@@ -233,7 +235,7 @@ impl<'e> Fans<'e> {
         self.count
     }
 
-    /// The faces of each of them.
+    /// Iterates over the fans, each as its faces.
     #[must_use]
     pub fn iter(self) -> impl ExactSizeIterator<Item = Faces<'e>> + Clone {
         let Fans { count, mut bytes } = self;

@@ -1,10 +1,11 @@
-//! A mesh that was made of another, and the way back.
+//! A mesh that was derived from another one, with maps back to it.
 
 use super::Mesh;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
-/// A mesh that was made of another one, its *source*: from which vertex, face and corner of the source
-/// each of its own comes. [`Mesh::pieces`] and [`Insertions::undone`](crate::Insertions::undone) make such meshes.
+/// A mesh that was derived from another one, its *source*. It knows from which vertex, face and
+/// corner of the source each of its own comes. [`Mesh::pieces`] and
+/// [`Insertions::undone`](crate::Insertions::undone) make such meshes.
 ///
 /// The log of a new mesh starts anew: its followers begin at [`Cursor::START`](crate::Cursor::START),
 /// with values that are taken over from those of the source.
@@ -41,51 +42,53 @@ impl DerivedMesh {
         }
     }
 
-    /// The mesh.
+    /// The derived mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The mesh alone.
+    /// The derived mesh, without its maps.
     #[must_use]
     pub fn into_mesh(self) -> Mesh {
         self.mesh
     }
 
-    /// By vertex, the vertex of the source that it was; ascending. Two may have been one.
+    /// For each vertex, the vertex of the source that it comes from. Ascending; two vertices may
+    /// come from the same one.
     #[must_use]
     pub fn vertices(&self) -> &[VertexId] {
         &self.vertices
     }
 
-    /// By face, the face of the source that it was; ascending.
+    /// For each face, the face of the source that it comes from. Ascending.
     #[must_use]
     pub fn faces(&self) -> &[FaceId] {
         &self.faces
     }
 
-    /// By corner, and so by half-edge, that of the source that it was.
+    /// For each corner, which is also a half-edge, the corner of the source that it comes from.
     #[must_use]
     pub fn corners(&self) -> &[HalfEdgeId] {
         &self.corners
     }
 
-    /// The vertices that were this one of the source: none if it is not here. Logarithmic.
+    /// The vertices that come from a vertex of the source; empty if it is not in this mesh.
+    /// Logarithmic.
     pub fn vertices_of(&self, source: VertexId) -> impl ExactSizeIterator<Item = VertexId> + use<> {
         let start = self.vertices.partition_point(|&v| v < source);
         let end = self.vertices.partition_point(|&v| v <= source);
         (start as u32..end as u32).map(VertexId::from_u32)
     }
 
-    /// The face that was this one of the source, if it is here. Logarithmic.
+    /// The face that comes from a face of the source, if it is in this mesh. Logarithmic.
     #[must_use]
     pub fn face_of(&self, source: FaceId) -> Option<FaceId> {
         let at = self.faces.binary_search(&source).ok()?;
         Some(FaceId::from_u32(at as u32))
     }
 
-    /// The corner that was this one of the source, if it is here. Logarithmic.
+    /// The corner that comes from a corner of the source, if it is in this mesh. Logarithmic.
     #[must_use]
     pub fn corner_of(&self, source: HalfEdgeId) -> Option<HalfEdgeId> {
         if self.corners_by_source.is_empty() {
@@ -97,7 +100,7 @@ impl DerivedMesh {
         at.ok().map(|at| self.corners_by_source[at])
     }
 
-    /// The values of the vertices, from those of the source.
+    /// Selects the values of this mesh's vertices from those of the source.
     ///
     /// # Panics
     ///
@@ -108,7 +111,7 @@ impl DerivedMesh {
         values.collect()
     }
 
-    /// The values of the faces, from those of the source.
+    /// Selects the values of this mesh's faces from those of the source.
     ///
     /// # Panics
     ///
@@ -118,7 +121,7 @@ impl DerivedMesh {
         self.faces.iter().map(|f| f.of(of_source).clone()).collect()
     }
 
-    /// The values of the corners, from those of the source.
+    /// Selects the values of this mesh's corners from those of the source.
     ///
     /// # Panics
     ///

@@ -198,7 +198,7 @@ impl Soup<'_> {
     }
 }
 
-/// Numbers are handed out in about so many batches, each of which is a pass over the triangles.
+/// Roughly how many batches the numbers are handed out in. Each batch is a pass over the triangles.
 const BATCHES: usize = 16;
 
 const BINS: usize = 1024;

@@ -1,4 +1,4 @@
-//! Triangles and roots to a torn mesh.
+//! Builds a torn mesh from its triangles and the root of each vertex.
 //!
 //! A torn mesh is a manifold whose corners were relabelled (`invariants.md`), so its triangles
 //! and the root of each vertex are all there is to know: the triangles with each vertex
@@ -11,16 +11,16 @@ use super::{BuildError, Link, Mesh, NO_HALF_EDGE};
 use crate::id::{HalfEdgeId, VertexId};
 
 impl Mesh {
-    /// Builds the torn mesh of these triangles over `roots.len()` vertices. `roots` has for
-    /// each vertex what [`Mesh::root`] is to give: the smallest vertex of those
-    /// that were split from the same one, so itself for a vertex that never was.
+    /// Builds a torn mesh from its triangles and the root of each vertex. `roots[v]` is what
+    /// [`Mesh::root`] must give for vertex `v`: the smallest of the vertices that were split from
+    /// the same one, which is `v` itself if it was never split.
     ///
-    /// With each vertex its own root this is [`Mesh::build`].
+    /// If each vertex is its own root, this is [`Mesh::build`].
     ///
     /// # Errors
     ///
-    /// [`TornError`], where the roots contradict each other or the mesh with roots for vertices
-    /// is no oriented 2-manifold.
+    /// [`TornError`] if the roots contradict each other, or if the triangles with each vertex
+    /// replaced by its root are not an oriented 2-manifold.
     ///
     /// ```
     /// use tearmesh::{Mesh, VertexId};
@@ -100,15 +100,15 @@ pub enum TornError {
         /// The number of vertices.
         vertices: usize,
     },
-    /// A root is not the smallest vertex of those that have it, or a vertex without a face
-    /// has another vertex for root, or is one.
+    /// A root is not the smallest of the vertices that have it, or a vertex without faces has
+    /// another vertex as its root or is the root of another one.
     Root {
         /// The vertex.
         vertex: VertexId,
         /// The root that was given for it.
         root: u32,
     },
-    /// With roots for vertices the triangles are no oriented 2-manifold.
+    /// The triangles, with each vertex replaced by its root, are not an oriented 2-manifold.
     Build(BuildError),
 }
 

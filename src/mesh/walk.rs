@@ -1,4 +1,4 @@
-//! Walks: round a vertex, along the boundary, over the components.
+//! Walks around a vertex, along the boundary, and over the components.
 //!
 //! **Round a vertex**, in two forms. Let ρ(h) = opposite(prev h) turn a corner to the
 //! next one round the same vertex, through a pair or a ghost pair.
@@ -10,7 +10,7 @@
 //!   those that do. Every simpler reading of the paper misses faces (Souza et al. 2014 §IV-B
 //!   leaves the reading open; `invariants.md`, I10, has the counter-examples).
 //!
-//! No walk allocates but those that say so. A step costs a nanosecond or two in cache; a
+//! No walk allocates unless its documentation says so. A step costs a nanosecond or two in cache; a
 //! walk round a vertex visits as many faces as the vertex had when the mesh was built.
 
 use std::iter::FusedIterator;
@@ -19,8 +19,8 @@ use super::Mesh;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 impl Mesh {
-    /// All corners of a vertex, as the half-edges that start there: one for each
-    /// face that has the vertex, however torn its surroundings are.
+    /// All corners of a vertex, as the half-edges that start there. There is one for each face that
+    /// has the vertex, however torn the mesh is around it.
     ///
     /// ```
     /// use tearmesh::{Mesh, VertexId};
@@ -43,8 +43,8 @@ impl Mesh {
         self.corners_of(v).map(HalfEdgeId::face)
     }
 
-    /// The corners that are joined to the corner `h` through pairs, `h` first: one fan of
-    /// the vertex at which `h` starts.
+    /// The fan of the corner `h`: the corners of its vertex that are joined to it through pairs,
+    /// `h` first.
     #[must_use]
     pub fn fan(&self, h: HalfEdgeId) -> Fan<'_> {
         h.of(&self.link); // The first step asks for the one before, and would name that.
@@ -58,8 +58,8 @@ impl Mesh {
 
     /// One corner of each fan of a vertex.
     ///
-    /// A vertex inside an untorn surface, or on its boundary, has one fan. Two
-    /// and more make it a bow-tie (Souza et al. 2014, Fig. 2).
+    /// A vertex inside an untorn surface, or on its boundary, has one fan. A vertex with two or
+    /// more fans is a bow-tie (Souza et al. 2014, Fig. 2).
     #[must_use]
     pub fn fans(&self, v: VertexId) -> impl FusedIterator<Item = HalfEdgeId> + '_ {
         // The first corner of an open fan has no pair behind it; a fan without such
@@ -73,8 +73,8 @@ impl Mesh {
         first_corners().chain(closed)
     }
 
-    /// The vertex that `v` was before any split: the smallest of those that
-    /// were split from the same one, since the old vertex always keeps a face.
+    /// The vertex that `v` was before any split. It is the smallest of the vertices that were split
+    /// from the same one.
     #[must_use]
     pub fn root(&self, v: VertexId) -> VertexId {
         Orbit::new(self, self.half_edge_of(v))
@@ -119,8 +119,8 @@ impl Mesh {
         self.pair_or_ghost(h).map(HalfEdgeId::next)
     }
 
-    /// The half-edges of the boundary loop on which `h` lies, `h` first; the sides
-    /// of a tear are boundary too. Empty if `h` has a pair.
+    /// The half-edges of the boundary loop on which `h` lies, `h` first. The sides of a tear count
+    /// as boundary. Empty if `h` has a pair.
     ///
     /// ```
     /// use tearmesh::Mesh;
@@ -162,7 +162,7 @@ impl Mesh {
         loops
     }
 
-    /// The components: sets of faces joined by shared edges.
+    /// The components of the mesh. A component is a set of faces joined by shared edges.
     ///
     /// Allocates a number for each face; linear.
     #[must_use]
@@ -338,7 +338,8 @@ impl Components {
         self.count
     }
 
-    /// The component of a face, from 0; components are numbered by their smallest face.
+    /// The number of the component that a face belongs to. Components are numbered from 0, in the
+    /// order of their smallest faces.
     #[must_use]
     pub fn of(&self, f: FaceId) -> usize {
         *f.of(&self.of_face) as usize

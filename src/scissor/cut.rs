@@ -1,4 +1,5 @@
-//! What a cut made: sides, seam, tips, pieces, and the ends from which another can go on.
+//! The result of a cut: its sides, seam, tips and pieces, and the ends from which another cut can
+//! continue.
 
 use super::exact::layers::LayerHit;
 use super::offsets::Offsets;
@@ -9,7 +10,7 @@ use crate::geometry::{Ray, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::{Components, Mesh};
 
-/// What a cut made. Which face became which, and where vertices are new, the log tells.
+/// The result of a cut. The log says which faces were divided and which vertices are new.
 ///
 /// ```
 /// use tearmesh::{shapes, Cut, CutMethod, Edits, Plane, Point, Scissor, Side, Vector};
@@ -44,9 +45,9 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// The faces with a vertex on the seam, each with its side; ascending. A face that the end of a
-    /// slit leaves on both sides has none, nor has one that lies on both sides elsewhere, where nothing
-    /// was to be cut. Faces that lie on the plane as a whole have the side of those round them.
+    /// The faces that have a vertex on the seam, in ascending order, each with its side. The side
+    /// is `None` for a face that extends to both sides, beyond an end of the slit or where nothing
+    /// was cut. A face that lies entirely on the plane has the side of the faces around it.
     #[must_use]
     pub fn sides(&self) -> &[(FaceId, Option<Side>)] {
         &self.touched
@@ -58,8 +59,8 @@ impl Cut {
         side_of(&self.touched, f)
     }
 
-    /// The lines of the seam: the edges that the cut tore. Lines end where the seam does, and where it
-    /// branches; those that go round come last.
+    /// The lines of the seam, which consist of the edges that the cut tore. A line ends where the
+    /// seam ends or branches. Closed lines come last.
     #[must_use]
     pub fn seam(&self) -> impl ExactSizeIterator<Item = SeamLine<'_>> {
         let lines = self.lines.spans().zip(&self.tips);
@@ -71,8 +72,8 @@ impl Cut {
         self.tips.iter().flatten().flatten().copied()
     }
 
-    /// Where each ray met the layer that was cut, of a cut through [`CutLayers::First`] ones. If the
-    /// two name different chains, both were cut.
+    /// Where each ray met the layer that was cut, for a cut with [`CutLayers::First`]. If the two
+    /// hits name different chains, both chains were cut.
     ///
     /// [`CutLayers::First`]: super::CutLayers::First
     #[must_use]
@@ -80,13 +81,14 @@ impl Cut {
         self.hits
     }
 
-    /// The ends of a cut between two rays, from which another can go on.
+    /// The two ends of a cut between rays, from which another cut can continue; `None` for a cut by
+    /// a plane.
     #[must_use]
     pub fn ends(&self) -> Option<&[CutEnd; 2]> {
         self.ends.as_ref()
     }
 
-    /// The pieces that there are now. Linear in the mesh.
+    /// The pieces of the mesh after the cut. Linear in the mesh.
     #[must_use]
     pub fn pieces(&self, mesh: &Mesh) -> CutPieces {
         let components = mesh.components();
@@ -110,28 +112,29 @@ impl Cut {
 /// A line of the seam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeamLine<'c> {
-    /// Its edges in order, each by its half-edges: that of the lip in front, which runs along the line,
-    /// and its ghost pair on the lip behind, which runs against it. What the paper's methods tear on
-    /// one side of the plane has one of its two lips first.
+    /// The edges of the line in order. Each is given as the half-edge on the front lip, which runs
+    /// along the line, and its ghost pair on the back lip, which runs against it. Where the paper's
+    /// methods tear an edge on one side of the plane, either lip may come first.
     pub lips: &'c [[HalfEdgeId; 2]],
-    /// The vertices where the line begins and ends, if the lips are still joined there.
+    /// The vertices at which the line begins and ends, each if the lips are still joined there.
     pub tips: [Option<VertexId>; 2],
 }
 
 /// The pieces of a mesh after a cut.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CutPieces {
-    /// Which face belongs to which piece.
+    /// The component of each face. A component is a piece.
     pub components: Components,
-    /// By piece, the side of the seam on which it lies; none if it has both lips, or no part of the
-    /// seam.
+    /// For each piece, the side of the seam on which it lies; `None` if it has both lips, or no
+    /// part of the seam.
     pub sides: Vec<Option<Side>>,
 }
 
-/// An end of a cut, from which another can go on: see [`Scissor::continued`](super::Scissor::continued).
+/// An end of a cut, from which another cut can continue: see
+/// [`Scissor::continued`](super::Scissor::continued).
 ///
-/// It names vertices, and so has to follow the log: if the mesh was edited since, replay the log on
-/// the end before it is used.
+/// It holds vertex ids, so it is a follower: if the mesh was edited since, replay the log on this
+/// end before using it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutEnd {
     pub(super) ray: Ray,
@@ -141,14 +144,14 @@ pub struct CutEnd {
 }
 
 impl CutEnd {
-    /// The ray up to which was cut.
+    /// The ray at which the cut ended.
     #[must_use]
     pub fn ray(&self) -> Ray {
         self.ray
     }
 
-    /// The vertices in which a cut that goes on from here begins; none where no cut of the method
-    /// `exact` ended at the ray.
+    /// The vertices at which a cut that continues from here begins; empty unless a cut by the
+    /// method `exact` ended at the ray.
     #[must_use]
     pub fn vertices(&self) -> &[VertexId] {
         &self.vertices

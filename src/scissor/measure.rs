@@ -1,4 +1,4 @@
-//! What a cut should do, and what it did: for a report that is asked for.
+//! Measures what a cut should do, and what it did.
 //!
 //! A [`Survey`] looks at the mesh before a cut: where the slit (the part of the plane
 //! between the side planes) meets it, how long it is there, and into how many pieces an ideal
@@ -17,7 +17,7 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
-/// What a cut did.
+/// Measurements of a cut.
 ///
 /// A *component* is a set of faces joined by shared edges. The *seam* is the set of edges
 /// that this cut tore. Lengths are in the units of the model.
@@ -28,7 +28,7 @@ pub struct CutReport {
     pub faces_crossed: usize,
     /// The vertices that were split, counted as often as they were.
     pub splits: usize,
-    /// The splits that were refused for want of a face on one side.
+    /// The splits that were refused because all faces were on one side.
     pub refused: usize,
     /// The half-edges whose pair became a ghost pair: two for each edge of the seam.
     pub ghost_pairs: usize,
@@ -36,25 +36,26 @@ pub struct CutReport {
     pub pieces_before: usize,
     /// The components after the cut.
     pub pieces: usize,
-    /// The components that a cut exactly along the slit would leave, or more where the method
-    /// `exact` takes an end of the slit for a point of the boundary. What lies on the plane is in
-    /// front, but for the method `exact`, to which touching is not cutting.
+    /// The components that a cut exactly along the slit would leave. It is more if the method
+    /// `exact` snaps an end of the slit to the boundary. A face on the plane counts as front,
+    /// except for the method `exact`, which does not cut what the plane merely touches.
     pub pieces_expected: usize,
-    /// Pieces beyond those expected.
+    /// How many more pieces there are than expected.
     pub crumbs: usize,
-    /// Pieces short of those expected.
+    /// How many fewer pieces there are than expected.
     pub lost: usize,
-    /// Whether no vertex strictly between the side planes belongs to faces of both sides, and
-    /// no edge that passes there joins both; judged where the slit meets the mesh.
+    /// Whether the sides are separated where the slit meets the mesh: no vertex strictly between
+    /// the side planes belongs to faces of both sides, and no edge there joins both.
     pub separated: bool,
     /// The length of the seam.
     pub seam_length: f64,
-    /// The length of the seam over that of the slit on the mesh; 0 where there is no slit, or
-    /// one too short to divide by.
+    /// The length of the seam divided by the length of the slit on the mesh; 0 if there is no slit,
+    /// or if it is too short to divide by.
     pub seam_length_ratio: f64,
     /// The largest distance of a seam vertex from the plane.
     pub seam_deviation_max: f64,
-    /// The same, over the mean edge length of the mesh before the cut.
+    /// The largest distance of a seam vertex from the plane, divided by the mean edge length of the
+    /// mesh before the cut.
     pub seam_deviation_max_edges: f64,
     /// The vertices inserted on edges and in faces.
     pub vertices_inserted: usize,
@@ -64,11 +65,12 @@ pub struct CutReport {
     pub altitude_min: f64,
     /// Whether the slit meets no face at all.
     pub missed: bool,
-    /// How far the vertex nearest to the slit is from it: the distance from the plane and
-    /// that by which it lies outside the side planes, as the sides of a right angle.
+    /// The distance of the nearest vertex from the slit: the root of the summed squares of its
+    /// distance from the plane and the distance by which it lies outside the side planes.
     pub nearest_vertex: f64,
-    /// How far each tip of the seam lies beyond the nearer side plane; negative for one that
-    /// falls short. Ascending by vertex. A tip is an end of the seam inside the mesh.
+    /// How far each tip of the seam lies beyond the nearer side plane; negative for a tip that
+    /// falls short. In ascending order of the tips' vertices. A tip is an end of the seam inside
+    /// the mesh.
     pub tip_overshoots: Vec<f64>,
 }
 

@@ -22,7 +22,7 @@ pub(super) type Judged<'j> = &'j dyn Fn(&Mesh, &Edits) -> Vec<FaceId>;
 pub(super) struct Outcome {
     /// The side on which the method meant each face to be that has a vertex on the seam.
     pub(super) touched: Sides,
-    /// The same of the faces that were asked for.
+    /// The sides of the faces that the caller asked for.
     pub(super) judged: Sides,
     /// The splits that were tried in vain.
     pub(super) refused: usize,

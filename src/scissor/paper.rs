@@ -11,10 +11,11 @@
 //! a split before may have given the face another vertex. C and D are in the cyclic order of
 //! the face, and `N_tri` is its normal by that order.
 //!
-//! Neither method promises to divide. On irregular meshes `uniform` leaves bridges ("the mesh
-//! not being completely divided"); `alternating` mostly divides, and leaves crumbs and a
-//! longer seam, because it may split the same vertex several times. They are here to be
-//! compared with: [`CutMethod::Partition`](super::CutMethod::Partition) is the one to use.
+//! Neither method promises to divide. On irregular meshes `uniform` leaves bridges ("the mesh not
+//! being completely divided"); `alternating` mostly divides, and leaves crumbs and a longer seam,
+//! because it may split the same vertex several times. They are offered for comparison. Use
+//! [`CutMethod::Exact`](super::CutMethod::Exact), or
+//! [`CutMethod::Partition`](super::CutMethod::Partition) for a cut that adds no faces.
 
 use super::exact::Way;
 use super::outcome::{Judged, Outcome, faces_at};

@@ -118,7 +118,8 @@ impl Census {
         sets.count()
     }
 
-    /// The number of a face, where each near the plane has so many, from 0.
+    /// The element that stands for part number `which` of a face. A face near the plane has `each`
+    /// parts, and any other face has one.
     fn node(&self, f: FaceId, each: u32, which: u32) -> u32 {
         let part = self.part[f.index()];
         match part.checked_sub(self.parts) {

@@ -7,7 +7,8 @@ use crate::shapes;
 
 /// A small mesh with positions, given by a few numbers.
 ///
-/// The limits are those of bytes and text; [`Shape::make`] knows none.
+/// The limits on the numbers hold for shapes made from bytes and text. [`Shape::make`] does not
+/// enforce them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// A grid of cells, with a bit for each diagonal (modulo 64): see
@@ -20,35 +21,35 @@ pub enum Shape {
         /// Bit `row * columns + column`: the diagonal of that cell rises.
         rising: u64,
     },
-    /// See [`shapes::fan`].
+    /// A fan of triangles around a vertex: see [`shapes::fan`].
     Fan {
         /// 3 to 16.
         faces: u8,
         /// Whether the fan goes all the way round.
         closed: bool,
     },
-    /// See [`shapes::saddle`].
+    /// The saddle that one plane cuts into four arcs: see [`shapes::saddle`].
     Saddle,
-    /// See [`shapes::tube`].
+    /// A tube that is open at both ends: see [`shapes::tube`].
     Tube {
         /// 3 to 8.
         around: u8,
         /// 1 to 4.
         along: u8,
     },
-    /// See [`shapes::torus`].
+    /// A torus: see [`shapes::torus`].
     Torus {
         /// 3 to 5.
         around: u8,
         /// 3 to 5.
         across: u8,
     },
-    /// A tetrahedron, each face cut in four as often as this says.
+    /// A tetrahedron, each face of which is divided into four this many times.
     Tetrahedron {
         /// 0 or 1.
         subdivisions: u8,
     },
-    /// An octahedron, each face cut in four as often as this says.
+    /// An octahedron, each face of which is divided into four this many times.
     Octahedron {
         /// 0 or 1.
         subdivisions: u8,
@@ -76,11 +77,11 @@ pub enum Shape {
 pub const GROWN_MAX: usize = 48;
 
 impl Shape {
-    /// The mesh, and the positions of its vertices.
+    /// Makes the mesh of this shape and the positions of its vertices.
     ///
     /// # Panics
     ///
-    /// If the numbers are below the limits given with each shape.
+    /// If a number is below the limit given with its shape.
     #[must_use]
     pub fn make(&self) -> (Mesh, Positions) {
         match *self {
@@ -106,7 +107,7 @@ impl Shape {
     }
 }
 
-/// Each face in four, so many times; the new vertices are the middles of the edges.
+/// Divides each face into four, `times` times, by new vertices at the middles of the edges.
 fn subdivided((mesh, positions): (Mesh, Positions), times: u8) -> (Mesh, Positions) {
     if times == 0 {
         return (mesh, positions);

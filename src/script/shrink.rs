@@ -110,7 +110,7 @@ fn first_that_fails<P>(
     }
 }
 
-/// The same shape with less of something, the least first.
+/// Simpler variants of a shape, the simplest first.
 fn simpler_shapes(shape: &Shape) -> Vec<Shape> {
     let mut simpler = Vec::new();
     if !matches!(shape, Shape::Grid { .. }) {
@@ -171,7 +171,7 @@ fn simpler_shapes(shape: &Shape) -> Vec<Shape> {
     simpler
 }
 
-/// The same operation with less of something, the least first.
+/// Simpler variants of an operation, the simplest first.
 fn simpler_operations(operation: &Operation) -> Vec<Operation> {
     let mut simpler = Vec::new();
     match *operation {

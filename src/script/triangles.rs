@@ -1,4 +1,4 @@
-//! A follower that has the triangles.
+//! A follower that keeps a list of the triangles.
 
 use crate::edit::{Cursor, Edit, Follower};
 use crate::mesh::Mesh;

@@ -14,7 +14,7 @@ use crate::scissor::{CutMethod, CutReport, CutTips, Scissor};
 use crate::slide;
 use crate::split::{self, SplitRefusal};
 
-/// A mesh and everything that can follow it.
+/// A mesh together with one follower of each kind.
 #[derive(Clone, Debug)]
 pub struct World {
     /// The mesh.
@@ -28,17 +28,18 @@ pub struct World {
     /// Masses by halves with density 1, which have seen every edit; `None` from the first
     /// insertion on, which they cannot follow.
     pub half: Option<Masses>,
-    /// The triangles. Have seen every edit.
+    /// The triangles, which have seen every edit.
     pub triangles: Triangles,
-    /// The same, but replayed only just before the log is cleared: by many edits at once.
+    /// The triangles once more, replayed only just before the log is cleared, so that they see many
+    /// edits at once.
     pub late_triangles: Triangles,
-    /// For each corner where it is. Has seen every edit. As a corner is where its vertex is,
-    /// this is the position of that up to rounding, until copies that slid apart are merged: the
-    /// vertex is then between, and its corners stay.
+    /// The position of each corner, which has seen every edit. It equals the position of the
+    /// corner's vertex up to rounding, until copies that slid apart are merged: the merged vertex
+    /// then lies between them, and its corner values stay.
     pub corners: PerCorner<[f64; 3]>,
 }
 
-/// A vertex that was to be inserted.
+/// A vertex whose insertion was requested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
     /// On an edge: see [`Plan::on_edge`].
@@ -57,16 +58,16 @@ pub enum Asked {
     },
 }
 
-/// An end of a chord that was demanded.
+/// An end of a chord that was requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AskedEnd {
     /// A corner of the face.
     Corner(HalfEdgeId),
-    /// A point, by its number among those that were to be inserted.
+    /// A point, by its number among the requested insertions.
     Point(usize),
 }
 
-/// What was done to a [`World`]. Edits are named by the place in the log before them.
+/// What was done to a [`World`]. An edit is given as the place in the log before its record.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Step<'s> {
@@ -139,7 +140,7 @@ pub enum Step<'s> {
     },
     /// All followers replayed the log, and it was cleared.
     Cleared,
-    /// The operation was none: a normal of zero, or rays that span no plane.
+    /// The operation did nothing: its normal was zero, or its rays spanned no plane.
     Nothing,
 }
 
@@ -159,18 +160,18 @@ impl Script {
 }
 
 impl World {
-    /// The mesh of this shape, with nothing done to it yet.
+    /// A world of the mesh of this shape, with nothing done to it yet.
     ///
     /// # Panics
     ///
-    /// If the shape's numbers are below the limits given there.
+    /// If a number of the shape is below its limit.
     #[must_use]
     pub fn new(shape: &Shape) -> World {
         let (mesh, positions) = shape.make();
         World::of(mesh, positions)
     }
 
-    /// This mesh, with nothing done to it yet.
+    /// A world of this mesh, with nothing done to it yet.
     ///
     /// # Panics
     ///
@@ -380,7 +381,7 @@ impl World {
         observe(self, &step);
     }
 
-    /// Number so many of the vertices that have copies, or of all where none has.
+    /// The vertex with this number among those that have copies, or among all vertices if none has.
     fn torn_vertex(&self, number: u16) -> VertexId {
         let mut copies = vec![0; self.mesh.vertex_count()];
         for v in self.mesh.vertices() {
@@ -429,7 +430,7 @@ impl World {
         self.insert(&asked, chord, observe);
     }
 
-    /// Inserts vertices, and shows the observer that step. The chord is one that is demanded
+    /// Inserts vertices, and shows the observer that step. `chord` is an edge that is required
     /// across a face.
     pub fn insert(
         &mut self,

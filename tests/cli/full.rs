@@ -79,7 +79,7 @@ fn regression_a_report_that_cannot_be_written_is_in_the_json() {
     assert_eq!(report["diagnostics"][0]["code"], "E-IO-WRITE");
 }
 
-/// Takes so many bytes, and then fails.
+/// Takes a number of bytes, and then fails.
 struct Narrow {
     room: usize,
     kind: ErrorKind,

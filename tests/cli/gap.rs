@@ -105,7 +105,7 @@ fn normal(face: [usize; 3], points: &[[f64; 3]]) -> [f64; 3] {
 
 /// What was checked.
 #[derive(Default)]
-struct Tally {
+struct Counts {
     /// Whether all that lies at one place is joined in the meshes before they are cut.
     is_welded: bool,
     made: usize,
@@ -115,7 +115,7 @@ struct Tally {
 }
 
 /// A cut with a gap, against the same without: `second` is cut after it.
-fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), tally: &mut Tally) {
+fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), tally: &mut Counts) {
     let cut = format!("tearmesh cut - {cut}");
     let (exit, plain, _) = in_memory(&format!("{cut} -q -o -"), mesh, false);
     if exit != Exit::Done {
@@ -218,9 +218,9 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
             .wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
-    let mut tally = Tally {
+    let mut tally = Counts {
         is_welded: true,
-        ..Tally::default()
+        ..Counts::default()
     };
     for case in 0.. {
         if tally.made == 200 {
@@ -244,7 +244,7 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
         let cut = format!("{first} --method {method}");
         gapped_cut(name, &mesh, &cut, (gap, &second), &mut tally);
     }
-    let Tally {
+    let Counts {
         made,
         divided,
         moved,
@@ -264,7 +264,7 @@ fn real_files_with_a_gap_are_what_they_were() {
     let Some(folder) = std::env::var_os("TEARMESH_CORPUS") else {
         return;
     };
-    let mut tally = Tally::default();
+    let mut tally = Counts::default();
     let entries = std::fs::read_dir(folder).expect("a folder");
     let mut paths: Vec<_> = entries.map(|entry| entry.expect("one").path()).collect();
     paths.sort();

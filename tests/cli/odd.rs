@@ -127,7 +127,7 @@ fn regression_a_chart_and_its_figures_are_files_of_their_own() {
 mod linux {
     use super::*;
 
-    /// The same words each time, about the file that was named and no other.
+    /// The message is the same for each run, and names the file that was given and no other.
     #[test]
     fn regression_a_place_that_cannot_be_written_is_told_by_its_own_name() {
         let folder = Folder::new();

@@ -320,13 +320,14 @@ fn no_mode_is_slowed_faster_than_the_rate_says() {
     }
 }
 
-/// Where a hanging sheet in slanting wind is after 0.2 s, taken in so many steps, and the force
-/// evaluations that took.
+/// Where a hanging sheet in slanting wind is after 0.2 s, taken in `steps` steps, and the number of
+/// force evaluations.
 fn blown(solver: &mut dyn Solver, steps: u32, drag_per_s: Option<f64>) -> (Vec<Point>, u64) {
     blown_by(solver, steps, [1.0; 2], drag_per_s)
 }
 
-/// The same by steps that are so many times as long by turns.
+/// Where a hanging sheet in slanting wind is after 0.2 s, by steps whose lengths alternate in the
+/// given proportions, and the number of force evaluations.
 fn blown_by(
     solver: &mut dyn Solver,
     steps: u32,

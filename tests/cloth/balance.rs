@@ -2,7 +2,7 @@
 
 use tearmesh::{Edits, Masses, Plane, Point, Vector, mend, shapes, split};
 use tearmesh_cloth::implicit::{self, Tolerance};
-use tearmesh_cloth::scene::{Frame, Gain, Method, Run, Scene};
+use tearmesh_cloth::scene::{EnergyGain, Frame, Method, Run, Scene};
 use tearmesh_cloth::{
     Balance, Cloth, Collider, Copies, EnergyBalance, Fabric, Implicit, Limiter, Loads, Path,
     Solver, StepError, System, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
@@ -18,7 +18,7 @@ fn now(balance: &Balance, system: &System) -> EnergyBalance {
     balance.now(system, 0.0)
 }
 
-/// Takes so many steps before the eyes of a balance.
+/// Takes a number of steps while a balance observes.
 fn watch(
     system: &mut System,
     balance: &mut Balance,
@@ -530,7 +530,7 @@ fn check_no_gain(cells: u32, scene: fn(&Frame) -> Scene, name: &str, solver: &Me
     });
     let balance = run.energy_balance();
     println!("{name} {cells}: {} J made, {balance:?}", balance.made_j());
-    assert_eq!(run.gain(), None, "{name} at {cells}");
+    assert_eq!(run.energy_gain(), None, "{name} at {cells}");
 }
 
 #[test]
@@ -570,11 +570,11 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     let own = played(16, |frame| violent(frame, springs.clone(), None));
     let step_s = Some(own.step_s());
     let run = played(16, |frame| violent(frame, springs.clone(), step_s));
-    let Some(Gain {
+    let Some(EnergyGain {
         since_s,
         made_j,
         put_in_j,
-    }) = run.gain()
+    }) = run.energy_gain()
     else {
         panic!("nothing was said: {:?}", run.energy_balance());
     };
@@ -587,11 +587,16 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     // A step that may be divided is, as soon as the cloth is torn; and the guards of Verlet show what
     // nature would do at the same step.
     let half = played(16, |frame| violent(frame, Method::Verlet, step_s));
-    assert_eq!(half.gain(), None, "{:?}", half.energy_balance());
+    assert_eq!(half.energy_gain(), None, "{:?}", half.energy_balance());
     assert!(half.mesh().components().count() < pieces / 2);
     for (name, solver) in methods() {
         let run = played(16, |frame| violent(frame, solver.clone(), None));
-        assert_eq!(run.gain(), None, "{name}: {:?}", run.energy_balance());
+        assert_eq!(
+            run.energy_gain(),
+            None,
+            "{name}: {:?}",
+            run.energy_balance()
+        );
     }
 }
 
@@ -604,5 +609,5 @@ fn regression_a_flag_that_is_cut_goes_on_waving_by_verlet() {
         ..Scene::flag(frame)
     });
     assert!(run.tally().stretch_ratio_max < 1.3, "{:?}", run.tally());
-    assert_eq!(run.gain(), None);
+    assert_eq!(run.energy_gain(), None);
 }

@@ -4,7 +4,7 @@
 use std::num::NonZero;
 
 use tearmesh::Vector;
-use tearmesh_cloth::scene::{Chronicle, Hold, Method, Run, Scene};
+use tearmesh_cloth::scene::{Chronicle, HeldVertices, Method, Run, Scene};
 
 use crate::parts::scenes::{methods, play, staged};
 
@@ -18,7 +18,7 @@ fn told(mut run: Run) -> (Run, Chronicle) {
 }
 
 /// How far a hold has been led by then: straight between the points of its way.
-fn led(hold: &Hold, time_s: f64) -> Vector {
+fn led(hold: &HeldVertices, time_s: f64) -> Vector {
     let mut from = (hold.from_s, Vector::zeros());
     for &(at_s, by) in &hold.moves {
         if time_s < at_s {

@@ -13,7 +13,7 @@ use self::sheets::{ORDERS, Sheet};
 use crate::parts::mechanical_j;
 use crate::random::Random;
 
-/// Advances until nothing moves faster than 1e-7 m/s, or for so many seconds.
+/// Advances until nothing moves faster than 1e-7 m/s, or for a number of seconds.
 fn settle(system: &mut System, solver: &mut dyn Solver, dt_s: f64, seconds: f64) {
     for step in 0..(seconds / dt_s) as usize {
         system.step(&mut *solver, dt_s).expect("a step");
@@ -38,7 +38,7 @@ fn default_step(system: &mut System) -> (Verlet, f64) {
     (Verlet::new(), suited_step_s(system))
 }
 
-/// R2, link by link: the link above so many masses is stretched by m g times their number over k.
+/// R2, link by link: a link above n masses is stretched by n m g / k.
 #[test]
 fn every_link_of_a_hanging_chain_is_as_long_as_it_should_be_in_any_order() {
     let (mass, stiffness, rest) = (0.01, 50.0, 0.1);
@@ -199,7 +199,7 @@ fn energy_j(system: &System) -> f64 {
     mechanical_j(system) + potential
 }
 
-/// The largest energy of so many seconds, and the last.
+/// The largest energy within a number of seconds, and the last.
 fn energies(system: &mut System, dt_s: f64, seconds: f64) -> [f64; 2] {
     let mut solver = Verlet::new();
     let mut largest = f64::MIN;
@@ -295,7 +295,7 @@ fn a_crushed_sheet_makes_no_energy_up_to_the_limit_of_the_plain_method() {
 /// What is estimated of XPBD's softness is what a sheet droops by.
 #[test]
 fn xpbd_is_as_soft_as_is_said() {
-    use tearmesh_cloth::scene::{Frame, Hold, Region, Run};
+    use tearmesh_cloth::scene::{Frame, HeldVertices, Region, Run};
 
     for (sweeps, part, least) in [(1, 1.0, 0.5), (1, 0.5, 0.1), (1, 0.25, 0.02), (2, 1.0, 0.2)] {
         let drooped = |solver: Method, step_s: Option<f64>| {
@@ -311,7 +311,7 @@ fn xpbd_is_as_soft_as_is_said() {
                 duration_s: 0.6,
                 drag_per_s: 30.0,
                 gravity_m_per_s2: Vector::new(0.0, -100.0, 0.0),
-                holds: vec![Hold::still(top)],
+                holds: vec![HeldVertices::still(top)],
                 tearing: None,
                 ..Scene::fall(Axis::Y)
             };

@@ -2,7 +2,7 @@
 
 use tearmesh::{Plane, Point, Vector};
 use tearmesh_cloth::{
-    Collider, Constraint, Culprit, Limiter, Loads, Path, Pbd, Provot, Solver, StepError, System,
+    BlowUpSite, Collider, Constraint, Limiter, Loads, Path, Pbd, Provot, Solver, StepError, System,
     SystemError, Unstable, Verlet, Wind, Xpbd, energy, frequency, stable_step_s,
 };
 
@@ -132,7 +132,7 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
         panic!("{error:?}");
     };
     assert!(
-        matches!(at, Culprit::Constraint { ends: [0, 1], stretch_ratio } if stretch_ratio > 100.0)
+        matches!(at, BlowUpSite::Constraint { ends: [0, 1], stretch_ratio } if stretch_ratio > 100.0)
     );
 }
 

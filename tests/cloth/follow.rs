@@ -35,7 +35,7 @@ fn expected(mesh: &Mesh, cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
     sets
 }
 
-/// The same of the constraints that there are.
+/// The ends of the constraints that the cloth has, with their numbers as bits.
 fn found(cloth: &Cloth) -> [BTreeMap<[usize; 2], Vec<u64>>; 2] {
     [cloth.system().stretches(), cloth.system().bends()].map(|family| {
         let mut set: BTreeMap<_, Vec<u64>> = BTreeMap::new();

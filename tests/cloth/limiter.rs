@@ -21,7 +21,7 @@ use crate::random::Random;
 
 const PASSES: [u32; 4] = [1, 2, 5, 20];
 
-/// The limiter with so many passes, none for springs alone.
+/// The limiter with a number of passes; zero for springs alone.
 fn limited(passes_max: u32, rewrites_velocities: bool) -> Provot {
     if passes_max == 0 {
         return Provot::unlimited();

@@ -31,13 +31,14 @@ fn methods() -> [(&'static str, Box<dyn Solver>); 6] {
     ]
 }
 
-/// Links of 100 N/m and a metre in a row, a kilogram at each joint; held at one end, and led away by
-/// so many metres at the other within so many seconds.
+/// Links of 100 N/m and a metre in a row, a kilogram at each joint; held at one end, and led away
+/// by `by_m` metres at the other within `within_s` seconds.
 fn drawn(links: usize, by_m: f64, within_s: f64) -> System {
     weighted(vec![1.0; links + 1], by_m, within_s)
 }
 
-/// The same with these kilograms at the joints.
+/// Links of 100 N/m and a metre in a row, with these kilograms at the joints; held at one end, and
+/// led away at the other.
 fn weighted(masses: Vec<f64>, by_m: f64, within_s: f64) -> System {
     let links = masses.len() - 1;
     let points = (0..=links).map(|i| Point::new(i as f64, 0.0, 0.0));

@@ -1,7 +1,7 @@
 //! A scene pays for what it uses, and for nothing else: by counts, at the defaults of each method.
 
 use tearmesh::{CutMethod, Edits, Plane, Point, Positions, Scissor, Vector};
-use tearmesh_cloth::scene::{Breeze, Frame, Run, Scene};
+use tearmesh_cloth::scene::{Frame, Run, Scene, SwayingWind};
 use tearmesh_cloth::{Bending, Collider, Counters, FeatureVisits, Tearing, Threshold, Wind};
 
 use crate::parts::scenes::{methods, play, staged};
@@ -56,7 +56,7 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
         assert_eq!(passes, (0, 0, 0), "{name}");
 
         let (_, windy) = cost(method, |scene, _| {
-            scene.breeze = Some(Breeze {
+            scene.wind = Some(SwayingWind {
                 steady: Wind {
                     velocity_m_per_s: Vector::z(),
                     coefficient: 1.0,

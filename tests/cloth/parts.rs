@@ -48,7 +48,7 @@ fn falling(gravity_m_per_s2: Vector, drag_per_s: f64) -> Loads {
     }
 }
 
-/// Takes so many steps.
+/// Takes `steps` steps.
 ///
 /// # Panics
 ///
@@ -64,7 +64,8 @@ pub(crate) fn mechanical_j(system: &System) -> f64 {
     energy::elastic_j(system) + energy::kinetic_j(system)
 }
 
-/// The implicit solver with Newton's method taken to so many m/s, in thirty iterations at the most.
+/// The implicit solver with Newton's method taken to a residual in m/s, in thirty iterations at the
+/// most.
 pub(crate) fn implicit(method: Method, tolerance_m_per_s: f64) -> Implicit {
     Implicit::new(Settings {
         method,

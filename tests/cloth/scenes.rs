@@ -4,7 +4,8 @@
 use tearmesh::{Plane, Point, Ray, Vector, VertexId, shapes};
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{
-    Axis, Breeze, Frame, Hold, Method, Names, Quality, Region, Run, RunError, Scene, TimedCut,
+    Axis, Frame, HeldVertices, Method, Names, Quality, Region, Run, RunError, Scene, SwayingWind,
+    TimedCut,
 };
 use tearmesh_cloth::{
     Collider, Limiter, Path, Pbd, StepError, Tearing, Threshold, Wind, Xpbd, energy, force,
@@ -163,7 +164,7 @@ fn a_cut_is_told_of_though_its_step_fails() {
     let mut run = staged(16, |frame| Scene {
         solver: Method::Provot(Limiter::default()),
         step_s: Some(0.0004),
-        holds: vec![Hold::still(Region::Patch {
+        holds: vec![HeldVertices::still(Region::Patch {
             across: [0.0, 1.0],
             along: [1.0, 1.0],
         })],
@@ -246,7 +247,7 @@ fn the_same_scene_gives_the_same_bits() {
 
 #[test]
 fn what_is_held_is_taken_led_and_let_go_in_time() {
-    let hold = Hold {
+    let hold = HeldVertices {
         region: Region::Vertices(vec![VertexId::new(40).expect("an id")]),
         from_s: 0.2,
         until_s: Some(0.6),
@@ -290,9 +291,9 @@ fn copies_of_what_is_held_are_held_and_let_go_with_it() {
     };
     let mut run = staged(8, |frame| Scene {
         duration_s: 0.5,
-        holds: vec![Hold {
+        holds: vec![HeldVertices {
             until_s: Some(0.3),
-            ..Hold::still(Region::Patch {
+            ..HeldVertices::still(Region::Patch {
                 across: [0.0, 1.0],
                 along: [1.0, 1.0],
             })
@@ -327,21 +328,21 @@ fn what_one_hold_lets_go_another_still_holds() {
         across: [0.0, 1.0],
         along: [1.0, 1.0],
     };
-    let for_ever = Hold::still(edge());
-    let led_for_ever = Hold {
+    let for_ever = HeldVertices::still(edge());
+    let led_for_ever = HeldVertices {
         moves: vec![(0.0, Vector::zeros()), (0.5, Vector::new(0.0, 0.0, 0.5))],
         ..for_ever.clone()
     };
-    let for_a_while = Hold {
+    let for_a_while = HeldVertices {
         from_s: 0.1,
         until_s: Some(0.3),
         ..for_ever.clone()
     };
-    let led_for_a_while = Hold {
+    let led_for_a_while = HeldVertices {
         moves: vec![(0.1, Vector::zeros()), (0.2, Vector::new(0.25, 0.0, 0.0))],
         ..for_a_while.clone()
     };
-    let moved = |holds: Vec<Hold>| {
+    let moved = |holds: Vec<HeldVertices>| {
         let mut run = staged(6, |frame| Scene {
             duration_s: 0.6,
             holds: holds.clone(),
@@ -364,17 +365,17 @@ fn what_one_hold_lets_go_another_still_holds() {
         (&led_for_ever, &led_for_a_while, [0.25, 0.0, 0.3]),
     ] {
         for holds in [[one, other], [other, one]] {
-            let moved = moved(holds.map(Hold::clone).to_vec());
+            let moved = moved(holds.map(HeldVertices::clone).to_vec());
             let off = (moved - Vector::from(wanted)).norm();
             assert!(off < 0.02, "{moved:?}, {wanted:?}: {holds:?}");
         }
     }
     // What ends first is no grip of the other's.
-    let soon_over = Hold {
+    let soon_over = HeldVertices {
         until_s: Some(0.2),
         ..for_ever
     };
-    let later = Hold {
+    let later = HeldVertices {
         until_s: None,
         ..led_for_a_while
     };
@@ -387,7 +388,7 @@ fn what_one_hold_lets_go_another_still_holds() {
 
 #[test]
 fn the_wind_sways_as_a_triangle() {
-    let breeze = Breeze {
+    let wind = SwayingWind {
         steady: Wind {
             velocity_m_per_s: Vector::new(5.0, 0.0, 0.0),
             coefficient: 1.0,
@@ -405,7 +406,7 @@ fn the_wind_sways_as_a_triangle() {
         (4.0, 0.0),
         (5.0, 2.0),
     ] {
-        let wind = breeze.at(at_s).velocity_m_per_s;
+        let wind = wind.at(at_s).velocity_m_per_s;
         assert_eq!(wind, Vector::new(5.0, 0.0, sway), "{at_s}");
     }
 }
@@ -474,9 +475,9 @@ fn a_ball_under_a_falling_cloth_is_not_entered() {
 /// every method says what that did to its steps.
 #[test]
 fn methods_say_where_their_steps_fall_short() {
-    let led = |across: [f64; 2], x: f64| Hold {
+    let led = |across: [f64; 2], x: f64| HeldVertices {
         moves: vec![(0.0, Vector::zeros()), (0.5, Vector::new(x, 0.0, 0.0))],
-        ..Hold::still(Region::Patch {
+        ..HeldVertices::still(Region::Patch {
             across,
             along: [0.0, 1.0],
         })
@@ -492,7 +493,7 @@ fn methods_say_where_their_steps_fall_short() {
         let system = run.cloth().system();
         let substeps = system.counters().substeps;
         match (name, run.quality()) {
-            ("provot", Quality::Limited(limited)) => {
+            ("provot", Quality::Limiter(limited)) => {
                 // From a tenth of a second on each row is 1.1 times as long or longer.
                 let short = limited.steps_short;
                 assert!(
@@ -518,12 +519,12 @@ fn methods_say_where_their_steps_fall_short() {
                 assert!(newtons > 1.0, "one sweep does not converge: {newtons}");
                 assert_eq!(newtons, Xpbd::new(1, 1).residual_n(system));
             }
-            ("implicit", Quality::Solved(solved)) => {
+            ("implicit", Quality::Newton(solved)) => {
                 assert_eq!(solved.newton_iterations, run.tally().steps);
                 assert_eq!(solved.halvings, 0);
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
-            ("verlet", Quality::Guarded(guarded)) => {
+            ("verlet", Quality::Guards(guarded)) => {
                 let free = system.inverse_masses().iter().filter(|w| **w > 0.0).count();
                 assert!(10 * guarded.carried <= free, "{guarded:?} of {free}");
                 let lost = -run.energy_balance().made_j();
@@ -613,11 +614,11 @@ fn a_step_of_ones_own_is_refused_where_it_is_unstable() {
 
 /// Wind that is not usable at some time is refused before the first step, and not met in it.
 #[test]
-fn a_breeze_that_is_unusable_later_is_refused_at_once() {
+fn a_wind_that_is_unusable_later_is_refused_at_once() {
     let (mesh, positions) = shapes::grid(2, 2);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let run = |steady: f64, sway: f64, period_s: f64| {
-        let breeze = Breeze {
+        let wind = SwayingWind {
             steady: Wind {
                 velocity_m_per_s: Vector::new(0.0, 0.0, steady),
                 coefficient: 1.0,
@@ -626,7 +627,7 @@ fn a_breeze_that_is_unusable_later_is_refused_at_once() {
             period_s,
         };
         let scene = Scene {
-            breeze: Some(breeze),
+            wind: Some(wind),
             ..Scene::hang(&frame)
         };
         let mut run = Run::new(mesh.clone(), &positions, scene, &frame)?;
@@ -637,15 +638,15 @@ fn a_breeze_that_is_unusable_later_is_refused_at_once() {
     };
     let huge = 1.5e308;
     let cases = [
-        (huge, huge, 1.0, "breeze.sway_m_per_s", huge),
-        (-huge, huge, 1.0, "breeze.sway_m_per_s", huge),
-        (1.0, f64::NAN, 1.0, "breeze.sway_m_per_s", f64::NAN),
-        (1.0, 1.0, 1e-320, "breeze.period_s", 1e-320),
-        (1.0, 1.0, 0.0, "breeze.period_s", 0.0),
-        (1.0, 1.0, -1.0, "breeze.period_s", -1.0),
-        (1.0, 0.0, -1.0, "breeze.period_s", -1.0),
-        (1.0, 1.0, f64::INFINITY, "breeze.period_s", f64::INFINITY),
-        (1.0, 1.0, f64::NAN, "breeze.period_s", f64::NAN),
+        (huge, huge, 1.0, "wind.sway_m_per_s", huge),
+        (-huge, huge, 1.0, "wind.sway_m_per_s", huge),
+        (1.0, f64::NAN, 1.0, "wind.sway_m_per_s", f64::NAN),
+        (1.0, 1.0, 1e-320, "wind.period_s", 1e-320),
+        (1.0, 1.0, 0.0, "wind.period_s", 0.0),
+        (1.0, 1.0, -1.0, "wind.period_s", -1.0),
+        (1.0, 0.0, -1.0, "wind.period_s", -1.0),
+        (1.0, 1.0, f64::INFINITY, "wind.period_s", f64::INFINITY),
+        (1.0, 1.0, f64::NAN, "wind.period_s", f64::NAN),
     ];
     for (steady, sway, period_s, field, given) in cases {
         let error = run(steady, sway, period_s).expect_err("it is refused");

@@ -5,7 +5,9 @@ use std::error::Error as _;
 
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
 use tearmesh_cloth::implicit::{self, Method, Settings, Tolerance};
-use tearmesh_cloth::{Cloth, Culprit, Fabric, Implicit, Path, StepError, System, Verlet, energy};
+use tearmesh_cloth::{
+    BlowUpSite, Cloth, Fabric, Implicit, Path, StepError, System, Verlet, energy,
+};
 
 use crate::parts::cloths::cloth;
 use crate::parts::nets::{chain, row};
@@ -153,7 +155,7 @@ fn a_step_that_misses_its_tolerance_is_no_blow_up() {
     // What is nowhere before the step is a blow-up for every method.
     system.state_mut().0[1].y = f64::NAN;
     let error = system.step(&mut solver, 1e-4).expect_err("not a number");
-    let nowhere = Culprit::Particle(1);
+    let nowhere = BlowUpSite::Particle(1);
     assert!(
         matches!(error, StepError::BlowUp { at, .. } if at == nowhere),
         "{error}"
@@ -324,8 +326,8 @@ fn stretch_beyond_the_limit_is_a_blow_up() {
                 panic!("{name}: {step:?} {verlet:?}");
             };
             let place = |at| match at {
-                Culprit::Constraint { ends, .. } => ends.to_vec(),
-                Culprit::Triangle { corners, .. } => corners.to_vec(),
+                BlowUpSite::Constraint { ends, .. } => ends.to_vec(),
+                BlowUpSite::Triangle { corners, .. } => corners.to_vec(),
                 _ => vec![],
             };
             assert_eq!(place(at), place(other), "{name}");

@@ -3,7 +3,7 @@
 use tearmesh::insert::Plan;
 use tearmesh::{Edit, Edits, FaceId, Masses, Point, Vector, VertexId, shapes, slide, split};
 use tearmesh_cloth::{
-    Cloth, ClothError, Culprit, Fabric, Implicit, Pbd, Provot, Solver, StepError, System,
+    BlowUpSite, Cloth, ClothError, Fabric, Implicit, Pbd, Provot, Solver, StepError, System,
     SystemError, Unstable, Verlet, Weave, Xpbd, energy, frequency, warp_of_texture,
 };
 
@@ -103,9 +103,9 @@ fn a_blow_up_of_triangles_is_noticed_and_the_last_good_state_kept() {
     let Some(StepError::BlowUp { at, .. }) = error else {
         panic!("{error:?}");
     };
-    assert!(!matches!(at, Culprit::Particle(_)), "{at:?}");
+    assert!(!matches!(at, BlowUpSite::Particle(_)), "{at:?}");
 
-    // Without edges to measure a triangle is the culprit.
+    // Without edges to measure the triangle is blamed.
     let mut strip = strip(2, 0.01, 50.0, 0.1, Vector::x() * 0.1);
     strip.when_unstable(Unstable::Allow);
     strip.state_mut().0[4].x = 90.0;

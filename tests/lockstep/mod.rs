@@ -262,7 +262,7 @@ impl Model {
         self.history.push(Told::by(&edit));
     }
 
-    /// The same splits, one by one, make the same mesh.
+    /// Replaying the splits of a cut one by one makes the same mesh.
     fn a_cut_is_made_of_splits(&mut self, world: &World, first: Cursor) {
         assert_eq!(
             first.number(),
@@ -341,7 +341,7 @@ pub(crate) fn nothing_changed(before: &World, after: &World) {
     assert_eq!(told(&after.edits), told(&before.edits), "the log");
 }
 
-/// The same script gives the same bytes.
+/// Running a script twice gives the same bytes.
 pub(crate) fn running_again_gives_the_same_bytes(script: &Script, world: &World) {
     let again = script.run(|_, _| {});
     assert_eq!(again.mesh, world.mesh, "the mesh");

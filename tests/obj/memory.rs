@@ -75,7 +75,7 @@ fn filled(start: &str, mib: usize, mut line: impl FnMut(usize) -> String) -> Vec
 const RECORD: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
     #tearmesh record 1 v 2000000000 f 2000000000 vt 0 0 vn 0 0 faces 0123456789abcdef\n";
 
-/// The same of version 2, which has more kinds of lines.
+/// A triangle, and the first line of a record of version 2, which has more kinds of lines.
 const LATER: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
     #tearmesh record 2 v 2000000000 f 2000000000 vt 9 2000000000 vn 0 0 faces 0123456789abcdef\n";
 

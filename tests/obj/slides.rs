@@ -76,7 +76,7 @@ impl Work<'_> {
     }
 }
 
-/// The same in another session.
+/// The file with every cut sewn and undone, by a session that reads it anew.
 fn undone_later(file: &[u8]) -> String {
     let document = read(file);
     Work::on(&document).undone()
@@ -159,8 +159,8 @@ fn a_slide_is_undone_to_the_bit() {
     }
 }
 
-/// Edits a file in so many sessions, each of which reads what the last one wrote. Whoever writes again
-/// what was read writes the same, and all is undone at last.
+/// Edits a file in several sessions, each of which reads what the previous one wrote. Whoever
+/// writes again what was read writes the same, and all is undone at last.
 fn is_undone_after_sessions(
     name: &str,
     file: &[u8],

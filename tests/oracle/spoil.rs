@@ -198,7 +198,7 @@ fn bisect(surface: &mut Surface, a: u32, b: u32, middle: u32) {
     }
 }
 
-/// A point moved by so many lengths of a vector.
+/// A point moved by a multiple of a vector.
 fn moved(p: [f64; 3], way: [f64; 3], by: f64) -> [f64; 3] {
     [p[0] + by * way[0], p[1] + by * way[1], p[2] + by * way[2]]
 }

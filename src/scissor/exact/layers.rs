@@ -16,27 +16,28 @@ use crate::sets::DisjointSets;
 /// Which layers of the mesh a cut goes through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CutLayers {
-    /// All that the plane meets between the rays.
+    /// All layers that the plane meets between the rays.
     #[default]
     All,
-    /// Those that the rays meet first: the chain of crossed faces with the first hit of the first
-    /// ray, and that with the first hit of the second. Where a ray misses the mesh, it turns and moves
-    /// toward the other until it hits. If they hit different chains, both are cut. A cut by a plane
-    /// has no rays, and goes through all layers.
+    /// The layers that the rays meet first: the chain of crossed faces that the first ray hits
+    /// first, and the chain that the second ray hits first. A ray that misses the mesh is moved and
+    /// turned toward the other until it hits. If the rays hit different chains, both are cut. A cut
+    /// by a plane has no rays, and goes through all layers.
     ///
-    /// Methods that tear along edges tear the faces of these chains, and, at their ends, those in which
-    /// the plane goes on beyond the rays: a layer is cut as if the others were not there, but that no
-    /// vertex is split that belongs to another chain and to none of these.
+    /// Methods that tear along edges tear along the faces of these chains and, at the ends of a
+    /// chain, along the faces in which the plane continues beyond the rays. So a layer is cut as if
+    /// the others were not there, except that a vertex is never split if it belongs only to other
+    /// chains.
     First,
 }
 
 /// Where a ray met a layer that was cut: see [`CutLayers::First`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerHit {
-    /// The place.
+    /// The point at which the ray meets the layer.
     pub at: Point,
-    /// The smallest face of the chain, before the cut: where both rays hit one chain, both name one
-    /// face.
+    /// The face with the smallest id of the chain, before the cut. If both rays hit the same chain,
+    /// both hits have the same face here.
     pub chain: FaceId,
 }
 

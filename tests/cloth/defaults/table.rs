@@ -86,7 +86,7 @@ fn cost_us(sheet: &Sheet, make: Make, dt_s: f64) -> f64 {
     (0..5).map(took).fold(f64::INFINITY, f64::min)
 }
 
-/// Off by so many per cent; `-` where it blew up.
+/// The error in per cent; `-` if the run blew up.
 fn percent(x: f64) -> String {
     match x.is_finite() && x < 1e3 {
         true => format!("{:.1}", 100.0 * x),

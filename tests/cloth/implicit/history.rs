@@ -29,7 +29,7 @@ fn state(system: &System) -> (Vec<Point>, Vec<Vector>) {
     (system.positions().to_vec(), system.velocities().to_vec())
 }
 
-/// The state after some steps by a solver of its own, each of so many seconds.
+/// The state after some steps by a solver of its own, each of a given length in seconds.
 fn alone(system: &System, steps: &[f64]) -> (Vec<Point>, Vec<Vector>) {
     let (mut system, mut solver) = (system.clone(), bdf2());
     for &dt_s in steps {

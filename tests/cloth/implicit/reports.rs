@@ -3,7 +3,7 @@
 
 use super::{Scene, damping, spring, step};
 use tearmesh_cloth::implicit::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
-use tearmesh_cloth::{Culprit, Implicit, System};
+use tearmesh_cloth::{BlowUpSite, Implicit, System};
 
 /// F12: one free particle between two compressed springs, k = 1e3, m = .01, L₀ = .1, l = .095.
 fn squeezed() -> Scene {
@@ -166,10 +166,10 @@ fn steps_that_fail_leave_everything_as_it_was() {
         other => panic!("{other:?}"),
     };
     system.state_mut().0[3].y = f64::NAN;
-    assert_eq!(broken(&mut system, &mut solver), Culprit::Particle(3));
+    assert_eq!(broken(&mut system, &mut solver), BlowUpSite::Particle(3));
     system.state_mut().0[3].y = before.0[3].y;
     system.state_mut().1[4].z = f64::INFINITY;
-    assert_eq!(broken(&mut system, &mut solver), Culprit::Particle(4));
+    assert_eq!(broken(&mut system, &mut solver), BlowUpSite::Particle(4));
     system.state_mut().1[4].z = before.1[4].z;
     assert_eq!(good(&system), before);
     // History too: the next step is what it would have been.

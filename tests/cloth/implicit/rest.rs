@@ -117,8 +117,8 @@ impl Naive {
     }
 }
 
-/// The same scene for both: a sheet of 4 × 4 cells, held at the rim with 2 % pretension, with
-/// springs if asked for.
+/// One scene for both implementations: a sheet of 4 × 4 cells, held at the rim with 2 % pretension,
+/// with springs if asked for.
 fn drape(with_springs: bool) -> (Scene, Naive) {
     let (n, k) = (4u32, [60.0, 40.0, 8.0]);
     let mut scene = Scene::sheet(n, 0.02, k);

@@ -5,8 +5,8 @@ use tearmesh_cloth::{Loads, System, force};
 
 use super::{G, gravity};
 
-/// So many springs in a row, whose particles are `apart` from each other; held at the first. Units:
-/// kg a particle, N/m and metres a spring.
+/// A number of springs in a row, whose particles are `apart` from each other; held at the first.
+/// Units: kg a particle, N/m and metres a spring.
 pub(crate) fn row(springs: usize, mass: f64, stiffness: f64, rest: f64, apart: Vector) -> System {
     let points = (0..=springs).map(|i| Point::origin() + apart * i as f64);
     let mut row = System::new(points, vec![mass; springs + 1]).expect("particles with mass");

@@ -5,7 +5,7 @@ use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
 use tearmesh_cloth::{Limiter, Pbd, Xpbd};
 
-/// A square of one metre in so many cells a side, the diagonals in turn.
+/// A square of one metre with `cells` cells per side and alternating diagonals.
 pub(crate) fn square(cells: u32) -> (Mesh, Positions) {
     shapes::grid_with_diagonals(cells, cells, |i, j| (i + j) % 2 == 0)
 }

@@ -62,7 +62,7 @@ pub(super) fn oscillation(method: &str, z: f64, steps: usize) -> Option<Vec<f64>
     }
 }
 
-/// How far the method falls under 9.81 m/s² in so many steps of Δt, from rest.
+/// How far the method falls under 9.81 m/s² in a number of steps of Δt, from rest.
 pub(super) fn fall(method: &str, dt: f64, steps: usize) -> f64 {
     let (mut x, mut v) = (0.0, 0.0);
     let (mut x_before, mut v_before) = (0.0, 0.0);

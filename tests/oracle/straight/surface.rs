@@ -67,7 +67,7 @@ impl Cut {
         }
     }
 
-    /// The same plane without side planes.
+    /// This cut along its whole plane, without side planes.
     pub(crate) fn through(self) -> Cut {
         let sides = Vec::new();
         Cut { sides, ..self }

@@ -7,23 +7,24 @@ use crate::say::Fault;
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Done.
+    /// The run did what it was asked to do.
     Done = 0,
-    /// Nothing was cut or mended; for `check`, some file is no mesh that could be cut.
+    /// Nothing was cut or mended; for `check`, some file does not hold a mesh that could be cut.
     NothingCut = 1,
-    /// The arguments make no sense.
+    /// The arguments are wrong.
     Usage = 2,
-    /// The input cannot be read, or is no valid mesh; for `check`, some file could not be opened.
+    /// The input cannot be read, or does not hold a valid mesh; for `check`, some file could not be
+    /// opened.
     Input = 3,
     /// The rays span no plane.
     NoPlane = 4,
-    /// The simulation failed; its state up to there was kept.
+    /// The simulation failed. Its state up to that point was kept.
     Simulation = 5,
     /// An invariant broke inside tearmesh: our bug.
     Bug = 6,
     /// The output cannot be written.
     Output = 7,
-    /// Interrupted, after saving what was done.
+    /// The run was interrupted. What had been done was saved.
     Interrupted = 130,
 }
 

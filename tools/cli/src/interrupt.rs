@@ -10,8 +10,9 @@ const IDLE: u8 = 0;
 const RUNNING: u8 = 1;
 const ENDING: u8 = 2;
 
-/// Asks the run to end by itself. False where there is nothing that would: the program is to
-/// [abandon its output](crate::abandon_output) and end. A second time is always that.
+/// Asks the present run to end by itself. Returns false if there is no run that would, or if this
+/// is the second call; the program should then [abandon its output](crate::abandon_output) and
+/// exit.
 #[must_use]
 pub fn interrupt() -> bool {
     let swap = STATE.compare_exchange(RUNNING, ENDING, Ordering::SeqCst, Ordering::SeqCst);

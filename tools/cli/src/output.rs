@@ -110,7 +110,7 @@ pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-/// The same for files that need not exist yet.
+/// Whether two paths name the same file, or would once both files exist.
 pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
     let folders = [a, b].map(folder);
     is_same_file(a, b) || (a.file_name() == b.file_name() && is_same_file(folders[0], folders[1]))

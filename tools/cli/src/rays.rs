@@ -110,7 +110,7 @@ pub(crate) const PAIR_HELP: &str = "write both, as in --rays 0,1,5:0,0,-1 0,-1,5
 pub(crate) const RAY_HELP: &str =
     "write origin:direction as in 0,1,5:0,0,-1, or origin@target as in 0,1,5@0,1,0";
 
-/// What is wrong with so many rays, and what to say where they stand.
+/// The message for a wrong number of rays, and the label for the place where they are given.
 pub(crate) fn miscounted(count: usize) -> (String, &'static str) {
     let (given, label) = match count {
         0 => ("none was given".to_owned(), "two rays missing"),

@@ -291,12 +291,12 @@ pub(crate) struct Energy {
     pub(crate) remainder: Option<f64>,
     /// Where the method made far more than it may: W-SIM-ENERGY.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) gain: Option<Gain>,
+    pub(crate) gain: Option<EnergyGain>,
 }
 
 /// Energy that a method made out of nothing.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Gain {
+pub(crate) struct EnergyGain {
     pub(crate) since_s: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) made_j: Option<f64>,

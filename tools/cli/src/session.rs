@@ -388,7 +388,7 @@ pub(crate) fn masses(made: Result<Masses, MassError>) -> Result<Masses, Stop> {
     made.map_err(|error| Stop::new(Exit::Input, no_masses(&error)))
 }
 
-/// Why there are no masses.
+/// Why masses could not be computed.
 pub(crate) fn no_masses(error: &MassError) -> Fault {
     let fault = Fault::error("E-MASS", error.to_string());
     match error {

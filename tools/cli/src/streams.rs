@@ -1,4 +1,4 @@
-//! The streams of a run, which need not be those of the process.
+//! The input and output streams of a run, which need not be those of the process.
 
 use std::io::{Read, Write};
 

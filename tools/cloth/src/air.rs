@@ -1,5 +1,5 @@
-//! How fast air slows particles, and so how long a step may be that takes it in by the velocities
-//! before.
+//! How fast air slows particles, and the limit that this sets on the step of a method that
+//! evaluates drag or wind at the velocities before the step.
 //!
 //! Wind presses on a face by the mean velocity of its corners, and a third of that acts at each
 //! ([`Wind`](crate::Wind)). So between any two corners of a face of area A and normal n there is
@@ -29,17 +29,17 @@ use tearmesh::geometry::{cross, dot};
 
 use crate::system::System;
 
-/// The largest rate at which air slows a system: a bound, and the particle that sets it.
+/// A bound on the rate at which air slows a system, and the particle that sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirRate {
     /// The rate λ, in 1/s.
     pub rate_per_s: f64,
-    /// The particle.
+    /// The particle that sets the bound.
     pub particle: usize,
 }
 
-/// The largest rate at which wind slows the system with its present areas; `None` where there
-/// is none. A pass over all faces.
+/// The largest rate at which wind slows the system with its present areas; `None` if there is no
+/// wind. A pass over all faces.
 pub fn wind_rate(system: &mut System) -> Option<AirRate> {
     let wind = system.model.loads.wind?;
     let faces = &system.model.faces;

@@ -1,4 +1,5 @@
-//! The balance of energy: where a system's energy came from, where it went, and what is left over.
+//! The energy balance: where a system's energy came from, where it went, and what remains
+//! unaccounted for.
 //!
 //! Motion and strain hold energy; gravity, wind, drag, colliders, edits and those who hold and lead
 //! particles give or take some, and so does the *method*. One that damps loses some; one that makes
@@ -66,7 +67,7 @@ pub(crate) const WIND_S: f64 = 1e-3;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyBalance {
-    /// Kinetic and elastic energy when the balance began.
+    /// The kinetic and elastic energy when the balance began.
     pub began_j: f64,
     /// The kinetic energy of the particles that are not held, now.
     pub kinetic_j: f64,
@@ -74,27 +75,27 @@ pub struct EnergyBalance {
     pub elastic_j: f64,
     /// The work of gravity on all particles.
     pub gravity_j: f64,
-    /// The work of those who hold, lead, and let go.
+    /// The work of the hands that hold, lead and release particles.
     pub held_j: f64,
     /// The work of wind on the particles that are not held.
     pub wind_j: f64,
     /// The work of drag on the particles that are not held: never positive.
     pub drag_j: f64,
-    /// The work of colliders: negative, as an impact is inelastic, but for what pushing a particle
-    /// out stretches or lifts.
+    /// The work of colliders. It is negative, since impacts are inelastic, except for the energy it
+    /// takes to push a particle out against springs or gravity.
     pub colliders_j: f64,
-    /// What edits made: tears and cuts.
+    /// The energy that edits, which are tears and cuts, have made.
     pub edits_j: f64,
-    /// What the method itself made, or took where negative: numerical damping. Each computes it from
-    /// its own steps, and none takes it for what this balance lacks. `None` where it does not say:
-    /// [`Provot`](crate::Provot), whose limiter works without bound as steps get shorter, and methods
-    /// from outside this crate.
+    /// The energy that the method itself made; negative for numerical damping. Each method computes
+    /// it from its own steps, rather than as what this balance lacks. `None` for methods that do
+    /// not compute it: [`Provot`](crate::Provot), whose limiter does unbounded work as steps get
+    /// shorter, and methods from outside this crate.
     pub method_j: Option<f64>,
 }
 
 impl EnergyBalance {
-    /// What was put in: what was there when the balance began, and each part above zero of the work
-    /// of gravity, of those who hold, of wind and of colliders, and of what edits made, in joules.
+    /// The energy that was put in, in joules: the energy at the beginning, plus each positive part
+    /// among the work of gravity, hands, wind and colliders and the energy made by edits.
     #[must_use]
     pub fn put_in_j(&self) -> f64 {
         let outside = [self.gravity_j, self.held_j, self.wind_j];
@@ -102,15 +103,16 @@ impl EnergyBalance {
         parts.fold(self.began_j, |sum, part| sum + part.max(0.0))
     }
 
-    /// What is there and nobody accounts for, or is missing where negative: the rest, in joules.
+    /// The energy that no part of the balance accounts for, in joules; negative if energy is
+    /// missing.
     #[must_use]
     pub fn remainder_j(&self) -> f64 {
         self.made_j() - self.method_j.unwrap_or(0.0)
     }
 
-    /// What nothing outside put in or took, in joules: what the method made, as it says itself, and
-    /// the remainder. Beyond the few per cent by which the energy of an explicit method swings, what
-    /// is made is an error.
+    /// The energy that came from nothing outside, in joules: what the method says that it made,
+    /// plus the remainder. The energy of an explicit method swings by a few per cent. Anything
+    /// beyond that is an error.
     #[must_use]
     pub fn made_j(&self) -> f64 {
         let worked = self.gravity_j + self.held_j + self.wind_j + self.drag_j;
@@ -119,7 +121,7 @@ impl EnergyBalance {
     }
 }
 
-/// Keeps a balance of the energy of a system, from nothing; its cost stands above [`EnergyBalance`].
+/// Keeps the energy balance of a system while it is stepped. [`EnergyBalance`] lists what it costs.
 #[derive(Clone, Debug, Default)]
 pub struct Balance {
     began_j: f64,
@@ -162,8 +164,8 @@ struct Sampled {
 }
 
 impl Balance {
-    /// A balance from now on. The system sums up what its colliders make from then on, which nobody
-    /// outside can see.
+    /// Starts a balance now. From now on the system also sums the work of its colliders, which
+    /// cannot be observed from outside.
     #[must_use]
     pub fn new(system: &mut System) -> Balance {
         Balance {
@@ -174,9 +176,9 @@ impl Balance {
         }
     }
 
-    /// The balance until now. What edits made since it began is known to the cloth
-    /// ([`EnergyLedger::made_j`](crate::EnergyLedger::made_j)), and nothing without a mesh. A pass over
-    /// all constraints.
+    /// The balance up to now. `edits_j` is the energy that edits made since it began:
+    /// [`EnergyLedger::made_j`](crate::EnergyLedger::made_j) of a cloth, and zero for a system
+    /// without a mesh. A pass over all constraints.
     #[must_use]
     pub fn now(&self, system: &System, edits_j: f64) -> EnergyBalance {
         let sums = self.account;
@@ -197,9 +199,9 @@ impl Balance {
         }
     }
 
-    /// Does something to one particle on behalf of those who hold it, and notes what that took: by
-    /// [`System::hold`], [`System::grab`] or [`System::release`]. What is done without this stays in
-    /// the remainder.
+    /// Calls `change`, which holds, grabs or releases one particle ([`System::hold`],
+    /// [`System::grab`], [`System::release`]), and counts the work that this takes. Without this
+    /// call that work ends up in the remainder.
     pub fn handle(
         &mut self,
         system: &mut System,
@@ -212,8 +214,8 @@ impl Balance {
         self.taken = self.account;
     }
 
-    /// Does something after which gravity may be another, by [`System::set_loads`], and counts its
-    /// work from there.
+    /// Calls `change`, which may change gravity ([`System::set_loads`]), and counts the work of the
+    /// new gravity from there on.
     pub fn reload<T>(&mut self, system: &mut System, change: impl FnOnce(&mut System) -> T) -> T {
         self.account.gravity_j += self.potential_j - energy::potential_j(system);
         let done = change(system);

@@ -32,8 +32,8 @@ use tearmesh::geometry::{Vector, dot};
 use crate::element::Slope;
 use crate::pair::{Law, Link};
 
-/// How bends of all lengths give way when they are pushed together: like a spring at first, and then
-/// as an arc (Choi and Ko 2002 §4.2).
+/// The law by which bend constraints yield under compression: like a spring at first, and then as a
+/// buckled arc (Choi and Ko 2002 §4.2).
 ///
 /// What a bend of rest length L is at d, relative to c L and c L², depends on d/L alone and on the
 /// number c L³ / k, which follows from the d/L at which the arc takes over from the spring.
@@ -58,12 +58,12 @@ pub struct Buckling {
 }
 
 impl Buckling {
-    /// The law by which a bend is an arc below this part of its rest length, and above it gives
-    /// way like a spring. The nearer to 1, the stiffer the spring: c L³ / k is
-    /// 4 / (p (1 − d/L)), 247 for 0.95.
+    /// The law by which a bend acts as an arc below this fraction of its rest length, and as a
+    /// spring above it. The nearer to 1, the stiffer the spring: c L³ / k is 4 / (p (1 − d/L)),
+    /// which is 247 for 0.95.
     ///
-    /// `None` unless the part is below 1 and above 0.592, where c L³ / k is 4π²: a spring that is
-    /// softer would act once more where the ends are near each other.
+    /// `None` unless the fraction is below 1 and above 0.592, where c L³ / k is 4π². A softer
+    /// spring would take over again where the ends are near each other.
     #[must_use]
     pub fn new(buckles_below: f64) -> Option<Buckling> {
         if !(buckles_below > 0.0 && buckles_below < 1.0) {
@@ -81,13 +81,13 @@ impl Buckling {
         })
     }
 
-    /// The part of the rest length below which a bend is an arc.
+    /// The fraction of the rest length below which a bend acts as an arc.
     #[must_use]
     pub fn buckles_below(&self) -> f64 {
         self.below
     }
 
-    /// The stiffness c against compression, in N/m, of a bend of this flexural stiffness k and this
+    /// The stiffness c against compression, in N/m, of a bend with the flexural stiffness k and the
     /// rest length L.
     #[must_use]
     pub fn compression_n_per_m(&self, flexural_n_m2: f64, rest_length_m: f64) -> f64 {

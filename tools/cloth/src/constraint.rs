@@ -1,25 +1,25 @@
 //! Distance constraints between particles, in colours.
 //!
-//! A colour holds constraints no two of which share a particle, one after the other in memory: a
-//! sweep in colour order never waits for the write before it (3.2–3.7 ns a projection where the
-//! order of the mesh takes 16). A new constraint takes the first colour that is free at both of
-//! its ends, so an edit costs the valence of its ends and never a rebuild. With valence d no more
-//! than 2d − 1 colours are needed.
+//! No two constraints of a colour share a particle, and the constraints of a colour are contiguous
+//! in memory. So a sweep in colour order never waits for the previous write (3.2–3.7 ns per
+//! projection, where the order of the mesh takes 16). A new constraint takes the first colour that
+//! is free at both of its ends, so an edit costs the valence of its ends and never a rebuild. With
+//! valence d no more than 2d − 1 colours are needed.
 //!
-//! What is known of each constraint stands here, a column a number, also what a step leaves behind
-//! in it; it stays with the constraint as that comes, goes, or gets another end.
+//! All data of the constraints is stored here in columns, including what a step leaves behind in
+//! them. It stays with its constraint when constraints are added or removed, or get another end.
 
 use std::fmt;
 
 use crate::incidence::Incidence;
 
-/// A constraint of a family. Written `c7`. Stays the same until the constraint is removed;
-/// later constraints may then get it.
+/// The id of a constraint within its family, displayed as `c7`. It is stable until the constraint
+/// is removed; a later constraint may then reuse it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstraintId(pub(crate) u32);
 
 impl ConstraintId {
-    /// The index, for tables beside the constraints.
+    /// The index of this id, for tables beside the constraints.
     #[must_use]
     pub const fn index(self) -> usize {
         self.0 as usize
@@ -38,22 +38,22 @@ impl fmt::Debug for ConstraintId {
     }
 }
 
-/// A spring, or a constraint, between two particles.
+/// A spring between two particles, or a distance constraint for the methods that project.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
-    /// The particles, by index.
+    /// The indices of the two particles.
     pub ends: [usize; 2],
     /// The length at rest, in metres; positive.
     pub rest_length_m: f64,
-    /// The stiffness k, in newtons per metre; positive. The energy is ½ k (l − L)², but for bends
-    /// that buckle: those have it against compression, until they do.
+    /// The stiffness k, in newtons per metre; positive. The energy is ½ k (l − L)². For bends that
+    /// buckle, k is the stiffness against compression before they do.
     pub stiffness_n_per_m: f64,
 }
 
 /// The colour of a free id.
 const NONE: u32 = u32::MAX;
 
-/// A family of constraints over particles 0, 1, 2, …
+/// A family of distance constraints: the stretch constraints of a system, or its bend constraints.
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
     colours: Vec<Colour>,
@@ -127,7 +127,7 @@ impl Constraints {
         self.slots.len() - self.free.len()
     }
 
-    /// Whether there is no constraint.
+    /// Whether there are no constraints.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -149,7 +149,7 @@ impl Constraints {
         self.slot(id).0
     }
 
-    /// A constraint.
+    /// The constraint with this id.
     ///
     /// # Panics
     ///
@@ -171,14 +171,14 @@ impl Constraints {
         (colour != NONE).then(|| self.get(id))
     }
 
-    /// All constraints, in colour order: the order of every sweep.
+    /// The ids of all constraints in colour order, which is the order of every sweep.
     pub fn iter(&self) -> impl Iterator<Item = ConstraintId> + '_ {
         self.colours
             .iter()
             .flat_map(|colour| colour.ids.iter().map(|&id| ConstraintId(id)))
     }
 
-    /// The constraints of a particle.
+    /// The constraints that act on a particle.
     ///
     /// # Panics
     ///
@@ -188,7 +188,7 @@ impl Constraints {
         ids.map(|(id, _)| ConstraintId(id as u32))
     }
 
-    /// The constraint between two particles, if there is one; walks the list of the first.
+    /// The constraint between two particles, if there is one. Walks the list of the first particle.
     #[must_use]
     pub fn between(&self, a: usize, b: usize) -> Option<ConstraintId> {
         self.of(a).find(|&id| self.get(id).ends.contains(&b))
@@ -199,14 +199,16 @@ impl Constraints {
         self.colours.iter().map(Colour::batch)
     }
 
-    /// The same, with what a step left behind.
+    /// The batches of constraints, colour by colour, with what a step left behind in each
+    /// constraint.
     pub(crate) fn batches_remembered(&self) -> impl Iterator<Item = (Batch<'_>, Memories<&[f64]>)> {
         self.colours
             .iter()
             .map(|colour| (colour.batch(), colour.memories()))
     }
 
-    /// The same, with what a step leaves behind.
+    /// Mutable batches of constraints, colour by colour, with what a step leaves behind in each
+    /// constraint.
     pub(crate) fn batches_mut(
         &mut self,
     ) -> impl Iterator<Item = (Batch<'_>, Memories<&mut [f64]>)> {

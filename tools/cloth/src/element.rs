@@ -10,8 +10,8 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::blow_up::Longest;
 use crate::crush::Crush;
-use crate::culprit::Longest;
 use crate::lookout::Lookout;
 use crate::matrix::Hessian;
 
@@ -106,8 +106,8 @@ pub(crate) struct Also<'a, 'v> {
 }
 
 impl<'v> Also<'_, 'v> {
-    /// The same for the next kind. The first is that of stretch constraints, and those alone are looked
-    /// out for.
+    /// This context for the next kind of constraint. The first kind is that of stretch constraints,
+    /// and only they are watched by the lookout.
     pub(crate) fn for_next(&mut self) -> Also<'_, 'v> {
         Also {
             crush: self.crush.as_deref_mut(),

@@ -20,7 +20,7 @@ pub fn kinetic_j(system: &System) -> f64 {
         .sum()
 }
 
-/// The same in one pass over slices.
+/// The kinetic energy of the particles that are not held, in joules, in one pass over slices.
 pub(crate) fn free_kinetic_j(system: &System) -> f64 {
     let model = &system.model;
     let particles = system.velocities.iter().zip(&model.masses);

@@ -1,31 +1,31 @@
-//! What a cloth is made of: springs along edges, triangles, springs or arcs across edges; and what
-//! becomes of them where it tears.
+//! The material of a cloth: springs along edges, triangles, springs or arcs across edges, and what
+//! happens to them where it tears.
 
 use tearmesh::geometry::Vector;
 
 use crate::bend::Buckling;
 use crate::sheet::ClothError;
 
-/// What a cloth is made of, and what becomes of constraints when it tears.
+/// The material of a cloth, and what happens to its constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
-    /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is
-    /// 2/√3 of it. Zero with a [`Weave`]: edges are measured, for
-    /// [`Cloth::overstretched`](crate::Cloth::overstretched), and pull at nothing.
+    /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is 2/√3 times
+    /// that. It may be zero together with a [`Weave`]: edges are then measured, for
+    /// [`Cloth::overstretched`](crate::Cloth::overstretched), but exert no force.
     pub stretch_n_per_m: f64,
     /// Triangles that resist stretch and shear; `None` for none.
     pub weave: Option<Weave>,
-    /// What resists bending, across each interior edge; `None` for nothing.
+    /// What resists bending across each interior edge; `None` for no resistance.
     pub bend: Option<Bending>,
-    /// What a torn edge's two constraints have.
+    /// How the stiffness of a torn edge is divided between its two constraints.
     pub copies: Copies,
-    /// Which bend constraints a split takes away.
+    /// Which bend constraints a split removes.
     pub unbend: Unbend,
 }
 
 impl Fabric {
-    /// A fabric whose edges have this stiffness in N/m, without bending, and with the rules that
-    /// keep energy.
+    /// A fabric whose edges have this stiffness in N/m, without bending resistance, and with the
+    /// rules for tearing that conserve energy.
     #[must_use]
     pub fn new(stretch_n_per_m: f64) -> Fabric {
         Fabric {
@@ -88,7 +88,8 @@ impl Fabric {
     }
 }
 
-/// How triangles resist: `E_u`, `E_v` and G as moduli of the sheet, Poisson's ratio zero.
+/// The moduli with which the triangles of a cloth resist stretch and shear. Poisson's ratio is
+/// zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weave {
     /// The modulus along warp, in N/m; positive.
@@ -97,9 +98,9 @@ pub struct Weave {
     pub weft_n_per_m: f64,
     /// The shear modulus, in N/m; zero or more.
     pub shear_n_per_m: f64,
-    /// The direction of warp in space where the cloth is at rest. In each face it is projected
-    /// onto that; weft is across it. [`Cloth::with_warps`](crate::Cloth::with_warps) has one for
-    /// each face instead.
+    /// The direction of warp in space, for the cloth at rest. It is projected onto each face, and
+    /// weft is perpendicular to it. [`Cloth::with_warps`](crate::Cloth::with_warps) takes a
+    /// direction for each face instead.
     pub warp: Vector,
 }
 
@@ -118,7 +119,7 @@ impl Weave {
     }
 }
 
-/// What resists bending, between the two vertices opposite an interior edge.
+/// The kind of bending resistance between the two vertices opposite an interior edge.
 ///
 /// ```
 /// use tearmesh_cloth::implicit::Settings;
@@ -184,24 +185,24 @@ impl Bending {
     }
 }
 
-/// The stiffness of the two constraints that a torn edge has.
+/// The stiffness of the two constraints that replace a torn edge's one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Copies {
-    /// Half each: a split changes no energy.
+    /// Each has half of the stiffness, so a split does not change the energy.
     #[default]
     Halved,
-    /// All of it each, as in the paper (Souza et al. 2014 §IV-A): a split makes ½ k (l − L)² an
-    /// edge, which the [`EnergyLedger`](crate::EnergyLedger) says.
+    /// Each has the full stiffness, as in the paper (Souza et al. 2014 §IV-A). A split then adds ½
+    /// k (l − L)² per edge, which the [`EnergyLedger`](crate::EnergyLedger) reports.
     Whole,
 }
 
-/// Which bend constraints a split takes away.
+/// Which bend constraints a split removes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unbend {
-    /// Those across the edges that it tears.
+    /// The bend constraints across the edges that the split tears.
     #[default]
     Seam,
-    /// Those, and all of the vertex that is split (Souza et al. 2014 §IV-A). A merge does not bring
-    /// these back.
+    /// The bend constraints across the torn edges, and all bend constraints of the split vertex
+    /// (Souza et al. 2014 §IV-A). A merge does not restore the latter.
     Vertex,
 }

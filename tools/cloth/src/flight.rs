@@ -14,7 +14,7 @@ use crate::system::{Model, System};
 /// What was felt when accelerations were taken.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Felt {
-    /// Whether nothing is stretched beyond all measure.
+    /// Whether no constraint is longer than the system's largest stretch ratio.
     pub(crate) is_sane: bool,
     /// What damping takes in such a step from what is crushed, in joules.
     pub(crate) damped_j: f64,
@@ -22,8 +22,8 @@ pub(crate) struct Felt {
     pub(crate) elastic_j: Option<f64>,
 }
 
-/// Takes the accelerations now, in the state that positions are of, with wind at the velocities of now or at those that were
-/// [`foreseen`](foresee): in a step of so many seconds with the guards of
+/// Takes the accelerations now, in the state that positions are of, with wind at the velocities of
+/// now or at those that were [`foreseen`](foresee): in a step of `dt_s` seconds with the guards of
 /// [`Verlet`](crate::Verlet), or without any.
 pub(crate) fn accelerate(
     system: &mut System,

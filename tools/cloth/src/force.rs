@@ -15,7 +15,8 @@ use crate::constraint::ConstraintId;
 use crate::element::Slope;
 use crate::system::{Family, System};
 
-/// The force in a stretch constraint by its length, k (l − L), in newtons; tension is positive.
+/// The force in a stretch constraint, computed from its length as k (l − L), in newtons. Tension is
+/// positive.
 ///
 /// # Panics
 ///
@@ -28,11 +29,12 @@ pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
         .axial(Family::Stretch, &constraint, &system.positions)[1]
 }
 
-/// The force in a stretch constraint by the method of the last step, in newtons; tension is
-/// positive. By the length for methods with physical stiffness and before any step
-/// ([`tension_n`]), by the multiplier for those that project ([`System::multiplier_n`]), and the sum
-/// of both where a limiter helped the springs. By the length, too, between two that are held where
-/// the method is rigid ([`Pbd`](crate::Pbd)): it moves neither, and has no multiplier.
+/// The force in a stretch constraint as the method of the last step exerted it, in newtons. Tension
+/// is positive. For methods with physical stiffness, and before any step, it is computed from the
+/// length ([`tension_n`]). For methods that project it is the multiplier
+/// ([`System::multiplier_n`]). Where a limiter helped the springs, it is the sum of both. Between
+/// two held particles a rigid method ([`Pbd`](crate::Pbd)) moves neither and has no multiplier, so
+/// the length is used.
 ///
 /// # Panics
 ///
@@ -46,11 +48,11 @@ pub fn force_n(system: &System, id: ConstraintId) -> f64 {
     read.read(|| tension_n(system, id), by_multiplier)
 }
 
-/// The force, in newtons, that whoever holds or leads a particle exerts on it: minus the sum of
-/// the constraints' forces ([`force_n`]), those of triangles, gravity, wind and drag.
-/// Of a grabbed particle that is a force probe; for a free one it is minus the force that
-/// accelerates it, which vanishes at rest. Inertia of a path's corners is not in it, nor are
-/// colliders. Costs the valence; linear with wind.
+/// The force, in newtons, that a hand must exert to hold or lead a particle: minus the sum of the
+/// forces of constraints ([`force_n`]), triangles, gravity, wind and drag. On a grabbed particle it
+/// is a force probe. On a free one it is minus the force that accelerates it, which vanishes at
+/// rest. It excludes colliders, and the inertia at the corners of a path. The cost is proportional
+/// to the valence, and linear in the system if there is wind.
 ///
 /// After a step of a projecting method forces are means over the last substep, which is the
 /// more exact the more sweeps there were.
@@ -81,8 +83,8 @@ pub fn reaction_n(system: &System, particle: usize) -> Vector {
     -(inner_n(system, particle) + wind_n(system, particle) - drag_n)
 }
 
-/// The accelerations of all particles, in m/s², without drag. Counts as a force evaluation. False
-/// where something is stretched beyond all measure ([`System::set_stretch_ratio_max`]).
+/// Computes the accelerations of all particles, in m/s², without drag. Counts as a force
+/// evaluation. Returns false if a constraint is stretched beyond [`System::set_stretch_ratio_max`].
 pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bool {
     accelerations.clear();
     accelerations.resize(system.positions.len(), Vector::zeros());

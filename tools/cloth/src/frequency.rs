@@ -3,9 +3,10 @@
 use crate::spectrum::Frequency;
 use crate::system::System;
 
-/// A bound of ω, in rad/s, that holds in every configuration, or with triangles that shear in the
-/// present one and all that are stretched no more. Linear the first time, then known; with triangles
-/// their stretch is looked at each time.
+/// An upper bound on ω, in rad/s. It holds in every configuration; for a system with triangles that
+/// resist shear, it holds as long as no triangle is stretched more than now. The first call is
+/// linear, and later ones use the stored value, except that the stretch of triangles is checked
+/// each time.
 pub fn bound(system: &mut System) -> f64 {
     let (model, counters) = (&system.model, &mut system.counters);
     system.spectrum.bound(model, &system.positions, counters)
@@ -29,9 +30,10 @@ pub(crate) fn recent(system: &mut System) -> Frequency {
     spectrum.recent_frequency(model, &system.positions, counters)
 }
 
-/// The largest frequency in the present configuration, by power iteration until the residual is at
-/// most `tolerance`, or so many products. From below: the true one is larger by about the residual.
-/// In a state that is not finite it is the bound.
+/// The largest frequency in the present configuration, found by power iteration until the residual
+/// is at most `tolerance`, or for at most `products` matrix products. It is approached from below:
+/// the true frequency is larger by about the residual. In a state that is not finite this is the
+/// bound.
 pub fn measure(system: &mut System, tolerance: f64, products: u32) -> Frequency {
     let (model, counters) = (&system.model, &mut system.counters);
     let (x, spectrum) = (&system.positions, &mut system.spectrum);

@@ -30,7 +30,8 @@ const SHARE: f64 = 0.65;
 /// Δt₀ is chosen for this part of the particles.
 const PERCENTILE: f64 = 0.9;
 
-/// Wind's part of the limit is rounded up to so many parts of it, so that it seldom changes.
+/// The fraction of the limit that wind takes is rounded up to a multiple of one over this number,
+/// so that it seldom changes.
 const PARTS: f64 = 32.0;
 
 /// The products of a measurement at most, and the change at which it ends.

@@ -16,7 +16,7 @@ pub(crate) struct Incidence<const ENDS: usize> {
 }
 
 impl<const ENDS: usize> Incidence<ENDS> {
-    /// No constraint of so many particles.
+    /// Empty lists for `particles` particles.
     pub(crate) fn new(particles: usize) -> Incidence<ENDS> {
         Incidence {
             first: vec![NONE; particles],

@@ -1,11 +1,11 @@
-//! What acts on the particles from outside: gravity, drag, wind and colliders.
+//! The external loads on particles: gravity, drag, wind and colliders.
 //!
 //! Each exists only where it is named, and costs nothing otherwise; [`Counters`](crate::Counters)
 //! prove it.
 
 use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
-/// What acts on the particles. The default is nothing.
+/// The external loads on the particles. The default has none.
 ///
 /// ```
 /// use tearmesh::Vector;
@@ -22,12 +22,12 @@ pub struct Loads {
     pub drag_per_s: Option<f64>,
     /// Wind on the faces. A system without faces feels none.
     pub wind: Option<Wind>,
-    /// What particles cannot enter, in this order.
+    /// The obstacles that particles cannot enter. Contacts are resolved in this order.
     pub colliders: Vec<Collider>,
 }
 
-/// Wind: on a face of area A and normal n that moves at v acts the force
-/// c A (n · (u − v)) n (Provot 1995, §3).
+/// Wind. It exerts the force c A (n · (u − v)) n on a face of area A and normal n that moves at the
+/// velocity v (Provot 1995, §3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wind {
     /// The velocity u of the air, in m/s.
@@ -36,10 +36,11 @@ pub struct Wind {
     pub coefficient: f64,
 }
 
-/// What particles cannot enter. Contact takes the velocity into it, and has no friction.
+/// An obstacle that particles cannot enter. A contact removes the velocity towards the obstacle,
+/// and has no friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Collider {
-    /// The half space behind a plane.
+    /// The half-space behind a plane.
     Plane(Plane),
     /// A ball.
     Sphere {
@@ -142,7 +143,7 @@ impl Collider {
     }
 }
 
-/// The way of a grabbed particle: straight from point to point, at rest before and after.
+/// The path of a grabbed particle: straight from point to point, and at rest before and after.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// When to be where; at least one, ascending.
@@ -150,9 +151,10 @@ pub struct Path {
 }
 
 impl Path {
-    /// The path through these points at these seconds; `None` unless there is one, seconds
-    /// ascend strictly and are finite as is the time between two, and no coordinate is beyond
-    /// [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX). So all that [`Path::at`] says is finite.
+    /// The path through these points at these times in seconds. `None` unless there is at least one
+    /// point, times and the differences between them are finite, times ascend strictly, and no
+    /// coordinate is beyond [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX). So everything that
+    /// [`Path::at`] returns is finite.
     #[must_use]
     pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
         let points: Vec<_> = points.into_iter().collect();
@@ -163,7 +165,7 @@ impl Path {
         (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
     }
 
-    /// Where it is after so many seconds.
+    /// The point of the path at `elapsed_s` seconds.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Point {
         let after = self.points.partition_point(|&(s, _)| s <= elapsed_s);

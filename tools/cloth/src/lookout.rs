@@ -97,7 +97,8 @@ impl Lookout {
         (self.most_in, self.found_in) = (None, None);
     }
 
-    /// Begins to look. What is not longer than so many times its rest length need not be noted.
+    /// Begins to look. Returns the ratio of length to rest length up to which a constraint need not
+    /// be noted.
     pub(crate) fn begin(&mut self) -> f64 {
         self.found.clear();
         self.found_in = self.sight.map(|sight| (sight, self.from));

@@ -121,8 +121,8 @@ impl Account {
         self.fade(system, 0.5 * self.dt_s);
     }
 
-    /// Takes away half of what drag takes from M′ beyond M. The velocity of one end of the step is that of
-    /// the middle, kicked for so many seconds.
+    /// Takes away half of what drag takes from M′ beyond M. The velocity of one end of the step is
+    /// that of the middle, accelerated for `kick_s` seconds.
     fn fade(&mut self, system: &System, kick_s: f64) {
         let drag_per_s = system.model.drag_per_s();
         if let Some(carry) = carried(system).filter(|_| drag_per_s > 0.0) {
@@ -178,7 +178,7 @@ fn swing_j(system: &System, dt_s: f64, square: f64) -> f64 {
     dt_s * dt_s / 8.0 * square - 0.5 * beyond
 }
 
-/// The work of constraints on those who are led, in so many seconds, by their present lengths.
+/// The work of constraints on led particles over `dt_s` seconds, at the present lengths.
 fn hands_j(system: &System, dt_s: f64) -> f64 {
     let led = system.model.grabbed.iter().map(|&(led, _)| led as usize);
     let watts = led.map(|led| {
@@ -252,8 +252,8 @@ impl Motion {
         }
     }
 
-    /// Closes it when the step is taken, whose last substep had so many seconds and left free particles
-    /// this energy, and notes what was made.
+    /// Closes the account when the step is taken, and notes the energy that was made. `dt_s` is the
+    /// length of the last substep, and `free` the energy that it left in free particles.
     pub(crate) fn close(mut self, system: &mut System, dt_s: f64, free: Free) {
         let state = system.next_state();
         let elastic_j = system.elastic_j(state);

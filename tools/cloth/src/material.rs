@@ -1,4 +1,5 @@
-//! Where a face lies in the material: which way warp runs, and the places of its corners.
+//! The place of a face in the flat material: the direction of warp, and the coordinates of its
+//! corners.
 
 use tearmesh::geometry::{Point, Vector, cross, dot, length};
 use tearmesh::{FaceId, VertexId};
@@ -31,10 +32,10 @@ impl Cloth {
     }
 }
 
-/// The direction in which the first coordinate of a texture grows in a triangle: warp, for a
-/// garment that was drawn as flat pieces.
+/// The direction in a triangle in which the first texture coordinate grows. That is warp for a
+/// garment whose texture is its flat pattern.
 ///
-/// `None` where the texture coordinates span no area.
+/// `None` if the texture coordinates span no area.
 ///
 /// ```
 /// use tearmesh::{Point, Vector};

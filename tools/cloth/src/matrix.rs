@@ -22,14 +22,14 @@ impl Block {
     /// The matrix of zeros.
     pub const ZERO: Block = Block([[0.0; 3]; 3]);
 
-    /// `s` times the identity.
+    /// The identity matrix, scaled by `s`.
     #[inline]
     #[must_use]
     pub fn identity_times(s: f64) -> Block {
         Block([[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]])
     }
 
-    /// a bᵀ.
+    /// The outer product a bᵀ.
     #[inline]
     #[must_use]
     pub fn outer(a: Vector, b: Vector) -> Block {
@@ -37,7 +37,7 @@ impl Block {
         Block([row(a.x), row(a.y), row(a.z)])
     }
 
-    /// The transpose.
+    /// The transpose of this matrix.
     #[inline]
     #[must_use]
     pub fn transposed(&self) -> Block {
@@ -49,7 +49,7 @@ impl Block {
         ])
     }
 
-    /// The sum with `s` times another.
+    /// The sum of this matrix and `s` times another.
     #[inline]
     #[must_use]
     pub fn plus(&self, s: f64, other: &Block) -> Block {
@@ -62,7 +62,7 @@ impl Block {
         sum
     }
 
-    /// Times a vector.
+    /// The product of this matrix with a vector.
     #[inline]
     #[must_use]
     pub fn times(&self, v: Vector) -> Vector {
@@ -70,7 +70,7 @@ impl Block {
         Vector::new(row(&self.0[0]), row(&self.0[1]), row(&self.0[2]))
     }
 
-    /// The transpose, times a vector.
+    /// The product of the transpose of this matrix with a vector.
     #[inline]
     #[must_use]
     pub fn transposed_times(&self, v: Vector) -> Vector {
@@ -79,8 +79,8 @@ impl Block {
         Vector::new(column(0), column(1), column(2))
     }
 
-    /// The inverse of a symmetric positive definite block, by Cholesky's factors; `None` where
-    /// a pivot is not positive, which shows that the block is not definite.
+    /// The inverse of a symmetric positive definite block, computed by Cholesky factorisation;
+    /// `None` if a pivot is not positive, which shows that the block is not positive definite.
     #[must_use]
     pub fn inverse_if_definite(&self) -> Option<Block> {
         let m = &self.0;
@@ -127,7 +127,8 @@ pub struct Hessian {
 }
 
 impl Hessian {
-    /// Zeros for so many particles and slots. Keeps its memory.
+    /// Sets the matrix to zero, with room for `particles` particles and `slots` slots. Keeps the
+    /// allocated memory.
     pub fn clear(&mut self, particles: usize, slots: usize) {
         self.diagonal.clear();
         self.diagonal.resize(particles, Block::ZERO);
@@ -155,8 +156,8 @@ impl Hessian {
         &self.off[slot as usize]
     }
 
-    /// Adds what a force along the line between two particles gives: `k` to both blocks on the
-    /// diagonal, −`k` off it. `k` is symmetric.
+    /// Adds the second derivative of a force along the line between two particles: `k` to both
+    /// diagonal blocks, and −`k` off the diagonal. `k` must be symmetric.
     ///
     /// # Panics
     ///
@@ -171,8 +172,8 @@ impl Hessian {
         *sum = sum.plus(-1.0, k);
     }
 
-    /// Adds the block of row `i`, column `j`; on the diagonal where they are equal, where the
-    /// slot is not read.
+    /// Adds a block at row `i`, column `j`. If both are equal, it is added to the diagonal, and
+    /// `slot` is ignored.
     ///
     /// # Panics
     ///
@@ -197,7 +198,7 @@ impl Hessian {
     ///
     /// # Panics
     ///
-    /// If the lengths do not fit.
+    /// If the lengths of the slices do not match the matrix.
     pub fn product(&self, pairs: &[[u32; 2]], x: &[Vector], out: &mut Vec<Vector>) {
         assert!(x.len() == self.diagonal.len(), "one vector a particle");
         assert!(pairs.len() == self.off.len(), "one block a slot");

@@ -28,7 +28,8 @@ pub(crate) struct Energy {
 /// What else is known of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum More {
-    /// By Verlet the swing against its shadow, in joules, for steps of so many seconds.
+    /// For Verlet: the swing against its shadow, in joules, and the step in seconds that it holds
+    /// for.
     Swing { of_s: f64, joules: f64 },
     /// By methods that move by the forces at the end of a step.
     Free(Free),

@@ -3,9 +3,9 @@
 
 use tearmesh::geometry::{Point, Vector, dot};
 
+use crate::blow_up::{BlowUpSite, Longest};
 use crate::constraint::{Batch, Constraint, Constraints};
 use crate::crush::Crush;
-use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Busiest, Element, Forces, Slope};
 use crate::lookout::Lookout;
 use crate::matrix::{Block, Hessian};
@@ -55,19 +55,19 @@ pub(crate) struct Pairs<'a, L> {
     constraints: &'a Constraints,
     law: L,
     /// What a blow-up calls one of these.
-    culprit: fn([usize; 2], f64) -> Culprit,
+    site: fn([usize; 2], f64) -> BlowUpSite,
 }
 
 impl<'a, L: Law> Pairs<'a, L> {
     pub(crate) fn new(
         constraints: &'a Constraints,
         law: L,
-        culprit: fn([usize; 2], f64) -> Culprit,
+        site: fn([usize; 2], f64) -> BlowUpSite,
     ) -> Pairs<'a, L> {
         Pairs {
             constraints,
             law,
-            culprit,
+            site,
         }
     }
 
@@ -138,7 +138,7 @@ fn links<L: Law>(batch: Batch<'_>, law: L) -> impl Iterator<Item = ([usize; 2], 
     named_links(batch, law).map(|(_, ends, rest, link)| (ends, rest, link))
 }
 
-/// The same with their ids.
+/// The links of a family, each with its id.
 fn named_links<L: Law>(
     batch: Batch<'_>,
     law: L,
@@ -237,7 +237,7 @@ impl<L: Law> Element for Pairs<'_, L> {
         for batch in self.constraints.batches() {
             for (ends, rest, _) in links(batch, self.law) {
                 let ratio = length(x, ends) / rest;
-                longest.weigh(ratio, || (self.culprit)(ends, ratio));
+                longest.weigh(ratio, || (self.site)(ends, ratio));
             }
         }
     }

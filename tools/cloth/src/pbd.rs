@@ -1,13 +1,13 @@
 //! Position based dynamics, the second model of the paper.
 //!
-//! Predict, project the constraints so many times, and take as velocity what was moved
-//! (Müller et al. 2007). Its constraints are stable at any step, and so is drag; wind, which is that
-//! of the velocities before, up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)). Never sold as accurate: how
-//! stiff it is depends on the step and on the number of sweeps, and as the step goes to zero there
-//! is no limit. What it converges to with more sweeps is an inextensible net.
-//! [`System::strain_rms`] says how far its lengths are from that, and not where it hangs: pushes act
-//! along the directions that constraints had when they were projected, as those of
-//! [`Xpbd`](crate::Xpbd) do.
+//! Predict positions, project the constraints a fixed number of times, and take the resulting
+//! motion as the velocity (Müller et al. 2007). Its constraints are stable at any step, and so is
+//! drag; wind, which is that of the velocities before, up to λ Δt = 2
+//! ([`wind_rate`](crate::air::wind_rate)). Never sold as accurate: how stiff it is depends on the
+//! step and on the number of sweeps, and as the step goes to zero there is no limit. What it
+//! converges to with more sweeps is an inextensible net. [`System::strain_rms`] says how far its
+//! lengths are from that, and not where it hangs: pushes act along the directions that constraints
+//! had when they were projected, as those of [`Xpbd`](crate::Xpbd) do.
 
 use crate::element::Forces;
 use crate::flight::{finish, finish_metered, force_scale, predict};
@@ -16,16 +16,18 @@ use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
 
-/// Position based dynamics. Stiffness of constraints in N/m plays no part: they are rigid, or as
+/// Position based dynamics. It ignores the stiffness of constraints in N/m: they are rigid, or as
 /// soft as [`Pbd::stiffness`] says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pbd {
-    /// Sweeps over all constraints a step; none counts as one.
+    /// The number of sweeps over all constraints per step. Zero counts as one.
     pub sweeps: u32,
-    /// The part of an error that a step corrects, 0 to 1, whatever the number of
-    /// sweeps: each corrects 1 − (1 − k)^(1/n) (Müller et al. 2007, §3.3).
+    /// The fraction k of an error in a stretch constraint that one step corrects, from 0 to 1. It
+    /// does not depend on the number of sweeps n, since each sweep corrects 1 − (1 − k)^(1/n)
+    /// (Müller et al. 2007, §3.3).
     pub stiffness: f64,
-    /// The same of bend constraints.
+    /// The fraction of an error in a bend constraint that one step corrects, from 0 to 1, whatever
+    /// the number of sweeps.
     pub bend_stiffness: f64,
 }
 
@@ -41,7 +43,7 @@ impl Default for Pbd {
 }
 
 impl Pbd {
-    /// The method with rigid constraints and so many sweeps.
+    /// The method with rigid constraints and `sweeps` sweeps per step.
     #[must_use]
     pub fn new(sweeps: u32) -> Pbd {
         Pbd {

@@ -16,22 +16,25 @@ use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::System;
 
-/// Mass-spring by symplectic Euler, then the limiter. First order; one force evaluation a step;
-/// the springs are stable up to ω Δt = 2, and wind alone up to λ Δt = 2.
+/// Provot's mass-spring model: a step of symplectic Euler, and then a limiter of stretch. It is of
+/// first order and takes one force evaluation per step. Springs are stable up to ω Δt = 2, and wind
+/// alone up to λ Δt = 2.
 #[derive(Clone, Copy, Debug)]
 pub struct Provot {
     limiter: Option<Limiter>,
     report: LimiterReport,
 }
 
-/// How the limiter works.
+/// The settings of Provot's limiter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limiter {
-    /// The longest that a stretch constraint may be, as a multiple of its rest length: 1.1.
+    /// The largest length of a stretch constraint, as a multiple of its rest length. The default is
+    /// 1.1.
     pub stretch_ratio_max: f64,
-    /// The most passes over all constraints: 20.
+    /// The largest number of passes over all constraints. The default is 20.
     pub passes_max: u32,
-    /// Whether velocities are rewritten afterwards: yes, unless one wants to see why.
+    /// Whether velocities are rewritten afterwards. The default is true; without it every step is
+    /// unstable under a load that the limit cannot carry.
     pub rewrites_velocities: bool,
 }
 
@@ -50,14 +53,15 @@ impl Default for Limiter {
 pub struct LimiterReport {
     /// The passes over all constraints, the last of which may have found nothing to do.
     pub passes: u32,
-    /// The largest stretch ratio before: what a tear threshold is held against.
+    /// The largest stretch ratio before limiting, which is what a tearing threshold is compared
+    /// with.
     pub stretch_ratio_before: f64,
-    /// Whether that was above the limit, and so ends were moved.
+    /// Whether a stretch ratio was above the limit, so that ends were moved.
     pub has_shortened: bool,
-    /// What the largest stretch ratio still has above the limit.
+    /// How far the largest stretch ratio is still above the limit afterwards.
     pub excess: f64,
-    /// Whether the passes ran out and the last one took less than a hundredth of
-    /// the excess: held particles are too far apart for the limit.
+    /// Whether the limit cannot be met because held particles are too far apart: the passes ran
+    /// out, and the last one removed less than a hundredth of the excess.
     pub is_infeasible: bool,
 }
 
@@ -77,7 +81,7 @@ impl Provot {
         }
     }
 
-    /// The springs alone.
+    /// The springs without the limiter.
     #[must_use]
     pub fn unlimited() -> Provot {
         Provot {

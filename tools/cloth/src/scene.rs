@@ -13,8 +13,8 @@ mod run;
 pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
-    CutMade, Gain, Guarded, Limited, Names, Quality, Run, RunError, Shortened, Softness, Solved,
-    Step, Tally, suggested_step_s,
+    CutMade, EnergyGain, GuardStats, LimiterStats, Names, NewtonStats, Quality, Run, RunError,
+    RunTally, Softness, StableSteps, Step, suggested_step_s,
 };
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
@@ -31,76 +31,78 @@ use crate::xpbd::Xpbd;
 /// energy is looked at once in it.
 pub const FRAME_S: f64 = 1.0 / 60.0;
 
-/// What shall happen to a cloth.
+/// The plan of a simulation: the fabric, the method, and what happens to the cloth and when.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// How long, in seconds.
+    /// The duration of the scene, in seconds.
     pub duration_s: f64,
-    /// The method.
+    /// The method that advances the cloth.
     pub solver: Method,
-    /// The step in seconds; `None` for one that suits the method, the fabric and the mesh:
+    /// The time step in seconds; `None` for a step that suits the method, the fabric and the mesh:
     /// see [`Run::step_s`](Run::step_s).
     pub step_s: Option<f64>,
-    /// What the cloth is made of.
+    /// The material of the cloth.
     pub fabric: Fabric,
-    /// Its mass for each square metre, in kg/m².
+    /// The mass of the cloth per area, in kg/m².
     pub areal_density_kg_per_m2: f64,
     /// The acceleration of gravity, in m/s².
     pub gravity_m_per_s2: Vector,
     /// The rate at which velocities fade, in 1/s; 0 for none.
     pub drag_per_s: f64,
-    /// Wind, if there is any.
-    pub breeze: Option<Breeze>,
-    /// What the cloth cannot enter.
+    /// The wind, if there is any.
+    pub wind: Option<SwayingWind>,
+    /// The obstacles that the cloth cannot enter.
     pub colliders: Vec<Collider>,
-    /// What is held, and led about.
-    pub holds: Vec<Hold>,
-    /// What is cut, and when; ascending in time.
+    /// The vertices that are held or led.
+    pub holds: Vec<HeldVertices>,
+    /// The cuts, in ascending order of their times.
     pub cuts: Vec<TimedCut>,
-    /// When edges tear by themselves; `None` for never.
+    /// The rule by which edges tear; `None` if they never tear by themselves.
     pub tearing: Option<crate::Tearing>,
-    /// Where vertices bear so many times the threshold; elsewhere 1. The last that holds a vertex
-    /// counts.
+    /// Regions whose vertices bear a multiple of the tearing threshold. The multiple is 1
+    /// elsewhere. The last region that contains a vertex counts.
     pub strengths: Vec<(Region, f64)>,
 }
 
-/// A method to advance a cloth with, and its settings.
+/// A method that advances a cloth, with its settings.
 #[derive(Clone, Debug)]
 pub enum Method {
-    /// [`Provot`](crate::Provot): the tearing rule looks before the limiter does.
+    /// Provot's mass-spring model with its limiter ([`Provot`](crate::Provot)). The tearing rule
+    /// looks at lengths before the limiter changes them.
     Provot(Limiter),
-    /// [`Pbd`].
+    /// Position based dynamics ([`Pbd`]).
     Pbd(Pbd),
-    /// [`Verlet`](crate::Verlet): the default, exact at rest at every step.
+    /// Velocity Verlet with guards ([`Verlet`](crate::Verlet)). This is the default, and exact at
+    /// rest at every step.
     Verlet,
-    /// [`Xpbd`].
+    /// Extended position based dynamics ([`Xpbd`]).
     Xpbd(Xpbd),
-    /// [`Implicit`](crate::Implicit).
+    /// An implicit method ([`Implicit`](crate::Implicit)).
     Implicit(Settings),
 }
 
 impl Method {
-    /// Provot's model as it stands in scenes that say no more of it.
+    /// Provot's model with the settings that scenes use by default.
     #[must_use]
     pub fn provot() -> Method {
         Method::Provot(Limiter::default())
     }
 
-    /// [`Pbd`] as it stands in scenes that say no more of it.
+    /// [`Pbd`] with the settings that scenes use by default.
     #[must_use]
     pub fn pbd() -> Method {
         Method::Pbd(Pbd::default())
     }
 
-    /// [`Xpbd`] as it stands in scenes that say no more of it: a step is one sweep, so that tears are
-    /// looked for after each.
+    /// [`Xpbd`] with the settings that scenes use by default. A step is one sweep, so that tears
+    /// are looked for after each sweep.
     #[must_use]
     pub fn xpbd() -> Method {
         Method::Xpbd(Xpbd::new(1, 1))
     }
 
-    /// [`Implicit`](crate::Implicit) as it stands in scenes that say no more of it: it may err by 0.2 mm/s
-    /// in a step of 1/240 s.
+    /// [`Implicit`](crate::Implicit) with the settings that scenes use by default: an error of at
+    /// most 0.2 mm/s in a step of 1/240 s.
     #[must_use]
     pub fn implicit() -> Method {
         Method::Implicit(Settings {
@@ -110,20 +112,20 @@ impl Method {
     }
 }
 
-/// Wind that may turn to and fro: u(t) = steady + sway · triangle(t / period), where the triangle
-/// wave starts at 0, rises, and stays within −1 … 1.
+/// Wind whose velocity may sway: u(t) = steady + sway · triangle(t / period). The triangle wave
+/// starts at 0, rises, and stays within −1 … 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Breeze {
+pub struct SwayingWind {
     /// The wind without its sway.
     pub steady: Wind,
-    /// The largest addition to its velocity, in m/s; zero for none.
+    /// The largest velocity that the sway adds to the steady wind, in m/s; zero for no sway.
     pub sway_m_per_s: Vector,
-    /// The seconds from one such addition to the next; positive.
+    /// The period of the sway, in seconds; positive.
     pub period_s: f64,
 }
 
-impl Breeze {
-    /// The wind after so many seconds.
+impl SwayingWind {
+    /// The wind at `elapsed_s` seconds.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Wind {
         let phase = elapsed_s / self.period_s;
@@ -145,44 +147,46 @@ impl Breeze {
     /// wind itself: its field, and the number as given.
     pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
         if !(self.period_s > 0.0 && self.period_s.is_finite()) {
-            return Some(("breeze.period_s", self.period_s));
+            return Some(("wind.period_s", self.period_s));
         }
         let parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
         let beyond =
             |(u, sway): &(&f64, &f64)| u.is_finite() && !(u.abs() + sway.abs()).is_finite();
         let mut beyond = parts.filter(beyond);
-        Some(("breeze.sway_m_per_s", *beyond.next()?.1))
+        Some(("wind.sway_m_per_s", *beyond.next()?.1))
     }
 
-    /// Whether it changes with time.
+    /// Whether the wind changes with time.
     #[must_use]
     pub fn sways(&self) -> bool {
         self.sway_m_per_s != Vector::zeros()
     }
 }
 
-/// Vertices that are held, and maybe led about.
+/// A region of vertices that are held in place, or led along a path.
 ///
-/// Where several hold one vertex, the one that took it last leads it. When that lets go, the one
-/// before it holds on: where the vertex then is, or along its own way from there on.
+/// If several of these hold the same vertex, the one that took it last leads it. When that one lets
+/// go, the previous one takes over: it holds the vertex where it then is, or leads it along its own
+/// path from there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hold {
-    /// Which ones, by where they are at rest.
+pub struct HeldVertices {
+    /// The vertices that are held, given by where they are at rest.
     pub region: Region,
-    /// When they are taken, in seconds: where they then are.
+    /// The time, in seconds, at which the vertices are taken, wherever they then are.
     pub from_s: f64,
-    /// When they are let go; `None` for never.
+    /// The time, in seconds, at which the vertices are released; `None` for never.
     pub until_s: Option<f64>,
-    /// How they are led: at these seconds of the simulation they are so far from where they
-    /// were taken, in metres; straight in between. Ascending in time; empty for not at all.
+    /// The path along which the vertices are led: pairs of a time in seconds and an offset in
+    /// metres from where they were taken. Motion is straight between them. Times ascend. Empty for
+    /// vertices that are only held.
     pub moves: Vec<(f64, Vector)>,
 }
 
-impl Hold {
-    /// Vertices that are held where they are, all the time.
+impl HeldVertices {
+    /// Holds the vertices of a region where they are, for the whole scene.
     #[must_use]
-    pub fn still(region: Region) -> Hold {
-        Hold {
+    pub fn still(region: Region) -> HeldVertices {
+        HeldVertices {
             region,
             from_s: 0.0,
             until_s: None,
@@ -194,42 +198,44 @@ impl Hold {
 /// A part of a cloth, by where it is at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// All within a distance, a part of the [`Frame::size_m`], of the vertex nearest to a
-    /// place, which is given in parts of width and height. With radius 0 just that vertex.
+    /// The vertices within a radius of the vertex that is nearest to a place. The place is given in
+    /// fractions of width and height, and the radius as a fraction of [`Frame::size_m`]. With
+    /// radius 0 it is just that vertex.
     Near {
         /// The place.
         at: [f64; 2],
         /// The distance.
         radius: f64,
     },
-    /// All between these parts of width and height, bounds included.
+    /// The vertices between these fractions of width and height, bounds included.
     Patch {
         /// From left to right.
         across: [f64; 2],
         /// From bottom to top.
         along: [f64; 2],
     },
-    /// All within a box, in metres, bounds included.
+    /// The vertices within a box, in metres, bounds included.
     Box {
         /// The corner with the least coordinates.
         from: Point,
         /// The corner with the greatest.
         to: Point,
     },
-    /// All within a ball, surface included.
+    /// The vertices within a ball, surface included.
     Ball {
         /// The centre.
         centre: Point,
         /// The radius, in metres.
         radius_m: f64,
     },
-    /// These.
+    /// Exactly these vertices.
     Vertices(Vec<VertexId>),
 }
 
 impl Region {
-    /// The vertices of faces in the region, ascending; those named one by one as they are named,
-    /// where the mesh has them.
+    /// The vertices in the region that belong to a face, in ascending order. Vertices of
+    /// [`Region::Vertices`] keep the order in which they are listed, and those that the mesh does
+    /// not have are left out.
     #[must_use]
     pub fn vertices(&self, mesh: &Mesh, points: &[Point], frame: &Frame) -> Vec<VertexId> {
         if let Region::Vertices(named) = self {
@@ -278,15 +284,15 @@ impl Region {
     }
 }
 
-/// A cut at a time, through the cloth as it is then.
+/// A cut at a given time, through the cloth as it is then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimedCut {
-    /// When, in seconds; at 0 the cloth is at rest.
+    /// The time of the cut, in seconds. At 0 the cloth is at rest.
     pub at_s: f64,
-    /// Between which rays.
+    /// The two rays between which the cloth is cut.
     pub rays: [Ray; 2],
-    /// Whether the whole plane cuts, not only what lies between the rays.
+    /// Whether the cloth is cut along the whole plane, and not only between the rays.
     pub through: bool,
-    /// How.
+    /// The method of the cut.
     pub method: tearmesh::CutMethod,
 }

@@ -1,4 +1,4 @@
-//! Cloth: a system made of a mesh, which follows the log while the mesh tears.
+//! A cloth: a system that is made from a mesh, and follows the mesh's log while the mesh tears.
 
 mod error;
 
@@ -15,35 +15,38 @@ use crate::solver::{Solver, StepError, StepReport};
 use crate::step::Observer;
 use crate::system::System;
 
-/// The energy that edits have made (or, negative, taken), in joules.
+/// The energy that edits have made, in joules; negative where they have taken some.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
-    /// Elastic energy by splits: copies by the paper's rule, less what bend constraints held.
+    /// Elastic energy made by splits: that of full-stiffness copies by the paper's rule, less what
+    /// removed bend constraints held.
     pub split_elastic_j: f64,
-    /// Elastic energy by insertions: new edges inside strained faces. The parts of a divided
-    /// edge hold what it held, as those of a divided triangle do.
+    /// Elastic energy made by insertions: that of new edges inside strained faces. The parts of a
+    /// divided edge or triangle together hold what the whole held.
     pub insert_elastic_j: f64,
-    /// Kinetic energy by insertions: velocities are interpolated, so momentum stays and
-    /// differences between corners are partly lost.
+    /// Kinetic energy made by insertions. Velocities are interpolated, so momentum is conserved,
+    /// but differences between corners are partly lost.
     pub insert_kinetic_j: f64,
-    /// Elastic energy by merges.
+    /// Elastic energy made by merges.
     pub merge_elastic_j: f64,
-    /// Kinetic energy by merges: two particles become one, as in an inelastic impact.
+    /// Kinetic energy made by merges. It is negative, since two particles become one as in an
+    /// inelastic impact.
     pub merge_kinetic_j: f64,
-    /// Elastic energy by slides.
+    /// Elastic energy made by slides.
     pub slide_elastic_j: f64,
-    /// The potential of gravity by merges and slides, which move weight; in no sum of the others.
+    /// Potential energy of gravity made by merges and slides, which move weight. It is not part of
+    /// the other fields.
     pub gravity_j: f64,
 }
 
 impl EnergyLedger {
-    /// All that was made, in gravity's potential too.
+    /// All energy that edits made, including the potential energy of gravity.
     #[must_use]
     pub fn made_j(&self) -> f64 {
         self.total_j() + self.gravity_j
     }
 
-    /// All elastic and kinetic energy that was made.
+    /// All elastic and kinetic energy that edits made.
     #[must_use]
     pub fn total_j(&self) -> f64 {
         self.split_elastic_j
@@ -132,7 +135,7 @@ pub struct Cloth {
 pub(super) const NO_BEND: ConstraintId = ConstraintId(u32::MAX);
 
 impl Cloth {
-    /// A cloth at rest where the mesh is now. Linear.
+    /// Makes a cloth whose rest state is the mesh as it is now. Linear.
     ///
     /// A vertex without a face stays where it is. Where the faces of a vertex have no mass, which
     /// happens to pieces of a face without area, its particle weighs a unit ([`Masses::unit`]).
@@ -155,9 +158,10 @@ impl Cloth {
         Cloth::with_warps(mesh, positions, masses, fabric, Vec::new())
     }
 
-    /// The same with the direction of warp for each face, in space where the cloth is at rest: for
-    /// garments, whose texture coordinates have it ([`warp_of_texture`](crate::warp_of_texture)).
-    /// It takes the place of [`Weave::warp`](crate::Weave::warp); children of a face inherit it.
+    /// Makes a cloth as [`Cloth::new`] does, with a direction of warp for each face, in space, for
+    /// the cloth at rest. This is for garments whose texture coordinates give that direction
+    /// ([`warp_of_texture`](crate::warp_of_texture)). It replaces
+    /// [`Weave::warp`](crate::Weave::warp), and children of a divided face inherit it.
     ///
     /// # Errors
     ///
@@ -252,7 +256,7 @@ impl Cloth {
         }
     }
 
-    /// Takes the cloth for that of the mesh at this place in its log.
+    /// Declares that this cloth belongs to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(mut self, seen: Cursor) -> Cloth {
         self.masses = self.masses.starting_at(seen);
@@ -261,7 +265,7 @@ impl Cloth {
         self
     }
 
-    /// Up to where the cloth has seen the log of the mesh.
+    /// The place in the mesh's log up to which edits have been replayed on this cloth.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
@@ -300,32 +304,32 @@ impl Cloth {
         &self.system
     }
 
-    /// The same, to be changed: loads, pins, velocities.
+    /// Mutable access to the particles and constraints, for setting loads, pins and velocities.
     #[must_use]
     pub fn system_mut(&mut self) -> &mut System {
         &mut self.system
     }
 
-    /// Where the vertices are, in metres: a [`Place`].
+    /// The positions of the vertices, in metres. The slice is a [`Place`].
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         self.system.positions()
     }
 
-    /// Where the vertices are at rest, which says how long constraints are.
+    /// The positions of the vertices at rest, which give the rest lengths of constraints.
     #[must_use]
     pub fn rest_positions(&self) -> &Positions {
         &self.rest
     }
 
-    /// The exact masses.
+    /// The exact masses of the vertices.
     #[must_use]
     pub fn masses(&self) -> &Masses {
         &self.masses
     }
 
-    /// The mass of a vertex in kilograms, or `None` for one that is held: what the choice of
-    /// the vertex to split needs (Souza et al. 2014 §III-A).
+    /// The mass of a vertex in kilograms, or `None` for a held vertex. The choice of the vertex to
+    /// split depends on it (Souza et al. 2014 §III-A).
     ///
     /// # Panics
     ///
@@ -341,8 +345,9 @@ impl Cloth {
         &self.system.model.faces
     }
 
-    /// Writes the positions from vertex number `start` on, rounded to `f32`: a vertex buffer, or
-    /// with `start` above 0 the tail that splits added. Clears what the buffer held.
+    /// Writes the positions of the vertices from index `start` on, rounded to `f32`, into a buffer
+    /// that is cleared first. With `start` = 0 this is a whole vertex buffer, and otherwise the
+    /// tail that splits added.
     ///
     /// # Panics
     ///
@@ -353,8 +358,7 @@ impl Cloth {
         buffer.extend(tail.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]));
     }
 
-    /// The stretch constraint of an edge, by either of its half-edges. Its ratio, tension and
-    /// multiplier are those of [`System::stretch_ratio`] and so on.
+    /// The stretch constraint of an edge, given as either of its half-edges.
     ///
     /// # Panics
     ///
@@ -364,11 +368,11 @@ impl Cloth {
         self.stretch_of[h.index()]
     }
 
-    /// A half-edge of the edge of a stretch constraint.
+    /// A half-edge of the edge that a stretch constraint belongs to.
     ///
     /// # Panics
     ///
-    /// If the constraint is none of an edge.
+    /// If the constraint does not belong to an edge.
     #[must_use]
     pub fn edge(&self, id: ConstraintId) -> HalfEdgeId {
         self.edge_of[id.index()]
@@ -384,7 +388,7 @@ impl Cloth {
         })
     }
 
-    /// The energy that edits have made.
+    /// The energy that edits of the mesh have made.
     #[must_use]
     pub fn ledger(&self) -> EnergyLedger {
         self.ledger

@@ -1,9 +1,10 @@
-//! What every solver shares: the trait, and what a step says of itself, taken or not.
+//! The trait that every solver implements, the report of a step that was taken, and the error of
+//! one that was not.
 
 use std::fmt;
 
 use crate::air::AirRate;
-use crate::culprit::Culprit;
+use crate::blow_up::BlowUpSite;
 use crate::digits::Digits;
 use crate::implicit;
 use crate::spectrum::Frequency;
@@ -64,34 +65,33 @@ impl<S: Solver + ?Sized> Solver for &mut S {
     }
 }
 
-/// What a method can, and up to where it is stable. By default it is so at any step, and knows springs
-/// alone.
+/// What a method supports, and up to which step it is stable. By default it is stable at any step,
+/// and supports springs only.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Abilities {
-    /// The largest ω Δt at which the method is stable; `None` where there is none.
+    /// The largest ω Δt at which the method is stable; `None` if there is no limit.
     pub frequency_limit: Option<f64>,
-    /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which air
-    /// slows the system that the method takes in by the velocities before a step: that of wind
+    /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which
+    /// air slows the system that the method takes in by the velocities before a step: that of wind
     /// ([`wind_rate`](crate::air::wind_rate)), and of drag where it
-    /// [`takes_drag_explicitly`](Abilities::takes_drag_explicitly). `None` where there is none.
+    /// [`takes_drag_explicitly`](Abilities::takes_drag_explicitly). `None` if there is no limit.
     pub air_limit: Option<f64>,
     /// Whether the method takes in drag by the velocities before a step, so that its rate counts for
     /// [`air_limit`](Abilities::air_limit).
     pub takes_drag_explicitly: bool,
-    /// Whether the method has particles that are too light for a step carried by their neighbours, so
-    /// that [`suited_step_s`](crate::suited_step_s) says how long steps may be, and not the largest
-    /// frequency.
+    /// Whether neighbours carry the particles that are too light for a step, so that
+    /// [`suited_step_s`](crate::suited_step_s) limits the step rather than the largest frequency.
     pub carries_light: bool,
-    /// Whether the method takes in the forces of [`System::triangles`]. One that does not is refused
-    /// where there are any.
+    /// Whether the method supports the forces of [`System::triangles`]. A method that does not is
+    /// refused if the system has triangles.
     pub takes_triangles: bool,
-    /// Whether the method takes in the forces of bends that buckle, where [`System::set_buckling`]
-    /// says that they do. One that does not is refused then.
+    /// Whether the method supports bends that buckle ([`System::set_buckling`]). A method that does
+    /// not is refused if bends buckle.
     pub takes_buckling: bool,
 }
 
 impl Abilities {
-    /// Those of a method that takes in all forces, and is stable up to these limits.
+    /// The abilities of a method that supports all forces and is stable up to these limits.
     #[must_use]
     pub fn of_forces(frequency_limit: Option<f64>, air_limit: f64) -> Abilities {
         Abilities {
@@ -104,14 +104,14 @@ impl Abilities {
     }
 }
 
-/// A setting that a method cannot be used with.
+/// A setting with a value that a method cannot use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SettingError {
     /// The name of the setting.
     pub setting: &'static str,
-    /// The number as given.
+    /// The value that was given.
     pub given: f64,
-    /// The numbers that it may have.
+    /// The values that are allowed, in words.
     pub allowed: &'static str,
 }
 
@@ -148,9 +148,9 @@ impl std::error::Error for SettingError {}
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
-    /// Something grew beyond all measure, or is not a number.
+    /// A number is not finite, or a constraint or a velocity is far too large.
     BlowUp,
-    /// An implicit method found no state that solves its equation as exactly as it is to.
+    /// An implicit method found no state that solves its equation within the tolerance.
     Implicit(implicit::StepError),
 }
 
@@ -161,11 +161,11 @@ impl Failure {
     }
 }
 
-/// A step that was taken.
+/// The report of a step that was taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport {
-    /// The substeps that the watch over stability took it in: 1 unless
-    /// [`Unstable::Substep`](crate::Unstable::Substep).
+    /// The number of substeps into which the stability check divided the step: 1 unless
+    /// [`Unstable::Substep`](crate::Unstable::Substep) is set.
     pub substeps: u32,
     /// The largest step in seconds that would have been admitted whole, by the bound or by the
     /// measured frequency, whichever decided; `None` where nothing had to be asked.
@@ -183,19 +183,19 @@ pub enum StepError {
         /// The step as given.
         given_s: f64,
     },
-    /// The method, or the system, has a setting that cannot be used.
+    /// The method or the system has a setting with an unusable value.
     Setting(SettingError),
-    /// The method knows springs alone, and would leave the triangles without force.
+    /// The method supports springs only, and would ignore the triangles of the system.
     Triangles {
         /// How many there are.
         count: usize,
     },
-    /// The method knows springs alone, and would take bends that buckle for such.
+    /// The method supports springs only, and would treat bends that buckle as springs.
     Buckling {
         /// How many there are.
         count: usize,
     },
-    /// An explicit method would be unstable, by its springs more than by the air.
+    /// An explicit method would be unstable, because of springs more than of air.
     Unstable {
         /// The step as given.
         given_s: f64,
@@ -204,8 +204,8 @@ pub enum StepError {
         /// The frequency that sets it.
         frequency: Frequency,
     },
-    /// The air would make a method unstable that takes it in by the velocities before: alone, or
-    /// more so than the springs.
+    /// A method that evaluates drag or wind at the velocities before the step would be unstable,
+    /// because of air more than of springs.
     Air {
         /// The step as given.
         given_s: f64,
@@ -214,21 +214,21 @@ pub enum StepError {
         /// The rate that sets it.
         rate: AirRate,
     },
-    /// It would take more substeps than [`StepError::SUBSTEPS_MAX`].
+    /// The step would need more substeps than [`StepError::SUBSTEPS_MAX`].
     Substeps {
         /// The step as given.
         given_s: f64,
         /// The largest step that is admitted, the margin included.
         limit_s: f64,
     },
-    /// Something grew beyond all measure, or is not a number.
+    /// A number is not finite, or a constraint or a velocity is far too large.
     BlowUp {
         /// The seconds simulated until the last good state, where the system still is.
         elapsed_s: f64,
-        /// The first particle that is not finite, or the constraint or triangle that is
-        /// longest for its rest length, where the step began or where it was given up: before
-        /// constraints that are beyond all measure are projected or limited.
-        at: Culprit,
+        /// The first particle that is not finite, or the constraint or triangle that is longest for
+        /// its rest length, where the step began or where it was given up: before constraints that
+        /// are stretched beyond the largest ratio are projected or limited.
+        at: BlowUpSite,
     },
     /// An implicit method found no state that solves its equation as exactly as its
     /// [`Settings`](implicit::Settings) say: no blow-up. A shorter step helps, and so do more of

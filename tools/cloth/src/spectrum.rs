@@ -38,10 +38,11 @@ use crate::system::{Counters, Model};
 pub struct Frequency {
     /// The angular frequency ω, in rad/s.
     pub omega_rad_per_s: f64,
-    /// How well ω² and the vector fit: |M⁻¹ K u − ω² u| / ω², weighed by mass. 1 where nothing could
-    /// be measured, as in a state that is not finite: ω is the bound then.
+    /// The relative residual of the eigenvalue ω² and its vector u: |M⁻¹ K u − ω² u| / ω², weighted
+    /// by mass. It is 1 if nothing could be measured, as in a state that is not finite; ω is the
+    /// bound then.
     pub residual: f64,
-    /// The particles of the constraint that moves most in it, by energy.
+    /// The particles of the constraint that has the most energy in this mode.
     pub ends: Option<[usize; 2]>,
 }
 
@@ -209,7 +210,7 @@ impl Spectrum {
     }
 
     /// The largest frequency in the present configuration, measured until the residual is at most
-    /// `tolerance`, or by so many products.
+    /// `tolerance`, or for at most `products` products.
     pub(crate) fn measure(
         &mut self,
         model: &Model,

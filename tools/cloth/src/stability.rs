@@ -1,4 +1,4 @@
-//! How long a step may be: the watch over explicit methods, by springs and air.
+//! The stability limit of a step of an explicit method, given by springs and air.
 
 use crate::air::{self, AirRate};
 use crate::frequency;
@@ -32,7 +32,8 @@ pub(crate) fn admit(
     }
 }
 
-/// The same by the springs, the cheap answer first; the share of the air shortens either.
+/// How many substeps a step takes because of the springs. The cheap bound is tried first. The share
+/// of the air shortens either limit.
 ///
 /// The bound holds wherever the particles go. A measured frequency is that of one
 /// configuration: springs that turn toward each other at a light particle can raise it to the
@@ -76,7 +77,7 @@ fn refused(
 }
 
 /// How many substeps a step takes with light particles carried: none up to twice the one that
-/// suits, and those that suit beyond; and so many more as it takes where that is not stable.
+/// suits, and beyond that as many as make each substep suit, or more if those would not be stable.
 fn admit_carried(
     system: &mut System,
     air: Option<AirShare>,
@@ -105,19 +106,19 @@ fn admit_carried(
     })
 }
 
-/// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which no more than a
-/// tenth of the particles have to be carried by their neighbours. A step of up to twice that is
-/// admitted whole. Springs alone, with triangles as they are stretched now; infinite where there
-/// are none. While a mesh is cut and torn it gets no shorter: what is light then is carried. A
-/// pass over all constraints where something has changed.
+/// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which at most a tenth
+/// of the particles must be carried by their neighbours. A step of up to twice that is taken whole.
+/// It considers springs, and triangles as they are stretched now; it is infinite if there are none.
+/// Cuts and tears do not shorten it, since particles that become light are carried. A pass over all
+/// constraints if something has changed.
 pub fn suited_step_s(system: &mut System) -> f64 {
     let (model, counters) = (&system.model, &mut system.counters);
     let reach = system.spectrum.reach(model, &system.positions, counters);
     system.guard.suited_s(model, reach)
 }
 
-/// How many particles were carried by their neighbours in the last step of
-/// [`Verlet`](crate::Verlet): those that are too light for it.
+/// The number of particles that were too light for the last step of [`Verlet`](crate::Verlet), and
+/// so were carried by their neighbours.
 #[must_use]
 pub fn carried_count(system: &System) -> usize {
     system.guard.carry().len()
@@ -140,7 +141,7 @@ fn is_sound(system: &mut System, dt_s: f64) -> bool {
     system.guard.is_sound(&system.model, &mut system.counters)
 }
 
-/// The same by the air alone.
+/// How many substeps a step takes because of the air alone.
 fn admit_air(system: &System, air: AirShare, dt_s: f64) -> Result<StepReport, StepError> {
     let limit_s = with_air(f64::INFINITY, Some(air));
     if dt_s <= limit_s || system.unstable == Unstable::Substep {
@@ -149,15 +150,17 @@ fn admit_air(system: &System, air: AirShare, dt_s: f64) -> Result<StepReport, St
     Err(air.refused(dt_s, limit_s))
 }
 
-/// The largest step in seconds that the watch admits whole in the present configuration, for
-/// a method with this limit of ω Δt: 2 for [`Verlet`](crate::Verlet). Measures the frequency.
-/// Springs alone: what wind takes of it is [`Abilities::air_limit`](crate::Abilities::air_limit) by [`wind_rate`](air::wind_rate).
+/// The largest step in seconds that is taken whole in the present configuration by a method with
+/// this limit of ω Δt, which is 2 for [`Verlet::plain`](crate::Verlet::plain). Measures the
+/// frequency. It considers springs alone; wind shortens the step further, as
+/// [`Abilities::air_limit`](crate::Abilities::air_limit) and [`wind_rate`](air::wind_rate) say.
 pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
     let bound_s = frequency_limit / frequency::bound(system);
     (system.margin * frequency_limit / frequency::largest(system).omega_rad_per_s).max(bound_s)
 }
 
-/// The same for this method with the air that blows now; `None` where nothing limits it.
+/// The largest step that is taken whole by this method with the present wind; `None` if nothing
+/// limits it.
 pub(crate) fn whole_step_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
     let abilities = solver.abilities();
     if abilities.carries_light {

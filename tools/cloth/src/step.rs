@@ -1,18 +1,19 @@
-//! One step of a system, and the way back.
+//! Advances a system by one step, or restores it if the step fails.
 //!
-//! [`System::step`] is the one way to advance. It asks the stability limit of an explicit method
-//! before, looks for blow-up after, and leaves the last good state where something failed.
+//! [`System::step`] is the only way to advance a system. It checks the stability limit of an
+//! explicit method before the step and looks for blow-up after it. If anything fails, the last good
+//! state is kept.
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
+use crate::blow_up::BlowUpSite;
 use crate::contact;
-use crate::culprit::Culprit;
 use crate::moment::Moment;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
 use crate::system::{Model, System};
 
-/// Who looks at a system before and after each substep, from outside.
+/// An observer that sees a system before and after each substep.
 pub trait Observer {
     /// A substep is about to be taken; who is led has got the velocity for it.
     fn before(&mut self, system: &System);
@@ -40,16 +41,17 @@ impl Observer for () {
     fn ended(&mut self, _: bool) {}
 }
 
-/// A substep that was taken.
+/// The report of a substep that was taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Substep {
-    /// Its length, in seconds.
+    /// The length of the substep, in seconds.
     pub dt_s: f64,
-    /// Whether the method moved particles by the forces at its end, as those do that have no stability
-    /// limit.
+    /// Whether the method moved particles by the forces at the end of the substep, as methods
+    /// without a stability limit do.
     pub moves_at_end: bool,
-    /// What the method itself made of energy in it, or took where negative, in joules; with what it
-    /// took from wind. `None` where the method does not say, or [nobody asked](Observer::meters).
+    /// The energy that the method itself made in the substep, in joules, including its error in the
+    /// work of wind; negative if it took some. `None` if the method does not compute it, or if [no
+    /// observer wants it](Observer::meters).
     pub made_j: Option<f64>,
 }
 
@@ -68,11 +70,12 @@ impl System {
         self.step_observed(solver, dt_s, &mut ())
     }
 
-    /// Advances the system by `dt_s` seconds under the eyes of an observer, as [`Balance`](crate::Balance)'s.
+    /// Advances the system by `dt_s` seconds, and shows each substep to an observer such as a
+    /// [`Balance`](crate::Balance).
     ///
     /// # Errors
     ///
-    /// Those of [`System::step`].
+    /// The errors of [`System::step`].
     pub fn step_observed(
         &mut self,
         solver: &mut (impl Solver + ?Sized),
@@ -167,7 +170,7 @@ fn unless_broken(system: &System, error: StepError) -> StepError {
     }
     StepError::BlowUp {
         elapsed_s: system.elapsed_s,
-        at: culprit(&system.model, &[(&system.positions, &system.velocities)]),
+        at: blow_up_site(&system.model, &[(&system.positions, &system.velocities)]),
     }
 }
 
@@ -205,38 +208,39 @@ fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
 }
 
 /// What is wrong with a step that blew up, by where it began, and where it was given up.
-fn given_up(system: &System) -> Culprit {
+fn given_up(system: &System) -> BlowUpSite {
     let scratch = &system.scratch;
     let began = (&scratch.positions[..], &scratch.velocities[..]);
     let now = (&system.positions[..], &system.velocities[..]);
-    culprit(&system.model, &[began, now])
+    blow_up_site(&system.model, &[began, now])
 }
 
 /// Positions and velocities.
 type State<'a> = (&'a [Point], &'a [Vector]);
 
-/// What is wrong with a step that was given up, by the states that are known of it, the oldest first:
-/// the first particle that is not finite, or the longest constraint beyond all measure, or the first
-/// particle that is, of the first state that has one.
-fn culprit(model: &Model, states: &[State<'_>]) -> Culprit {
+/// What is wrong with a step that was given up, by the states that are known of it, the oldest
+/// first: the first particle that is not finite, or else the longest constraint beyond the largest
+/// stretch ratio, or else the first particle that is too far away or too fast. The first state that
+/// shows any of these counts.
+fn blow_up_site(model: &Model, states: &[State<'_>]) -> BlowUpSite {
     let shown = states.iter().find_map(|&state| {
         let too_long = || model.longest(state.0).beyond(model.stretch_ratio_max);
         let named = broken(state).or_else(too_long);
         named.or_else(|| beyond(state))
     });
     let last = || model.longest(states.last()?.0).beyond(f64::NEG_INFINITY);
-    shown.or_else(last).unwrap_or(Culprit::Unknown)
+    shown.or_else(last).unwrap_or(BlowUpSite::Unknown)
 }
 
-fn broken((positions, velocities): State<'_>) -> Option<Culprit> {
+fn broken((positions, velocities): State<'_>) -> Option<BlowUpSite> {
     let mut particles = positions.iter().zip(velocities);
     let bad = |(p, v): (&Point, &Vector)| !p.iter().chain(v.iter()).all(|x| x.is_finite());
-    particles.position(bad).map(Culprit::Particle)
+    particles.position(bad).map(BlowUpSite::Particle)
 }
 
-fn beyond((positions, velocities): State<'_>) -> Option<Culprit> {
+fn beyond((positions, velocities): State<'_>) -> Option<BlowUpSite> {
     let mut particles = positions.iter().zip(velocities);
     let far =
         |(&p, &v): (&Point, &Vector)| [p, v.into()].map(check_point).iter().any(Result::is_err);
-    particles.position(far).map(Culprit::Beyond)
+    particles.position(far).map(BlowUpSite::Beyond)
 }

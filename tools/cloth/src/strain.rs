@@ -1,4 +1,4 @@
-//! How far a face is stretched: the singular values of its deformation.
+//! The stretch of a face: the singular values of its deformation.
 //!
 //! A face maps its piece of the material, a triangle in the plane with warp along u and weft along
 //! v, into space. The map is affine with the constant derivatives `w_u` and `w_v`; their lengths
@@ -13,10 +13,10 @@ use crate::sheet::Cloth;
 
 impl Cloth {
     /// The largest stretch of a face in any direction, as a multiple of the length at rest: the
-    /// larger singular value of its deformation. 1 at rest, to rounding. What a threshold of
-    /// tearing by strain is held against where there are triangles and no springs.
+    /// larger singular value of its deformation. It is 1 at rest, up to rounding. Thresholds of
+    /// tearing by strain are compared with it if a cloth has triangles and no springs.
     ///
-    /// A face without area at rest is a thread, and has the largest ratio of its edges.
+    /// For a face without area at rest, the result is the largest stretch ratio of its edges.
     ///
     /// # Panics
     ///
@@ -31,13 +31,13 @@ impl Cloth {
     }
 
     /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
-    /// lengths at rest: for thresholds apart from each other. Shear does not enter.
+    /// lengths at rest. This allows separate thresholds for warp and weft. Shear does not enter.
     ///
     /// Warp runs where [`Weave::warp`](crate::Weave::warp) or [`Cloth::with_warps`] says, projected
     /// onto the face at rest, and weft across it. Where nothing says, warp runs along the x-axis;
     /// along the y-axis in faces whose normal lies nearer to the x-axis than to the others.
     ///
-    /// A face without area at rest has the largest ratio of its edges, twice.
+    /// For a face without area at rest, both numbers are the largest stretch ratio of its edges.
     ///
     /// # Panics
     ///

@@ -98,25 +98,25 @@ pub(crate) struct Scratch {
     pub(crate) areas: Vec<f64>,
 }
 
-/// What to do with a step beyond the stability limit of an explicit method.
+/// How a system treats a step beyond the stability limit of an explicit method.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unstable {
-    /// Refuse it, with the limit: nothing changes. The limit is that of the present configuration,
-    /// with a margin.
+    /// Refuses the step with an error that names the limit, and changes nothing. The limit is that
+    /// of the present configuration, with a margin.
     #[default]
     Refuse,
-    /// Divide it into as many substeps as are stable by the linear theory in every configuration, and say
-    /// how many. What is crushed can still make energy by a method without guards
-    /// ([`Verlet::plain`](crate::Verlet::plain), [`Provot`](crate::Provot)): springs under compression
-    /// push sideways, which no bound of small motions sees.
+    /// Divides the step into enough substeps to be stable in every configuration by the linear
+    /// theory, and reports how many. Crushed cloth can still make energy with a method that has no
+    /// guards ([`Verlet::plain`](crate::Verlet::plain), [`Provot`](crate::Provot)): springs under
+    /// compression push sideways, which no bound for small motions captures.
     Substep,
-    /// Take it. No frequency is computed; blow-up is still noticed.
+    /// Takes the step. No frequency is computed, but blow-up is still noticed.
     Allow,
 }
 
 impl System {
-    /// Particles at rest at these points, with these masses in kilograms.
+    /// Makes a system of particles at rest at these points, with these masses in kilograms.
     ///
     /// # Errors
     ///
@@ -147,7 +147,7 @@ impl System {
         Ok(system)
     }
 
-    /// The same without any check; particles without mass are held.
+    /// Makes a system without checking its numbers. Particles without mass are held.
     pub(crate) fn with_massless(
         points: impl IntoIterator<Item = Point>,
         masses: Vec<f64>,
@@ -193,8 +193,8 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemError`]: a number is not positive and finite, or the ends are one particle or
-    /// none.
+    /// [`SystemError`]: a number is not positive and finite, or the ends are not two different
+    /// particles.
     ///
     /// # Panics
     ///
@@ -217,7 +217,7 @@ impl System {
     ///
     /// # Panics
     ///
-    /// As [`System::stretch`].
+    /// As for [`System::stretch`].
     pub fn bend(
         &mut self,
         ends: [usize; 2],
@@ -275,7 +275,7 @@ impl System {
     ///
     /// # Panics
     ///
-    /// As [`System::stretch`].
+    /// As for [`System::stretch`].
     pub fn triangle(
         &mut self,
         corners: [usize; 3],
@@ -368,7 +368,7 @@ impl System {
         Ok(())
     }
 
-    /// Takes away a stretch constraint, as where a link of a chain tears. Later constraints may get
+    /// Removes a stretch constraint, as when a link of a chain tears. A later constraint may reuse
     /// its id.
     ///
     /// # Panics
@@ -394,7 +394,7 @@ impl System {
         self.weigh(particle);
     }
 
-    /// Lets a pinned or grabbed particle go.
+    /// Releases a pinned or grabbed particle.
     ///
     /// # Panics
     ///
@@ -405,7 +405,7 @@ impl System {
         self.weigh(particle);
     }
 
-    /// Leads a particle along a path, from where the path is now.
+    /// Leads a particle along a path, starting at the path's present point.
     ///
     /// # Panics
     ///
@@ -427,7 +427,7 @@ impl System {
         self.touched(&[particle]);
     }
 
-    /// Sets what acts from outside.
+    /// Sets the external loads.
     ///
     /// # Errors
     ///
@@ -442,33 +442,33 @@ impl System {
         Ok(())
     }
 
-    /// Says what to do with a step beyond the stability limit. Refusing it is the default.
+    /// Sets how to treat a step beyond the stability limit. The default is to refuse it.
     pub fn when_unstable(&mut self, unstable: Unstable) {
         self.unstable = unstable;
     }
 
-    /// Sets how many times its rest length a constraint may have before the system counts as
-    /// blown up: 100 unless set. PBD stretches a hanging sheet of 64 × 64 cells twelvefold. A step
-    /// refuses one that is not above 0.
+    /// Sets the stretch ratio above which the system counts as blown up. The default is 100. (PBD
+    /// stretches a hanging sheet of 64 × 64 cells twelvefold.) The next step refuses a ratio that
+    /// is not above 0.
     pub fn set_stretch_ratio_max(&mut self, ratio: f64) {
         self.model.stretch_ratio_max = ratio;
     }
 
-    /// Where the particles are, in metres.
+    /// The positions of the particles, in metres.
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         &self.positions
     }
 
-    /// Their velocities, in m/s.
+    /// The velocities of the particles, in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[Vector] {
         &self.velocities
     }
 
-    /// Positions and velocities, to be set. Those that are not finite are noticed by the next
-    /// step. What the last step left behind in constraints ([`force_n`](crate::force::force_n),
-    /// [`System::unlimited_ratio`]) no longer counts.
+    /// Mutable access to positions and velocities. The next step notices values that are not
+    /// finite. What the last step left behind in constraints ([`force_n`](crate::force::force_n),
+    /// [`System::unlimited_ratio`]) is discarded.
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
@@ -478,13 +478,13 @@ impl System {
         (&mut self.positions, &mut self.velocities)
     }
 
-    /// The masses, in kilograms.
+    /// The masses of the particles, in kilograms.
     #[must_use]
     pub fn masses(&self) -> &[f64] {
         &self.model.masses
     }
 
-    /// Their inverses, in 1/kg: zero where a particle is held.
+    /// The inverse masses of the particles, in 1/kg: zero for a held particle.
     #[must_use]
     pub fn inverse_masses(&self) -> &[f64] {
         &self.model.inverse_masses
@@ -524,13 +524,13 @@ impl System {
         self.model.triangles.as_slice()
     }
 
-    /// What acts from outside.
+    /// The external loads.
     #[must_use]
     pub fn loads(&self) -> &Loads {
         &self.model.loads
     }
 
-    /// What has been computed so far.
+    /// Counts of what has been computed so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
         self.counters
@@ -569,8 +569,8 @@ impl System {
     }
 
     /// The force in a stretch constraint by the multiplier of the last step of
-    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is
-    /// positive. Of [`Provot`](crate::Provot), the share of the limiter. Zero before one.
+    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is positive. Of
+    /// [`Provot`](crate::Provot), the share of the limiter. It is zero before the first step.
     ///
     /// # Panics
     ///

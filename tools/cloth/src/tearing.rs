@@ -28,8 +28,8 @@
 //! room.
 //!
 //! How many pieces a cloth tears into depends on the time step, as it does on the mesh: a cascade
-//! is the answer of a method to forces that change faster than it steps. The cap bounds what one
-//! step can do; [`TearReport::cap_hit`] says that it did.
+//! is the answer of a method to forces that change faster than it steps. The cap bounds how much
+//! one step can tear, and [`TearReport::cap_hit`] says whether it was reached.
 //!
 //! ```
 //! use tearmesh_cloth::{Cloth, Fabric, Path, Tear, Tearing, Threshold, Unstable, Verlet};
@@ -75,15 +75,16 @@ use tearmesh::geometry::{Vector, check_point};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Threshold {
-    /// When it is this many times as long as at rest, above 1: the rule of the paper (Souza et
-    /// al. 2014 §III-A). Before Provot's limiter shortens it; by [`Xpbd`](crate::Xpbd), when the force
-    /// of its multiplier would make a spring so long, since the lengths that sweeps leave depend on
-    /// their number and order and the forces at rest do not.
+    /// An edge tears when it is this many times as long as at rest, a number above 1. This is the
+    /// rule of the paper (Souza et al. 2014 §III-A). With Provot's limiter the length before
+    /// limiting counts. With [`Xpbd`](crate::Xpbd) the length counts that a spring would have under
+    /// the force of the multiplier, since the actual lengths depend on the number and order of
+    /// sweeps.
     Stretch(f64),
-    /// The same, with one ratio for edges that run mostly along the warp, which is the direction
-    /// of `axis` at rest, and one for those along the weft. An edge that runs along neither,
-    /// a diagonal (22.5° and more from both), never tears by itself: it stands for
-    /// shear, and shear stiffness tears falsely.
+    /// An edge tears when its length, as a multiple of the rest length, reaches one ratio for edges
+    /// along the warp, which is the direction of `axis` at rest, and another for edges along the
+    /// weft. A diagonal edge, 22.5° or more from both, never tears by itself: it resists shear, and
+    /// shear stiffness tears falsely.
     WarpWeft {
         /// The ratio along the axis.
         warp: f64,
@@ -92,46 +93,47 @@ pub enum Threshold {
         /// The direction of the warp at rest; any length.
         axis: Vector,
     },
-    /// At the strain √(2 G / (E h)) for an energy G per length of tear, in J/m: h is the
-    /// rest length of the edge, and E the modulus of the fabric: its
-    /// [`stretch_n_per_m`](crate::Fabric), the mean of warp and weft of its
-    /// [`Weave`](crate::Weave), or their sum; of a link without a mesh, its own stiffness.
-    /// Then ½ E (l − L)² is G h.
+    /// An edge tears at the strain √(2 G / (E h)), where G is an energy per length of tear, in J/m,
+    /// h the rest length of the edge, and E the modulus of the fabric. E is
+    /// [`stretch_n_per_m`](crate::Fabric), the mean of warp and weft of the
+    /// [`Weave`](crate::Weave), or the sum of both; for a link without a mesh it is its own
+    /// stiffness. At that strain ½ E (l − L)² is G h.
     Toughness(f64),
-    /// When its force reaches this, in newtons, by the method of the last step
-    /// ([`force_n`](crate::force::force_n)). A torn edge's copy of half the
-    /// stiffness bears half of it. For springs: the edges of a [`Weave`](crate::Weave) have no force
-    /// but under a method that projects.
+    /// An edge tears when its force reaches this many newtons, as the method of the last step
+    /// exerted it ([`force_n`](crate::force::force_n)). A copy with half the stiffness bears half
+    /// of that. This is for springs: the edges of a [`Weave`](crate::Weave) have no force, except
+    /// with a method that projects.
     Force(f64),
-    /// When the largest stretch of a face in any direction is this many times that at rest
-    /// ([`Cloth::principal_stretch`](crate::Cloth::principal_stretch)), above 1: for triangles
-    /// rather than springs. The face's most stretched edge is the one that tears.
+    /// A face tears at its most stretched edge when its largest stretch in any direction
+    /// ([`Cloth::principal_stretch`](crate::Cloth::principal_stretch)) reaches this ratio, a number
+    /// above 1. This is for triangles rather than springs.
     PrincipalStretch(f64),
 }
 
 /// How a cloth tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tearing {
-    /// When an edge does.
+    /// The threshold at which an edge tears.
     pub threshold: Threshold,
-    /// At most this many splits a step, the worst first. `None`: no cap.
+    /// The largest number of splits per step, the most overloaded edges first. `None` for no cap.
     pub splits_per_step_max: Option<usize>,
     /// The factor on the strength of the tips of a tear, above 0 and at most 1. Tips are the
     /// vertices to which a split tore links; of those, the one that lies best along the splitting
     /// plane, and the best on the other side where the vertex was whole before. A tip is weak
-    /// against edges that pull across the tear (within 45° at rest), until it is split
-    /// itself. A tear then runs on where it is instead of starting anew elsewhere. `None`:
-    /// tips are as strong as before.
+    /// against edges that pull across the tear (within 45° at rest), until it is split itself. A
+    /// tear then continues where it is instead of starting elsewhere. `None` for tips that are as
+    /// strong as before.
     pub weakening: Option<f64>,
-    /// The seconds that an edge has to stay at or above its threshold. 0: it tears at once.
+    /// The time in seconds for which an edge must stay at or above its threshold before it tears; 0
+    /// for tearing at once.
     pub delay_s: f64,
-    /// Whether vertices that are held may be split; their copies are held too.
+    /// Whether held vertices may be split. Their copies are held too.
     pub tears_held: bool,
 }
 
 impl Tearing {
-    /// Tearing at this threshold as in the paper: at once, without a cap, all tips as strong as
-    /// before, and held vertices holding.
+    /// Tearing at this threshold as in the paper: at once, without a cap, without weakened tips,
+    /// and without splitting held vertices.
     #[must_use]
     pub fn new(threshold: Threshold) -> Tearing {
         Tearing {
@@ -143,11 +145,11 @@ impl Tearing {
         }
     }
 
-    /// Whether all numbers can be used.
+    /// Checks that all numbers are usable.
     ///
     /// # Errors
     ///
-    /// [`TearingError`] names the first that cannot.
+    /// [`TearingError`] names the first number that is not usable.
     pub fn check(&self) -> Result<(), TearingError> {
         let above = |given: f64, limit: f64| {
             if given > limit && given.is_finite() {
@@ -214,14 +216,14 @@ pub enum TearingError {
         /// As given, in seconds.
         given: f64,
     },
-    /// There is not one strength for each vertex.
+    /// The number of strengths differs from the number of vertices.
     Strengths {
         /// The number of strengths.
         given: usize,
         /// The number of vertices.
         vertices: usize,
     },
-    /// A strength is not positive and finite; the first such vertex.
+    /// A strength is not positive and finite. The first such vertex is named.
     Strength {
         /// The index of the vertex.
         vertex: usize,

@@ -27,8 +27,8 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
+use crate::blow_up::{BlowUpSite, Longest};
 use crate::crush::Crush;
-use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Busiest, Element, Forces, Slope};
 use crate::incidence::Incidence;
 use crate::lookout::Lookout;
@@ -37,21 +37,21 @@ use crate::matrix::{Block, Hessian};
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// The three particles.
+    /// The indices of the three particles.
     pub vertices: [u32; 3],
-    /// The inverse of the material matrix: rows by edge (x₁ − x₀, x₂ − x₀), columns u and v;
-    /// in 1/m.
+    /// The inverse of the matrix of the triangle's edges in the material, in 1/m. Rows belong to
+    /// the edges x₁ − x₀ and x₂ − x₀, and columns to u and v.
     pub rest_inverse: [[f64; 2]; 2],
     /// The area at rest, in m².
     pub area: f64,
-    /// Stiffness along u, across v, and in shear, in N/m.
+    /// The stiffness along u, along v, and in shear, in N/m.
     pub stiffness: [f64; 3],
 }
 
 impl Triangle {
-    /// The triangle whose corners have these places in the material, (u, v) in m.
+    /// A triangle whose corners have the coordinates (u, v) in the material, in metres.
     ///
-    /// `None` where they span no area, or a number is not finite.
+    /// `None` if the corners span no area, or a number is not finite.
     ///
     /// ```
     /// use tearmesh_cloth::Triangle;
@@ -106,7 +106,7 @@ impl Triangle {
         [0, 1].map(|c| [-(d[0][c] + d[1][c]), d[0][c], d[1][c]])
     }
 
-    /// `w_u` and `w_v` with the corners at these points.
+    /// The derivatives `w_u` and `w_v` of the deformation, with the corners at these points.
     #[inline]
     #[must_use]
     pub fn derivatives(&self, [x0, x1, x2]: [Point; 3]) -> [Vector; 2] {
@@ -456,7 +456,7 @@ impl Element for Triangles {
         for t in &self.list {
             let derivatives = t.derivatives(t.corners(x));
             let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
-            longest.weigh(stretch_ratio, || Culprit::Triangle {
+            longest.weigh(stretch_ratio, || BlowUpSite::Triangle {
                 corners: t.vertices.map(|v| v as usize),
                 stretch_ratio,
             });

@@ -99,13 +99,14 @@ pub struct Verlet {
 }
 
 impl Verlet {
-    /// The method with its guards.
+    /// Velocity Verlet with its guards.
     #[must_use]
     pub fn new() -> Verlet {
         Verlet::default()
     }
 
-    /// The method of textbooks, without guards: for what is never crushed, and for comparisons.
+    /// Velocity Verlet as in textbooks, without guards: for cloth that is never crushed, and for
+    /// comparisons.
     #[must_use]
     pub fn plain() -> Verlet {
         Verlet {
@@ -114,8 +115,8 @@ impl Verlet {
         }
     }
 
-    /// The energy that damping took from what was crushed in all steps so far, in joules: a part of
-    /// what a balance of energy calls the loss of the method.
+    /// The energy that the damping of crushed constraints has taken in all steps so far, in joules.
+    /// It is a part of what an energy balance reports as made by the method.
     #[must_use]
     pub fn damped_j(&self) -> f64 {
         self.damped_j

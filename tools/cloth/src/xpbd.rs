@@ -26,14 +26,14 @@ use crate::solver::{Abilities, Failure, Solver};
 use crate::spring::{self, Hooke};
 use crate::system::System;
 
-/// XPBD: so many substeps a step, and sweeps a substep. Its constraints are stable at any step, and
-/// so is drag; wind, which is that of the velocities before, up to λ Δt = 2 a substep
+/// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
+/// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
 /// ([`wind_rate`](crate::air::wind_rate)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Xpbd {
-    /// Substeps a step; at least one.
+    /// The number of substeps per step; at least one.
     pub substeps: u32,
-    /// Sweeps over all constraints a substep; at least one, and one is best.
+    /// The number of sweeps over all constraints per substep; at least one, and one is best.
     pub sweeps: u32,
 }
 
@@ -48,7 +48,7 @@ impl Default for Xpbd {
 }
 
 impl Xpbd {
-    /// The method with so many substeps a step, and sweeps a substep.
+    /// The method with these numbers of substeps per step and sweeps per substep.
     #[must_use]
     pub fn new(substeps: u32, sweeps: u32) -> Xpbd {
         Xpbd { substeps, sweeps }
@@ -94,9 +94,9 @@ impl Xpbd {
         true
     }
 
-    /// The largest difference, over all free particles, between the sum of the forces that the
-    /// last substep used and the sum of those that the springs have now, in newtons. Zero
-    /// where the sweeps have converged; costs one force evaluation.
+    /// The largest difference, over all free particles, between the sum of the forces that the last
+    /// substep used and the sum of those that the springs have now, in newtons. It is zero if the
+    /// sweeps have converged. Costs one force evaluation.
     #[must_use]
     pub fn residual_n(&self, system: &System) -> f64 {
         let mut residual = vec![Vector::zeros(); system.positions.len()];

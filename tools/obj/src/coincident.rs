@@ -1,5 +1,5 @@
-//! Boundary edges that lie on each other: what is left of cuts where another program dropped the record,
-//! or of a seam of textures at which one wrote each vertex twice.
+//! Finds boundary edges that lie on each other. They remain of cuts if another program dropped the
+//! record, or of texture seams if a program wrote each vertex there twice.
 
 use std::fmt;
 
@@ -9,8 +9,8 @@ use crate::document::Document;
 use crate::mesh::MeshError;
 use crate::record::{Record, SplitOff, are_last, runs};
 
-/// Pairs of boundary edges with the same two ends, to the bit, that run in opposite directions, and lie
-/// with no third edge: see [`Document::coincident`].
+/// Pairs of boundary edges that have bit-equal ends and run in opposite directions, with no third
+/// edge at the same place: see [`Document::coincident`].
 #[derive(Clone, Debug, Default)]
 pub struct Coincident {
     edges: usize,
@@ -19,13 +19,13 @@ pub struct Coincident {
 }
 
 impl Coincident {
-    /// How many pairs of edges there are.
+    /// The number of pairs of edges.
     #[must_use]
     pub fn edges(&self) -> usize {
         self.edges
     }
 
-    /// How many vertices would be joined to others.
+    /// The number of vertices that sewing would join to others.
     #[must_use]
     pub fn vertices(&self) -> usize {
         self.splits.len()
@@ -33,15 +33,15 @@ impl Coincident {
 }
 
 impl Document {
-    /// Whether the file has a record of what was torn ([the record](crate#the-record)) that is used.
+    /// Whether the file has a usable record of its tears ([the record](crate#the-record)).
     #[must_use]
     pub fn has_record(&self) -> bool {
         self.record.is_some()
     }
 
-    /// The boundary edges of the mesh of this document that lie on each other in pairs.
+    /// Finds the boundary edges of this document's mesh that lie on each other in pairs.
     ///
-    /// As long as sorting the boundary.
+    /// Takes as long as sorting the boundary.
     ///
     /// # Panics
     ///
@@ -95,12 +95,13 @@ impl Document {
         }
     }
 
-    /// The document as one of which these pairs of edges were torn by a cut: its mesh has them as ghost
-    /// pairs, and [`mend::stitches`](tearmesh::mend::stitches) sew them.
+    /// Treats these pairs of edges as torn by a cut: the returned mesh has them as ghost pairs, and
+    /// [`mend::stitches`](tearmesh::mend::stitches) can sew them.
     ///
     /// # Errors
     ///
-    /// [`CoincidentError`]: sewn they would be no surface, or other statements would name other vertices.
+    /// [`CoincidentError`] if the sewn edges would not form a surface, or if other statements of
+    /// the file would then name other vertices.
     ///
     /// # Panics
     ///
@@ -142,12 +143,12 @@ impl Document {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CoincidentError {
-    /// A statement may name a vertex by its number, which would be another.
+    /// A statement may name a vertex by a number that sewing would change.
     Numbers {
         /// Its keyword.
         keyword: String,
     },
-    /// Sewn they would be no oriented 2-manifold.
+    /// The sewn mesh would not be an oriented 2-manifold.
     Mesh(MeshError),
 }
 

@@ -1,4 +1,4 @@
-//! What there is to say about a file: refusals, warnings and notes.
+//! Diagnostics about a file: refusals, warnings and notes.
 //!
 //! A [`Diagnostic`] is plain data, so that a program can render it with a caret under the
 //! offending text, print it on one line, or put it into a report. It names no file:
@@ -6,55 +6,56 @@
 
 use std::{fmt, io};
 
-/// One thing to say about a file.
+/// One error, warning or note about a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// The severity.
     pub level: Level,
     /// A stable name such as `E-OBJ-FLOAT`: `E-` errors, `W-` warnings and notes.
     pub code: &'static str,
-    /// Where it is; `None` where it concerns no single line.
+    /// The place in the file; `None` if the diagnostic concerns no single line.
     pub location: Option<Location>,
-    /// What is the matter, in one line.
+    /// The message, in one line.
     pub message: String,
-    /// The text of the line, with what to underline; `None` where the text is not at hand.
+    /// The text of the line with the part to underline; `None` if the text is not available.
     pub excerpt: Option<Excerpt>,
-    /// What to do about it.
+    /// A hint at what to do about it.
     pub help: Option<String>,
 }
 
-/// How bad it is.
+/// The severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
     /// The file was refused.
     Error,
-    /// The file was read, but something in it will not be treated as one may expect.
+    /// The file was read, but something in it will not be treated as a user may expect.
     Warning,
-    /// The file was read, and something harmless was set right.
+    /// The file was read, and something harmless was corrected.
     Note,
 }
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Location {
-    /// The physical line, from 1.
+    /// The physical line, counted from 1.
     pub line: usize,
-    /// The character of that line, from 1. A byte that is no UTF-8 counts as a character.
+    /// The character within the line, counted from 1. A byte that is not UTF-8 counts as a
+    /// character.
     pub column: usize,
 }
 
-/// The text of a line, and the part of it that is meant.
+/// The text of a line, and the part of it that a diagnostic is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excerpt {
-    /// The line without its end, or a window of it if it is very long.
-    /// Bytes that are no UTF-8, and control characters, show as U+FFFD.
+    /// The line without its line end, or a window of it if the line is very long. Control
+    /// characters and bytes that are not UTF-8 show as U+FFFD.
     pub text: String,
-    /// The column of the first character of `text`: 1, unless the line was cut.
+    /// The column of the first character of `text`: 1, unless a window of the line is shown.
     pub first_column: usize,
-    /// How many characters are meant, from the column of the [`Location`] on;
-    /// they lie within `text`, or directly behind its end.
+    /// The number of characters to underline, from the column of the [`Location`] on. They lie
+    /// within `text`, or directly behind its end.
     pub length: usize,
-    /// What was expected there; may be empty.
+    /// What was expected at the underlined place; may be empty.
     pub label: String,
 }
 
@@ -84,14 +85,14 @@ impl fmt::Display for Level {
 /// Why a file could not be read.
 #[derive(Debug)]
 pub enum ReadError {
-    /// The bytes themselves could not be had.
+    /// The input failed while it was read.
     Input(io::Error),
-    /// The bytes are not what a strict reader accepts. The first offender is named.
+    /// The file is not valid. The diagnostic names the first offence.
     Refused(Box<Diagnostic>),
 }
 
 impl ReadError {
-    /// What is wrong with the file; `None` if its bytes could not be had.
+    /// What is wrong with the file; `None` if the input itself failed.
     #[must_use]
     pub fn diagnostic(&self) -> Option<&Diagnostic> {
         match self {

@@ -1,4 +1,4 @@
-//! The document: everything that a file held.
+//! The document: everything that a file holds.
 
 use tearmesh::Point;
 
@@ -8,12 +8,12 @@ use crate::record::Record;
 use crate::store::{Layout, Rows};
 use crate::triangulate::Triangulation;
 
-/// An OBJ file in memory: its numbers bit for bit, its faces as they were and as triangles, and
+/// An OBJ file in memory: its numbers bit for bit, its faces as polygons and as triangles, and
 /// every other line as bytes, in order.
 ///
-/// Indices count from 0 here, and from 1 in files. A document takes about as much
-/// memory as its file: 24 bytes a vertex, 20 a triangle, more where corners have
-/// texture coordinates or normals.
+/// Indices count from 0 here, and from 1 in files. A document takes about as much memory as its
+/// file: 24 bytes per vertex and 20 per triangle, and more if corners have texture coordinates or
+/// normals.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
     pub(crate) positions: Vec<Point>,
@@ -33,13 +33,13 @@ pub struct Document {
 }
 
 impl Document {
-    /// Where the vertices are.
+    /// The positions of the vertices.
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         &self.positions
     }
 
-    /// The numbers that a `v` statement has after x, y and z: a weight, a colour, or both.
+    /// The numbers of a `v` statement after x, y and z: a weight, a colour, or both.
     ///
     /// # Panics
     ///
@@ -59,7 +59,7 @@ impl Document {
         self.texture.len()
     }
 
-    /// A texture coordinate: the one, two or three numbers that the file gives.
+    /// A texture coordinate, as the one, two or three numbers that the file gives.
     ///
     /// # Panics
     ///
@@ -73,7 +73,7 @@ impl Document {
         self.texture.row(index)
     }
 
-    /// The normals.
+    /// The normals of the file.
     #[must_use]
     pub fn normals(&self) -> &[[f64; 3]] {
         &self.normals
@@ -89,8 +89,8 @@ impl Document {
         }
     }
 
-    /// What a corner (0, 1 or 2) of a triangle refers to. Takes the logarithm of the
-    /// number of polygons, unless all are triangles.
+    /// The vertex, texture coordinate and normal that a corner (0, 1 or 2) of a triangle refers to.
+    /// Logarithmic in the number of polygons, unless all are triangles.
     ///
     /// # Panics
     ///
@@ -106,8 +106,8 @@ impl Document {
             .corner(self.corner_of_polygon(triangle, corner, self.polygon_of(triangle)))
     }
 
-    /// The number of a corner (0, 1 or 2) of a triangle among the corners of all polygons, from 0: those
-    /// of the first, then those of the second, and so on. Takes as long as [`Document::corner`].
+    /// The number of a corner (0, 1 or 2) of a triangle among the corners of all polygons, counted
+    /// from 0 through the polygons in order. Takes as long as [`Document::corner`].
     ///
     /// # Panics
     ///
@@ -136,8 +136,8 @@ impl Document {
             .map(|corner| self.polygons.corner(corner))
     }
 
-    /// The polygon that a triangle is a part of. Takes the logarithm of their number,
-    /// unless all are triangles.
+    /// The polygon that a triangle belongs to. Logarithmic in the number of polygons, unless all
+    /// are triangles.
     ///
     /// # Panics
     ///
@@ -154,7 +154,7 @@ impl Document {
         }
     }
 
-    /// The line of the file, from 1, on which the `f` statement of a triangle begins.
+    /// The line of the file, counted from 1, on which the `f` statement of a triangle begins.
     ///
     /// # Panics
     ///
@@ -164,8 +164,8 @@ impl Document {
         self.layout.line_of_polygon(self.polygon_of(triangle))
     }
 
-    /// The line of the file, from 1, on which the `v` statement of a vertex begins.
-    /// Linear in the number of times that statements change kind; meant for messages.
+    /// The line of the file, counted from 1, on which the `v` statement of a vertex begins. Meant
+    /// for messages: linear in the number of runs of statements of one kind.
     ///
     /// # Panics
     ///
@@ -176,8 +176,8 @@ impl Document {
         line.unwrap_or_else(|| panic!("vertex {vertex} is none of this document"))
     }
 
-    /// The number of `v` in the file: the vertices, and the copies of vertices for their fans
-    /// ([the record](crate#the-record)).
+    /// The number of `v` statements in the file: the vertices, and the copies of vertices that were
+    /// written for their fans ([the record](crate#the-record)).
     #[must_use]
     pub fn vertex_statement_count(&self) -> usize {
         let copies = self
@@ -187,8 +187,8 @@ impl Document {
         self.positions.len() + copies
     }
 
-    /// The number of a vertex in the file, from 1. Where copies of vertices for their fans come
-    /// before it, it is more than the index and 1. Takes the logarithm of the number of copies.
+    /// The number of a vertex in the file, counted from 1. It exceeds the index plus 1 if copies of
+    /// vertices for their fans come before it. Logarithmic in the number of copies.
     ///
     /// # Panics
     ///
@@ -203,8 +203,8 @@ impl Document {
         record.map_or(vertex, |record| record.number(vertex)) + 1
     }
 
-    /// The vertex that has a number in the file, from 1, or of which the `v` with that number is a
-    /// copy; `None` if the file has no such `v`.
+    /// The vertex that has this number in the file, counted from 1, or that the `v` with this
+    /// number is a copy of; `None` if the file has no such `v`.
     #[must_use]
     pub fn vertex_of_number(&self, number: usize) -> Option<usize> {
         let index = number.checked_sub(1)?;

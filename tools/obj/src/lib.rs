@@ -1,4 +1,5 @@
-//! OBJ import and export for triangle meshes that tear: strict, lossless, and never in silence.
+//! OBJ import and export for triangle meshes that tear: strict and lossless, and nothing is dropped
+//! silently.
 //!
 //! A [`Document`] is a whole OBJ file in memory. It gives the triangles and positions from which
 //! [`tearmesh::Mesh`] is built, and after any number of vertex splits it writes the file

@@ -15,13 +15,13 @@ use crate::record::Record;
 const SHOWN: usize = 20;
 
 impl Document {
-    /// Builds the mesh of the triangles; of a file with a record of tears, the torn mesh
-    /// that was written, with every vertex, pair and ghost pair, and its faces in the order of
+    /// Builds the mesh of the triangles. For a file with a record of tears this is the torn mesh
+    /// that was written, with every vertex, pair and ghost pair, and with its faces in the order of
     /// the file.
     ///
     /// # Errors
     ///
-    /// [`MeshError`] if they do not form an oriented 2-manifold. It holds every defect.
+    /// [`MeshError`] lists every defect if the triangles do not form an oriented 2-manifold.
     ///
     /// ```
     /// use tearmesh_obj::Document;
@@ -54,11 +54,11 @@ impl Document {
         })
     }
 
-    /// Puts a defect of this document's triangles into the terms of the file.
+    /// Describes a defect of this document's triangles by the lines and numbers of the file.
     ///
     /// # Panics
     ///
-    /// If the defect names a face or vertex that is none of this document.
+    /// If the defect names a face or vertex that is not in this document.
     #[must_use]
     pub fn describe(&self, defect: Defect<'_>) -> Diagnostic {
         let number = |vertex: VertexId| self.number_of_vertex(vertex.index());
@@ -205,7 +205,7 @@ impl Document {
     }
 }
 
-/// Why the triangles of a document are no mesh.
+/// Why the triangles of a document do not form a mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshError {
     error: BuildError,
@@ -213,7 +213,7 @@ pub struct MeshError {
 }
 
 impl MeshError {
-    /// All defects, by the ids of the document: face `i` is its triangle `i`.
+    /// All defects, in terms of the document's ids: face `i` is its triangle `i`.
     /// [`Document::describe`] puts each into words.
     #[must_use]
     pub fn defects(
@@ -222,7 +222,7 @@ impl MeshError {
         self.error.defects()
     }
 
-    /// The first twenty defects in the terms of the file.
+    /// The first twenty defects, described by the lines and numbers of the file.
     #[must_use]
     pub fn shown(&self) -> &[Diagnostic] {
         &self.shown

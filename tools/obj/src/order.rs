@@ -9,8 +9,8 @@
 pub(crate) enum Turn {
     /// It is this statement of the document.
     Own(u32),
-    /// It is added behind so many statements of the document; of those added there, the lowest
-    /// rank comes first.
+    /// It is added behind the first `behind` statements of the document. Among those added at the
+    /// same place, the lowest rank comes first.
     Added { behind: u32, rank: u64 },
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct Order {
 const NONE: u32 = u32::MAX;
 
 impl Order {
-    /// Every statement of a document of so many, and nothing else.
+    /// The order of `count` statements of a document, with nothing added or left out.
     pub(crate) fn of_document(count: usize) -> Order {
         Order {
             numbers: None,
@@ -50,8 +50,8 @@ impl Order {
         }
     }
 
-    /// The order of so many elements, of which each has its turn or is left out, in a document of so
-    /// many statements.
+    /// The order of elements, each of which has its turn or is left out, in a document with a given
+    /// number of statements.
     pub(crate) fn new(
         statements: usize,
         elements: usize,

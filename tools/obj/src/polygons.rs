@@ -1,4 +1,4 @@
-//! The faces of a file, as it has them.
+//! The polygons of a file, as the file has them.
 
 use crate::store::{Column, push};
 
@@ -13,14 +13,14 @@ pub(crate) struct Polygons {
     pub(crate) starts: Vec<u32>,
 }
 
-/// What a corner of a face refers to, counted from 0.
+/// The indices that a corner of a face refers to, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Corner {
-    /// The vertex, a `v`.
+    /// The index of the vertex (`v`).
     pub vertex: u32,
-    /// The texture coordinate, a `vt`.
+    /// The index of the texture coordinate (`vt`), if the corner has one.
     pub texture: Option<u32>,
-    /// The normal, a `vn`.
+    /// The index of the normal (`vn`), if the corner has one.
     pub normal: Option<u32>,
 }
 

@@ -63,13 +63,13 @@ impl TryFrom<&RawObj> for Document {
     }
 }
 
-/// Why a [`RawObj`] is no document. Numbers count from 0, as in obj-rs.
+/// Why a [`RawObj`] could not be made into a document. Indices count from 0, as in obj-rs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RawObjError {
-    /// There is no face.
+    /// The model has no faces.
     Empty,
-    /// More elements of a kind than ids.
+    /// There are more elements of a kind than ids.
     TooMany {
         /// Of what.
         what: Item,
@@ -78,7 +78,7 @@ pub enum RawObjError {
         /// How many there may be.
         limit: usize,
     },
-    /// A number is nan or infinite.
+    /// A number is NaN or infinite.
     NotFinite {
         /// In what.
         what: Item,
@@ -116,7 +116,7 @@ pub enum RawObjError {
         /// How many it may have.
         limit: usize,
     },
-    /// A face has a vertex twice.
+    /// A face refers to the same vertex twice.
     RepeatedVertex {
         /// The face.
         face: usize,
@@ -148,8 +148,8 @@ pub enum RawObjError {
         /// Its number.
         number: usize,
     },
-    /// A name that would be something else in a file: it is empty, or holds a blank, a line
-    /// end or a zero byte, or ends with `\`. (Names of objects may hold blanks.)
+    /// A name cannot be written to a file unchanged: it is empty, contains a blank, a line end or a
+    /// zero byte, or ends with `\`. (Names of objects may contain blanks.)
     Name {
         /// The statement, such as `g`.
         keyword: &'static str,
@@ -158,26 +158,26 @@ pub enum RawObjError {
     },
 }
 
-/// What an error is about.
+/// The kind of element that an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Item {
-    /// `v`
+    /// A vertex (`v`).
     Vertex,
-    /// `vt`
+    /// A texture coordinate (`vt`).
     Texture,
-    /// `vn`
+    /// A normal (`vn`).
     Normal,
-    /// `vp`
+    /// A parameter-space vertex (`vp`).
     ParameterVertex,
-    /// `p`
+    /// A point element (`p`).
     Point,
-    /// `l`
+    /// A line element (`l`).
     Line,
-    /// `f`
+    /// A face (`f`).
     Face,
-    /// A triangle of a face.
+    /// A triangle of a polygon.
     Triangle,
-    /// A line of the file.
+    /// A line of the text file.
     FileLine,
 }
 

@@ -49,7 +49,7 @@ use crate::polygons::Polygons;
 use crate::triangulate::Triangulation;
 
 impl Document {
-    /// Reads a file. The input needs no buffer of its own.
+    /// Reads a file. The input need not be buffered.
     ///
     /// # Errors
     ///

@@ -53,7 +53,7 @@ pub(crate) fn runs(numbers: impl Iterator<Item = u32>) -> Vec<[u32; 2]> {
     runs
 }
 
-/// Whether runs are all together the last of so many numbers; none are, too.
+/// Whether runs together are exactly the last of `count` numbers. No runs at all count as such.
 pub(crate) fn are_last(runs: &[[u32; 2]], count: u32) -> bool {
     match runs {
         [] => true,

@@ -33,19 +33,19 @@ use crate::store::{Kind, Layout, Run, extend, push};
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
 
-/// What [`Document::repaired`] may do.
+/// How far [`Document::repaired`] may go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Repair {
-    /// Give each fan of a bow-tie vertex a vertex of its own. No face is dropped.
+    /// Gives each fan of a bow-tie vertex its own vertex. No face is dropped.
     SeparateFans,
-    /// Drop all faces but one on the same three vertices, and the superfluous faces of an edge; then
-    /// separate fans.
+    /// Drops all but one of several faces on the same three vertices, drops the superfluous faces
+    /// of an edge, and then separates fans.
     All,
 }
 
 impl Document {
-    /// Repairs what keeps the triangles from being a mesh, as far as `repair` goes. A document
-    /// that has a mesh is returned as it is.
+    /// Repairs defects that keep the triangles from forming a mesh, as far as `repair` allows. A
+    /// document that already has a mesh is returned unchanged.
     ///
     /// Each repair is a warning among the [`diagnostics`](Document::diagnostics), with its line
     /// (the first hundred of a kind; the rest are counted). A triangle of a larger polygon may be

@@ -1,4 +1,4 @@
-//! Taking out again what cuts inserted, and putting back what they moved.
+//! Removes vertices that cuts inserted, and puts back vertices that cuts moved.
 
 use tearmesh::{Mesh, Positions};
 
@@ -7,18 +7,19 @@ use crate::document::Document;
 use crate::torn::TornDocument;
 use crate::write::{Prepared, write};
 
-/// What [`TornDocument::simplified`] found.
+/// The result of [`TornDocument::simplified`].
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Simplified {
-    /// The document without what can go; `None` if nothing can.
+    /// The document without the vertices that could be removed; `None` if none could.
     pub document: Option<Document>,
-    /// How many inserted vertices stay only because they were edited since. Other vertices may
-    /// have to stay with them.
+    /// The number of inserted vertices that stay only because they were edited since. Other
+    /// vertices may have to stay with them.
     pub edited: usize,
-    /// How many vertices that slid are where they were before.
+    /// The number of vertices that had slid and were put back.
     pub slid_back: usize,
-    /// How many vertices that slid stay where they are only because they were edited since.
+    /// The number of vertices that had slid and stay where they are only because they were edited
+    /// since.
     pub slid_edited: usize,
 }
 

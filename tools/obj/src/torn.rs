@@ -1,4 +1,4 @@
-//! A document and what became of it.
+//! A document together with all edits of its mesh.
 //!
 //! A [`TornDocument`] replays the log of a mesh and keeps everything in step that the file has
 //! and the mesh has not: which texture coordinate and normal each corner has, in
@@ -33,7 +33,8 @@ use crate::record::{Apart, At, Inserted, Parent, Record, is_in, is_same_point};
 use crate::slides::Slides;
 use crate::store::Rows;
 
-/// A document and what became of it: a [`Follower`] of the log of its mesh, that writes it.
+/// A document together with all edits of its mesh. It is a [`Follower`] of the mesh's log, and
+/// writes the edited file.
 ///
 /// A split moves corners, and each keeps its texture coordinate and normal: neither is ever
 /// duplicated. Where a face is divided, its children stand where it stood, and so in its
@@ -103,7 +104,7 @@ pub struct TornDocument<'d> {
 }
 
 impl<'d> TornDocument<'d> {
-    /// The document as it is, which has seen no edit yet. Linear in the document.
+    /// Wraps a document before any edit of its mesh has been replayed. Linear in the document.
     #[must_use]
     pub fn new(document: &'d Document) -> TornDocument<'d> {
         let count = document.positions.len();
@@ -141,20 +142,20 @@ impl<'d> TornDocument<'d> {
         torn
     }
 
-    /// Takes the document for that of the mesh at this place in its log.
+    /// Declares that the document belongs to the mesh as it was at the place `seen` in its log.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> TornDocument<'d> {
         TornDocument { seen, ..self }
     }
 
-    /// The document.
+    /// The document as it was read, without the edits.
     #[must_use]
     pub fn document(&self) -> &'d Document {
         self.document
     }
 
-    /// Edits from now on belong to the next cut, which can be undone apart from the one before.
-    /// Does nothing if no edit was followed since it was called last.
+    /// Starts the next cut: edits from now on can be undone separately from those before. Does
+    /// nothing if no edit was replayed since the last call.
     ///
     /// The number counts on from the cuts that the file has on record.
     ///
@@ -167,7 +168,7 @@ impl<'d> TornDocument<'d> {
         }
     }
 
-    /// The numbers of the cuts that still keep something apart, ascending.
+    /// The numbers of the cuts that still separate something, in ascending order.
     #[must_use]
     pub fn cuts(&self) -> Vec<u32> {
         let split_off = self.split_off(|v| v);
@@ -177,7 +178,7 @@ impl<'d> TornDocument<'d> {
         cuts
     }
 
-    /// The stitches that undo the last cuts, as many of those that still keep something apart.
+    /// The stitches that undo the last `cuts` of the cuts that still separate something.
     ///
     /// [`mend::sew`](tearmesh::mend::sew) makes them. To sew everything, or what lies near a place,
     /// takes no record: see [`mend::stitches`](tearmesh::mend::stitches).
@@ -219,12 +220,12 @@ impl<'d> TornDocument<'d> {
             .collect()
     }
 
-    /// Writes vertices apart from where they are: each at its point of these, one for each vertex of the
-    /// mesh, so that the two sides of a cut are seen, and programs that join what lies at one place
-    /// leave them two. The record has both points, and what is read again is where it was.
+    /// Sets the points at which vertices are written, one for each vertex of the mesh. Writing the
+    /// two sides of a cut apart makes the cut visible, and keeps other programs from joining them
+    /// again. The record has both points, and reading the file restores the true ones.
     ///
-    /// Where vertices stand follows the log as where they are does, and those that are merged stand
-    /// where they are again.
+    /// The written points follow the log as the true positions do. A merged vertex is written at
+    /// its true position again.
     ///
     /// # Panics
     ///
@@ -297,9 +298,9 @@ impl<'d> TornDocument<'d> {
         }
     }
 
-    /// The faces of the mesh in the order in which they are written: a face that was divided,
-    /// then its children by id, stand where the face stood. The mesh that is read again has the
-    /// first of them as its face 0, and so on.
+    /// The faces of the mesh in the order in which they are written. The children of a divided
+    /// face, ordered by id, take its place. A mesh that is read from the written file has the first
+    /// of these as its face 0, and so on.
     #[must_use]
     pub fn faces_in_order(&self) -> Vec<FaceId> {
         let slots = self.slots();
@@ -572,7 +573,8 @@ impl TornDocument<'_> {
         }
     }
 
-    /// The same, where the polygon is not at hand.
+    /// The texture coordinate and the normal of a corner of the mesh, for a caller that does not
+    /// know its polygon.
     pub(crate) fn corner_of(&self, half_edge: usize) -> [Option<u32>; 2] {
         let polygon = match self.corners {
             Some(_) => 0,

@@ -50,34 +50,33 @@ use crate::said;
 use crate::store::{Kind, Run};
 use crate::torn::TornDocument;
 
-/// What was written.
+/// The counts of what was written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WriteSummary {
     /// The number of `v` statements.
     pub vertices: usize,
     /// The number of `f` statements, all of them triangles.
     pub faces: usize,
-    /// How many of the vertices were added because a vertex of the mesh had
-    /// several fans.
+    /// The number of `v` statements that were added because a vertex of the mesh had several fans.
     pub separated: usize,
 }
 
 impl Document {
-    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it is
-    /// torn with a record of that at the end.
+    /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
+    /// torn, a record of that is added at the end.
     ///
-    /// The mesh is that of [`Document::mesh`], after any number of splits, all of which go on
-    /// record as one cut; after any at all no vertex stands apart. Insertions, merges, and cuts that are to be undone one by one need a
-    /// [`TornDocument`].
+    /// The mesh must be that of [`Document::mesh`] after any number of splits, which are recorded
+    /// as a single cut. After any split, all vertices are written at their true positions.
+    /// Insertions, merges, and cuts that should be undone one by one need a [`TornDocument`].
     ///
     /// # Errors
     ///
-    /// Those of the output.
+    /// The errors of the output.
     ///
     /// # Panics
     ///
-    /// If the mesh has not as many faces as the document has triangles, or fewer vertices; or
-    /// if there is not a position for each vertex.
+    /// If the mesh does not have as many faces as the document has triangles, if it has fewer
+    /// vertices than the document, or if there is not a position for each vertex.
     pub fn write(
         &self,
         mesh: &Mesh,
@@ -98,13 +97,13 @@ impl Document {
 }
 
 impl TornDocument<'_> {
-    /// Writes the document with the faces of `mesh`, its vertices at `positions`, and if it
-    /// is torn or was divided, with a record of that at the end. Vertices that stand apart
-    /// ([`TornDocument::set_apart`]) are written so if nothing but the log moved any vertex.
+    /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
+    /// torn or has divided faces, a record of that is added at the end. Points set by
+    /// [`TornDocument::set_apart`] are used if nothing but the log has moved any vertex.
     ///
     /// # Errors
     ///
-    /// Those of the output.
+    /// The errors of the output.
     ///
     /// # Panics
     ///
@@ -121,8 +120,9 @@ impl TornDocument<'_> {
         write(self, &prepared, positions, out)
     }
 
-    /// The vertex of each `v` that [`TornDocument::write`] writes, in order: a vertex with several fans
-    /// comes once for each. Without these they are [`TornDocument::vertices_in_order`].
+    /// The vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several
+    /// fans comes once for each fan. Without such vertices this equals
+    /// [`TornDocument::vertices_in_order`].
     ///
     /// # Panics
     ///
@@ -138,19 +138,19 @@ impl TornDocument<'_> {
     /// Writes the document like [`TornDocument::write`], but with one `v` for each vertex of the mesh,
     /// in the order of their ids.
     ///
-    /// A vertex keeps its number in whatever is written so later, and new ones get numbers that no
-    /// file had before: for pictures of a mesh as it tears. To that end all new vertices follow the
-    /// last `v` of the file, and the `v` of objects behind a torn one are moved up before it.
-    /// A vertex with several fans is one here, which other programs may take for a defect;
-    /// [`Document::mesh`] knows from the record that it was torn.
+    /// This is for sequences of files that show a mesh as it tears: a vertex keeps its number in
+    /// all later files, and a new vertex gets a number that no earlier file had. To that end all
+    /// new vertices follow the last `v` of the file, and the `v` of objects behind a torn one are
+    /// moved up before it. A vertex with several fans is written once, which other programs may
+    /// take for a defect; [`Document::mesh`] knows from the record that it was torn.
     ///
     /// # Errors
     ///
-    /// Those of the output.
+    /// The errors of the output.
     ///
     /// # Panics
     ///
-    /// As [`TornDocument::write`].
+    /// As for [`TornDocument::write`].
     pub fn write_unseparated(
         &self,
         mesh: &Mesh,

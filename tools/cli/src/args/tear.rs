@@ -60,9 +60,9 @@ pub(crate) struct TearArgs {
 
     /// A file of lines `vertex strength`.
     ///
-    /// A vertex tears at so many times the load of the threshold. Vertices count from 1, as in OBJ;
-    /// those not named have strength 1. `#` begins a comment. In a torn file a `v` that is written
-    /// for another fan of a vertex (its comments `#~ fan` name it first) is that vertex.
+    /// A vertex tears at this multiple of the threshold. Vertices count from 1, as in OBJ; those
+    /// not named have strength 1. `#` begins a comment. In a torn file a `v` that is written for
+    /// another fan of a vertex (its comments `#~ fan` name it first) is that vertex.
     #[arg(long, value_name = "FILE")]
     pub(crate) strength: Option<PathBuf>,
 

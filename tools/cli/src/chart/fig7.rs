@@ -13,8 +13,8 @@ use crate::exit::Exit;
 use crate::interrupt::Guard;
 use crate::streams::Streams;
 
-/// A rip with a cell a side took so many seconds on the machine that charts were first made on; one of n
-/// cells has n times n of them, and steps n times as short.
+/// The seconds that a rip with one cell per side would take, as measured on the machine on which
+/// charts were first made. A rip with n cells per side has n² cells, and steps n times as short.
 const CELL_S: f64 = 3e-5;
 
 /// Rips the patches, and draws the chart.

@@ -105,7 +105,7 @@ pub(super) fn interrupted() -> (Exit, Fault) {
     )
 }
 
-/// So many seconds in words, rounded up.
+/// A duration in words, rounded up.
 pub(super) fn some_time(seconds: f64) -> String {
     match seconds {
         s if s < 90.0 => format!("{} s", s.ceil().max(1.0)),

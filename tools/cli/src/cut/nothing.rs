@@ -16,7 +16,7 @@ pub(crate) enum Obstacle {
     Touch,
     /// Its crossings are all within the snap of vertices; without a snap it splits some.
     Snap,
-    /// The plane goes through the mesh, but not between the rays: through so many faces.
+    /// The plane crosses this many faces of the mesh, but none between the rays.
     Elsewhere { faces: usize },
     /// None that is known: what the report says is all.
     Unknown,

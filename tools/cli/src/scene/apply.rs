@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use clap::ValueEnum as _;
 use tearmesh::{Plane, Scissor, Vector, VertexId};
-use tearmesh_cloth::scene::{Axis, Breeze, Frame, Hold, Region, Scene, TimedCut};
+use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
 use tearmesh_cloth::{Collider, Tearing, Threshold, Wind};
 
 use super::axes::axis;
@@ -107,7 +107,7 @@ impl SceneFile {
         }
         match table.vector("velocity_m_per_s") {
             Some(velocity_m_per_s) => {
-                scene.breeze = Some(Breeze {
+                scene.wind = Some(SwayingWind {
                     steady: Wind {
                         velocity_m_per_s,
                         coefficient: table.number("coefficient").unwrap_or(1.5),
@@ -138,14 +138,14 @@ impl SceneFile {
         }
     }
 
-    fn hold(&self, table: &Table) -> Result<Hold, Box<Fault>> {
+    fn hold(&self, table: &Table) -> Result<HeldVertices, Box<Fault>> {
         let row = |row: &Vec<f64>| (row[0], Vector::new(row[1], row[2], row[3]));
         let from_s = table.number("from_s").unwrap_or(0.0);
         if table.number("until_s").is_some_and(|until| until <= from_s) {
             let message = "`until_s` is not later than `from_s`".to_owned();
             return Err(self.fault(table, "until_s", "E-SCENE-RANGE", message));
         }
-        Ok(Hold {
+        Ok(HeldVertices {
             region: self.region(table, "hold")?,
             from_s,
             until_s: table.number("until_s"),

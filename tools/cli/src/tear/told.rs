@@ -28,7 +28,7 @@ pub(super) fn first_tear(chronicle: &Chronicle) -> Option<String> {
     ))
 }
 
-/// The same for the report.
+/// The first tear, for the report.
 pub(super) fn first(chronicle: &Chronicle) -> Option<report::FirstTear> {
     chronicle.first_tear().map(|first| {
         let [place, place_at_rest] = first.event.place.map(at);

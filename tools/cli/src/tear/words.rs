@@ -1,8 +1,8 @@
 //! What is said of a simulation.
 
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Method, Quality, Run, Shortened};
-use tearmesh_cloth::{Culprit, StepError};
+use tearmesh_cloth::scene::{Method, Quality, Run, StableSteps};
+use tearmesh_cloth::{BlowUpSite, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};
@@ -31,14 +31,14 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
 }
 
 /// What a cut did to the steps of an explicit method.
-pub(super) fn shortened(stability: &Shortened) -> String {
+pub(super) fn stable_steps(stability: &StableSteps) -> String {
     let [before, after] = [stability.before_s, stability.after_s].map(two_digits);
     let at = stability.ends.map(edge).unwrap_or_default();
     format!(" · stable steps {before} s -> {after} s{at}")
 }
 
-/// The same for the report.
-pub(super) fn stable_step(stability: Shortened) -> report::StableStep {
+/// What a cut did to the steps of an explicit method, for the report.
+pub(super) fn stable_step(stability: StableSteps) -> report::StableStep {
     report::StableStep {
         before: stability.before_s,
         after: stability.after_s,
@@ -49,7 +49,7 @@ pub(super) fn stable_step(stability: Shortened) -> report::StableStep {
 /// Whether Provot's limiter has worked. Its work grows without bound as steps get shorter, on what is
 /// held as well: joules that it has a part in say nothing of the cloth.
 fn has_limited(run: &Run) -> bool {
-    matches!(run.quality(), Quality::Limited(limited) if limited.steps_limited > 0)
+    matches!(run.quality(), Quality::Limiter(limited) if limited.steps_limited > 0)
 }
 
 /// The line of the summary that says where the energy went: what the method lost by its own account,
@@ -82,7 +82,7 @@ pub(super) fn balance(run: &Run) -> String {
 
 /// Says that the method made energy out of nothing.
 pub(super) fn gain(run: &Run) -> Option<Fault> {
-    let gain = run.gain()?;
+    let gain = run.energy_gain()?;
     let since = short(gain.since_s);
     let much = if has_limited(run) {
         format!("energy out of nothing, from {since} s on")
@@ -130,7 +130,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         edits: balance.edits_j,
         method: balance.method_j,
         remainder: said(balance.remainder_j()),
-        gain: run.gain().map(|gain| report::Gain {
+        gain: run.energy_gain().map(|gain| report::EnergyGain {
             since_s: gain.since_s,
             made_j: said(gain.made_j),
             put_in_j: said(gain.put_in_j),
@@ -140,11 +140,11 @@ pub(super) fn energy(run: &Run) -> report::Energy {
 
 pub(super) fn quality(run: &Run) -> Option<report::Quality> {
     match run.quality() {
-        Quality::Guarded(guarded) => Some(report::Quality::Guarded {
+        Quality::Guards(guarded) => Some(report::Quality::Guarded {
             carried: guarded.carried,
             damped_j: guarded.damped_j,
         }),
-        Quality::Limited(limited) => Some(report::Quality::Limiter {
+        Quality::Limiter(limited) => Some(report::Quality::Limiter {
             passes: limited.passes,
             steps_short: limited.steps_short,
             steps_infeasible: limited.steps_infeasible,
@@ -153,7 +153,7 @@ pub(super) fn quality(run: &Run) -> Option<report::Quality> {
         }),
         Quality::Strain(rms) => Some(report::Quality::StrainRms(rms)),
         Quality::Residual(newtons) => Some(report::Quality::ResidualN(newtons)),
-        Quality::Solved(solved) => Some(report::Quality::Implicit {
+        Quality::Newton(solved) => Some(report::Quality::Implicit {
             newton_iterations: solved.newton_iterations,
             halvings: solved.halvings,
             indefinite: solved.indefinite,
@@ -168,7 +168,7 @@ pub(super) fn quality(run: &Run) -> Option<report::Quality> {
 
 /// What Provot's limiter could not hold.
 pub(super) fn infeasible(run: &Run) -> Option<Fault> {
-    let (Quality::Limited(limited), Method::Provot(limiter)) = (run.quality(), &run.scene().solver)
+    let (Quality::Limiter(limited), Method::Provot(limiter)) = (run.quality(), &run.scene().solver)
     else {
         return None;
     };
@@ -189,7 +189,7 @@ pub(super) fn infeasible(run: &Run) -> Option<Fault> {
 
 /// What an implicit method left unsolved, and went on from.
 pub(super) fn residual(run: &Run) -> Option<Fault> {
-    let Quality::Solved(solved) = run.quality() else {
+    let Quality::Newton(solved) = run.quality() else {
         return None;
     };
     if solved.unsolved == 0 {
@@ -247,7 +247,7 @@ fn features(run: &Run) -> Vec<report::FeatureCost> {
         ("springs", true, cost.stretch),
         ("bending", !system.bends().is_empty(), cost.bend),
         ("triangles", cost.triangle > 0, cost.triangle),
-        ("wind", scene.breeze.is_some(), cost.wind),
+        ("wind", scene.wind.is_some(), cost.wind),
         ("colliders", !scene.colliders.is_empty(), cost.collider),
         ("tearing", scene.tearing.is_some(), counters.visits.detect),
         ("measuring", true, counters.visits.meter),
@@ -319,7 +319,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
         }
         StepError::Implicit { ref error, .. } => format!("{}{after}", unsolved(error, run)),
         StepError::BlowUp { at, .. } => match at {
-            Culprit::Constraint {
+            BlowUpSite::Constraint {
                 ends,
                 stretch_ratio,
             } => format!(
@@ -327,7 +327,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                 edge(ends),
                 short(stretch_ratio)
             ),
-            Culprit::Bend {
+            BlowUpSite::Bend {
                 ends: [a, b],
                 stretch_ratio,
             } => format!(
@@ -337,7 +337,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                 b + 1,
                 short(stretch_ratio)
             ),
-            Culprit::Particle(particle) | Culprit::Beyond(particle) => {
+            BlowUpSite::Particle(particle) | BlowUpSite::Beyond(particle) => {
                 let vertex = particle + 1;
                 format!("the simulation blew up: vertex {vertex} is nowhere{after}")
             }

@@ -5,7 +5,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot};
 
-use super::pcg::{End, Pcg, Solved, Stop};
+use super::pcg::{End, LinearSolution, Pcg, Stop};
 use super::problem::{Potential, Problem};
 use super::settings::{Jacobian, Settings, StepError, StepReport, Work};
 use super::{Layout, Method};
@@ -110,7 +110,7 @@ impl Equation {
         }
     }
 
-    /// The same less H `shift`, with the second derivatives as they are.
+    /// The imbalance of the equation less H `shift`, with the exact second derivatives.
     fn imbalance_less(&mut self, problem: Problem<'_>, stage: Stage, shift: &[Vector]) {
         self.hessian
             .product(self.layout.pairs(), shift, &mut self.product);
@@ -131,7 +131,7 @@ impl Equation {
         shift: Option<&[Vector]>,
         settings: &Settings,
         report: &mut StepReport,
-    ) -> Result<Solved, StepError> {
+    ) -> Result<LinearSolution, StepError> {
         let mut clamp = settings.jacobian == Jacobian::Clamped;
         loop {
             let clamped = problem.hessian(x, &self.layout, clamp, &mut self.hessian);

@@ -33,7 +33,7 @@ impl History {
         self.left != Moment::Unknown
     }
 
-    /// How many times as long as the last step one of so many seconds is.
+    /// The length of a step of `time_step_s` seconds as a multiple of the last step.
     pub(super) fn ratio(&self, time_step_s: f64) -> f64 {
         time_step_s / self.time_step_s
     }

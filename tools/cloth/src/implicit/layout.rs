@@ -11,9 +11,9 @@ use crate::system::{KINDS, Model, System};
 
 /// The slots of a [`Hessian`], and which slot each constraint adds to.
 ///
-/// [`Layout::follow`] compares it with the constraints as they are now. That is one comparison
-/// a constraint, and O(log n) for each constraint that is new, gone or has other ends: after a
-/// tear only what was torn is touched, and nothing has to be told.
+/// [`Layout::follow`] compares it with the constraints as they are now. That is one comparison a
+/// constraint, and O(log n) for each constraint that is new, gone or has other ends: after a tear
+/// only what was torn is touched, and the caller need not say what changed.
 ///
 /// A slot that nothing uses any more keeps its number, holds a block of zeros, and is given to
 /// the next new pair.
@@ -45,20 +45,20 @@ const NONE: [u32; 2] = [0, 0];
 const NO_SLOT: u32 = u32::MAX;
 
 impl Layout {
-    /// The pairs, by slot. A slot without users has the pair (0, 0).
+    /// The pair of particles of each slot. A slot without users has the pair (0, 0).
     #[must_use]
     pub fn pairs(&self) -> &[[u32; 2]] {
         &self.pairs
     }
 
-    /// For each particle the lowest particle that is joined to it by constraints.
+    /// For each particle, the lowest particle that constraints connect it with.
     #[must_use]
     pub fn pieces(&self) -> &[u32] {
         &self.pieces
     }
 
-    /// Brings the layout in step with a system, and returns how many slots of constraints were
-    /// taken or left: zero where nothing changed.
+    /// Updates the layout to match a system. Returns how many slots of constraints were taken or
+    /// freed, which is zero if nothing changed.
     ///
     /// Pieces are found anew when something changed: O(particles + slots).
     pub fn follow(&mut self, system: &System) -> usize {
@@ -78,8 +78,9 @@ impl Layout {
         changed
     }
 
-    /// The second derivatives of a system's elastic energy, and how many terms had a part dropped.
-    /// With `clamp` every term is positive semidefinite; without it derivatives are exact.
+    /// Computes the second derivatives of a system's elastic energy, and returns how many terms had
+    /// a part dropped. With `clamp` every term is positive semidefinite. Without it the derivatives
+    /// are exact.
     ///
     /// # Panics
     ///

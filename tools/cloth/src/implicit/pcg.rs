@@ -33,7 +33,7 @@ pub(super) enum End {
 
 /// What a solve did.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Solved {
+pub(super) struct LinearSolution {
     pub(super) end: End,
     /// The rms acceleration that is left, in m/s².
     pub(super) residual: f64,
@@ -72,7 +72,7 @@ impl Pcg {
         inertia: f64,
         stop: Stop,
         work: &mut Work,
-    ) -> Solved {
+    ) -> LinearSolution {
         let n = problem.masses().len();
         self.delta.clear();
         self.delta.resize(n, Vector::zeros());
@@ -81,7 +81,7 @@ impl Pcg {
         }
         let start = problem.residual(&self.b);
         let limit = stop.residual.max(stop.relative * start);
-        let ended = |end, residual| Solved { end, residual };
+        let ended = |end, residual| LinearSolution { end, residual };
         if !self.precondition_by(problem, hessian, inertia) {
             return ended(End::Indefinite, start);
         }

@@ -1,56 +1,59 @@
-//! How a step is to be taken, what is told about it, and why it is refused.
+//! The settings of an implicit step, its report, and the reasons for refusing it.
 
 use std::fmt;
 
-/// How time is made discrete.
+/// The time discretisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Order one, damps everything.
+    /// Backward Euler: of order one, and damps all motion.
     #[default]
     BackwardEuler,
-    /// Order two, damps little. The first step, and each after
-    /// [`Implicit::forget`](crate::Implicit::forget), is backward Euler's.
+    /// The two-step backward differentiation formula: of order two, and damps little. The first
+    /// step, and each step after [`Implicit::forget`](crate::Implicit::forget), is one of backward
+    /// Euler.
     Bdf2,
 }
 
-/// Which second derivatives are used.
+/// Which second derivatives an implicit step uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Jacobian {
-    /// Exact ones; where the matrix shows that it is indefinite, once more with the offending
-    /// terms dropped.
+    /// Exact derivatives. If the matrix proves to be indefinite, the solve is repeated with the
+    /// offending terms dropped.
     #[default]
     UnlessIndefinite,
-    /// Exact ones; an indefinite matrix is an error.
+    /// Exact derivatives. An indefinite matrix is an error.
     Exact,
-    /// Always without the terms that may be indefinite: Baraff and Witkin 1998, Choi and Ko
-    /// 2002.
+    /// Derivatives without the terms that may be indefinite (Baraff and Witkin 1998, Choi and Ko
+    /// 2002).
     Clamped,
 }
 
-/// How exactly a step's equation has to be solved: a bound on the rms error of the velocity.
+/// How exactly the equation of a step must be solved: a bound on the rms error of the velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
-    /// T Δt^(p+1), with p the order of the method; T in m/s per s^(p+1). Less where little acts: a
-    /// tenth of what all forces where the step begins would make of the velocities, Δt a or the part
-    /// of that which drag leaves, by the rms; but no less than rounding.
+    /// The bound is T Δt^(p+1), where p is the order of the method, and T is in m/s per s^(p+1). If
+    /// forces are small, the bound is at most a tenth of the rms change of velocity that the forces
+    /// at the start of the step would make, but no less than rounding.
     Tied(f64),
-    /// The same at every Δt, in m/s. The error then *rises* as Δt falls.
+    /// The bound is this many m/s at every Δt. The error of the simulation then *rises* as Δt
+    /// falls.
     Fixed(f64),
 }
 
-/// How to take a step.
+/// The settings of an implicit method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Which method.
+    /// The time discretisation.
     pub method: Method,
-    /// Which second derivatives.
+    /// Which second derivatives are used.
     pub jacobian: Jacobian,
-    /// 1: linearised, and Newton's method only where that overshoots ([`StepReport::overshot`]).
-    /// More: Newton's method until the residual is within the tolerance.
+    /// The largest number of Newton iterations per step. With 1 a step is linearised, and Newton's
+    /// method is used only if that overshoots ([`StepReport::overshot`]). With more, Newton's
+    /// method runs until the residual is within the tolerance.
     pub newton_iterations_max: u32,
-    /// When the solver may stop.
+    /// The tolerance at which the solver may stop.
     pub tolerance: Tolerance,
-    /// How many iterations of conjugate gradients a solve may take.
+    /// The largest number of conjugate gradient iterations per solve.
     pub solver_iterations_max: u32,
 }
 
@@ -67,48 +70,48 @@ impl Default for Settings {
     }
 }
 
-/// What a step did.
+/// The report of an implicit step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport {
     /// The method that was used: backward Euler for the first step of BDF2.
     pub method: Method,
-    /// How many matrices showed that they are indefinite.
+    /// The number of matrices that proved to be indefinite.
     pub indefinite: u32,
-    /// How many terms of matrices that were used had a part dropped.
+    /// The number of terms, in the matrices that were used, that had a part dropped.
     pub clamped: u64,
-    /// Newton's iterations; 1 if linearised.
+    /// The number of Newton iterations; 1 for a linearised step.
     pub newton_iterations: u32,
-    /// Whether the linearised step ended above the potential that it started from, and was
-    /// taken back: the step is then that of Newton's method, as far as that came in 50 iterations
-    /// from where the step started. Its residual may be above the limit.
+    /// Whether the linearised step ended at a higher potential than it started from, and was taken
+    /// back. The step is then the result of up to 50 iterations of Newton's method from the start,
+    /// and its residual may be above the limit.
     pub overshot: bool,
-    /// Halvings of the line search.
+    /// The number of times that the line search halved a step.
     pub halvings: u32,
-    /// The residual as a bound on the rms error of the velocity, in m/s: of the linear
-    /// equation if linearised, of the nonlinear one if not.
+    /// The residual, as a bound on the rms error of the velocity, in m/s. It is that of the linear
+    /// equation for a linearised step, and of the nonlinear equation otherwise.
     pub residual: f64,
-    /// What the tolerance allowed, in m/s.
+    /// The residual that the tolerance allowed, in m/s.
     pub limit: f64,
-    /// What this step cost.
+    /// The cost of this step.
     pub work: Work,
 }
 
-/// What was done, in counts that do not depend on the machine.
+/// The cost of an implicit step, in counts that do not depend on the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// How often all forces were computed.
+    /// The number of evaluations of all forces.
     pub force_evaluations: u64,
-    /// How often all second derivatives were.
+    /// The number of evaluations of all second derivatives.
     pub hessian_evaluations: u64,
-    /// How often the energy was, for line searches.
+    /// The number of evaluations of the energy, for line searches.
     pub energy_evaluations: u64,
-    /// Products of the matrix and a vector.
+    /// The number of products of the matrix with a vector.
     pub matrix_products: u64,
-    /// Iterations of conjugate gradients.
+    /// The number of conjugate gradient iterations.
     pub solver_iterations: u64,
 }
 
-/// Why a step was not taken. Positions, velocities and history are as they were.
+/// Why an implicit step was not taken. Positions, velocities and history are unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepError {
     /// The matrix is indefinite, and [`Jacobian::Exact`] was asked for.

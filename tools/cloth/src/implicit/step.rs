@@ -97,7 +97,7 @@ use crate::system::System;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Implicit {
-    /// How to take a step.
+    /// The settings of this method.
     pub settings: Settings,
     equation: Equation,
     outside: Vec<Vector>,
@@ -123,7 +123,7 @@ struct Aside {
 const UNANSWERED: f64 = 0.1;
 
 impl Implicit {
-    /// The method with these settings.
+    /// An implicit method with these settings.
     #[must_use]
     pub fn new(settings: Settings) -> Implicit {
         Implicit {
@@ -132,7 +132,7 @@ impl Implicit {
         }
     }
 
-    /// What the last step that was taken did and cost.
+    /// The report of the last step that was taken.
     #[must_use]
     pub fn report(&self) -> Option<StepReport> {
         self.report

@@ -1,4 +1,4 @@
-//! What tore in a run, when and where, and how hard its holds pulled.
+//! Records what tore in a run, when and where, and how hard its holds pulled.
 
 use std::collections::VecDeque;
 
@@ -6,7 +6,7 @@ use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
 
 use super::run::{Run, Step};
-use super::{FRAME_S, Hold, Method};
+use super::{FRAME_S, HeldVertices, Method};
 use crate::balance::WIND_S;
 use crate::force;
 
@@ -21,14 +21,14 @@ pub struct TearEvent {
     pub torn_m: f64,
     /// The middle of the edge with the largest load over strength: where it was then, and at rest.
     pub place: [Point; 2],
-    /// That load over strength: 1 or more.
+    /// The largest load divided by strength: 1 or more.
     pub load: f64,
 }
 
-/// How a cloth tore first.
+/// The first tear of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstTear {
-    /// The step in which it did.
+    /// The step in which the cloth first tore.
     pub event: TearEvent,
     /// The largest force at a hold in newtons, as [`Chronicle::largest_force_n`] counts, as a mean over
     /// the [`FRAME_S`] before; `None` where forces are not known.
@@ -40,12 +40,12 @@ pub struct FirstTear {
 pub struct HoldForces {
     /// The end of the frame, in seconds.
     pub end_s: f64,
-    /// By hold, in newtons: what it takes to hold or lead its vertices, their weight included. Zero
-    /// before it takes them and after it has let them go.
+    /// For each hold, the force in newtons that it takes to hold or lead its vertices, including
+    /// their weight. Zero before it takes the vertices and after it has released them.
     pub forces_n: Vec<Vector>,
 }
 
-/// The chronicle of a run, for who notes each step in it.
+/// The chronicle of a run. Call [`Chronicle::note`] after each step.
 ///
 /// Forces are means over a [`FRAME_S`], since those of single steps are as much the method's as the
 /// cloth's. They are what the method exerts: force times way is the work of the hands that lead, by every method
@@ -92,11 +92,11 @@ pub struct Chronicle {
 }
 
 impl Chronicle {
-    /// Of a run that has not begun.
+    /// The chronicle of a run that has not begun.
     #[must_use]
     pub fn new(run: &Run) -> Chronicle {
         let holds = &run.scene().holds;
-        let is_led = |hold: &Hold| !hold.moves.is_empty();
+        let is_led = |hold: &HeldVertices| !hold.moves.is_empty();
         let has_led = holds.iter().any(is_led);
         Chronicle {
             events: Vec::new(),
@@ -187,7 +187,7 @@ impl Chronicle {
         &self.events
     }
 
-    /// How the cloth tore first; `None` if it has not.
+    /// The first tear of the cloth; `None` if it has not torn.
     #[must_use]
     pub fn first_tear(&self) -> Option<FirstTear> {
         let &event = self.events.first()?;
@@ -195,7 +195,8 @@ impl Chronicle {
         Some(FirstTear { event, force_n })
     }
 
-    /// The forces at all holds, frame by frame; the last may be shorter. Empty where they are not known.
+    /// The forces at all holds, frame by frame. The last frame may be shorter. Empty if the method
+    /// does not know its forces.
     #[must_use]
     pub fn hold_forces(&self) -> &[HoldForces] {
         &self.frames

@@ -1,4 +1,5 @@
-//! A mesh as one looks at it: what is up, what is across, and where in between something lies.
+//! The orientation and extent of a mesh as a viewer sees it: which way is up, which way is across,
+//! and how large it is.
 
 use tearmesh::Mesh;
 use tearmesh::geometry::{Point, Vector, dot};
@@ -13,11 +14,11 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// x to the right, where nothing else is said.
+    /// The positive x-axis.
     pub const X: Axis = Axis::new(0);
-    /// Up, unless a scene says otherwise.
+    /// The positive y-axis, which is up unless a scene says otherwise.
     pub const Y: Axis = Axis::new(1);
-    /// Up, in many programs.
+    /// The positive z-axis, which is up in many programs.
     pub const Z: Axis = Axis::new(2);
 
     const fn new(number: u8) -> Axis {
@@ -55,11 +56,11 @@ impl Axis {
 pub struct Frame {
     /// The direction against gravity.
     pub up: Axis,
-    /// From left to right.
+    /// The axis from left to right.
     pub across: Axis,
-    /// From bottom to top.
+    /// The axis from bottom to top.
     pub along: Axis,
-    /// Toward the viewer, or away: the axis that is left.
+    /// The remaining axis, toward the viewer or away.
     pub depth: Axis,
     /// The corner of the bounding box from which across, along and depth are counted.
     pub corner: Point,
@@ -120,7 +121,7 @@ impl Frame {
         self.extents_m[0].max(self.extents_m[1])
     }
 
-    /// Where a point lies, as parts of width and height.
+    /// The place of a point, as fractions of width and height.
     #[must_use]
     pub fn parts(&self, point: Point) -> [f64; 2] {
         let d = point - self.corner;
@@ -134,7 +135,7 @@ impl Frame {
         ]
     }
 
-    /// The point at these parts of width, height and depth.
+    /// The point at these fractions of width, height and depth.
     #[must_use]
     pub fn point(&self, parts: [f64; 3]) -> Point {
         let [across, along, depth] = [0, 1, 2].map(|i| parts[i] * self.extents_m[i]);

@@ -1,8 +1,8 @@
-//! The scenes that stand ready, sized to the mesh that they are given.
+//! The built-in scenes, which are sized to the mesh that they are given.
 
 use tearmesh::geometry::{Ray, Vector};
 
-use super::{Axis, Breeze, Frame, Hold, Method, Region, Scene, TimedCut};
+use super::{Axis, Frame, HeldVertices, Method, Region, Scene, SwayingWind, TimedCut};
 use crate::fabric::Fabric;
 use crate::load::Wind;
 use crate::{Tearing, Threshold};
@@ -16,7 +16,7 @@ impl Scene {
     pub const GRAVITY_M_PER_S2: f64 = 9.81;
     /// The rate at which velocities fade, in 1/s.
     pub const DRAG_PER_S: f64 = 0.5;
-    /// How many times its rest length an edge may have before it tears.
+    /// The stretch ratio at which an edge tears in the built-in scenes.
     pub const STRETCH_RATIO: f64 = 1.5;
 
     /// A cloth that nothing holds: it falls for two seconds, and can tear.
@@ -30,7 +30,7 @@ impl Scene {
             areal_density_kg_per_m2: Scene::AREAL_DENSITY_KG_PER_M2,
             gravity_m_per_s2: up.vector() * -Scene::GRAVITY_M_PER_S2,
             drag_per_s: Scene::DRAG_PER_S,
-            breeze: None,
+            wind: None,
             colliders: Vec::new(),
             holds: Vec::new(),
             cuts: Vec::new(),
@@ -39,12 +39,12 @@ impl Scene {
         }
     }
 
-    /// Hung by its two upper corners. Each is clamped over a patch of a fixed size, a tenth
-    /// of the sheet: what is strained at the pin of a single vertex grows as the mesh gets finer.
+    /// A sheet that hangs by its two upper corners. Each is clamped over a patch of a tenth of the
+    /// sheet, because the strain at a single pinned vertex would grow as the mesh gets finer.
     #[must_use]
     pub fn hang(frame: &Frame) -> Scene {
         let corner = |across: f64| {
-            Hold::still(Region::Near {
+            HeldVertices::still(Region::Near {
                 at: [across, 1.0],
                 radius: 0.1,
             })
@@ -75,7 +75,7 @@ impl Scene {
         };
         Scene {
             duration_s: 3.0,
-            breeze: Some(Breeze {
+            wind: Some(SwayingWind {
                 steady: Wind {
                     velocity_m_per_s: across * 6.0,
                     coefficient: 1.5,
@@ -83,7 +83,7 @@ impl Scene {
                 sway_m_per_s: depth * 4.0,
                 period_s: 0.4 * width.max(0.1),
             }),
-            holds: vec![Hold::still(Region::Patch {
+            holds: vec![HeldVertices::still(Region::Patch {
                 across: [0.0, 0.02],
                 along: [0.0, 1.0],
             })],
@@ -112,7 +112,7 @@ impl Scene {
             across: [0.0, 1.0],
             along: [0.97, 1.0],
         };
-        let grab = Hold {
+        let grab = HeldVertices {
             region: grip(0.0),
             from_s: 0.5,
             until_s: None,
@@ -121,7 +121,7 @@ impl Scene {
         Scene {
             duration_s: 3.0,
             drag_per_s: 5.0,
-            holds: vec![Hold::still(edge), grab],
+            holds: vec![HeldVertices::still(edge), grab],
             strengths: [1.0, 2.0, 4.0, 8.0, 16.0]
                 .map(|nearer| (grip(0.12 / nearer), 8.0 * nearer))
                 .to_vec(),
@@ -146,7 +146,7 @@ impl Scene {
             through: false,
             method: tearmesh::CutMethod::Exact,
         };
-        let leg = |across: [f64; 2], side: f64| Hold {
+        let leg = |across: [f64; 2], side: f64| HeldVertices {
             region: Region::Patch {
                 across,
                 along: [0.0, 0.05],

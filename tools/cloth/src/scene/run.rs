@@ -13,8 +13,8 @@ mod quality;
 mod step_size;
 
 pub use self::error::{Names, RunError};
-pub use self::gain::Gain;
-pub use self::quality::{Guarded, Limited, Quality, Solved};
+pub use self::gain::EnergyGain;
+pub use self::quality::{GuardStats, LimiterStats, NewtonStats, Quality};
 pub use self::step_size::{Softness, suggested_step_s};
 
 use std::num::NonZero;
@@ -25,9 +25,9 @@ use tearmesh::{CutReport, Edits, Masses, Mesh, PositionError, Positions, Scissor
 use self::engine::Engine;
 use self::gain::Watch;
 use self::held::Held;
-use super::{Breeze, Frame, Scene, TimedCut};
+use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
-use crate::culprit::Culprit;
+use crate::blow_up::BlowUpSite;
 use crate::frequency;
 use crate::load::{Collider, Loads};
 use crate::sheet::{Cloth, ClothError};
@@ -65,66 +65,67 @@ pub struct Run {
     cuts_made: Vec<CutMade>,
     step_s: f64,
     steps_planned: u64,
-    tally: Tally,
+    tally: RunTally,
     balance: Balance,
     watch: Watch,
 }
 
-/// What has happened in a run so far.
+/// Totals and extremes of a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tally {
-    /// The steps that were taken.
+pub struct RunTally {
+    /// The number of steps taken.
     pub steps: u64,
-    /// The vertices that tearing has split.
+    /// The number of vertices that tearing has split.
     pub splits: u64,
-    /// The vertices that cuts have split.
+    /// The number of vertices that cuts have split.
     pub cut_splits: u64,
-    /// The steps in which more edges were to tear than the cap allows.
+    /// The number of steps in which more edges were due to tear than the cap allows.
     pub steps_at_cap: u64,
-    /// The elastic energy of the edges that tore, in joules: it became motion.
+    /// The elastic energy of the edges that tore, in joules. It turned into motion.
     pub edge_energy_j: f64,
     /// The largest ratio of an edge's length to its rest length after a step, before tearing and
     /// before Provot's limiter.
     pub stretch_ratio_max: f64,
-    /// The farthest that a vertex moved in a substep, in metres: where the scene has a ball, which it
-    /// may have passed. 0 elsewhere.
+    /// The farthest that a vertex moved in one substep, in metres. It is measured only if the scene
+    /// has a ball, which a fast vertex may pass through; otherwise 0.
     pub farthest_m: f64,
-    /// The largest change of momentum by edits, as a part of the sum of |m v| then.
+    /// The largest change of momentum by an edit, as a fraction of the sum of |m v| at that time.
     pub momentum_drift: f64,
 }
 
-/// What a step did.
+/// The report of one step of a run.
 #[derive(Debug)]
 pub struct Step {
-    /// What tore, where the scene tears.
+    /// What tore in this step; `None` if the scene has no rule for tearing.
     pub tear: Option<TearReport>,
 }
 
 /// A cut that was made while the cloth moved.
 #[derive(Debug)]
 pub struct CutMade {
-    /// Its number in the scene.
+    /// The number of the cut in the scene.
     pub number: usize,
-    /// What it did to the mesh.
+    /// What the cut did to the mesh.
     pub report: CutReport,
-    /// What it did to the steps that Provot's method may take: slivers shorten them. `None` for the
-    /// others: Verlet has slivers carried.
-    pub stability: Option<Shortened>,
+    /// How the cut changed the longest stable step of Provot's method, which slivers shorten.
+    /// `None` for other methods; with Verlet, slivers are carried by their neighbours.
+    pub stability: Option<StableSteps>,
 }
 
-/// The longest stable step before a cut and after it.
+/// The longest stable step of an explicit method before a cut and after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shortened {
-    /// Before, in seconds.
+pub struct StableSteps {
+    /// The longest stable step before the cut, in seconds.
     pub before_s: f64,
-    /// After, in seconds.
+    /// The longest stable step after the cut, in seconds.
     pub after_s: f64,
     /// The vertices of the constraint that moves most in the fastest vibration after the cut.
     pub ends: Option<[usize; 2]>,
 }
 
 impl Run {
-    /// Sets a scene with this mesh at rest. `frame` is the one that the scene was made for.
+    /// Prepares a scene with this mesh at rest. `frame` must be the frame that the scene was made
+    /// for.
     ///
     /// # Errors
     ///
@@ -138,14 +139,14 @@ impl Run {
         let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
             .map_err(ClothError::from)?;
         let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
-        if let Some((field, given)) = scene.breeze.and_then(|breeze| breeze.fault()) {
-            return Err(RunError::Breeze { field, given });
+        if let Some((field, given)) = scene.wind.and_then(|wind| wind.fault()) {
+            return Err(RunError::Wind { field, given });
         }
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
             drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
-            wind: scene.breeze.map(|breeze| breeze.at(0.0)),
+            wind: scene.wind.map(|wind| wind.at(0.0)),
             colliders: scene.colliders.clone(),
         };
         let system = cloth.system_mut();
@@ -198,11 +199,11 @@ impl Run {
             return Err(RunError::Times { step_s, duration_s });
         }
         let last_s = Run::STEPS_MAX as f64 * step_s;
-        let uncounted = |breeze: &Breeze| !(last_s / breeze.period_s).is_finite();
-        if let Some(breeze) = scene.breeze.filter(uncounted) {
-            return Err(RunError::Breeze {
-                field: "breeze.period_s",
-                given: breeze.period_s,
+        let uncounted = |wind: &SwayingWind| !(last_s / wind.period_s).is_finite();
+        if let Some(wind) = scene.wind.filter(uncounted) {
+            return Err(RunError::Wind {
+                field: "wind.period_s",
+                given: wind.period_s,
             });
         }
         if scene.step_s.is_none() {
@@ -224,19 +225,19 @@ impl Run {
             step_s,
             steps_planned: steps_planned as u64,
             balance,
-            tally: Tally {
+            tally: RunTally {
                 stretch_ratio_max: 1.0,
-                ..Tally::default()
+                ..RunTally::default()
             },
             scene,
         })
     }
 
-    /// The most steps that a run may take.
+    /// The largest number of steps in a run.
     pub const STEPS_MAX: u64 = 1 << 40;
 
-    /// Gives each vertex a strength, as a multiple of the threshold, in the place of the scene's.
-    /// Where the scene never tears it is of no use, and is dropped.
+    /// Gives each vertex a strength, as a multiple of the tearing threshold, in place of the
+    /// scene's strengths. It has no effect on a scene that never tears.
     ///
     /// # Errors
     ///
@@ -249,8 +250,8 @@ impl Run {
         Ok(self)
     }
 
-    /// Divides the step of a run that has not begun into so many, for who wants to know what it decides.
-    /// A step of the run's own choice is still divided where that is needed.
+    /// Divides the step of a run that has not begun by `parts`, to find out what depends on the
+    /// step. A step that the run chose itself is divided further if stability needs it.
     ///
     /// ```
     /// use std::num::NonZero;
@@ -279,8 +280,8 @@ impl Run {
         self
     }
 
-    /// Puts the vertices of a run that has not begun elsewhere, each off by so much in metres; at rest they
-    /// are as they were, and what will be held is taken there.
+    /// Displaces the vertices of a run that has not begun, each by its offset in metres. The rest
+    /// state does not change, and holds take the displaced vertices.
     ///
     /// # Errors
     ///
@@ -369,7 +370,7 @@ impl Run {
             }
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
-            let stability = step_before_s.map(|before_s| self.shortened(before_s));
+            let stability = step_before_s.map(|before_s| self.stable_steps(before_s));
             self.cuts_made.push(CutMade {
                 number: self.next_cut,
                 report,
@@ -389,8 +390,8 @@ impl Run {
         stability::whole_step_s(self.cloth.system_mut(), &self.engine)
     }
 
-    fn shortened(&mut self, before_s: f64) -> Shortened {
-        Shortened {
+    fn stable_steps(&mut self, before_s: f64) -> StableSteps {
+        StableSteps {
             before_s,
             after_s: self.stable_step_s().unwrap_or(before_s),
             ends: frequency::largest(self.cloth.system_mut()).ends,
@@ -404,18 +405,18 @@ impl Run {
             Ok(positions) => Ok(positions.starting_at(self.edits.cursor())),
             Err(error) => Err(StepError::BlowUp {
                 elapsed_s: self.elapsed_s(),
-                at: Culprit::Particle(error.unusable()[0].0.index()),
+                at: BlowUpSite::Particle(error.unusable()[0].0.index()),
             }),
         }
     }
 
     fn blow(&mut self, now: u64) {
-        let Some(breeze) = self.scene.breeze.filter(Breeze::sways) else {
+        let Some(wind) = self.scene.wind.filter(SwayingWind::sways) else {
             return;
         };
         let system = self.cloth.system_mut();
         let loads = Loads {
-            wind: Some(breeze.at(now as f64 * self.step_s)),
+            wind: Some(wind.at(now as f64 * self.step_s)),
             ..system.loads().clone()
         };
         let set = system.set_loads(loads);
@@ -455,8 +456,8 @@ impl Run {
         self.tally.steps >= self.steps_planned
     }
 
-    /// Whether what is to happen at this time happens: times are rounded to steps, and what would
-    /// be due when the last of them is done never is.
+    /// Whether an event at this time takes place. Times are rounded to steps, and an event that
+    /// falls on the end of the last step never happens.
     #[must_use]
     pub fn reaches(&self, time_s: f64) -> bool {
         held::step_at(time_s, self.step_s) < self.steps_planned
@@ -507,9 +508,9 @@ impl Run {
         self.tally.steps as f64 * self.step_s
     }
 
-    /// What has happened so far.
+    /// Totals and extremes of the run so far.
     #[must_use]
-    pub fn tally(&self) -> Tally {
+    pub fn tally(&self) -> RunTally {
         self.tally
     }
 
@@ -519,18 +520,18 @@ impl Run {
         self.engine.quality(self.cloth.system())
     }
 
-    /// Where the energy of the scene came from and where it went. A pass over all constraints.
+    /// The energy balance of the scene so far. A pass over all constraints.
     #[must_use]
     pub fn energy_balance(&self) -> EnergyBalance {
         let edits_j = self.cloth.ledger().made_j();
         self.balance.now(self.cloth.system(), edits_j)
     }
 
-    /// Whether the method made energy out of nothing, beyond a quarter of what was put in: then the
-    /// cloth tears more than it should, and its pieces fly about. Looked at every 1/60 s. A shorter
-    /// step helps, or a method that damps, or drag.
+    /// The energy that the method made out of nothing, if it exceeded a quarter of what was put in.
+    /// The cloth then tears more than it should, and its pieces fly about. Checked every 1/60 s. A
+    /// shorter step helps, as does drag or a method that damps.
     #[must_use]
-    pub fn gain(&self) -> Option<Gain> {
+    pub fn energy_gain(&self) -> Option<EnergyGain> {
         self.watch.gain()
     }
 
@@ -564,7 +565,7 @@ impl Run {
         &self.cuts_made
     }
 
-    /// What tears it; `None` where the scene never does.
+    /// The state of tearing; `None` for a scene without a rule for tearing.
     #[must_use]
     pub fn tear(&self) -> Option<&Tear> {
         self.tear.as_ref()
@@ -581,9 +582,9 @@ impl Run {
         self.held[hold].now()
     }
 
-    /// How many vertices a hold of the scene takes alone, without another one beside them. The
-    /// strain about such a pin grows as 1/h with the size h of the mesh, about a clamp it does not.
-    /// Linear.
+    /// The number of isolated vertices that a hold of the scene takes, that is, vertices without a
+    /// held neighbour. The strain around such a pin grows as 1/h with the edge length h of the
+    /// mesh; the strain around a clamp does not. Linear.
     ///
     /// # Panics
     ///

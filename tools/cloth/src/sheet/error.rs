@@ -9,37 +9,39 @@ use tearmesh::{FaceId, MassError, VertexId};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClothError {
-    /// The masses cannot be.
+    /// The masses were refused.
     Mass(MassError),
-    /// A stiffness is not a positive finite number, or that of some bend would not be.
+    /// A stiffness is not a positive finite number, or the stiffness of some bend would not be.
     Stiffness {
         /// The field of [`Fabric`](crate::Fabric).
         field: &'static str,
         /// The number as given.
         given: f64,
     },
-    /// Two vertices that a constraint is to join are at one place, or not at any.
+    /// Two vertices that a constraint joins are at the same place, or have coordinates that are not
+    /// finite.
     Length {
         /// The vertices.
         ends: [VertexId; 2],
         /// The rest length, in metres.
         given: f64,
     },
-    /// A face that is to be a triangle has no area at rest, or its warp no direction in it.
+    /// A face of a cloth with a [`Weave`](crate::Weave) has no area at rest, or the direction of
+    /// warp is perpendicular to it.
     Face {
         /// The face.
         face: FaceId,
         /// The direction of warp.
         warp: Vector,
     },
-    /// There is not one direction of warp for each face.
+    /// The number of warp directions differs from the number of faces.
     Warps {
         /// The number of faces.
         faces: usize,
         /// The number of directions.
         warps: usize,
     },
-    /// There are not as many positions and masses as vertices.
+    /// The number of positions or masses differs from the number of vertices.
     Counts {
         /// The number of vertices.
         vertices: usize,

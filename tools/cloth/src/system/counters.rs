@@ -1,6 +1,7 @@
-//! What a simulation costs, without a clock.
+//! The cost of a simulation, counted without a clock.
 
-/// What was computed since the system was made: the cost of a simulation, without a clock.
+/// Counts of what was computed since the system was made. They measure the cost of a simulation
+/// without a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Evaluations of all forces.
@@ -16,44 +17,44 @@ pub struct Counters {
     pub area_evaluations: u64,
     /// Tests of all particles against one collider.
     pub collider_passes: u64,
-    /// Substeps.
+    /// The number of substeps taken.
     pub substeps: u64,
     /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
     pub overshoots: u64,
-    /// Visits of single constraints by what they were for.
+    /// Counts of visits to single constraints, by purpose.
     pub visits: Visits,
-    /// Visits of single elements by which feature of the model they belong to.
+    /// Counts of visits to single elements, by the feature of the model that they belong to.
     pub features: FeatureVisits,
 }
 
-/// Visits of single constraints, springs, bends and triangles alike, by what they were for.
+/// Counts of visits to single constraints (springs, bends and triangles alike), by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
-    /// To project them, or to shorten them.
+    /// Visits to project or shorten a constraint.
     pub project: u64,
-    /// For forces, for products with the stiffness matrix and its entries, for the energy that an
-    /// implicit step searches along a line by, and to see that nothing has blown up.
+    /// Visits for forces, for the stiffness matrix and products with it, for the energies of an
+    /// implicit step's line search, and for the check for blow-up.
     pub force: u64,
-    /// To find those that are about to tear. What is found on the way, while forces are summed up, is
-    /// no visit of its own.
+    /// Visits to find constraints that are about to tear. Constraints that are found while forces
+    /// are summed do not count again.
     pub detect: u64,
-    /// To tell the largest stretch, and energy.
+    /// Visits to measure the largest stretch and the energy.
     pub meter: u64,
 }
 
-/// Visits of single elements by which feature of the model they belong to: what a scene pays for each
-/// feature, without a clock. Those of constraints are the sum of [`Visits::project`] and
-/// [`Visits::force`].
+/// Counts of visits to single elements, by the feature of the model that they belong to: what a scene
+/// pays for each feature, without a clock. Visits to constraints add up to [`Visits::project`] and
+/// [`Visits::force`] together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeatureVisits {
-    /// Of springs along edges.
+    /// Visits to springs along edges.
     pub stretch: u64,
-    /// Of springs and arcs across edges.
+    /// Visits to springs and arcs across edges.
     pub bend: u64,
-    /// Of triangles with a modulus.
+    /// Visits to triangles with a modulus.
     pub triangle: u64,
-    /// Of faces, by wind.
+    /// Visits to faces, for the force of wind and for the rate at which air slows the system.
     pub wind: u64,
-    /// Of particles, by colliders.
+    /// Visits to particles, one for each collider that they are tested against.
     pub collider: u64,
 }

@@ -10,7 +10,7 @@ use crate::Constraint;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SystemError {
-    /// There is not one mass for each point.
+    /// The number of masses differs from the number of points.
     Counts {
         /// The number of points.
         points: usize,

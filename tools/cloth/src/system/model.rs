@@ -6,9 +6,9 @@ use tearmesh::geometry::{Point, Vector};
 
 use super::Counters;
 use crate::bend::Buckling;
+use crate::blow_up::{BlowUpSite, Longest};
 use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
-use crate::culprit::{Culprit, Longest};
 use crate::element::{Also, Element, Forces, Slope};
 use crate::load::{Loads, Path};
 use crate::lookout::Lookout;
@@ -57,11 +57,12 @@ impl Model {
 
     /// All kinds of constraints, in the order of every sum.
     pub(crate) fn kinds(&self) -> [Kind<'_>; KINDS] {
-        let stretch: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Constraint {
-            ends,
-            stretch_ratio,
-        };
-        let bend: fn([usize; 2], f64) -> Culprit = |ends, stretch_ratio| Culprit::Bend {
+        let stretch: fn([usize; 2], f64) -> BlowUpSite =
+            |ends, stretch_ratio| BlowUpSite::Constraint {
+                ends,
+                stretch_ratio,
+            };
+        let bend: fn([usize; 2], f64) -> BlowUpSite = |ends, stretch_ratio| BlowUpSite::Bend {
             ends,
             stretch_ratio,
         };
@@ -131,7 +132,8 @@ impl Model {
         self.elastic_and_look_j(x, None)
     }
 
-    /// The same, while the lookout is told of stretch constraints that are as long as it asks for.
+    /// The elastic energy in joules. The lookout is told of stretch constraints that are as long as
+    /// it asks for.
     pub(crate) fn elastic_and_look_j(&self, x: &[Point], mut lookout: Option<&mut Lookout>) -> f64 {
         let kinds = self.kinds();
         kinds

@@ -10,10 +10,11 @@ use crate::energy;
 use crate::sheet::Cloth;
 use crate::system::Family;
 
-/// A cloth that tears: strengths of vertices, clocks of edges.
+/// The state of tearing of a cloth: the strength of each vertex, and how long each edge has been
+/// overloaded.
 ///
-/// One more follower of the log: what is cut, mended or subdivided between two steps is replayed
-/// by `edits.replay(&mut (&mut cloth, &mut tear))`, or by the next [`Tear::apply`].
+/// It is a follower of the log. Edits between two steps, such as cuts, are replayed by
+/// `edits.replay(&mut (&mut cloth, &mut tear))`, or by the next [`Tear::apply`].
 #[derive(Clone, Debug)]
 pub struct Tear {
     tearing: Tearing,
@@ -56,7 +57,7 @@ impl Clock {
         at: 0,
     };
 
-    /// The same a step later, and one that has not gone on in the step before as one that never did.
+    /// This clock one step later. A clock that did not advance in the previous step starts again.
     fn by(self, now: u64) -> Clock {
         if self.at == now { self } else { Clock::BELOW }
     }
@@ -81,36 +82,37 @@ struct Due {
     severity: f64,
 }
 
-/// What one step of tearing did.
+/// The report of one step of tearing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TearReport {
-    /// Vertices that were split.
+    /// The number of vertices that were split.
     pub splits: usize,
-    /// Edges that were at or above their threshold before.
+    /// The number of edges that were at or above their threshold before the step.
     pub overstretched: usize,
-    /// Of these, the edges whose delay is not over yet.
+    /// The number of overloaded edges whose delay is not over yet.
     pub waiting: usize,
-    /// Of these, the edges that were relieved by a split at one of their ends.
+    /// The number of overloaded edges that were relieved by a split at one of their ends.
     pub relieved: usize,
-    /// Of these, the edges with no end that can be split: held, or with all faces on one side.
+    /// The number of overloaded edges neither of whose ends can be split, because it is held or has
+    /// all faces on one side.
     pub refused: usize,
     /// Whether the cap left an edge that would have torn.
     pub cap_hit: bool,
-    /// Of these, the edge with the largest load over strength, and that: 1 or more. `None` where
-    /// there is none.
+    /// The overloaded edge with the largest load divided by strength, and that quotient, which is 1
+    /// or more. `None` if no edge was overloaded.
     pub worst: Option<(HalfEdgeId, f64)>,
-    /// What the splits took from the elastic energy, in joules, by the cloth's ledger: that of
-    /// bend constraints across the tear. Negative where copies by the paper's rule made
-    /// energy, and 0 with halved ones and no bending.
+    /// The elastic energy that the splits removed, in joules, by the cloth's ledger: that of bend
+    /// constraints across the tear. It is negative if full-stiffness copies by the paper's rule
+    /// made energy, and 0 with halved copies and no bending.
     pub energy_released_j: f64,
-    /// The elastic energy of the edges that tore, in joules: what becomes motion.
+    /// The elastic energy of the edges that tore, in joules. It turns into motion.
     pub edge_energy_j: f64,
     /// The rest length of the edges that came apart, in metres.
     pub tear_length_m: f64,
 }
 
 impl Tear {
-    /// A cloth that is about to tear, with the strength 1 everywhere.
+    /// The state of tearing of a cloth that has not torn yet, with the strength 1 everywhere.
     ///
     /// # Errors
     ///
@@ -134,7 +136,7 @@ impl Tear {
         })
     }
 
-    /// The same with a strength for each vertex, as a multiple of the threshold.
+    /// Sets the strength of each vertex, as a multiple of the threshold.
     ///
     /// # Errors
     ///
@@ -159,13 +161,13 @@ impl Tear {
         })
     }
 
-    /// How it tears.
+    /// The rules by which the cloth tears.
     #[must_use]
     pub fn tearing(&self) -> &Tearing {
         &self.tearing
     }
 
-    /// The strength of a vertex, as given; not weakened.
+    /// The strength of a vertex as it was given, without any weakening.
     ///
     /// # Panics
     ///
@@ -218,9 +220,9 @@ impl Tear {
     /// Tears what is overstretched now, after a step of `dt_s` seconds. Mesh and log advance, and
     /// the cloth and this follow them; other followers replay the log when it suits them.
     ///
-    /// Edits by others that are in the log are followed first. Cost: a walk round the ends of each
-    /// overstretched edge; and, where the method did not compute lengths at the end of the step, a pass
-    /// over edges; over edges and the faces beside them where
+    /// Edits that are already in the log are followed first. Cost: a walk round the ends of each
+    /// overstretched edge; and, where the method did not compute lengths at the end of the step, a
+    /// pass over edges; over edges and the faces beside them where
     /// [`Threshold::PrincipalStretch`](super::Threshold) decides.
     ///
     /// # Panics

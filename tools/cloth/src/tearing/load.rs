@@ -1,4 +1,4 @@
-//! Loads: what an edge or a link has, as a multiple of what it bears.
+//! The load of an edge or a link: its strain or force as a multiple of what it bears.
 
 use tearmesh::geometry::{Vector, cross, dot};
 use tearmesh::{HalfEdgeId, Mesh};
@@ -12,8 +12,8 @@ use crate::sheet::Cloth;
 use crate::system::System;
 
 impl Threshold {
-    /// The load of a link of a system without a mesh: from 1 on it tears. Negative under
-    /// compression; `None` for thresholds that only a mesh has.
+    /// The load of a link in a system without a mesh. The link tears at 1 or more. It is negative
+    /// under compression, and `None` for thresholds that need a mesh.
     ///
     /// # Panics
     ///
@@ -32,8 +32,9 @@ impl Threshold {
         }
     }
 
-    /// The load of an edge of a cloth: from 1 on it tears, where both its ends have the
-    /// strength 1. Negative under compression; `None` for an edge that never tears by itself.
+    /// The load of an edge of a cloth. The edge tears at 1 or more, if both its ends have the
+    /// strength 1. It is negative under compression, and `None` for an edge that never tears by
+    /// itself.
     ///
     /// # Panics
     ///

@@ -144,7 +144,7 @@ const POWERS: [f64; 23] = [
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// The same powers, as whole numbers.
+/// The large powers of ten as whole numbers.
 const LARGE_POWERS: [i128; POWERS.len()] = {
     let mut powers = [1; POWERS.len()];
     let mut at = 1;

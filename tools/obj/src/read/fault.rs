@@ -44,7 +44,8 @@ impl Fault {
         self
     }
 
-    /// The same fault of a line of which only the part from `offset` on was looked at.
+    /// This fault with its columns shifted by `offset`, for a line that was read only from there
+    /// on.
     pub(super) fn after(mut self: Box<Self>, offset: usize) -> Box<Fault> {
         self.span = self.span.start + offset..self.span.end + offset;
         self

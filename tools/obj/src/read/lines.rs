@@ -43,7 +43,7 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// The first bytes, at least `count` if there are so many.
+    /// The first bytes: at least `count` of them, if the input has that many.
     pub(super) fn peek(&mut self, count: usize) -> Result<&[u8], ReadError> {
         while self.end - self.start < count && !self.exhausted {
             self.fill()?;
@@ -61,7 +61,7 @@ impl<R: Read> Lines<R> {
         &self.buffer[self.start..self.end]
     }
 
-    /// Drops so many whole lines, of so many bytes together, from the start of what is buffered.
+    /// Drops `count` whole lines, which together have `bytes` bytes, from the start of the buffer.
     pub(super) fn skip_lines(&mut self, count: u32, bytes: usize) {
         self.number += count;
         self.start += bytes;

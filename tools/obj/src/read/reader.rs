@@ -5,7 +5,7 @@ use super::fault::{Fault, Parsed};
 use super::forward::Forward;
 use super::index::Element;
 use super::record::RecordReader;
-use super::tally::Tally;
+use super::tally::ForeignStatements;
 use crate::document::Document;
 
 /// What has been read so far.
@@ -13,7 +13,7 @@ use crate::document::Document;
 pub(super) struct Reader {
     pub(super) document: Document,
     pub(super) forward: [Forward; 3],
-    pub(super) tally: Tally,
+    pub(super) tally: ForeignStatements,
     pub(super) record: RecordReader,
     pub(super) widths: Widths,
 }

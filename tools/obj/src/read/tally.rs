@@ -9,7 +9,7 @@ const KEYWORDS_MAX: usize = 32;
 
 /// Which uninterpreted statements there are.
 #[derive(Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct ForeignStatements {
     keywords: Vec<Counted>,
     /// Statements with keywords beyond [`KEYWORDS_MAX`].
     others: usize,
@@ -27,7 +27,7 @@ struct Counted {
     excerpt: Excerpt,
 }
 
-impl Tally {
+impl ForeignStatements {
     /// Notes a keyword that is not known; the first one is kept.
     pub(super) fn note_unknown(&mut self, keyword: &[u8]) {
         if self.first.is_none() {

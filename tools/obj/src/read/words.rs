@@ -65,7 +65,7 @@ pub(super) fn out_of_range(span: std::ops::Range<usize>, least: i64, most: i64) 
     Fault::new(CODE, span, message, format!("expected {least} to {most}"))
 }
 
-/// The numbers up to the end of the line, of which there may be so many.
+/// Reads the numbers up to the end of the line, at most as many as `numbers` has room for.
 pub(super) fn numbers(scan: &mut Scan<'_>, numbers: &mut [f64]) -> Parsed<usize> {
     let mut count = 0;
     while count < numbers.len() && scan.find_token() {

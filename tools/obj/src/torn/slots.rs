@@ -18,7 +18,7 @@ impl Slots {
         }
     }
 
-    /// Faces of which each stands at one of so many triangles, sorted by these.
+    /// Sorts faces by the triangle at which each stands. There are `triangles` triangles.
     pub(super) fn sorted(places: &[u32], triangles: usize) -> Slots {
         let mut starts = vec![0_u32; triangles + 1];
         for &place in places {
@@ -36,7 +36,7 @@ impl Slots {
         Slots { faces, starts }
     }
 
-    /// Those of no triangle yet, with room for so many faces.
+    /// Slots without any faces yet, with room for `faces` faces.
     pub(super) fn with_capacity(faces: usize) -> Slots {
         Slots {
             faces: Vec::with_capacity(faces),

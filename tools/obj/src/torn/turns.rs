@@ -145,7 +145,7 @@ impl<'t> Turns<'t> {
     }
 }
 
-/// The statement in whose section a class belongs: its own, if the document has so many.
+/// The statement in whose section a class belongs: its own, if the document has that one.
 fn anchor(anchors: &[u32], known: usize, class: u32) -> u32 {
     match (class as usize).checked_sub(known) {
         None => class,

@@ -20,7 +20,7 @@ use crate::read::statements;
 use crate::store::Kind;
 use crate::torn::TornDocument;
 
-/// Writes the pieces of a torn document, each by itself.
+/// Writes each piece of a torn document to a file of its own.
 ///
 /// ```
 /// use tearmesh::{Edits, FaceId, Positions, VertexId, split};
@@ -54,19 +54,20 @@ pub struct PieceWriter<'t> {
     said: SaidOfFaces<'t>,
 }
 
-/// What a document calls the faces of a piece: each name once, in the order of the file.
+/// The names that a document gives to the faces of a piece. Each name is listed once, in the order
+/// of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PieceNames {
-    /// By `o`.
+    /// The names of objects (`o`).
     pub objects: Vec<String>,
-    /// By `g`.
+    /// The names of groups (`g`).
     pub groups: Vec<String>,
-    /// By `usemtl`.
+    /// The names of materials (`usemtl`).
     pub materials: Vec<String>,
 }
 
 impl<'t> PieceWriter<'t> {
-    /// Linear in the document.
+    /// Prepares to write the pieces of a torn document. Linear in the document.
     #[must_use]
     pub fn new(torn: &'t TornDocument<'t>) -> PieceWriter<'t> {
         let document = torn.document();
@@ -86,16 +87,16 @@ impl<'t> PieceWriter<'t> {
         }
     }
 
-    /// Writes a piece of the mesh that was followed, to its end. `positions` are those of the whole. A
-    /// vertex of several fans is several here.
+    /// Writes a piece of the mesh whose log was followed to its end. `positions` are those of the
+    /// whole mesh. A vertex with several fans is written once for each fan.
     ///
     /// # Errors
     ///
-    /// Those of the output.
+    /// The errors of the output.
     ///
     /// # Panics
     ///
-    /// If the piece or the positions are those of another mesh.
+    /// If the piece or the positions belong to another mesh.
     pub fn write(
         &self,
         piece: &DerivedMesh,
@@ -177,11 +178,11 @@ impl<'t> PieceWriter<'t> {
         })
     }
 
-    /// What the document calls the faces of a piece.
+    /// The names that the document gives to the faces of a piece.
     ///
     /// # Panics
     ///
-    /// If the piece is one of another mesh.
+    /// If the piece belongs to another mesh.
     #[must_use]
     pub fn names(&self, piece: &DerivedMesh) -> PieceNames {
         let mut names = PieceNames::default();

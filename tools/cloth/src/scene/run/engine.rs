@@ -1,6 +1,6 @@
 //! The methods of scenes, behind one solver.
 
-use super::quality::{Guarded, Limited, Quality, Solved};
+use super::quality::{GuardStats, LimiterStats, NewtonStats, Quality};
 use crate::scene::Method;
 use crate::stability::carried_count;
 use crate::{
@@ -11,22 +11,24 @@ use crate::{
 #[derive(Clone, Debug)]
 pub(super) enum Engine {
     /// The tearing rule sees lengths as they were before the limiter.
-    Provot(Provot, Limited),
+    Provot(Provot, LimiterStats),
     Pbd(Pbd),
     Verlet(Verlet),
     Xpbd(Xpbd),
-    Implicit(Box<Implicit>, Solved),
+    Implicit(Box<Implicit>, NewtonStats),
 }
 
 impl Engine {
     pub(super) fn new(method: &Method) -> Engine {
         match *method {
-            Method::Provot(limiter) => Engine::Provot(Provot::new(limiter), Limited::default()),
+            Method::Provot(limiter) => {
+                Engine::Provot(Provot::new(limiter), LimiterStats::default())
+            }
             Method::Pbd(pbd) => Engine::Pbd(pbd),
             Method::Verlet => Engine::Verlet(Verlet::new()),
             Method::Xpbd(xpbd) => Engine::Xpbd(xpbd),
             Method::Implicit(settings) => {
-                Engine::Implicit(Box::new(Implicit::new(settings)), Solved::default())
+                Engine::Implicit(Box::new(Implicit::new(settings)), NewtonStats::default())
             }
         }
     }
@@ -43,14 +45,14 @@ impl Engine {
 
     pub(super) fn quality(&self, system: &System) -> Quality {
         match self {
-            Engine::Provot(_, limited) => Quality::Limited(*limited),
+            Engine::Provot(_, limited) => Quality::Limiter(*limited),
             Engine::Pbd(_) => Quality::Strain(system.strain_rms()),
-            Engine::Verlet(verlet) => Quality::Guarded(Guarded {
+            Engine::Verlet(verlet) => Quality::Guards(GuardStats {
                 carried: carried_count(system),
                 damped_j: verlet.damped_j(),
             }),
             Engine::Xpbd(xpbd) => Quality::Residual(xpbd.residual_n(system)),
-            Engine::Implicit(_, solved) => Quality::Solved(*solved),
+            Engine::Implicit(_, solved) => Quality::Newton(*solved),
         }
     }
 }

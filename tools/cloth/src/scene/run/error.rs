@@ -24,20 +24,20 @@ pub enum RunError {
     },
     /// A number of a load is not finite, or negative where it must not be.
     Loads(SystemError),
-    /// The wind would not be usable at all times: its sway added to it is no number, or its period
-    /// is not positive and finite, or too short for a time to be counted in it.
-    Breeze {
+    /// The wind is not usable at all times: its velocity with the sway is not finite, or its period
+    /// is not positive and finite, or is too short.
+    Wind {
         /// The field.
         field: &'static str,
         /// The number as given; of a vector, the component.
         given: f64,
     },
-    /// No vertex lies where one is to be held.
+    /// A hold has no vertex in its region.
     NothingHeld {
         /// The number of the hold in the scene.
         number: usize,
     },
-    /// No vertex lies where some are to bear more or less.
+    /// A region of strengths has no vertex in it.
     NothingStrong {
         /// The number of the strength in the scene.
         number: usize,
@@ -77,11 +77,11 @@ pub enum RunError {
         /// The number of the first that is earlier than the one before it.
         number: usize,
     },
-    /// The rule for tearing makes no sense.
+    /// The rule for tearing has a number that cannot be used.
     Tearing(TearingError),
 }
 
-/// What can name vertices.
+/// The part of a scene that names vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Names {
     /// A hold of the scene.
@@ -113,7 +113,7 @@ impl fmt::Display for RunError {
                 write!(f, "{duration_s} s cannot be taken in steps of {step_s} s")
             }
             RunError::Loads(error) => error.fmt(f),
-            RunError::Breeze { field, given } => {
+            RunError::Wind { field, given } => {
                 write!(f, "{field} is {given}, with which no wind can blow")
             }
             RunError::NothingHeld { number } => {

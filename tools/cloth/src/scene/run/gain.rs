@@ -12,14 +12,15 @@ use crate::balance::EnergyBalance;
 use crate::scene::{FRAME_S, Method};
 use crate::system::System;
 
-/// Energy that the method made out of nothing.
+/// The energy that a method made out of nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gain {
-    /// When it was noticed first, in seconds: at most 1/60 s after it was beyond the margin.
+pub struct EnergyGain {
+    /// The time at which it was first noticed, in seconds: at most 1/60 s after it exceeded the
+    /// margin.
     pub since_s: f64,
-    /// The largest that was made so far, in joules.
+    /// The largest amount that was made so far, in joules.
     pub made_j: f64,
-    /// What had been put in by then: see [`EnergyBalance::put_in_j`].
+    /// The energy that had been put in by then, in joules: see [`EnergyBalance::put_in_j`].
     pub put_in_j: f64,
 }
 
@@ -32,7 +33,7 @@ pub(super) struct Watch {
     least_j: f64,
     /// Whether the elastic energy is that of the method's forces.
     has_lengths: bool,
-    gain: Option<Gain>,
+    gain: Option<EnergyGain>,
 }
 
 impl Watch {
@@ -60,7 +61,7 @@ impl Watch {
         }
     }
 
-    /// Whether it is time for a look after so many steps.
+    /// Whether it is time to look at the balance, after `steps` steps.
     pub(super) fn is_time(&self, steps: u64) -> bool {
         steps.is_multiple_of(self.every)
     }
@@ -80,7 +81,7 @@ impl Watch {
                 (gain.made_j, gain.put_in_j) = (made_j, put_in_j);
             }
             None if is_beyond => {
-                self.gain = Some(Gain {
+                self.gain = Some(EnergyGain {
                     since_s: elapsed_s,
                     made_j,
                     put_in_j,
@@ -90,7 +91,7 @@ impl Watch {
         }
     }
 
-    pub(super) fn gain(&self) -> Option<Gain> {
+    pub(super) fn gain(&self) -> Option<EnergyGain> {
         self.gain
     }
 }

@@ -12,13 +12,13 @@ use tearmesh::{Edit, Edits, Mesh, VertexId};
 use super::{Names, RunError};
 use crate::balance::Balance;
 use crate::load::Path;
-use crate::scene::{Frame, Hold, Region};
+use crate::scene::{Frame, HeldVertices, Region};
 use crate::system::System;
 
 /// A hold, and its vertices.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    hold: Hold,
+    hold: HeldVertices,
     vertices: Vec<VertexId>,
     state: State,
 }
@@ -115,7 +115,7 @@ fn release(all: &[Held], number: usize, since: u64, (system, balance): Hands<'_>
 impl Held {
     pub(super) fn new(
         number: usize,
-        hold: &Hold,
+        hold: &HeldVertices,
         mesh: &Mesh,
         points: &[Point],
         frame: &Frame,

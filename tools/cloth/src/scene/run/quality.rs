@@ -1,73 +1,77 @@
-//! What the method of a run says of its own steps.
+//! What the method of a run reports about its own steps.
 
 use crate::implicit::StepReport;
 use crate::provot::LimiterReport;
 
-/// What the method of a run says of its own steps: where they fell short of the model, and by how
-/// much.
+/// What the method of a run reports about its own steps: where they fell short of the model, and by
+/// how much.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Quality {
-    /// The guards of velocity Verlet.
-    Guarded(Guarded),
-    /// Provot's limiter.
-    Limited(Limited),
-    /// PBD: constraints are rigid to it, so all strain is what its sweeps have left. The root mean
-    /// square now.
+    /// For velocity Verlet: what its guards did.
+    Guards(GuardStats),
+    /// For Provot's method: what its limiter did.
+    Limiter(LimiterStats),
+    /// For PBD: the root mean square of the present strains. PBD treats constraints as rigid, so
+    /// all strain is what its sweeps failed to remove.
     Strain(f64),
-    /// XPBD: the largest difference, in newtons, between the force on a particle that the last
+    /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
     /// substep used and the one that the springs have now
     /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
     Residual(f64),
-    /// An implicit method.
-    Solved(Solved),
+    /// For an implicit method: what its Newton iterations did.
+    Newton(NewtonStats),
 }
 
-/// What the guards of velocity Verlet did.
+/// What the guards of velocity Verlet did in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Guarded {
-    /// The vertices that are carried by their neighbours now, as they are too light for the step.
+pub struct GuardStats {
+    /// The number of vertices that are too light for the step, and so are carried by their
+    /// neighbours at present.
     pub carried: usize,
-    /// The energy that damping took from what was crushed in all steps, in joules.
+    /// The energy that the damping of crushed constraints took in all steps, in joules.
     pub damped_j: f64,
 }
 
-/// What Provot's limiter did in all steps.
+/// What Provot's limiter did in all steps of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Limited {
-    /// The passes over all constraints.
+pub struct LimiterStats {
+    /// The number of passes over all constraints.
     pub passes: u64,
-    /// The steps (or substeps) after which some edge was still longer than the limit.
+    /// The number of steps (or substeps) after which some edge was still longer than the limit.
     pub steps_short: u64,
-    /// Of these, the ones in which passes had stopped helping: what is held is too far apart.
+    /// The number of steps (or substeps) in which further passes no longer helped, because held
+    /// vertices are too far apart.
     pub steps_infeasible: u64,
-    /// What the largest stretch ratio had above the limit, at most.
+    /// The largest amount by which a stretch ratio was still above the limit.
     pub excess_max: f64,
-    /// The steps (or substeps) in which some edge was longer than the limit, and was shortened.
+    /// The number of steps (or substeps) in which some edge was longer than the limit and was
+    /// shortened.
     pub steps_limited: u64,
 }
 
-/// What the implicit method did in all steps.
+/// What the Newton iterations of an implicit method did in all steps of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solved {
-    /// Newton's iterations; one a step if linearised.
+pub struct NewtonStats {
+    /// The number of Newton iterations; one per step if steps are linearised.
     pub newton_iterations: u64,
-    /// Halvings of the line search.
+    /// The number of times that a line search halved a step.
     pub halvings: u64,
-    /// Matrices that showed that they are indefinite: cloth under compression.
+    /// The number of matrices that proved to be indefinite, which happens to cloth under
+    /// compression.
     pub indefinite: u64,
-    /// Terms of matrices that had a part dropped for it.
+    /// The number of matrix terms that had a part dropped because of that.
     pub clamped: u64,
     /// The largest residual of a step, as a bound on the rms error of the velocity in m/s.
     pub residual_max_m_per_s: f64,
-    /// The steps (or substeps) that were taken with a residual above what the tolerance allows:
-    /// linearised ones that overshot, and from which Newton's method did not come down all the way.
+    /// The number of steps (or substeps) that were taken with a residual above the tolerance:
+    /// linearised steps that overshot, after which Newton's method did not converge fully.
     pub unsolved: u64,
-    /// The largest residual of a step as a multiple of what the tolerance allowed in that.
+    /// The largest residual of a step, as a multiple of what the tolerance allowed in that step.
     pub excess_max: f64,
 }
 
-impl Limited {
+impl LimiterStats {
     pub(super) fn note(&mut self, report: &LimiterReport) {
         self.passes += u64::from(report.passes);
         self.steps_limited += u64::from(report.has_shortened);
@@ -78,7 +82,7 @@ impl Limited {
     }
 }
 
-impl Solved {
+impl NewtonStats {
     pub(super) fn note(&mut self, report: &StepReport) {
         self.newton_iterations += u64::from(report.newton_iterations);
         self.halvings += u64::from(report.halvings);

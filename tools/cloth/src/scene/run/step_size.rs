@@ -1,4 +1,4 @@
-//! Which step suits a scene, and how soft a method that sweeps is at the one it has.
+//! Chooses the step of a scene, and estimates how soft a method that sweeps is at a given step.
 
 use super::engine::Engine;
 use crate::scene::{FRAME_S, Method, Scene};
@@ -9,9 +9,9 @@ use crate::system::System;
 /// The longest step in seconds that is chosen for any scene.
 const LONGEST_S: f64 = FRAME_S / 2.0;
 
-/// The step in seconds that a [`Run`](super::Run) chooses for a method where its scene names none: one
-/// that suits the method and a system through which a pull travels at so many metres a second,
-/// c = √(k/ρ); a whole part of 1/60 s.
+/// The step in seconds that a [`Run`](super::Run) chooses for a method where its scene names none:
+/// one that suits the method and a system through which a pull travels at the speed c = √(k/ρ), in
+/// m/s. It is a whole fraction of 1/60 s.
 pub fn suggested_step_s(method: &Method, system: &mut System, speed_m_per_s: f64) -> f64 {
     let engine = &Engine::new(method);
     let suited_s = stability::suited_s(system, engine);
@@ -53,8 +53,9 @@ pub(super) fn wanted_s(method: &Method, system: &System, speed_m_per_s: f64) -> 
     Some(SWEEP * sweeps * edge_m / speed_m_per_s)
 }
 
-/// How far a pull gets in so many sweeps without a step in between, as a multiple of one that
-/// corrects all: each makes good but a part of what the one before left, as in diffusion.
+/// How far a pull travels in `sweeps` sweeps without a step in between, as a multiple of a sweep
+/// that corrects everything: each makes good but a part of what the one before left, as in
+/// diffusion.
 fn reach(sweeps: u32, fraction: f64) -> f64 {
     (f64::from(sweeps.max(1)) * fraction).sqrt()
 }
@@ -62,12 +63,14 @@ fn reach(sweeps: u32, fraction: f64) -> f64 {
 /// The time for a sweep as a multiple of h/c.
 const SWEEP: f64 = 1.0;
 
-/// By how much cloth is softer than its fabric, as [`Run::softness`](super::Run::softness) says.
+/// How much softer a cloth is than its fabric: the result of
+/// [`Run::softness`](super::Run::softness).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Softness {
-    /// The part by which what hangs at rest is stretched too far, in the mean over its edges.
+    /// The mean excess stretch of the edges of a cloth that hangs at rest, as a fraction of the
+    /// stretch that the fabric's stiffness gives.
     pub extra: f64,
-    /// The longest step in seconds at which that is a twentieth.
+    /// The longest step in seconds at which the excess is at most a twentieth.
     pub step_s: f64,
 }
 
@@ -123,6 +126,6 @@ fn add((sum, count): (f64, f64), rate: f64) -> (f64, f64) {
 }
 
 impl Softness {
-    /// What nobody has to be told of.
+    /// The excess up to which no warning is given.
     pub const TOLERABLE: f64 = 0.05;
 }

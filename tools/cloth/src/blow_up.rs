@@ -1,70 +1,72 @@
-//! Where a blow-up showed: what is not finite, too long, or too large, in a state that is given up.
+//! The place where a blow-up showed: a number that is not finite, too long or too large in a state
+//! that was discarded.
 
 use std::fmt;
 
 use crate::digits::Digits;
 
-/// Where a blow-up showed.
+/// The particle or constraint at which a blow-up was noticed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Culprit {
+pub enum BlowUpSite {
     /// A particle whose position or velocity is not finite.
     Particle(usize),
-    /// A particle that is farther off than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX) metres, or
-    /// faster than as many metres in a second.
+    /// A particle that is farther than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX) metres from the
+    /// origin, or faster than that many metres per second.
     Beyond(usize),
-    /// A stretch constraint.
+    /// A stretch constraint that became too long.
     Constraint {
         /// Its particles.
         ends: [usize; 2],
         /// Its length as a multiple of its rest length.
         stretch_ratio: f64,
     },
-    /// A bend constraint.
+    /// A bend constraint that became too long.
     Bend {
         /// Its particles.
         ends: [usize; 2],
         /// Its length as a multiple of its rest length.
         stretch_ratio: f64,
     },
-    /// A triangle.
+    /// A triangle that was stretched too far.
     Triangle {
         /// Its particles.
         corners: [usize; 3],
         /// The length of its warp or weft as a multiple of the rest length.
         stretch_ratio: f64,
     },
-    /// Nothing: the method gave up a system without constraints, in which all numbers are sane.
+    /// No place was found: the method gave up on a system without constraints in which all numbers
+    /// are finite.
     Unknown,
 }
 
 /// The constraint that is longest for its rest length, of those that were looked at.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Longest {
-    worst: Option<(f64, Culprit)>,
+    worst: Option<(f64, BlowUpSite)>,
 }
 
 impl Longest {
     /// Looks at one of this length, as a multiple of that at rest.
-    pub(crate) fn weigh(&mut self, ratio: f64, culprit: impl FnOnce() -> Culprit) {
+    pub(crate) fn weigh(&mut self, ratio: f64, site: impl FnOnce() -> BlowUpSite) {
         if self.worst.is_none_or(|(most, _)| ratio > most) {
-            self.worst = Some((ratio, culprit()));
+            self.worst = Some((ratio, site()));
         }
     }
 
     /// The longest, if it is beyond `ratio_max`.
-    pub(crate) fn beyond(self, ratio_max: f64) -> Option<Culprit> {
+    pub(crate) fn beyond(self, ratio_max: f64) -> Option<BlowUpSite> {
         let beyond = self.worst.filter(|&(ratio, _)| ratio > ratio_max);
-        beyond.map(|(_, culprit)| culprit)
+        beyond.map(|(_, site)| site)
     }
 }
 
-impl fmt::Display for Culprit {
+impl fmt::Display for BlowUpSite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Culprit::Particle(particle) => write!(f, "particle {particle} is not finite"),
-            Culprit::Beyond(particle) => write!(f, "particle {particle} is beyond all measure"),
-            Culprit::Constraint {
+            BlowUpSite::Particle(particle) => write!(f, "particle {particle} is not finite"),
+            BlowUpSite::Beyond(particle) => write!(f, "particle {particle} is beyond all measure"),
+            BlowUpSite::Constraint {
                 ends: [a, b],
                 stretch_ratio,
             } => write!(
@@ -72,7 +74,7 @@ impl fmt::Display for Culprit {
                 "edge {a}-{b} has {} times its rest length",
                 Digits(stretch_ratio)
             ),
-            Culprit::Bend {
+            BlowUpSite::Bend {
                 ends: [a, b],
                 stretch_ratio,
             } => write!(
@@ -80,7 +82,7 @@ impl fmt::Display for Culprit {
                 "the bend {a}-{b} has {} times its rest length",
                 Digits(stretch_ratio)
             ),
-            Culprit::Triangle {
+            BlowUpSite::Triangle {
                 corners: [a, b, c],
                 stretch_ratio,
             } => write!(
@@ -88,7 +90,7 @@ impl fmt::Display for Culprit {
                 "triangle {a}-{b}-{c} has {} times its size at rest",
                 Digits(stretch_ratio)
             ),
-            Culprit::Unknown => f.write_str("the method gave up"),
+            BlowUpSite::Unknown => f.write_str("the method gave up"),
         }
     }
 }
