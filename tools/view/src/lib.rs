@@ -10,6 +10,7 @@
 mod bounds;
 mod camera;
 mod fit;
+mod page;
 pub mod palette;
 mod pc2;
 mod picture;
@@ -22,6 +23,7 @@ mod trace;
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraError};
 pub use fit::{ANGLE_OF_VIEW, fit};
+pub use page::{CutLine, MOMENTS_PER_S, Moment, Page, PageError, Plot, is_page};
 pub use pc2::write_pc2;
 pub use picture::{PIXELS_MAX, Picture, PictureSize};
 pub use render::{RenderOptions, faces_seen, render};
