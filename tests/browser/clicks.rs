@@ -24,6 +24,8 @@ impl Chance {
 /// How far the trace may be from the cut, in pixels, and half of the width of its line.
 const OFF: f64 = 2.0;
 const HALF: f64 = 1.2;
+/// How far the mark of a point reaches.
+const MARK: f64 = 6.0;
 /// Each pair that misses is followed by another one.
 const PAIRS: usize = 10;
 
@@ -65,6 +67,8 @@ fn the_line_cuts_where_the_page_shows_it() {
         done(&["tearmesh", "view", &mesh, "-o", &page]);
         chrome.open(&folder.path("page.html"));
         chrome.press("box");
+        // Letters have edges in all colours.
+        chrome.value("tools.style.visibility = say.style.visibility = 'hidden'");
         let (mut hit, mut missed) = (0, 0);
         while hit < PAIRS {
             assert!(missed < 60, "{name}: nothing is hit");
@@ -83,13 +87,15 @@ fn the_line_cuts_where_the_page_shows_it() {
 
 /// Clicks two points, and checks what the page shows. False if they miss the mesh, which is checked too.
 fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 2]) -> bool {
-    points.map(|point| chrome.click(point));
+    for point in points {
+        chrome.click(point);
+    }
     let line = chrome.text("line");
     let eye = Eye::of(&chrome.hidden_text("render"));
     if line.is_empty() {
         let hint = chrome.text("hint");
         assert_eq!(hint, "The line misses the mesh: click two other points.");
-        assert!(chrome.screen(eye.size).places(is_trace).is_empty());
+        assert!(traced(chrome, &eye, points).is_empty(), "no trace is left");
         misses(&eye, mesh, points);
         return false;
     }
@@ -101,7 +107,7 @@ fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 
 
     let segments = seam_pixels(&fs::read_to_string(seam).expect("a seam"), &eye);
     assert!(!segments.is_empty(), "{line}\n{said}");
-    let drawn = chrome.screen(eye.size).places(is_trace);
+    let drawn = traced(chrome, &eye, points);
     for &at in &drawn {
         let near = segments.iter().map(|&one| distance(at, one));
         let near = near.fold(f64::INFINITY, f64::min);
@@ -115,7 +121,7 @@ fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 
         let steps = apart(a, b).ceil().max(1.0);
         for step in 0..=steps as u32 {
             let at = [0, 1].map(|i| a[i] + (b[i] - a[i]) * f64::from(step) / steps);
-            if points.iter().any(|&point| apart(point, at) < 8.0) {
+            if points.iter().any(|&point| apart(point, at) < MARK + OFF) {
                 continue;
             }
             let near = drawn.iter().map(|&drawn| apart(drawn, at));
@@ -128,6 +134,13 @@ fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 
         }
     }
     true
+}
+
+/// The pixels of the trace beside the marks of the points.
+fn traced(chrome: &mut Chrome, eye: &Eye, marks: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let mut drawn = chrome.screen(eye.size).places(is_trace);
+    drawn.retain(|&at| marks.iter().all(|&mark| apart(mark, at) > MARK));
+    drawn
 }
 
 /// What the page says of a miss is what `cut --camera` says of it.

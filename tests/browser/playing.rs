@@ -41,18 +41,11 @@ fn a_simulation_is_played_and_can_be_turned() {
     chrome.press("play");
     chrome.value("new Promise(r => setInterval(() => Number(time.value) > 3 && r(), 10))");
     chrome.press("play");
-    let reached = chrome
-        .value("Number(time.value)")
-        .as_f64()
-        .expect("a number");
+    let reached = chrome.value("time.value");
     assert_eq!(chrome.text("play"), "Play");
     chrome.value("new Promise(r => setTimeout(r, 100))");
-    assert_eq!(
-        chrome.value("Number(time.value)"),
-        json!(reached),
-        "it is paused"
-    );
-    assert!(reached < 36.0, "it was paused before the end");
+    assert_eq!(chrome.value("time.value"), reached, "it is paused");
+    assert_ne!(reached, "36", "it was paused before the end");
 
     // Of what is torn nothing can be cut before the end, since no file has it.
     for point in [[200.0, 150.0], [500.0, 200.0]] {

@@ -50,7 +50,7 @@ impl Screen {
 
 /// The colour of a trace, also where it shines through a face: no surface has less green than red and blue.
 pub(crate) fn is_trace([r, g, b]: [u8; 3]) -> bool {
-    r.min(b) >= g.saturating_add(10)
+    r.min(b) >= g.saturating_add(14)
 }
 
 /// The colour of what is torn.

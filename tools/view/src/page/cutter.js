@@ -54,17 +54,21 @@ function inFront([p, q], normal, from) {
 }
 
 // The part of an edge within which a cut may take an end of it for a crossing, so that it goes where it was
-// shown: less than usual where edges are long in the picture.
-function snapFor(faces, places, corners, camera, usual) {
-  let longest = 0;
+// shown: less than usual where edges are long in the picture, and none where nothing else would be left of it.
+function snapFor({ segments, faces }, places, corners, camera, usual) {
+  let seen = 0, edge = 0;
   for (const f of faces) {
-    const pixels = [0, 1, 2].map((i) => camera.pixel([0, 1, 2].map((axis) => places[3 * corners[f + i] + axis])));
+    const ends = [0, 1, 2].map((i) => [0, 1, 2].map((axis) => places[3 * corners[f + i] + axis]));
+    const pixels = ends.map((p) => camera.pixel(p));
     for (let i = 0; i < 3; i++) {
-      const [a, b] = [pixels[i], pixels[(i + 1) % 3]];
-      longest = Math.max(longest, a[2] > 0 && b[2] > 0 ? Math.hypot(a[0] - b[0], a[1] - b[1]) : Infinity);
+      const j = (i + 1) % 3, [a, b] = [pixels[i], pixels[j]];
+      seen = Math.max(seen, a[2] > 0 && b[2] > 0 ? Math.hypot(a[0] - b[0], a[1] - b[1]) : Infinity);
+      edge = Math.max(edge, Math.hypot(...sub(ends[i], ends[j])));
     }
   }
-  const snap = OFF / (TIP * longest);
+  const longest = segments.reduce((most, [p, q]) => Math.max(most, Math.hypot(...sub(p, q))), 0);
+  const snap = OFF / (TIP * seen);
+  if (longest < 4 * Math.min(snap, usual) * edge) return 0;
   return snap < usual ? Number(snap.toPrecision(1)) : usual;
 }
 

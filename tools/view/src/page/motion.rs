@@ -39,10 +39,11 @@ impl Lattice {
         let from = (p - self.origin) / self.side;
         [from.x, from.y, from.z]
     }
+}
 
-    fn steps(&self, p: Point) -> [i32; 3] {
-        self.part(p).map(|x| (x * STEPS).round() as i32)
-    }
+/// The nearest point of the lattice.
+fn steps(part: [f64; 3]) -> [i32; 3] {
+    part.map(|x| (x * STEPS).round() as i32)
 }
 
 /// Whether a guess takes the last step again.
@@ -64,24 +65,27 @@ pub(super) fn write<'m>(
         // Where a vertex is that no face has is told by nobody, and must not cost anything.
         let places = points.iter().zip(&is_shown);
         let places = places.map(|(&p, &is_shown)| if is_shown { p } else { lattice.origin });
+        let parts: Vec<[f64; 3]> = places.map(|p| lattice.part(p)).collect();
         if number == 0 {
-            let parts: Vec<_> = places.clone().map(|p| lattice.part(p)).collect();
+            let parts: Vec<[f32; 3]> = parts.iter().map(|part| part.map(|x| x as f32)).collect();
             first = floats(&parts);
-        } else {
-            let now: Vec<[i32; 3]> = places.clone().map(|p| lattice.steps(p)).collect();
-            let tried = [0, GOES_ON, AS_NEIGHBOUR, GOES_ON | AS_NEIGHBOUR];
-            let tried = tried.map(|guess| (track.off(guess, &now, &neighbours), guess));
-            let [head, rest @ ..] = tried;
-            let best =
-                rest.into_iter()
-                    .fold(head, |best, other| match cost(&other.0) < cost(&best.0) {
-                        true => other,
-                        false => best,
-                    });
-            guesses.push(best.1);
-            left.extend(best.0);
+            // Whoever reads them begins with what they were rounded to.
+            let now = parts.iter().map(|part| steps(part.map(f64::from)));
+            track.go_on(now.collect(), &neighbours);
+            continue;
         }
-        let now = places.map(|p| lattice.steps(p)).collect();
+        let now: Vec<[i32; 3]> = parts.into_iter().map(steps).collect();
+        let tried = [0, GOES_ON, AS_NEIGHBOUR, GOES_ON | AS_NEIGHBOUR];
+        let tried = tried.map(|guess| (track.off(guess, &now, &neighbours), guess));
+        let [head, rest @ ..] = tried;
+        let best =
+            rest.into_iter()
+                .fold(head, |best, other| match cost(&other.0) < cost(&best.0) {
+                    true => other,
+                    false => best,
+                });
+        guesses.push(best.1);
+        left.extend(best.0);
         track.go_on(now, &neighbours);
     }
     let planes = [0, 8, 16].map(|shift| left.iter().map(move |&x| (x >> shift) as u8));
@@ -92,8 +96,8 @@ pub(super) fn write<'m>(
 }
 
 /// Numbers from 0 to 1 as 32-bit floats: their first bytes, each axis by itself, and so on.
-fn floats(parts: &[[f64; 3]]) -> Vec<u8> {
-    let axes = (0..3).flat_map(|axis| parts.iter().map(move |part| part[axis] as f32));
+fn floats(parts: &[[f32; 3]]) -> Vec<u8> {
+    let axes = (0..3).flat_map(|axis| parts.iter().map(move |part| part[axis]));
     let all: Vec<[u8; 4]> = axes.map(f32::to_le_bytes).collect();
     (0..4)
         .flat_map(|byte| all.iter().map(move |float| float[byte]))

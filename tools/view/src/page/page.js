@@ -150,7 +150,7 @@ async function open() {
     const { places, state, cut: file } = moments[now], { corners } = states[state];
     const found = cut ? traceOf(cut, places, corners) : { segments: [], faces: [] };
     scene.setLines("trace", found.segments.flat(2));
-    if (isNew) cut.snap = snapFor(found.faces, places, corners, camera, data.snap);
+    if (isNew) cut.snap = snapFor(found, places, corners, camera, data.snap);
     const isMade = found.segments.length > 0;
     $("made").hidden = !cut;
     $("hint").hidden = isMade;
