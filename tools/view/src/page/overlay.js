@@ -15,8 +15,8 @@ function told(x, step) {
   return x.toExponential(Math.max(0, Math.min(15, exponent + digits))).replace("e+", "e").replaceAll("-", "−");
 }
 
-// The edge of the box along an axis that is farthest left and down in the picture, and where its middle is
-// from the middle of the box.
+// The edge of the box along an axis that is farthest out in the picture, left or below rather than right or
+// above, and where its middle is from the middle of the box.
 function outerEdge(camera, box, axis) {
   const middle = camera.pixel(between(box.least, box.most, 0.5));
   let best = null;
@@ -25,8 +25,9 @@ function outerEdge(camera, box, axis) {
     const ends = [bits, bits | 1 << axis].map((b) => boxCorner(box, b)), pixels = ends.map((p) => camera.pixel(p));
     if (pixels.some((pixel) => pixel[2] <= 0)) return null;
     const off = [0, 1].map((i) => (pixels[0][i] + pixels[1][i]) / 2 - middle[i]);
-    const lean = Math.abs(pixels[1][0] - pixels[0][0]) > Math.abs(pixels[1][1] - pixels[0][1]) ? 1 : 0;
-    const far = (lean ? off[1] : -off[0]) + 0.1 * (lean ? -off[0] : off[1]);
+    const along = [0, 1].map((i) => pixels[1][i] - pixels[0][i]);
+    const aside = Math.abs(off[0] * along[1] - off[1] * along[0]) / (Math.hypot(...along) || 1);
+    const far = aside + 0.1 * (off[1] - off[0]);
     if (!best || far > best.far) best = { ends, pixels, off, far };
   }
   return best;

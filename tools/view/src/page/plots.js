@@ -24,7 +24,7 @@ class Chart {
     }
     const second = niceStep(until || 1, 4);
     for (let n = 0; n * second <= until * (1 + 1e-9); n++) {
-      svg("text", { x: this.x(n * second), y: height - 2, "text-anchor": n ? "middle" : "start" }, root, `${told(n * second, second)} s`);
+      svg("text", { x: this.x(n * second), y: height - 2, "text-anchor": !n ? "start" : this.x(n * second) > right - 12 ? "end" : "middle" }, root, `${told(n * second, second)} s`);
     }
     lines.forEach((line, i) => {
       const points = line.points.filter((point) => Number.isFinite(point[1]));
