@@ -23,6 +23,7 @@ const CRATES: &[(&str, &str, usize)] = &[
     ("tests/obj", "main.rs", 12),
     ("tests/view", "main.rs", 3),
     ("tests/cli", "main.rs", 8),
+    ("tests/browser", "main.rs", 5),
 ];
 
 /// The files of a crate, read from its folder.

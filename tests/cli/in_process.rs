@@ -11,7 +11,7 @@ use tearmesh_cli::{Exit, Streams, run};
 use tearmesh_obj::Document;
 
 /// Options that take the name of a file. Here each means the standard stream.
-pub(crate) const PATHS: [&str; 8] = [
+pub(crate) const PATHS: [&str; 9] = [
     "--output",
     "--report",
     "--rays-file",
@@ -19,6 +19,7 @@ pub(crate) const PATHS: [&str; 8] = [
     "--map",
     "--pieces",
     "--picture",
+    "--view",
     "-o",
 ];
 

@@ -21,6 +21,7 @@ mod map;
 mod memory;
 mod numbers;
 mod odd;
+mod pages;
 mod pareto;
 mod pictures;
 mod pieces;

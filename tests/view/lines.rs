@@ -43,7 +43,7 @@ fn count(picture: &Picture, color: palette::Color) -> usize {
 #[test]
 fn a_seam_is_seen_in_a_sheet_that_did_not_move() {
     let (mut mesh, mut positions) = shapes::grid(12, 12);
-    assert_eq!(count(&picture(&mesh, &positions), palette::SEAM), 0);
+    assert_eq!(count(&picture(&mesh, &positions), palette::LIGHT.seam), 0);
     cut(
         &mut mesh,
         &mut positions,
@@ -52,15 +52,15 @@ fn a_seam_is_seen_in_a_sheet_that_did_not_move() {
     );
     let shown = picture(&mesh, &positions);
     // Some 120 pixels long and two wide.
-    let red = count(&shown, palette::SEAM);
+    let red = count(&shown, palette::LIGHT.seam);
     assert!((150..500).contains(&red), "{red}");
-    assert!(count(&shown, palette::BOUNDARY) > 500);
+    assert!(count(&shown, palette::LIGHT.boundary) > 500);
     // Seen straight on, all of the sheet is equally far away, but for rounding.
     let look = [Point::new(0.5, 0.5, 1.7), Point::new(0.5, 0.5, 0.0)];
     let size = PictureSize::new(320, 240).expect("a size");
     let camera = Camera::new(look, Vector::y(), 35.0, size.as_f64()).expect("a camera");
     let shown = render(&mesh, &positions, &camera, size, &RenderOptions::default());
-    let red = count(&shown, palette::SEAM);
+    let red = count(&shown, palette::LIGHT.seam);
     assert!((150..500).contains(&red), "{red}");
 }
 
@@ -81,7 +81,7 @@ fn a_seam_behind_the_surface_is_hidden() {
         let options = RenderOptions::default();
         count(
             &render(&mesh, &positions, &camera, size, &options),
-            palette::SEAM,
+            palette::LIGHT.seam,
         )
     };
     let [front, back] = [red(8.0), red(-8.0)];

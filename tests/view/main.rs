@@ -3,4 +3,5 @@
 mod coverage;
 mod lines;
 mod meshes;
+mod page;
 mod pictures;

@@ -9,6 +9,7 @@ mod read;
 mod render;
 mod shell;
 mod tear;
+mod view;
 
 use std::ffi::OsString;
 
@@ -25,6 +26,7 @@ pub(crate) use self::read::{Gap, numbers};
 pub(crate) use self::render::RenderArgs;
 pub(crate) use self::shell::{CompletionsArgs, ManArgs};
 pub(crate) use self::tear::{TearArgs, Topology};
+pub(crate) use self::view::ViewArgs;
 
 /// Cuts and tears triangle meshes in OBJ files, and verifies what it does.
 #[derive(Debug, Parser)]
@@ -57,6 +59,7 @@ pub(crate) enum Verb {
     Tear(Box<TearArgs>),
     Mend(MendArgs),
     Render(Box<RenderArgs>),
+    View(ViewArgs),
     Check(CheckArgs),
     Chart(ChartArgs),
     Completions(CompletionsArgs),

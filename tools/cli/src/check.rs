@@ -1,21 +1,22 @@
 //! The verb `check`: a line for each file.
 
-mod files;
-
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tearmesh::{Masses, Positions};
+use tearmesh::{Masses, Positions, Vector};
+use tearmesh_view::Page;
 
 use crate::args::{CheckArgs, Format};
-use crate::exit::Exit;
+use crate::exit::{Exit, Stop};
+use crate::files::{is_same, unwritable};
 use crate::input::Input;
+use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
-use crate::output;
 use crate::report::{Entry, File};
 use crate::say::{Fault, Screen, Severity, count, is_colored, place, short};
 use crate::streams::Streams;
 use crate::{defects, session};
+use crate::{output, page};
 
 /// The code of an invariant that does not hold.
 const BROKEN: &str = "E-BUG-INVARIANT";
@@ -31,15 +32,20 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
         let fault = Fault::error("E-USAGE", message).help("name a file for one of them");
         return streams.fail(&fault, args.color, Exit::Usage);
     }
-    let files = files::named(&args.inputs, args.recursive);
+    let files = named(&args.inputs, args.recursive);
     let names = files.iter().map(|file| match file {
         Ok(path) | Err((path, _)) => name(path).chars().count(),
     });
     let width = names.max().unwrap_or(0);
+    let mut shown = match args.view.as_ref().map(|path| Shown::at(path, &files)) {
+        Some(Ok(shown)) => Some(shown),
+        Some(Err(stop)) => return refuse(&stop, args, streams),
+        None => None,
+    };
     let mut exit = Exit::Done;
     for file in files {
         let found = match file {
-            Ok(path) => Found::of(&path, streams),
+            Ok(path) => Found::of(&path, shown.as_mut(), streams),
             Err((path, fault)) => Found::nothing(&path, fault),
         };
         exit = match (exit, found.exit()) {
@@ -65,7 +71,51 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
             found.show(args, streams);
         }
     }
-    exit
+    match shown.map_or(Ok(()), Shown::write) {
+        Ok(()) => exit,
+        Err(stop) => refuse(&stop, args, streams),
+    }
+}
+
+/// Says why a page cannot be made.
+fn refuse(stop: &Stop, args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
+    let faults = stop.faults.iter();
+    faults.fold(stop.exit, |exit, fault| {
+        streams.fail(fault, args.color, exit)
+    })
+}
+
+/// The page of the meshes that can be cut.
+struct Shown {
+    page: Page,
+    path: PathBuf,
+}
+
+impl Shown {
+    /// Refuses a page that would replace a file.
+    fn at(path: &Path, inputs: &[Result<PathBuf, (PathBuf, Fault)>]) -> Result<Shown, Stop> {
+        let mut inputs = inputs.iter().flatten();
+        if path == Path::new("-") || inputs.any(|input| is_same(input, path)) {
+            let message = "`--view` takes the name of a file of its own".to_owned();
+            let fault = Fault::error("E-USAGE", message);
+            let fault = fault.help("name a file that nothing else is read from or written to");
+            return Err(Stop::new(Exit::Usage, fault));
+        }
+        output::check(path).map_err(|error| unwritable(path, &error))?;
+        Ok(Shown {
+            page: Page::new("checked", Vector::y()),
+            path: path.to_owned(),
+        })
+    }
+
+    fn write(self) -> Result<(), Stop> {
+        if self.page.is_empty() {
+            let message = "there is no mesh to be shown on a page".to_owned();
+            let fault = Fault::error("E-VIEW-EMPTY", message);
+            return Err(Stop::new(Exit::Input, fault));
+        }
+        page::write(&self.path, &self.page)
+    }
 }
 
 fn name(path: &Path) -> String {
@@ -114,7 +164,7 @@ impl Found {
         }
     }
 
-    fn of(path: &Path, streams: &mut Streams<'_>) -> Found {
+    fn of(path: &Path, shown: Option<&mut Shown>, streams: &mut Streams<'_>) -> Found {
         let input = match Input::find(path, streams.input) {
             Ok(input) => input,
             Err(fault) if fault.code == "E-IO-DIRECTORY" => {
@@ -144,6 +194,11 @@ impl Found {
             Ok(mesh) => {
                 let points = document.positions().iter().copied();
                 let positions = Positions::new(points).expect("the reader accepts no others");
+                if let Some(shown) = shown {
+                    let moment = page::moment(Some(&input.name));
+                    // Where the mesh cannot be seen, the line of its file says what it is.
+                    let _ = shown.page.add(&mesh, &positions, moment);
+                }
                 found.mesh = Some(Measured {
                     file: File::of(Some(input.name.clone()), &mesh),
                     bounds: Bounds::of(&mesh, &positions),

@@ -126,6 +126,10 @@ impl Foreign {
                 "a picture",
                 "name it x.obj, and draw a picture with --picture F.png",
             ),
+            "htm" | "html" => foreign(
+                "a page",
+                "name it x.obj, and show it on a page with --view F.html",
+            ),
             "pc2" => foreign(
                 "a point cache",
                 "name it x.obj, and write the cache of `tear` with --cache F.pc2",
@@ -156,7 +160,7 @@ pub(crate) fn unwritten(args: &FileArgs, output_is_terminal: bool) -> Option<Fau
 
 /// The files that show the mesh, by their options, as far as they are wanted.
 fn seen(args: &FileArgs) -> impl Iterator<Item = (&'static str, &PathBuf)> {
-    let files = [("--picture", &args.picture)];
+    let files = [("--picture", &args.picture), ("--view", &args.view)];
     files
         .into_iter()
         .filter_map(|(option, path)| Some((option, path.as_ref()?)))

@@ -1,6 +1,7 @@
 //! Where the mesh comes from.
 
 mod foreign;
+pub(crate) mod named;
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -109,6 +110,7 @@ impl Input {
     }
 }
 
+/// That something cannot be read.
 pub(crate) fn cannot_read(name: &str, error: &io::Error) -> Fault {
     Fault::error("E-IO-READ", format!("cannot read `{name}`: {error}"))
 }

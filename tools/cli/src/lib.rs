@@ -3,8 +3,8 @@
 //! the command in their own process.
 //!
 //! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes; `cut`, `tear`, `mend`,
-//! `check`, `render` and `chart` carry out the verbs, and `shell` prints completions and pages of the
-//! manual; `picture` draws for the verbs that change a mesh, `session` is what these have in common,
+//! `check`, `render`, `view` and `chart` carry out the verbs, and `shell` prints completions and pages of the
+//! manual; `picture` and `page` show what the verbs that change a mesh made, `session` is what these have in common,
 //! `report` is their JSON; `defects` shows what is wrong with a mesh, `measure` how large it is, `say`
 //! puts diagnostics on a screen; `output` writes files whole or not at all, `files` says where; `bug`
 //! writes a reproducer when an invariant broke, `streams` is what a run reads and writes, and `exit`
@@ -23,6 +23,7 @@ mod interrupt;
 mod measure;
 mod mend;
 mod output;
+mod page;
 mod picture;
 mod rays;
 mod render;
@@ -33,6 +34,7 @@ mod session;
 mod shell;
 mod streams;
 mod tear;
+mod view;
 
 use std::ffi::OsString;
 
@@ -60,6 +62,9 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Args {
             verb: Verb::Render(render),
         }) => render::run(&render, &mut streams),
+        Ok(Args {
+            verb: Verb::View(view),
+        }) => view::run(&view, &mut streams),
         Ok(Args {
             verb: Verb::Check(check),
         }) => check::run(&check, &mut streams),

@@ -117,6 +117,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         }
     }
     session.show_mesh(&mesh, &positions, Vector::y())?;
+    session.show_page(&mesh, &positions, Vector::y())?;
     let taken_out = vertices_mended - mesh.vertex_count();
     let pieces = mesh.components().count();
     session.report.mend = Some(report::Mend {

@@ -16,7 +16,7 @@ use crate::input::Input;
 use crate::report::{self, Entry, Report};
 use crate::say::{Fault, Screen, Severity, count, is_colored};
 use crate::streams::Streams;
-use crate::{bug, defects, files, output, picture};
+use crate::{bug, defects, files, output, page, picture};
 
 /// A run in progress, and all that will be said about it.
 pub(crate) struct Session<'a> {
@@ -214,6 +214,20 @@ impl<'a> Session<'a> {
     ) -> Result<(), Stop> {
         match self.files.picture.as_ref().filter(|_| !self.files.dry_run) {
             Some(path) => picture::write_beside(path, mesh, place, up),
+            None => Ok(()),
+        }
+    }
+
+    /// Shows the mesh as it is in the end on a page, if one is wanted.
+    pub(crate) fn show_page(
+        &self,
+        mesh: &Mesh,
+        place: &(impl Place + ?Sized),
+        up: Vector,
+    ) -> Result<(), Stop> {
+        let name = self.destination.name();
+        match self.files.view.as_ref().filter(|_| !self.files.dry_run) {
+            Some(path) => page::write_beside(path, mesh, place, up, name.as_deref()),
             None => Ok(()),
         }
     }

@@ -1,6 +1,7 @@
 //! The verb `tear`.
 
 mod check;
+mod film;
 mod frames;
 mod points;
 mod reach;
@@ -21,6 +22,7 @@ use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_lab::ensemble::Subject;
 use tearmesh_obj::{Document, TornDocument};
 
+use self::film::Film;
 use self::frames::Frames;
 use self::points::places;
 use crate::args::{TearArgs, cut_name};
@@ -138,6 +140,14 @@ struct Play<'a> {
     guard: Guard,
 }
 
+/// Who looks on while steps are taken.
+type Followers<'f, 'd> = (
+    &'f mut TornDocument<'d>,
+    &'f mut Frames,
+    &'f mut Chronicle,
+    &'f mut Option<Film>,
+);
+
 /// How the steps ended.
 enum Ended {
     Done,
@@ -160,7 +170,8 @@ impl Play<'_> {
         session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
         let mut chronicle = Chronicle::new(&run);
-        let followers = (&mut torn, &mut frames, &mut chronicle);
+        let mut film = self.film();
+        let followers = (&mut torn, &mut frames, &mut chronicle, &mut film);
         let ended = self.steps(&mut run, followers, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
@@ -234,6 +245,7 @@ impl Play<'_> {
                 session.faults.push(fault);
                 if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                     session.words.clear();
+                    self.play_page(film, &run, &chronicle, session)?;
                     return self.show(frames, &run, &torn, session);
                 }
             }
@@ -253,7 +265,44 @@ impl Play<'_> {
         let mesh = run.mesh();
         let ending = files::ending(vertices_before, mesh, mass, &session.destination);
         session.words.push(ending);
+        self.play_page(film, &run, &chronicle, session)?;
         self.show(frames, &run, &torn, session)
+    }
+
+    /// A page to play it on, if one is wanted.
+    fn film(&self) -> Option<Film> {
+        let files = &self.args.files;
+        let name = files.input.display().to_string();
+        let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
+        let is_wanted = files.view.is_some() && !files.dry_run;
+        is_wanted.then(|| Film::new(&title, self.frame.up.vector()))
+    }
+
+    /// Writes the page, which ends with the mesh as it was written.
+    fn play_page(
+        &self,
+        film: Option<Film>,
+        run: &Run,
+        chronicle: &Chronicle,
+        session: &Session<'_>,
+    ) -> Result<(), Stop> {
+        let Some((film, path)) = film.zip(self.args.files.view.as_ref()) else {
+            return Ok(());
+        };
+        // A run that did nothing has written nothing.
+        let name = session
+            .report
+            .output
+            .as_ref()
+            .and_then(|file| file.path.clone());
+        let facts = [
+            ("scene", self.name.clone()),
+            ("method", method_name(&run.scene().solver).to_owned()),
+            ("steps", run.tally().steps.to_string()),
+            ("vertices split", run.tally().splits.to_string()),
+        ];
+        let page = film.finish(run, chronicle, name.as_deref(), &facts)?;
+        crate::page::write(path, &page)
     }
 
     /// Writes the frames that waited. That may take as long as the steps, so it comes last, and
@@ -283,13 +332,14 @@ impl Play<'_> {
     fn steps(
         &self,
         run: &mut Run,
-        (torn, frames, chronicle): (&mut TornDocument<'_>, &mut Frames, &mut Chronicle),
+        (torn, frames, chronicle, film): Followers<'_, '_>,
         session: &mut Session<'_>,
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
         let bar = self.bar(run.steps_planned(), "step {pos} of {len}", streams);
         let mut ended = Ended::Done;
         frames.shoot(run, torn)?;
+        film.as_mut().map_or(Ok(()), |film| film.shoot(run))?;
         while !run.is_over() {
             if self.guard.is_interrupted() {
                 ended = Ended::Interrupted;
@@ -306,6 +356,7 @@ impl Play<'_> {
                 Ok(step) => {
                     chronicle.note(run, &step);
                     frames.shoot(run, torn)?;
+                    film.as_mut().map_or(Ok(()), |film| film.shoot(run))?;
                 }
                 Err(error) => {
                     ended = Ended::Failed(error);

@@ -208,7 +208,7 @@ impl Scene<'_> {
             Some((face, Facing::new(corners)?))
         });
         let Some((face, facing)) = seen else {
-            return palette::BACKGROUND.map(f64::from);
+            return palette::LIGHT.background.map(f64::from);
         };
         let weights = facing.weights(self.view.lattice.sight(column, row));
         let sum: f64 = weights.iter().sum();
@@ -231,11 +231,11 @@ struct Look {
 
 fn look(kind: Kind) -> Look {
     let (color, width, cover) = match kind {
-        Kind::Edge => (palette::EDGE, 0.7, 0.45),
-        Kind::Box => (palette::BOX, 1.0, 1.0),
-        Kind::Boundary => (palette::BOUNDARY, 1.7, 1.0),
-        Kind::Seam => (palette::SEAM, 2.4, 1.0),
-        Kind::Trace => (palette::TRACE, 2.4, 1.0),
+        Kind::Edge => (palette::LIGHT.edge, 0.7, 0.45),
+        Kind::Box => (palette::LIGHT.bounding_box, 1.0, 1.0),
+        Kind::Boundary => (palette::LIGHT.boundary, 1.7, 1.0),
+        Kind::Seam => (palette::LIGHT.seam, 2.4, 1.0),
+        Kind::Trace => (palette::LIGHT.trace, 2.4, 1.0),
     };
     Look {
         color,

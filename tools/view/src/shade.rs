@@ -7,7 +7,12 @@ use crate::camera::{Camera, unit};
 use crate::palette::Color;
 
 /// The cosine of the angle between two faces from which on there is a crease: 40 degrees.
-const CREASE: f64 = 0.766;
+pub(crate) const CREASE: f64 = 0.766;
+
+/// How bright a surface is that no light meets, and how much each light adds: the key light, and the one at
+/// the eye. Then where the key light is: backward, up and right. Then how much of its colour the back keeps,
+/// and how bright it is.
+pub(crate) const LIGHT: [f64; 8] = [0.34, 0.46, 0.28, 0.7, 0.6, -0.4, 0.65, 0.82];
 
 /// The normal of each corner of each face: the mean, by area, of those faces of its vertex that go on
 /// without a crease.
@@ -56,7 +61,8 @@ pub(crate) struct Light {
 impl Light {
     pub(crate) fn of(camera: &Camera) -> Light {
         let [backward, right, up] = camera.axes();
-        let key = backward * 0.7 + up * 0.6 - right * 0.4;
+        let [_, _, _, b, u, r, ..] = LIGHT;
+        let key = backward * b + up * u + right * r;
         Light {
             backward,
             key: key / length(key),
@@ -73,7 +79,8 @@ impl Light {
         };
         let key = dot(normal, self.key).max(0.0);
         let head = dot(normal, self.backward).max(0.0);
-        let light = 0.34 + 0.46 * key + 0.28 * head;
+        let [ambient, by_key, by_head, .., kept, bright] = LIGHT;
+        let light = ambient + by_key * key + by_head * head;
         let color = color.map(f64::from);
         let [r, g, b] = color;
         let grey = (r + g + b) / 3.0;
@@ -82,7 +89,7 @@ impl Light {
             if is_front {
                 x
             } else {
-                (0.65 * x + 0.35 * grey) * 0.82
+                (kept * x + (1.0 - kept) * grey) * bright
             }
         };
         color.map(|x| (side(x) * light).min(255.0))

@@ -33,6 +33,10 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 
+    /// Show the meshes on a page for a browser, as HTML, those that can be cut.
+    #[arg(long, value_name = "F.html")]
+    pub(crate) view: Option<PathBuf>,
+
     /// When to use colours.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) color: Color,

@@ -42,6 +42,13 @@ pub(crate) struct FileArgs {
     #[arg(long, value_name = "F.png")]
     pub(crate) picture: Option<PathBuf>,
 
+    /// Show the mesh on a page for a browser, as HTML.
+    ///
+    /// One file that needs no network: turn it, and click two points to plan a cut. `tear` shows all of the
+    /// simulation. `tearmesh view` makes pages of other files.
+    #[arg(long, value_name = "F.html")]
+    pub(crate) view: Option<PathBuf>,
+
     /// Leave times out of the report, so that it is the same on every run.
     #[arg(long, hide_short_help = true)]
     pub(crate) no_timing: bool,

@@ -14,7 +14,7 @@ use std::rc::Rc;
 use tearmesh::{Blend, Edits, Mesh, Mix, Point, Positions, VertexId, VertexOp};
 use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
-use tearmesh_view::write_pc2;
+use tearmesh_view::{MOMENTS_PER_S, write_pc2};
 
 use super::points::places;
 use crate::args::{TearArgs, Topology};
@@ -24,7 +24,7 @@ use crate::say::Fault;
 use crate::{files, output, report};
 
 /// How many frames a second.
-pub(super) const RATE_PER_S: f64 = 30.0;
+pub(super) const RATE_PER_S: f64 = MOMENTS_PER_S;
 
 /// The frames of a run, if any are wanted.
 pub(super) struct Frames {
@@ -84,6 +84,7 @@ impl Frames {
                 (args.forces.as_deref(), "the table of forces"),
                 (args.cache.as_deref(), "the point cache"),
                 (files.picture.as_deref(), "the picture"),
+                (files.view.as_deref(), "the page"),
             ] {
                 path.map_or(Ok(()), |path| refuse_replacing(folder, path, what))?;
             }

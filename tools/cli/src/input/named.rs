@@ -1,16 +1,16 @@
-//! The files that are checked: folders are looked into, and patterns that no shell has expanded are
+//! The files that inputs name: folders are looked into, and patterns that no shell has expanded are
 //! expanded here, since those of Windows expand none.
 
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::input::cannot_read;
+use super::cannot_read;
 use crate::say::Fault;
 
 /// The files that inputs name, in the order of the inputs and each folder's by name; where there are
 /// none, why, with what was typed.
-pub(super) fn named(inputs: &[PathBuf], recursive: bool) -> Vec<Result<PathBuf, (PathBuf, Fault)>> {
+pub(crate) fn named(inputs: &[PathBuf], recursive: bool) -> Vec<Result<PathBuf, (PathBuf, Fault)>> {
     let mut files = Vec::new();
     for input in inputs {
         let named = of_input(input, recursive);

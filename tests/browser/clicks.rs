@@ -1,0 +1,183 @@
+//! Two points that are clicked, and the cut that the page's line makes.
+
+use std::fs;
+
+use tearmesh_cli::Exit;
+
+use crate::chrome::Chrome;
+use crate::eye::Eye;
+use crate::folder::{Folder, done, three, typed};
+use crate::screen::{apart, distance, is_trace};
+
+/// Random numbers, the same each time (Marsaglia's xorshift).
+struct Chance(u64);
+
+impl Chance {
+    fn between(&mut self, least: f64, most: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        least + (most - least) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+}
+
+/// How far the trace may be from the cut, in pixels, and half of the width of its line.
+const OFF: f64 = 2.0;
+const HALF: f64 = 1.2;
+/// How far the mark of a point reaches.
+const MARK: f64 = 6.0;
+/// Each pair that misses is followed by another one.
+const PAIRS: usize = 10;
+
+#[test]
+#[ignore = "needs chromium"]
+fn the_line_cuts_where_the_page_shows_it() {
+    let Some(mut chrome) = Chrome::start() else {
+        return;
+    };
+    let folder = Folder::new();
+    folder.write("flag in the wind.obj", "flag.obj", |p| p.map(|x| x * 1e-3));
+    folder.write("far.obj", "sheet.obj", |[x, y, z]| {
+        [1e6 + x, y - 2e6, 5e5 + z]
+    });
+    folder.write("sleeve.obj", "sleeve.obj", |p| p.map(|x| x * 1e3));
+    folder.write("quilt.obj", "quilt.obj", |[x, y, z]| {
+        [7.0 - x, 1e3 + y, z * 3.0]
+    });
+    // A sheet folded again and again, tiny and not at the origin.
+    folder.write("folded's.obj", "sheet.obj", |[x, y, z]| {
+        let fold = (x * 3.0).fract();
+        let fold = if (x * 3.0) as u32 % 2 == 0 {
+            fold
+        } else {
+            1.0 - fold
+        };
+        [2.0 + fold * 5e-6, y * 2e-5, 1.0 + 1e-5 * (x + z)]
+    });
+    let mut chance = Chance(2014);
+    let names = [
+        "flag in the wind.obj",
+        "far.obj",
+        "sleeve.obj",
+        "quilt.obj",
+        "folded's.obj",
+    ];
+    for name in names {
+        let (mesh, page) = (folder.name(name), folder.name("page.html"));
+        done(&["tearmesh", "view", &mesh, "-o", &page]);
+        chrome.open(&folder.path("page.html"));
+        chrome.press("box");
+        // Letters have edges in all colours.
+        chrome.value("tools.style.visibility = say.style.visibility = 'hidden'");
+        let (mut hit, mut missed) = (0, 0);
+        while hit < PAIRS {
+            assert!(missed < 60, "{name}: nothing is hit");
+            let turned = [0; 2].map(|_| chance.between(200.0, 500.0));
+            chrome.drag([340.0, 320.0], turned);
+            let points = [0; 2].map(|_| [chance.between(30.0, 650.0), chance.between(60.0, 600.0)]);
+            match planned(&mut chrome, &folder, &mesh, points) {
+                true => hit += 1,
+                false => missed += 1,
+            }
+        }
+        println!("{name}: {hit} cuts, {missed} beside the mesh");
+    }
+    chrome.was_quiet();
+}
+
+/// Clicks two points, and checks what the page shows. False if they miss the mesh, which is checked too.
+fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 2]) -> bool {
+    for point in points {
+        chrome.click(point);
+    }
+    let line = chrome.text("line");
+    let eye = Eye::of(&chrome.hidden_text("render"));
+    if line.is_empty() {
+        let hint = chrome.text("hint");
+        assert_eq!(hint, "The line misses the mesh: click two other points.");
+        assert!(traced(chrome, &eye, points).is_empty(), "no trace is left");
+        misses(&eye, mesh, points);
+        return false;
+    }
+    let mut words = shlex::split(&line).expect("words that a shell understands");
+    let seam = folder.name("seam.obj");
+    words.extend(["--seam".to_owned(), seam.clone()]);
+    let (exit, said) = typed(words);
+    assert_eq!(exit, Exit::Done, "{line}\n{said}");
+
+    let segments = seam_pixels(&fs::read_to_string(seam).expect("a seam"), &eye);
+    assert!(!segments.is_empty(), "{line}\n{said}");
+    let drawn = traced(chrome, &eye, points);
+    for &at in &drawn {
+        let near = segments.iter().map(|&one| distance(at, one));
+        let near = near.fold(f64::INFINITY, f64::min);
+        assert!(
+            near <= OFF + HALF,
+            "{points:?}: the trace at {at:?} is {near} from the cut\n{line}"
+        );
+    }
+    // And all of the cut is shown, but for what is under the marks of the points.
+    for [a, b] in segments {
+        let steps = apart(a, b).ceil().max(1.0);
+        for step in 0..=steps as u32 {
+            let at = [0, 1].map(|i| a[i] + (b[i] - a[i]) * f64::from(step) / steps);
+            if points.iter().any(|&point| apart(point, at) < MARK + OFF) {
+                continue;
+            }
+            let near = drawn.iter().map(|&drawn| apart(drawn, at));
+            let near = near.fold(f64::INFINITY, f64::min);
+            let is_inside = (0..2).all(|i| at[i] > 4.0 && at[i] < eye.size[i] - 4.0);
+            assert!(
+                near <= OFF || !is_inside,
+                "{points:?}: the cut at {at:?} is {near} from the trace\n{line}"
+            );
+        }
+    }
+    true
+}
+
+/// The pixels of the trace beside the marks of the points.
+fn traced(chrome: &mut Chrome, eye: &Eye, marks: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let mut drawn = chrome.screen(eye.size).places(is_trace);
+    drawn.retain(|&at| marks.iter().all(|&mark| apart(mark, at) > MARK));
+    drawn
+}
+
+/// What the page says of a miss is what `cut --camera` says of it.
+fn misses(eye: &Eye, mesh: &str, points: [[f64; 2]; 2]) {
+    let size = eye.size.map(|x| x.to_string()).join("x");
+    let points = points.map(|[x, y]| format!("{x},{y}"));
+    let words = [
+        "tearmesh",
+        "cut",
+        mesh,
+        "--dry-run",
+        "--viewport",
+        &size,
+        "--points",
+    ];
+    let words = words.map(str::to_owned).into_iter();
+    let (exit, said) = typed(words.chain(points).chain(eye.options.clone()));
+    assert_eq!(exit, Exit::NothingCut, "{said}");
+}
+
+/// The segments of a seam in a file, as they are seen.
+fn seam_pixels(text: &str, eye: &Eye) -> Vec<[[f64; 2]; 2]> {
+    let points: Vec<[f64; 2]> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("v "))
+        .map(|line| eye.pixel(three(line)))
+        .collect();
+    let lines = text.lines().filter_map(|line| line.strip_prefix("l "));
+    lines
+        .flat_map(|line| {
+            let numbers = line.split_whitespace();
+            let numbers = numbers.map(|n| n.parse::<usize>().expect("a number"));
+            let along: Vec<[f64; 2]> = numbers.map(|n| points[n - 1]).collect();
+            along
+                .windows(2)
+                .map(|pair| [pair[0], pair[1]])
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}

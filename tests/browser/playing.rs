@@ -1,0 +1,122 @@
+//! Pages that are played, turned, and looked at by day and by night.
+
+use serde_json::json;
+
+use crate::chrome::Chrome;
+use crate::folder::{Folder, done};
+use crate::screen::is_seam;
+
+#[test]
+#[ignore = "needs chromium"]
+fn a_simulation_is_played_and_can_be_turned() {
+    let Some(mut chrome) = Chrome::start() else {
+        return;
+    };
+    let folder = Folder::new();
+    folder.write("sheet.obj", "sheet.obj", |p| p);
+    let [mesh, torn, page] = ["sheet.obj", "torn.obj", "rip.html"].map(|name| folder.name(name));
+    done(&[
+        "tearmesh",
+        "tear",
+        &mesh,
+        "--scene",
+        "rip",
+        "--seconds",
+        "1.2",
+        "-o",
+        &torn,
+        "--view",
+        &page,
+    ]);
+    chrome.open(&folder.path("rip.html"));
+    let stage = chrome.value("[stage.clientWidth, stage.clientHeight]");
+    let size = [0, 1].map(|i| stage[i].as_f64().expect("a number"));
+    assert!(
+        chrome.screen(size).places(is_seam).is_empty(),
+        "it is whole"
+    );
+    assert_eq!(chrome.text("clock"), "0.00 s");
+    assert!(chrome.text("plots").contains("largest stretch"));
+
+    chrome.press("play");
+    chrome.value("new Promise(r => setInterval(() => Number(time.value) > 3 && r(), 10))");
+    chrome.press("play");
+    let reached = chrome.value("time.value");
+    assert_eq!(chrome.text("play"), "Play");
+    chrome.value("new Promise(r => setTimeout(r, 100))");
+    assert_eq!(chrome.value("time.value"), reached, "it is paused");
+    assert_ne!(reached, "36", "it was paused before the end");
+
+    // Of what is torn nothing can be cut before the end, since no file has it.
+    for point in [[200.0, 150.0], [500.0, 200.0]] {
+        chrome.click(point);
+    }
+    assert!(chrome.text("hint").contains("go to torn.obj"));
+    let end = "time.value = time.max; time.dispatchEvent(new Event('input'))";
+    chrome.value(end);
+    assert_eq!(chrome.text("clock"), "1.20 s");
+    assert!(chrome.text("line").starts_with("tearmesh cut "));
+    chrome.press("clear");
+    assert_eq!(chrome.text("line"), "");
+    let red = chrome.screen(size).places(is_seam).len();
+    println!("{red} red pixels at the end");
+    assert!(red > 400, "{red} red pixels");
+
+    let before = chrome.hidden_text("render");
+    chrome.drag([300.0, 300.0], [420.0, 340.0]);
+    assert_ne!(chrome.hidden_text("render"), before, "it was turned");
+    let before = chrome.hidden_text("render");
+    chrome.mouse("mouseWheel", [300.0, 300.0]);
+    chrome.drawn();
+    assert_ne!(chrome.hidden_text("render"), before, "it came nearer");
+    let colors = chrome.screen(size).colors();
+    assert!(colors > 200, "{colors} colours");
+    chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
+    let Some(mut chrome) = Chrome::start() else {
+        return;
+    };
+    let folder = Folder::new();
+    let name = "</script><script>alert(1)</script>\"'&.obj".replace('/', "\u{2215}");
+    folder.write("flag.obj", "flag.obj", |p| p);
+    let [mesh, torn, page] = ["flag.obj", &name, "flag.html"].map(|name| folder.name(name));
+    done(&[
+        "tearmesh",
+        "cut",
+        &mesh,
+        "--rays",
+        "0,2,5:0,0,-1",
+        "0,-0.4,5:0,0,-1",
+        "-o",
+        &torn,
+        "--view",
+        &page,
+    ]);
+    for theme in ["light", "dark"] {
+        let features = json!([{"name": "prefers-color-scheme", "value": theme}]);
+        chrome.call("Emulation.setEmulatedMedia", json!({"features": features}));
+        chrome.open(&folder.path("flag.html"));
+        assert_eq!(chrome.text("title"), name);
+        assert_eq!(chrome.value("document.title"), json!(name));
+        assert_eq!(chrome.value("document.scripts.length"), json!(2));
+        // 1.4 of the flag's height of 2, which takes some 500 pixels; the line is 2.4 wide.
+        let red = chrome.screen([680.0, 640.0]).places(is_seam).len();
+        println!("{theme}: {red} red pixels");
+        assert!((500..1400).contains(&red), "{theme}: {red} red pixels");
+    }
+    chrome.press("draw");
+    chrome.drag([200.0, 300.0], [400.0, 350.0]);
+    assert!(chrome.text("line").contains(" --rays "));
+    chrome.press("edges");
+    chrome.press("theme");
+    // As on a phone.
+    chrome.size(390, 844);
+    chrome.drawn();
+    let sticks_out = "document.documentElement.scrollWidth > innerWidth";
+    assert_eq!(chrome.value(sticks_out), json!(false));
+    chrome.was_quiet();
+}

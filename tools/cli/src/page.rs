@@ -1,0 +1,91 @@
+//! Pages: of the verb `view`, and those that other verbs leave beside a mesh.
+
+use std::path::Path;
+
+use tearmesh::{Mesh, Place, Vector};
+use tearmesh_view::{CutLine, Moment, Page, PageError};
+
+use crate::exit::{Exit, Stop};
+use crate::say::Fault;
+use crate::{files, picture};
+
+/// Adds a mesh to a page.
+pub(crate) fn add(
+    page: &mut Page,
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    moment: Moment,
+) -> Result<(), Stop> {
+    page.add(mesh, place, moment).map_err(|error| match error {
+        PageError::Camera(error) => Stop::new(Exit::Usage, picture::no_camera(error)),
+        error @ PageError::Empty => {
+            let fault = Fault::error("E-VIEW-EMPTY", error.to_string());
+            Stop::new(Exit::Input, fault)
+        }
+    })
+}
+
+/// Writes a page of one mesh beside it. `name` is the file that it was written to.
+pub(crate) fn write_beside(
+    path: &Path,
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    up: Vector,
+    name: Option<&str>,
+) -> Result<(), Stop> {
+    let mut page = Page::new(title(name), up);
+    add(&mut page, mesh, place, moment(name))?;
+    write(path, &page)
+}
+
+/// What a page is called that shows a file.
+pub(crate) fn title(name: Option<&str>) -> String {
+    match name {
+        Some(name) if name != "-" => {
+            let last = Path::new(name).file_name();
+            last.map_or_else(
+                || name.to_owned(),
+                |last| last.to_string_lossy().into_owned(),
+            )
+        }
+        _ => "mesh".to_owned(),
+    }
+}
+
+/// The moment of a mesh in a file, which can be cut there.
+pub(crate) fn moment(name: Option<&str>) -> Moment {
+    Moment {
+        label: title(name),
+        time_s: None,
+        cut: name.map(|name| cut_line(name, "")),
+    }
+}
+
+/// How a file is cut, with these options.
+pub(crate) fn cut_line(name: &str, options: &str) -> CutLine {
+    // Whoever read it from a stream knows where it is.
+    let name = if name == "-" { "mesh.obj" } else { name };
+    let path = Path::new(name);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let output = path.with_file_name(format!("{stem}-cut.obj"));
+    CutLine {
+        file: quoted(name),
+        options: options.to_owned(),
+        output: quoted(&output.display().to_string()),
+    }
+}
+
+/// A name as a shell reads it, and no option.
+fn quoted(name: &str) -> String {
+    let name = match name.starts_with('-') {
+        true => format!("./{name}"),
+        false => name.to_owned(),
+    };
+    // No file has a name that no shell can be told.
+    shlex::try_quote(&name).map_or_else(|_| name.clone(), Into::into)
+}
+
+/// Writes a page into a file.
+pub(crate) fn write(path: &Path, page: &Page) -> Result<(), Stop> {
+    files::write_beside(path, |out| page.write(out))
+}

@@ -1,0 +1,108 @@
+//! The page of a simulation: all of it, 30 moments a second, and what happened over time.
+
+use tearmesh::geometry::length;
+use tearmesh_cloth::scene::{Chronicle, Run};
+use tearmesh_view::{Moment, Page, Plot};
+
+use super::frames::RATE_PER_S;
+use super::points::places;
+use crate::exit::Stop;
+use crate::page;
+
+/// A page that is being made.
+pub(super) struct Film {
+    page: Page,
+    /// The largest stretch of each moment.
+    stretch: Vec<[f64; 2]>,
+    /// The step of the last moment.
+    step: Option<u64>,
+}
+
+impl Film {
+    pub(super) fn new(title: &str, up: tearmesh::Vector) -> Film {
+        Film {
+            page: Page::new(title, up),
+            stretch: Vec::new(),
+            step: None,
+        }
+    }
+
+    /// Takes a moment if it is time for one.
+    pub(super) fn shoot(&mut self, run: &Run) -> Result<(), Stop> {
+        let due = (self.page.moment_count() as f64 / RATE_PER_S / run.step_s()).round();
+        if (run.tally().steps as f64) < due {
+            return Ok(());
+        }
+        self.take(run)
+    }
+
+    fn take(&mut self, run: &Run) -> Result<(), Stop> {
+        let moment = Moment {
+            label: String::new(),
+            time_s: Some(run.elapsed_s()),
+            cut: None,
+        };
+        page::add(&mut self.page, run.mesh(), &places(run)?, moment)?;
+        self.stretch.push([run.elapsed_s(), largest_stretch(run)]);
+        self.step = Some(run.tally().steps);
+        Ok(())
+    }
+
+    /// Takes the end, which was written into the file of this name, and gives the page.
+    pub(super) fn finish(
+        mut self,
+        run: &Run,
+        chronicle: &Chronicle,
+        name: Option<&str>,
+        facts: &[(&str, String)],
+    ) -> Result<Page, Stop> {
+        if self.step != Some(run.tally().steps) {
+            self.take(run)?;
+        }
+        let last = self.page.last_mut().expect("the beginning was taken");
+        last.cut = name.map(|name| page::cut_line(name, ""));
+        if name.is_some() {
+            last.label = page::title(name);
+        }
+        for (name, what) in facts {
+            self.page.tell(*name, what);
+        }
+        self.page.plot(Plot {
+            name: "largest stretch".to_owned(),
+            unit: "of the length at rest".to_owned(),
+            lines: vec![(String::new(), self.stretch)],
+        });
+        let frames = chronicle.hold_forces();
+        let holds = frames.first().map_or(0, |frame| frame.forces_n.len());
+        let line = |hold: usize| {
+            let points = frames.iter();
+            let points = points.map(|frame| [frame.end_s, length(frame.forces_n[hold])]);
+            (format!("hold {}", hold + 1), points.collect())
+        };
+        if holds > 0 {
+            self.page.plot(Plot {
+                name: "force at holds".to_owned(),
+                unit: "N".to_owned(),
+                lines: (0..holds.min(LINES)).map(line).collect(),
+            });
+        }
+        Ok(self.page)
+    }
+}
+
+/// How many holds have a line at most: more cannot be told apart.
+const LINES: usize = 6;
+
+/// The largest ratio of an edge's length to its length at rest.
+fn largest_stretch(run: &Run) -> f64 {
+    let (mesh, now) = (run.mesh(), run.cloth().positions());
+    let rest = run.cloth().rest_positions().as_slice();
+    let ratio = |h| {
+        let [a, b] = [mesh.origin(h), mesh.target(h)].map(tearmesh::VertexId::index);
+        length(now[b] - now[a]) / length(rest[b] - rest[a])
+    };
+    mesh.edges()
+        .map(ratio)
+        .filter(|x| x.is_finite())
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,184 @@
+//! The verb `view`.
+
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use tearmesh_view::{Moment, Page, is_page};
+
+use crate::args::ViewArgs;
+use crate::exit::{Exit, Stop};
+use crate::input::Input;
+use crate::input::named::named;
+use crate::say::{Fault, Screen, count, is_colored};
+use crate::session::{self, Opened};
+use crate::streams::Streams;
+use crate::{files, output, page, report};
+
+/// Makes a page, and gives the exit status.
+pub(crate) fn run(args: &ViewArgs, streams: &mut Streams<'_>) -> Exit {
+    let mut faults = Vec::new();
+    let worked = work(args, &mut faults, streams);
+    let (exit, words) = match worked {
+        Ok(words) => (Exit::Done, words),
+        Err(Stop { exit, faults: why }) => {
+            faults.extend(why);
+            (exit, String::new())
+        }
+    };
+    let colored = is_colored(args.color, streams.error_is_terminal);
+    let mut screen = Screen {
+        error: streams.error,
+        colored,
+    };
+    for fault in &faults {
+        if screen.show(fault).is_err() {
+            break; // Standard error is closed: nowhere is left to complain.
+        }
+    }
+    if args.quiet || words.is_empty() {
+        return exit;
+    }
+    let said = output::print(streams.output, |out| writeln!(out, "{words}"));
+    match said {
+        Ok(_) => exit,
+        Err(fault) => streams.fail(&fault, args.color, Exit::Output),
+    }
+}
+
+/// Gives the summary; none if the page is on standard output.
+fn work(
+    args: &ViewArgs,
+    faults: &mut Vec<Fault>,
+    streams: &mut Streams<'_>,
+) -> Result<String, Stop> {
+    // What was typed is refused before large files are read.
+    let inputs = inputs(args)?;
+    let output = place(args, &inputs)?;
+    let repair = session::repair(args.repair, args.separate_fans);
+    let options = match (args.repair, args.separate_fans) {
+        (true, _) => " --repair",
+        (false, true) => " --separate-fans",
+        (false, false) => "",
+    };
+    let first = &args.inputs[0].display().to_string();
+    let mut shown = Page::new(page::title(Some(first)), args.up.coords);
+    let (mut vertices, mut faces) = (Span::default(), Span::default());
+    let mut pieces = 0;
+    for path in &inputs {
+        let input = Input::find(path, streams.input);
+        let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
+        let mut timing = report::Timing::default();
+        let Opened {
+            mesh, positions, ..
+        } = session::open(&input, repair, faults, &mut timing)?;
+        let moment = Moment {
+            label: page::title(Some(&input.name)),
+            time_s: None,
+            cut: Some(page::cut_line(&input.name, options)),
+        };
+        page::add(&mut shown, &mesh, &positions, moment)?;
+        vertices.note(mesh.vertex_count());
+        faces.note(mesh.face_count());
+        pieces = mesh.components().count();
+    }
+    let Some(path) = output else {
+        let printed = output::print(streams.output, |out| shown.write(out));
+        printed.map_err(|fault| Stop::new(Exit::Output, fault))?;
+        return Ok(String::new());
+    };
+    page::write(&path, &shown)?;
+    let moments = match inputs.len() {
+        1 => String::new(),
+        many => format!("{many} meshes, "),
+    };
+    Ok(format!(
+        "view: {moments}{}, {}, {} · wrote {}",
+        vertices.told("vertex", "vertices"),
+        faces.told("face", "faces"),
+        count(pieces, "piece", "pieces"),
+        path.display(),
+    ))
+}
+
+/// The files that are shown.
+fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
+    let files: Result<Vec<PathBuf>, _> = named(&args.inputs, true).into_iter().collect();
+    let files = files.map_err(|(_, fault)| Stop::new(Exit::Input, fault))?;
+    if files.iter().filter(|path| *path == Path::new("-")).count() > 1 {
+        let message = "two inputs both come from standard input".to_owned();
+        return Err(usage(message, "name a file for one of them"));
+    }
+    Ok(files)
+}
+
+/// Where the page goes; none is standard output.
+fn place(args: &ViewArgs, inputs: &[PathBuf]) -> Result<Option<PathBuf>, Stop> {
+    let path = match &args.output {
+        Some(path) if path == Path::new("-") => return Ok(None),
+        Some(path) => path.clone(),
+        None => named_like(&args.inputs[0])?,
+    };
+    let ending = path.extension().unwrap_or_default();
+    if ending.eq_ignore_ascii_case("obj") {
+        let message = format!(
+            "`{}` is named like a mesh, and would be a page",
+            path.display()
+        );
+        return Err(usage(message, "name it x.html"));
+    }
+    if inputs.iter().any(|input| files::is_same(input, &path)) {
+        return Err(files::replaced(&path, "an input"));
+    }
+    output::check(&path).map_err(|error| files::unwritable(&path, &error))?;
+    Ok(Some(path))
+}
+
+/// A page in the folder where we are, by the name of an input.
+fn named_like(input: &Path) -> Result<PathBuf, Stop> {
+    let whole = input.canonicalize();
+    // A folder such as `.` has its name only in its whole path.
+    let whole = whole.ok().filter(|_| input.file_name().is_none());
+    let stem = whole.as_deref().unwrap_or(input).file_stem();
+    let Some(stem) = stem.filter(|_| input != Path::new("-")) else {
+        let message = "the page needs a name: the mesh has none".to_owned();
+        return Err(usage(message, "name it with -o F.html"));
+    };
+    let mut name = stem.to_owned();
+    name.push(".html");
+    let path = PathBuf::from(name);
+    if path.is_file() && !is_page_there(&path) {
+        let name = path.display();
+        let message = format!("`{name}` is there already, and is no page of tearmesh");
+        return Err(usage(message, &format!("to replace it, add -o {name}")));
+    }
+    Ok(path)
+}
+
+fn is_page_there(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(1 << 12).read_to_end(&mut start));
+    read.is_ok() && is_page(&start)
+}
+
+fn usage(message: String, help: &str) -> Stop {
+    Stop::new(Exit::Usage, Fault::error("E-USAGE", message).help(help))
+}
+
+/// How many there were of something: the fewest and the most.
+#[derive(Default)]
+struct Span(Option<[usize; 2]>);
+
+impl Span {
+    fn note(&mut self, n: usize) {
+        let [fewest, most] = self.0.unwrap_or([n, n]);
+        self.0 = Some([fewest.min(n), most.max(n)]);
+    }
+
+    fn told(&self, one: &str, many: &str) -> String {
+        match self.0.unwrap_or_default() {
+            [fewest, most] if fewest == most => count(most, one, many),
+            [fewest, most] => format!("{fewest} to {most} {many}"),
+        }
+    }
+}

@@ -1,0 +1,395 @@
+//! A page that shows meshes in a browser: one HTML file that needs no network and nothing beside it.
+//!
+//! What is shown lies in the page as one stream, deflated, in base64: a JSON text ([`Page`] says what is in
+//! it), and behind it the faces ([`codec`]) and the places of the vertices ([`motion`]) of every moment. No
+//! text of a file stands anywhere else but in the title, so none can break out of the page; and the page
+//! forbids itself all that would need a network.
+
+mod codec;
+mod motion;
+mod pieces;
+
+use std::error::Error;
+use std::fmt;
+use std::io::{self, Write};
+
+use base64::Engine as _;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use serde_json::{Value, json};
+use tearmesh::geometry::length;
+use tearmesh::{HalfEdgeId, Mesh, Place, Point, Scissor, Vector};
+
+use self::pieces::Pieces;
+use crate::bounds::Bounds;
+use crate::camera::CameraError;
+use crate::fit::{ANGLE_OF_VIEW, fit};
+use crate::palette::{self, Color};
+use crate::shade;
+
+/// A page, and the moments that it shows.
+///
+/// One moment is a mesh that stands still. Several are played, and may have other faces each: of a mesh that
+/// tears, only what changed is stored. Whoever clicks two points sees where a cut between them would go, and is told
+/// what to type for it.
+///
+/// Places are as near as a 65,536th of the longest side of the box round all moments; those of the first
+/// moment are kept to 24 bits of it.
+///
+/// ```
+/// use tearmesh::{shapes, Vector};
+/// use tearmesh_view::{Moment, Page};
+///
+/// let (mesh, positions) = shapes::torus(24, 12);
+/// let mut page = Page::new("torus.obj", Vector::y());
+/// page.add(&mesh, &positions, Moment::default())?;
+/// let mut html = Vec::new();
+/// page.write(&mut html)?;
+/// assert!(html.starts_with(b"<!doctype html>"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Page {
+    title: String,
+    up: Vector,
+    /// From the first mesh to whoever looks at it.
+    look: Vector,
+    facts: Vec<[String; 2]>,
+    plots: Vec<Plot>,
+    pieces: Pieces,
+    states: Vec<State>,
+    shots: Vec<Shot>,
+}
+
+/// What is said of a moment that a page shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// The name of it, as of a file.
+    pub label: String,
+    /// When it is, in seconds; moments without a time come 30 a second.
+    pub time_s: Option<f64>,
+    /// How this mesh is cut; none if there is no file to be cut.
+    pub cut: Option<CutLine>,
+}
+
+/// What stands in a command that cuts a mesh, as a shell reads it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct CutLine {
+    /// The file that is cut.
+    pub file: String,
+    /// Options, each after a blank.
+    pub options: String,
+    /// Where the mesh is written that was cut.
+    pub output: String,
+}
+
+/// Lines over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plot {
+    /// What is drawn.
+    pub name: String,
+    /// In what unit, if there is one.
+    pub unit: String,
+    /// The name of each line, and its points: seconds, and how much there is then.
+    pub lines: Vec<(String, Vec<[f64; 2]>)>,
+}
+
+/// Why a mesh cannot be on a page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PageError {
+    /// It has no face.
+    Empty,
+    /// There is no camera to see it by.
+    Camera(CameraError),
+}
+
+impl fmt::Display for PageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PageError::Empty => f.write_str("the mesh has no face to be seen"),
+            PageError::Camera(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for PageError {}
+
+/// How many moments there are in a second, where nothing else is said.
+pub const MOMENTS_PER_S: f64 = 30.0;
+
+/// The faces of a mesh, and how they hang together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct State {
+    /// The vertex of each half-edge's origin: three a face.
+    corners: Vec<u32>,
+    /// Of each half-edge, one of [`PAIRED`], [`BOUNDARY`] and [`TORN`].
+    kinds: Vec<u32>,
+    /// The number of the piece of each face.
+    pieces: Vec<u32>,
+}
+
+const PAIRED: u32 = 0;
+const BOUNDARY: u32 = 1;
+const TORN: u32 = 2;
+
+/// A moment, as it is kept until the page is written.
+#[derive(Clone, Debug)]
+struct Shot {
+    moment: Moment,
+    /// The index of its faces among all states.
+    state: usize,
+    points: Vec<Point>,
+    /// The lengths of all torn edges, each counted once.
+    torn: f64,
+    loops: usize,
+}
+
+impl Page {
+    /// A page that shows nothing so far. `up` is upright on it.
+    #[must_use]
+    pub fn new(title: impl Into<String>, up: Vector) -> Page {
+        Page {
+            title: title.into(),
+            up,
+            look: up,
+            facts: Vec::new(),
+            plots: Vec::new(),
+            pieces: Pieces::default(),
+            states: Vec::new(),
+            shots: Vec::new(),
+        }
+    }
+
+    /// Says something of what is shown: its name, and what it is.
+    pub fn tell(&mut self, name: impl Into<String>, what: impl Into<String>) {
+        self.facts.push([name.into(), what.into()]);
+    }
+
+    /// Draws lines over time beside the mesh.
+    pub fn plot(&mut self, plot: Plot) {
+        self.plots.push(plot);
+    }
+
+    /// Whether nothing is shown.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.shots.is_empty()
+    }
+
+    /// How many moments there are.
+    #[must_use]
+    pub fn moment_count(&self) -> usize {
+        self.shots.len()
+    }
+
+    /// What is said of the last moment.
+    pub fn last_mut(&mut self) -> Option<&mut Moment> {
+        self.shots.last_mut().map(|shot| &mut shot.moment)
+    }
+
+    /// Adds a moment.
+    ///
+    /// # Errors
+    ///
+    /// If the mesh has no face, or if nothing can be upright as it was asked for.
+    ///
+    /// # Panics
+    ///
+    /// If a vertex of the mesh is unknown to `place`.
+    pub fn add(
+        &mut self,
+        mesh: &Mesh,
+        place: &(impl Place + ?Sized),
+        moment: Moment,
+    ) -> Result<(), PageError> {
+        if mesh.face_count() == 0 {
+            return Err(PageError::Empty);
+        }
+        if self.shots.is_empty() {
+            let camera = fit(mesh, place, self.up, ANGLE_OF_VIEW, [4.0, 3.0]);
+            let camera = camera.map_err(PageError::Camera)?.ok_or(PageError::Empty)?;
+            [self.look, ..] = camera.axes();
+        }
+        let kind = |h: HalfEdgeId| match (mesh.pair(h), mesh.ghost_pair(h)) {
+            (Some(_), _) => PAIRED,
+            (None, None) => BOUNDARY,
+            (None, Some(_)) => TORN,
+        };
+        let kinds: Vec<u32> = mesh.half_edges().map(kind).collect();
+        let is_known = |last: &State| last.corners == mesh.indices() && last.kinds == kinds;
+        if !self.states.last().is_some_and(is_known) {
+            self.states.push(State {
+                corners: mesh.indices().to_vec(),
+                kinds,
+                pieces: self.pieces.next(mesh),
+            });
+        }
+        let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
+        let torn = torn.map(|h| length(place.at(mesh.target(h)) - place.at(mesh.origin(h))));
+        self.shots.push(Shot {
+            moment,
+            state: self.states.len() - 1,
+            points: mesh.vertices().map(|v| place.at(v)).collect(),
+            torn: torn.sum::<f64>() / 2.0,
+            loops: mesh.boundary_loops().len(),
+        });
+        Ok(())
+    }
+
+    /// Writes the page. The same moments give the same bytes.
+    ///
+    /// # Errors
+    ///
+    /// As of writing.
+    ///
+    /// # Panics
+    ///
+    /// If nothing is shown.
+    pub fn write(&self, mut out: impl Write) -> io::Result<()> {
+        let mut zlib = ZlibEncoder::new(Vec::new(), Compression::best());
+        let (text, bytes) = self.content();
+        zlib.write_all(&(text.len() as u32).to_le_bytes())?;
+        zlib.write_all(text.as_bytes())?;
+        zlib.write_all(&bytes)?;
+        let packed = base64::engine::general_purpose::STANDARD.encode(zlib.finish()?);
+        let parts = [
+            ("{title}", escaped(&self.title)),
+            ("{style}", STYLE.to_owned()),
+            ("{data}", packed),
+            ("{script}", SCRIPTS.concat()),
+        ];
+        let mut rest = FRAME;
+        for (mark, part) in parts {
+            let (before, after) = rest.split_once(mark).expect("the frame has all marks");
+            out.write_all(before.as_bytes())?;
+            out.write_all(part.as_bytes())?;
+            rest = after;
+        }
+        out.write_all(rest.as_bytes())
+    }
+
+    /// All that is shown: the text, and the bytes behind it.
+    fn content(&self) -> (String, Vec<u8>) {
+        let shown = self.shots.iter().flat_map(|shot| {
+            let corners = &self.states[shot.state].corners;
+            corners.iter().map(|&v| shot.points[v as usize])
+        });
+        let bounds = Bounds::around(shown).expect("a page shows something");
+        let lattice = motion::Lattice::round(&bounds);
+        let mut faces = Vec::new();
+        let nothing = State::default();
+        let mut before = &nothing;
+        for state in &self.states {
+            codec::write_change(&before.corners, &state.corners, &mut faces);
+            codec::write_change(&before.kinds, &state.kinds, &mut faces);
+            codec::write_change(&before.pieces, &state.pieces, &mut faces);
+            before = state;
+        }
+        let moments = self.shots.iter().map(|shot| {
+            let state = &self.states[shot.state];
+            (&*shot.points, &*state.corners)
+        });
+        let places = motion::write(moments, &lattice);
+        let text = json!({
+            "title": self.title,
+            "up": array(self.up),
+            "look": array(self.look),
+            "angle": ANGLE_OF_VIEW,
+            "origin": array(lattice.origin.coords),
+            "side": lattice.side,
+            "rate": MOMENTS_PER_S,
+            "states": self.states.len(),
+            "faceBytes": faces.len(),
+            "moments": self.moments(),
+            "facts": self.facts,
+            "plots": self.plots.iter().map(plot).collect::<Vec<_>>(),
+            "colors": colors(),
+            "light": shade::LIGHT,
+            "crease": shade::CREASE,
+            "snap": Scissor::SNAP,
+        });
+        (text.to_string(), [faces, places].concat())
+    }
+
+    fn moments(&self) -> Vec<Value> {
+        let told = |shot: &Shot| {
+            let Moment { label, time_s, cut } = &shot.moment;
+            json!({
+                "label": label,
+                "time": time_s,
+                "cut": cut.as_ref().map(|cut| [&cut.file, &cut.options, &cut.output]),
+                "state": shot.state,
+                "vertices": shot.points.len(),
+                "torn": shot.torn,
+                "loops": shot.loops,
+            })
+        };
+        self.shots.iter().map(told).collect()
+    }
+}
+
+fn array(v: Vector) -> [f64; 3] {
+    [v.x, v.y, v.z]
+}
+
+fn plot(plot: &Plot) -> Value {
+    let line = |(name, points): &(String, Vec<[f64; 2]>)| json!({"name": name, "points": points});
+    let lines: Vec<Value> = plot.lines.iter().map(line).collect();
+    json!({"name": plot.name, "unit": plot.unit, "lines": lines})
+}
+
+/// The colours of both themes.
+fn colors() -> Value {
+    let theme = |theme: &palette::Theme| {
+        json!({
+            "background": theme.background,
+            "seam": theme.seam,
+            "boundary": theme.boundary,
+            "edge": theme.edge,
+            "trace": theme.trace,
+            "box": theme.bounding_box,
+        })
+    };
+    let pieces: &[Color] = &palette::PIECES;
+    json!({"pieces": pieces, "light": theme(&palette::LIGHT), "dark": theme(&palette::DARK)})
+}
+
+/// A text as HTML.
+fn escaped(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => html.push_str("&amp;"),
+            '<' => html.push_str("&lt;"),
+            '>' => html.push_str("&gt;"),
+            '"' => html.push_str("&quot;"),
+            '\'' => html.push_str("&#39;"),
+            c => html.push(c),
+        }
+    }
+    html
+}
+
+/// Whether a file that begins like this is a page of ours.
+#[must_use]
+pub fn is_page(start: &[u8]) -> bool {
+    let (before_title, _) = FRAME
+        .split_once("{title}")
+        .expect("the frame has all marks");
+    start.starts_with(before_title.as_bytes())
+}
+
+/// The page round its parts.
+const FRAME: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/page.css");
+/// One script, file by file: each uses those before it.
+const SCRIPTS: [&str; 8] = [
+    include_str!("page/vectors.js"),
+    include_str!("page/data.js"),
+    include_str!("page/camera.js"),
+    include_str!("page/cutter.js"),
+    include_str!("page/scene.js"),
+    include_str!("page/overlay.js"),
+    include_str!("page/plots.js"),
+    include_str!("page/page.js"),
+];

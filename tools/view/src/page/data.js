@@ -1,0 +1,105 @@
+// What the page shows: a text in JSON, and the faces and places of every moment behind it. Places are
+// counted from the corner of the box, in its longest side.
+const GOES_ON = 1, AS_NEIGHBOUR = 2, STEPS = 65536;
+
+async function unpack() {
+  const packed = Uint8Array.from(atob(document.getElementById("data").textContent), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const length = new DataView(bytes.buffer).getUint32(0, true);
+  const data = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
+  const places = 4 + length + data.faceBytes;
+  data.states = readStates(bytes.subarray(4 + length, places), data.states);
+  readPlaces(bytes.subarray(places), data);
+  data.moments.forEach((moment, i) => { moment.seconds = moment.time ?? i / data.rate; });
+  return data;
+}
+
+const unfolded = (x) => (x & 1 ? -(x + 1) / 2 : x / 2);
+
+// The faces of every state, each as what changed since the one before.
+function readStates(bytes, count) {
+  let at = 0;
+  const number = () => {
+    let sum = 0, place = 1, byte;
+    do {
+      byte = bytes[at++];
+      sum += (byte & 127) * place;
+      place *= 128;
+    } while (byte & 128);
+    return sum;
+  };
+  const changed = (before) => {
+    const now = new Uint32Array(number());
+    now.set(before.subarray(0, now.length));
+    for (let i = 0, last = 0; i < now.length;) {
+      i += number();
+      for (let run = number(); run > 0; run--) now[i++] = last += unfolded(number());
+    }
+    return now;
+  };
+  const none = new Uint32Array(0);
+  let state = { corners: none, kinds: none, pieces: none };
+  return Array.from({ length: count }, () => {
+    state = { corners: changed(state.corners), kinds: changed(state.kinds), pieces: changed(state.pieces) };
+    return state;
+  });
+}
+
+// Puts `places` into each moment: three numbers a vertex.
+function readPlaces(bytes, { moments, states }) {
+  const first = 3 * moments[0].vertices;
+  const floats = new Float32Array(first), raw = new Uint8Array(floats.buffer);
+  for (let i = 0; i < first; i++) {
+    for (let byte = 0; byte < 4; byte++) raw[4 * i + byte] = bytes[byte * first + i];
+  }
+  moments[0].places = new Float64Array(first);
+  for (let axis = 0; axis < 3; axis++) {
+    for (let v = 0; v < moments[0].vertices; v++) moments[0].places[3 * v + axis] = floats[axis * moments[0].vertices + v];
+  }
+  const guesses = bytes.subarray(4 * first), planes = guesses.subarray(moments.length - 1);
+  const total = planes.length / 3;
+  let at = 0, was = moments[0].places.map((x) => Math.round(x * STEPS)), steps = new Float64Array(first);
+  let neighbours;
+  for (let m = 1; m < moments.length; m++) {
+    const { vertices, state } = moments[m], before = was.length / 3;
+    if (m === 1 || state !== moments[m - 1].state) neighbours = neighboursIn(states[state].corners, vertices);
+    const goesOn = guesses[m - 1] & GOES_ON, asNeighbour = guesses[m - 1] & AS_NEIGHBOUR;
+    const now = new Float64Array(3 * vertices), next = new Float64Array(3 * vertices);
+    for (let axis = 0; axis < 3; axis++) {
+      // How far the plain guess was off.
+      const off = new Float64Array(vertices);
+      for (let v = 0; v < vertices; v++, at++) {
+        let left = unfolded(planes[at] + 256 * planes[total + at] + 65536 * planes[2 * total + at]);
+        const i = 3 * v + axis, beside = neighbours[v];
+        if (v < before) {
+          if (asNeighbour && beside !== v && beside < before) left += off[beside];
+          off[v] = left;
+          now[i] = was[i] + (goesOn ? steps[i] : 0) + left;
+          next[i] = now[i] - was[i];
+        } else {
+          now[i] = left + (beside !== v ? now[3 * beside + axis] : 0);
+          next[i] = beside !== v ? next[3 * beside + axis] : 0;
+        }
+      }
+    }
+    moments[m].places = now.map((x) => x / STEPS);
+    was = now;
+    steps = next;
+  }
+}
+
+// Of each vertex, a vertex with a smaller number that shares an edge with it, if it has one, or itself.
+function neighboursIn(corners, vertices) {
+  const neighbours = Uint32Array.from({ length: vertices }, (_, v) => v);
+  for (let f = 0; f < corners.length; f += 3) {
+    for (let i = 0; i < 3; i++) {
+      const v = corners[f + i];
+      for (const other of [corners[f + (i + 1) % 3], corners[f + (i + 2) % 3]]) {
+        if (other < v && neighbours[v] === v) neighbours[v] = other;
+      }
+    }
+  }
+  return neighbours;
+}
+

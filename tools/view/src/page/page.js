@@ -1,0 +1,375 @@
+// The page itself: what is clicked and dragged, and what is shown then.
+const $ = (id) => document.getElementById(id);
+const short = (x) => String(Number(x.toPrecision(6))).replace("-", "−");
+
+async function open() {
+  if (!("DecompressionStream" in window)) throw new Error("This page needs a browser of 2023 or later.");
+  const data = await unpack();
+  const canvas = $("scene"), pen = $("marks").getContext("2d");
+  const camera = new Camera(data.up, data.look, data.angle);
+  const { moments, states } = data;
+  const isPlayed = moments.length > 1;
+  let scene = new Scene(canvas);
+  let now = 0, state = -1, box, isDirty = false;
+  let hasEdges = false, hasBox = true, isDrawing = false;
+  let isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  // The points that were clicked, a line that is being drawn, and the cut between them.
+  let targets = [], drawn = null, cut = null;
+
+  const say = (text) => { $("say").textContent = text; };
+  const redraw = () => {
+    if (isDirty) return;
+    isDirty = true;
+    requestAnimationFrame(draw);
+  };
+
+  function draw() {
+    isDirty = false;
+    const colors = isDark ? data.colors.dark : data.colors.light;
+    scene.begin(colors.background);
+    scene.drawFaces(camera, box, data.colors.pieces, data.light, data.crease);
+    if (hasEdges) scene.drawEdges(camera, box, colors.edge, 0.45);
+    if (hasBox) scene.drawLines("box", camera, box, colors.box, 1);
+    scene.drawLines("boundary", camera, box, colors.boundary, 1.7);
+    scene.drawLines("seam", camera, box, colors.seam, 2.4);
+    scene.drawLines("trace", camera, box, colors.trace, 2.4, 0.35);
+    scene.drawLines("trace", camera, box, colors.trace, 2.4);
+    const ratio = pen.canvas.width / camera.size[0];
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, ...camera.size);
+    if (hasBox) drawAxes(pen, camera, box, data, isDark ? "#a2a9b5" : "#5d6470");
+    const points = drawn ?? targets.map((p) => camera.pixel(p)).filter((pixel) => pixel[2] > 0);
+    drawPoints(pen, points, isDark ? "#ffffff" : "#22262e", isDark ? "#181a1f" : "#ffffff");
+    tellView();
+  }
+
+  function setTheme(dark) {
+    isDark = dark;
+    document.documentElement.classList.toggle("dark", dark);
+    redraw();
+  }
+
+  // The faces of the moment that is shown, once they are others.
+  function load() {
+    const moment = moments[now], { corners, kinds } = states[moment.state];
+    if (state !== moment.state) {
+      state = moment.state;
+      scene.setState(states[state]);
+    }
+    scene.setPlaces(moment.places);
+    box = boxOf(moment.places, corners);
+    const point = (v) => [0, 1, 2].map((axis) => moment.places[3 * v + axis]);
+    const open = { boundary: [], seam: [] };
+    kinds.forEach((kind, h) => {
+      if (kind) open[kind === 2 ? "seam" : "boundary"].push(...point(corners[h]), ...point(corners[h - h % 3 + (h + 1) % 3]));
+    });
+    scene.setLines("boundary", open.boundary);
+    scene.setLines("seam", open.seam);
+    const edges = [];
+    for (let bits = 0; bits < 8; bits++) {
+      for (const axis of [1, 2, 4]) if (!(bits & axis)) edges.push(...boxCorner(box, bits), ...boxCorner(box, bits | axis));
+    }
+    scene.setLines("box", edges);
+  }
+
+  function show(number) {
+    now = number;
+    load();
+    trace();
+    tellFacts();
+    if (isPlayed) {
+      const { seconds, label, time } = moments[now];
+      $("time").value = now;
+      $("clock").textContent = time === null ? label : `${seconds.toFixed(2)} s`;
+      charts.forEach((chart) => chart.show(seconds));
+    }
+    redraw();
+  }
+
+  // ---- What is said of the mesh
+
+  const pieces = states.map((one) => new Set(one.pieces).size);
+
+  function tellFacts() {
+    const moment = moments[now], { corners } = states[moment.state];
+    const from = (corner) => corner.map((x, axis) => short(data.origin[axis] + x * data.side)).join(", ");
+    const rows = [
+      ...(isPlayed && moment.label ? [["shown", moment.label]] : []),
+      ["vertices", moment.vertices], ["faces", corners.length / 3], ["pieces", pieces[moment.state]],
+      ["boundary loops", moment.loops], ["torn", moment.torn ? `${short(moment.torn)} long` : "nothing"],
+      ["from", from(box.least)], ["to", from(box.most)],
+      ...data.facts,
+    ];
+    $("facts").replaceChildren(...rows.flatMap(([name, what]) => {
+      const [dt, dd] = ["dt", "dd"].map((tag) => document.createElement(tag));
+      dt.textContent = name;
+      dd.textContent = what;
+      return [dt, dd];
+    }));
+  }
+
+  // The picture that `tearmesh render` draws from here.
+  function tellView() {
+    const file = moments[now].cut;
+    $("view").hidden = !file;
+    if (!file) return;
+    const typed = ({ from }) => from.join(",");
+    const [eye, at] = [camera.eye, camera.at].map((p) => typed(raysThrough(p, [], data)));
+    const up = camera.up.map((x) => Number(x.toFixed(9)) || 0);
+    $("render").textContent = `tearmesh render ${file[0]} --camera ${eye}@${at} --up ${up} --fov ${data.angle} --size ${camera.size.join("x")} -o view.png`;
+  }
+
+  // ---- Cuts
+
+  function choose(pixel) {
+    if (targets.length > 1) clear();
+    const { places, state } = moments[now];
+    const direction = camera.direction(pixel);
+    const far = firstHit(camera.eye, direction, places, states[state].corners);
+    // What misses the mesh is as far away as what is looked at.
+    const level = dot(sub(camera.at, camera.eye), camera.backward) / dot(direction, camera.backward);
+    targets.push(add(camera.eye, times(direction, far ?? level)));
+    if (targets.length > 1) plan();
+    else say("Click the second point.");
+    redraw();
+  }
+
+  function plan() {
+    const [a, b] = targets.map((p) => camera.pixel(p));
+    if (Math.hypot(a[0] - b[0], a[1] - b[1]) < 3) {
+      targets.pop();
+      say("These points are too near each other: click another second point.");
+      return;
+    }
+    cut = raysThrough(camera.eye, targets, data);
+    trace(true);
+  }
+
+  // Draws where the cut goes in the mesh as it is now, and tells how to make it.
+  function trace(isNew = false) {
+    const { places, state, cut: file } = moments[now], { corners } = states[state];
+    const found = cut ? traceOf(cut, places, corners) : { segments: [], faces: [] };
+    scene.setLines("trace", found.segments.flat(2));
+    if (isNew) cut.snap = snapFor(found, places, corners, camera, data.snap);
+    const isMade = found.segments.length > 0;
+    $("made").hidden = !cut;
+    $("hint").hidden = isMade;
+    $("line").hidden = $("copy").hidden = !(isMade && file);
+    if (!cut) {
+      $("hint").textContent = "Click two points, or choose Draw cut and drag a line.";
+    } else if (!isMade) {
+      $("hint").textContent = "The line misses the mesh: click two other points.";
+    } else if (!file) {
+      $("hint").hidden = false;
+      const last = moments.findLast((moment) => moment.cut);
+      $("hint").textContent = "There is no file of this moment to be cut" + (last ? `: go to ${last.label}.` : ".");
+    } else {
+      const [name, options, output] = file;
+      const snap = cut.snap < data.snap ? ` --snap ${cut.snap}` : "";
+      $("line").textContent = `tearmesh cut ${name}${options} ${raysTyped(cut)}${snap} -o ${output}`;
+    }
+    if (isNew) say(isMade ? "" : "The line misses the mesh.");
+  }
+
+  function clear() {
+    targets = [];
+    cut = drawn = null;
+    say("");
+    trace();
+    redraw();
+  }
+
+  async function copy() {
+    getSelection().selectAllChildren($("line"));
+    try {
+      await navigator.clipboard.writeText($("line").textContent);
+      say("Copied.");
+    } catch {
+      say(document.execCommand("copy") ? "Copied." : "Press Ctrl+C to copy the line.");
+    }
+  }
+
+  // ---- Pointers: one turns, two pan and zoom, and one that does not move is a click
+
+  const pointers = new Map();
+  let moved = 0, start = null, button = 0;
+  const at = (event) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  };
+  const spread = () => {
+    const [a, b] = [...pointers.values()];
+    return { middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], wide: Math.hypot(a[0] - b[0], a[1] - b[1]) };
+  };
+
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, at(event));
+    moved = pointers.size > 1 ? Infinity : 0;
+    start = at(event);
+    button = event.button || (event.shiftKey || event.ctrlKey ? 2 : 0);
+    if (pointers.size > 1) drawn = null;
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const was = pointers.get(event.pointerId);
+    if (!was) return;
+    const is = at(event), [dx, dy] = [is[0] - was[0], is[1] - was[1]];
+    if (pointers.size === 2) {
+      const before = spread();
+      pointers.set(event.pointerId, is);
+      const after = spread();
+      camera.pan(after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]);
+      camera.zoom(before.wide / Math.max(after.wide, 1), after.middle);
+      return redraw();
+    }
+    pointers.set(event.pointerId, is);
+    moved = Math.max(moved, Math.hypot(is[0] - start[0], is[1] - start[1]));
+    // A finger that clicks trembles.
+    if (moved < (event.pointerType === "touch" ? 9 : 4)) return;
+    if (isDrawing && button === 0) drawn = [start, is];
+    else if (button === 0) camera.turn(dx, dy);
+    else camera.pan(dx, dy);
+    redraw();
+  });
+  const up = (event) => {
+    if (!pointers.delete(event.pointerId) || pointers.size) return;
+    const isClick = moved < (event.pointerType === "touch" ? 9 : 4) && event.type === "pointerup" && button === 0;
+    const line = event.type === "pointerup" && drawn;
+    drawn = null;
+    if (line) {
+      clear();
+      line.forEach(choose);
+    } else if (isClick) {
+      choose(at(event));
+    }
+    redraw();
+  };
+  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointercancel", up);
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    camera.zoom(Math.exp(event.deltaY * [0.0015, 0.03, 0.5][event.deltaMode]), at(event));
+    redraw();
+  }, { passive: false });
+
+  // ---- Buttons and keys
+
+  const pressed = (id, is) => $(id).setAttribute("aria-pressed", is);
+  const fit = () => {
+    camera.goHome();
+    camera.fit(box);
+    redraw();
+  };
+  const actions = {
+    fit,
+    edges: () => pressed("edges", hasEdges = !hasEdges),
+    box: () => pressed("box", hasBox = !hasBox),
+    draw: () => {
+      pressed("draw", isDrawing = !isDrawing);
+      canvas.classList.toggle("drawing", isDrawing);
+      say(isDrawing ? "Drag a line across the mesh." : "");
+    },
+    theme: () => setTheme(!isDark),
+  };
+  for (const [id, action] of Object.entries(actions)) {
+    $(id).addEventListener("click", () => {
+      action();
+      redraw();
+    });
+  }
+  $("copy").addEventListener("click", copy);
+  $("clear").addEventListener("click", clear);
+  addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || ["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(event.target.tagName)) return;
+    const keys = { f: "fit", e: "edges", b: "box", d: "draw", t: "theme" };
+    if (keys[event.key]) $(keys[event.key]).click();
+    else if (event.key === "Escape") clear();
+    else if (isPlayed && event.key === " ") play(!isPlaying);
+    else if (isPlayed && event.key === "ArrowRight") step(1);
+    else if (isPlayed && event.key === "ArrowLeft") step(-1);
+    else return;
+    event.preventDefault();
+  });
+
+  // ---- Playing
+
+  let isPlaying = false, clock = 0, last = 0;
+  const charts = [];
+  const until = moments.at(-1).seconds;
+  // The last moment that is not after this time.
+  const momentAt = (seconds) => Math.max(0, moments.findLastIndex((moment) => moment.seconds <= seconds + 1e-9));
+  const seek = (seconds) => {
+    clock = seconds;
+    show(momentAt(seconds));
+  };
+  const step = (by) => {
+    play(false);
+    show(Math.max(0, Math.min(moments.length - 1, now + by)));
+  };
+
+  function play(is) {
+    if (is === isPlaying) return;
+    isPlaying = is;
+    $("play").textContent = is ? "Pause" : "Play";
+    if (!is) return;
+    clock = now === moments.length - 1 ? 0 : moments[now].seconds;
+    last = performance.now();
+    requestAnimationFrame(tick);
+  }
+
+  function tick(time) {
+    if (!isPlaying) return;
+    clock += Math.max(0, time - last) / 1000 * Number($("speed").value);
+    last = time;
+    const next = momentAt(clock);
+    if (next !== now) show(next);
+    if (next === moments.length - 1) play(false);
+    else requestAnimationFrame(tick);
+  }
+
+  if (isPlayed) {
+    $("player").hidden = false;
+    $("time").max = moments.length - 1;
+    $("time").addEventListener("input", () => {
+      play(false);
+      show(Number($("time").value));
+    });
+    $("play").addEventListener("click", () => play(!isPlaying));
+    const counted = { name: "pieces", unit: "", lines: [{ name: "", points: moments.map((m) => [m.seconds, pieces[m.state]]) }] };
+    const plots = [...data.plots, ...(states.length > 1 ? [counted] : [])];
+    $("plots").hidden = !plots.length;
+    for (const plot of plots) charts.push(new Chart($("plots"), plot, until, data.colors.pieces, seek));
+  }
+
+  // ---- The window
+
+  const resize = () => {
+    const { clientWidth: width, clientHeight: height } = $("stage");
+    if (!width || !height) return;
+    const ratio = Math.min(devicePixelRatio, 2);
+    for (const one of [canvas, pen.canvas]) {
+      one.width = Math.round(width * ratio);
+      one.height = Math.round(height * ratio);
+    }
+    camera.size = [width, height];
+    draw();
+  };
+  canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+  canvas.addEventListener("webglcontextrestored", () => {
+    scene = new Scene(canvas);
+    state = -1;
+    show(now);
+  });
+  $("title").textContent = data.title;
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches));
+  document.documentElement.classList.toggle("dark", isDark);
+  camera.size = [$("stage").clientWidth || 1, $("stage").clientHeight || 1];
+  say("");
+  show(0);
+  camera.fit(box);
+  new ResizeObserver(resize).observe($("stage"));
+  document.body.dataset.ready = "yes";
+}
+
+open().catch((error) => { $("say").textContent = error.message; });

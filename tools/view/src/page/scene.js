@@ -1,0 +1,216 @@
+// The mesh on the graphics card: faces and edges fetch the places of their vertices from a texture; lines are
+// quads as wide as they are on the screen.
+const WIDE = 2048;
+const FETCH = `#version 300 es
+precision highp float; precision highp int;
+uniform highp sampler2D places, normals; uniform mat4 matrix; uniform vec3 eye; uniform float nearer;
+vec4 shown(vec3 p) { return matrix * vec4(eye + (p - eye) * nearer, 1); }
+ivec2 texel(uint v) { return ivec2(int(v) % ${WIDE}, int(v) / ${WIDE}); }
+`;
+const FACES = [`${FETCH}
+uniform vec3 colors[10]; in uint vertex; in uint piece; out vec3 at; out vec3 normal; flat out vec3 color;
+void main() {
+  at = texelFetch(places, texel(vertex), 0).xyz;
+  normal = texelFetch(normals, texel(vertex), 0).xyz;
+  color = colors[int(piece)];
+  gl_Position = shown(at);
+}`, `#version 300 es
+precision highp float;
+uniform vec3 backward, key; uniform float light[8]; uniform float crease;
+in vec3 at; in vec3 normal; flat in vec3 color; out vec4 pixel;
+void main() {
+  vec3 n = normalize(cross(dFdx(at), dFdy(at)));
+  vec3 s = dot(normal, normal) > 0. ? normalize(normal) : n;
+  if (dot(s, n) < 0.) s = -s;
+  n = normalize(mix(n, s, smoothstep(crease - .08, crease + .08, dot(n, s))));
+  float bright = light[0] + light[1] * max(dot(n, key), 0.) + light[2] * max(dot(n, backward), 0.);
+  vec3 side = gl_FrontFacing ? color : mix(vec3(dot(color, vec3(1. / 3.))), color, light[6]) * light[7];
+  pixel = vec4(side * bright, 1);
+}`];
+const EDGES = [`${FETCH}
+in uint vertex;
+void main() { gl_Position = shown(texelFetch(places, texel(vertex), 0).xyz); }`, `#version 300 es
+precision highp float;
+uniform vec4 ink; out vec4 pixel;
+void main() { pixel = vec4(ink.rgb * ink.a, ink.a); }`];
+const LINES = [`${FETCH}
+uniform vec2 size; uniform float wide; in vec3 from, to;
+void main() {
+  vec4 a = shown(from), b = shown(to);
+  float least = 1e-5 * max(a.w, b.w);
+  if (least <= 0.) { gl_Position = vec4(2, 2, 2, 1); return; }
+  if (a.w < least) a = mix(b, a, (b.w - least) / (b.w - a.w));
+  if (b.w < least) b = mix(a, b, (a.w - least) / (a.w - b.w));
+  vec2 along = (b.xy / b.w - a.xy / a.w) * size;
+  along = dot(along, along) > 0. ? normalize(along) : vec2(1, 0);
+  bool end = gl_VertexID > 1;
+  vec2 aside = vec2(-along.y, along.x) * (gl_VertexID % 2 == 0 ? -1. : 1.) + along * (end ? .5 : -.5);
+  vec4 p = end ? b : a;
+  gl_Position = vec4(p.xy + aside * wide / size * p.w, p.zw);
+}`, EDGES[1]];
+
+class Scene {
+  constructor(canvas) {
+    const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    if (!gl) throw new Error("This page needs WebGL 2, which this browser does not have or has turned off.");
+    this.gl = gl;
+    this.canvas = canvas;
+    this.faces = this.program(FACES);
+    this.edges = this.program(EDGES);
+    this.lines = this.program(LINES);
+    this.buffers = {};
+    this.textures = [gl.createTexture(), gl.createTexture()];
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  }
+
+  program(sources) {
+    const { gl } = this, program = gl.createProgram();
+    sources.forEach((source, i) => {
+      const shader = gl.createShader(i ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    });
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+    const names = {}, count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS);
+    for (let i = 0; i < count; i++) {
+      const { name } = gl.getActiveUniform(program, i);
+      names[name.replace("[0]", "")] = gl.getUniformLocation(program, name);
+    }
+    return { program, names };
+  }
+
+  // Puts numbers into a buffer of this name.
+  fill(name, numbers) {
+    const { gl } = this;
+    this.buffers[name] ??= { buffer: gl.createBuffer() };
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name].buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.DYNAMIC_DRAW);
+    this.buffers[name].length = numbers.length;
+  }
+
+  setState({ corners, pieces }) {
+    this.fill("corners", corners);
+    const numbers = new Uint8Array(corners.length);
+    for (let i = 0; i < numbers.length; i++) numbers[i] = pieces[i / 3 | 0] % 10;
+    this.fill("pieces", numbers);
+    this.corners = corners;
+    this.hasEdges = false;
+  }
+
+  setPlaces(places) {
+    const { gl, corners } = this, count = places.length / 3, rows = Math.ceil(count / WIDE);
+    const normals = new Float64Array(places.length);
+    for (let f = 0; f < corners.length; f += 3) {
+      const [i, j, k] = [3 * corners[f], 3 * corners[f + 1], 3 * corners[f + 2]];
+      const ux = places[j] - places[i], uy = places[j + 1] - places[i + 1], uz = places[j + 2] - places[i + 2];
+      const vx = places[k] - places[i], vy = places[k + 1] - places[i + 1], vz = places[k + 2] - places[i + 2];
+      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      for (const v of [i, j, k]) {
+        normals[v] += x;
+        normals[v + 1] += y;
+        normals[v + 2] += z;
+      }
+    }
+    [places, normals].forEach((numbers, unit) => {
+      const texels = new Float32Array(4 * WIDE * rows);
+      for (let v = 0; v < count; v++) {
+        const [x, y, z] = [numbers[3 * v], numbers[3 * v + 1], numbers[3 * v + 2]];
+        const scale = unit ? 1 / (Math.hypot(x, y, z) || 1) : 1;
+        texels.set([x * scale, y * scale, z * scale], 4 * v);
+      }
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, this.textures[unit]);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDE, rows, 0, gl.RGBA, gl.FLOAT, texels);
+      for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    });
+  }
+
+  // Segments, each as six numbers.
+  setLines(name, numbers) {
+    this.fill(name, Float32Array.from(numbers));
+  }
+
+  // The buffer of each attribute, with how many numbers it takes; integers are of the type given.
+  attributes({ program }, wanted) {
+    const { gl } = this;
+    for (let i = 0; i < 4; i++) gl.disableVertexAttribArray(i);
+    for (const [attribute, { name, type, stride, offset }] of Object.entries(wanted)) {
+      const at = gl.getAttribLocation(program, attribute);
+      if (at < 0) continue;
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name].buffer);
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribDivisor(at, stride ? 1 : 0);
+      if (type) gl.vertexAttribIPointer(at, 1, type, 0, 0);
+      else gl.vertexAttribPointer(at, 3, gl.FLOAT, false, stride, offset);
+    }
+  }
+
+  use(which, camera, box, nearer) {
+    const { gl } = this, { program, names } = which;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(names.matrix, false, camera.matrix(box));
+    gl.uniform3fv(names.eye, camera.eye);
+    gl.uniform1f(names.nearer, nearer);
+    if (names.places) gl.uniform1i(names.places, 0);
+    if (names.normals) gl.uniform1i(names.normals, 1);
+    return names;
+  }
+
+  begin(background) {
+    const { gl } = this, { width, height } = this.canvas;
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(...background.map((x) => x / 255), 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  }
+
+  drawFaces(camera, box, colors, [ambient, key, head, b, u, r, ...back], crease) {
+    const { gl } = this, names = this.use(this.faces, camera, box, 1);
+    gl.uniform3fv(names.colors, colors.flat().map((x) => x / 255));
+    gl.uniform1fv(names.light, [ambient, key, head, b, u, r, ...back]);
+    gl.uniform1f(names.crease, crease);
+    gl.uniform3fv(names.backward, camera.backward);
+    gl.uniform3fv(names.key, unit(add(add(times(camera.backward, b), times(camera.up, u)), times(camera.right, r))));
+    this.attributes(this.faces, { vertex: { name: "corners", type: gl.UNSIGNED_INT }, piece: { name: "pieces", type: gl.UNSIGNED_BYTE } });
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 1);
+    gl.drawArrays(gl.TRIANGLES, 0, this.corners.length);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+  }
+
+  drawEdges(camera, box, color, cover) {
+    const { gl, corners } = this;
+    if (!this.hasEdges) {
+      const ends = new Uint32Array(2 * corners.length);
+      for (let i = 0; i < corners.length; i++) {
+        ends[2 * i] = corners[i];
+        ends[2 * i + 1] = corners[i - i % 3 + (i + 1) % 3];
+      }
+      this.fill("edges", ends);
+      this.hasEdges = true;
+    }
+    const names = this.use(this.edges, camera, box, 0.9997);
+    gl.uniform4fv(names.ink, [...color.map((x) => x / 255), cover]);
+    this.attributes(this.edges, { vertex: { name: "edges", type: gl.UNSIGNED_INT } });
+    gl.drawArrays(gl.LINES, 0, this.buffers.edges.length);
+  }
+
+  // Lines, so many pixels wide; those that are hidden as well if `cover` is less than one.
+  drawLines(name, camera, box, color, wide, cover = 1) {
+    const { gl } = this, count = (this.buffers[name]?.length ?? 0) / 6;
+    if (!count) return;
+    const names = this.use(this.lines, camera, box, 0.9985);
+    gl.uniform4fv(names.ink, [...color.map((x) => x / 255), cover]);
+    gl.uniform2fv(names.size, camera.size);
+    gl.uniform1f(names.wide, wide);
+    this.attributes(this.lines, { from: { name, stride: 24, offset: 0 }, to: { name, stride: 24, offset: 12 } });
+    if (cover < 1) gl.disable(gl.DEPTH_TEST);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    gl.enable(gl.DEPTH_TEST);
+  }
+}
+
