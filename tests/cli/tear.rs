@@ -175,6 +175,56 @@ fn the_report_lists_the_features_in_use_and_their_shares() {
     }
 }
 
+/// Slivers that a cut makes divide the steps of Provot's method: what that costs is said, and what the
+/// default would cost, as runs that end before and after the cut have it.
+#[test]
+fn a_cut_that_shortens_steps_is_told_with_its_cost() {
+    let folder = Folder::new();
+    let play = |solver: &str, seconds: &str| {
+        let line =
+            format!("tearmesh tear flag.obj --scene flag --solver {solver} --seconds {seconds}");
+        let said = seen(&folder.run(&format!("{line} --dry-run --report r.json")));
+        let report: serde_json::Value =
+            serde_json::from_str(&folder.read("r.json")).expect("a report");
+        let visits = ["project", "force"].map(|purpose| {
+            report["counters"]["visits"][purpose]
+                .as_f64()
+                .expect("a count")
+        });
+        let simulated_s = report["time_simulated_s"].as_f64().expect("seconds");
+        (said, visits.iter().sum::<f64>() / 1e6, simulated_s)
+    };
+    let (quiet, before, until_s) = play("provot", "1.49");
+    assert!(!quiet.contains("W-SIM-SHORTENED"), "{quiet}");
+    let (said, all, end_s) = play("provot", "1.55");
+    let told = |before: &str| {
+        let (_, rest) = said
+            .split_once(before)
+            .unwrap_or_else(|| panic!("{before}: {said}"));
+        let number = rest.trim_start().split(' ').next().expect("a word");
+        number
+            .parse::<f64>()
+            .unwrap_or_else(|_| panic!("{number}: {said}"))
+    };
+    let after = (all - before * 1.5 / until_s) / (end_s - 1.5);
+    let [(_, first, first_s), (_, second, second_s)] =
+        ["1.6", "1.8"].map(|seconds| play("verlet", seconds));
+    let verlet = (second - first) / (second_s - first_s);
+    for (words, is) in [
+        ("a second took", before / until_s),
+        ("before it and", after),
+        ("a second takes some", verlet),
+    ] {
+        // Two digits are said.
+        let off = told(words) / is;
+        assert!(
+            (0.85..1.15).contains(&off),
+            "{words}: {is}, and it says {said}"
+        );
+    }
+    assert!(after > 5.0 * verlet, "{after} {verlet}");
+}
+
 /// A step that was divided is limited as often as it has parts.
 #[test]
 fn the_limiter_counts_in_the_unit_that_it_names() {

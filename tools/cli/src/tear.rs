@@ -1,6 +1,7 @@
 //! The verb `tear`.
 
 mod check;
+mod cost;
 mod film;
 mod frames;
 mod points;
@@ -22,6 +23,7 @@ use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_lab::ensemble::Subject;
 use tearmesh_obj::{Document, TornDocument};
 
+use self::cost::Shortened;
 use self::film::Film;
 use self::frames::Frames;
 use self::points::places;
@@ -172,7 +174,7 @@ impl Play<'_> {
         let mut chronicle = Chronicle::new(&run);
         let mut film = self.film();
         let followers = (&mut torn, &mut frames, &mut chronicle, &mut film);
-        let ended = self.steps(&mut run, followers, session, streams)?;
+        let (ended, shortened) = self.steps(&mut run, followers, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
 
@@ -224,6 +226,8 @@ impl Play<'_> {
         session.faults.extend(words::infeasible(&run));
         session.faults.extend(words::residual(&run));
         session.faults.extend(reach::after(&run));
+        let shortened = shortened.and_then(|shortened| shortened.note(&run));
+        session.faults.extend(shortened);
         session.words.push(words::simulation(&tear));
         session.words.extend(told::first_tear(&chronicle));
         session.words.push(words::balance(&run));
@@ -328,14 +332,16 @@ impl Play<'_> {
         Ok(())
     }
 
-    /// Takes all steps, or as many as can be.
+    /// Takes all steps, or as many as can be. Tells of the first cut that made stable steps much
+    /// shorter, too.
     fn steps(
         &self,
         run: &mut Run,
         (torn, frames, chronicle, film): Followers<'_, '_>,
         session: &mut Session<'_>,
         streams: &Streams<'_>,
-    ) -> Result<Ended, Stop> {
+    ) -> Result<(Ended, Option<Shortened>), Stop> {
+        let mut shortened = None;
         let bar = self.bar(run.steps_planned(), "step {pos} of {len}", streams);
         let mut ended = Ended::Done;
         frames.shoot(run, torn)?;
@@ -345,11 +351,15 @@ impl Play<'_> {
                 ended = Ended::Interrupted;
                 break;
             }
+            let (at_s, before) = (run.elapsed_s(), run.cloth().system().counters());
             let step = run.step();
             run.edits().replay(torn);
             frames.follow(run.edits());
             for cut in run.cuts_made() {
                 self.note_cut(run.scene(), cut, session);
+                let stability = cut.stability.as_ref();
+                let by_cut = stability.and_then(|steps| Shortened::by(steps, at_s, before));
+                shortened = shortened.or(by_cut);
                 torn.next_cut();
             }
             match step {
@@ -366,7 +376,7 @@ impl Play<'_> {
             bar.set_position(run.tally().steps);
         }
         bar.finish_and_clear();
-        Ok(ended)
+        Ok((ended, shortened))
     }
 
     /// Plays the scene again and again, as it began.
