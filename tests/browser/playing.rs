@@ -98,7 +98,7 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     ]);
     for theme in ["light", "dark"] {
         let features = json!([{"name": "prefers-color-scheme", "value": theme}]);
-        chrome.call("Emulation.setEmulatedMedia", json!({"features": features}));
+        chrome.call("Emulation.setEmulatedMedia", &json!({"features": features}));
         chrome.open(&folder.path("flag.html"));
         assert_eq!(chrome.text("title"), name);
         assert_eq!(chrome.value("document.title"), json!(name));
@@ -122,12 +122,12 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
             json!([{"x": 195 - apart, "y": 250, "id": 1}, {"x": 195 + apart, "y": 260, "id": 2}]);
         chrome.call(
             "Input.dispatchTouchEvent",
-            json!({"type": kind, "touchPoints": points}),
+            &json!({"type": kind, "touchPoints": points}),
         );
     }
     chrome.call(
         "Input.dispatchTouchEvent",
-        json!({"type": "touchEnd", "touchPoints": []}),
+        &json!({"type": "touchEnd", "touchPoints": []}),
     );
     chrome.drawn();
     assert_ne!(chrome.hidden_text("render"), before, "it came nearer");
@@ -136,11 +136,11 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
         let points = json!([{"x": x, "y": y}]);
         chrome.call(
             "Input.dispatchTouchEvent",
-            json!({"type": "touchStart", "touchPoints": points}),
+            &json!({"type": "touchStart", "touchPoints": points}),
         );
         chrome.call(
             "Input.dispatchTouchEvent",
-            json!({"type": "touchEnd", "touchPoints": []}),
+            &json!({"type": "touchEnd", "touchPoints": []}),
         );
     }
     assert!(chrome.text("line").contains(" --rays "));
