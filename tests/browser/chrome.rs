@@ -1,4 +1,4 @@
-//! Chromium, by the DevTools protocol: messages in JSON through a pipe, so that no port is open.
+//! Chromium, by the protocol of its developer tools: messages in JSON through a pipe, so that no port is open.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -83,19 +83,19 @@ impl Chrome {
             events: Vec::new(),
             _profile: profile,
         };
-        let target = chrome.call("Target.createTarget", json!({"url": "about:blank"}));
+        let target = chrome.call("Target.createTarget", &json!({"url": "about:blank"}));
         let attached = json!({"targetId": target["targetId"], "flatten": true});
-        let session = chrome.call("Target.attachToTarget", attached);
+        let session = chrome.call("Target.attachToTarget", &attached);
         chrome.session = session["sessionId"].as_str().map(str::to_owned);
         for domain in ["Page", "Runtime", "Log", "Network"] {
-            chrome.call(&format!("{domain}.enable"), json!({}));
+            chrome.call(&format!("{domain}.enable"), &json!({}));
         }
         chrome.size(1000, 640);
         Some(chrome)
     }
 
     /// Calls a method of the protocol, and gives its result.
-    pub(crate) fn call(&mut self, method: &str, params: Value) -> Value {
+    pub(crate) fn call(&mut self, method: &str, params: &Value) -> Value {
         self.number += 1;
         let mut message = json!({"id": self.number, "method": method, "params": params});
         if let Some(session) = &self.session {
@@ -122,7 +122,7 @@ impl Chrome {
     /// The value of an expression in the page.
     pub(crate) fn value(&mut self, expression: &str) -> Value {
         let params = json!({"expression": expression, "returnByValue": true, "awaitPromise": true});
-        let result = self.call("Runtime.evaluate", params);
+        let result = self.call("Runtime.evaluate", &params);
         assert_eq!(result["exceptionDetails"], Value::Null, "{expression}");
         result["result"]["value"].clone()
     }
@@ -145,7 +145,7 @@ impl Chrome {
     /// Opens a file, and waits until all of it is there.
     pub(crate) fn open(&mut self, path: &Path) {
         let url = format!("file://{}", path.display());
-        self.call("Page.navigate", json!({"url": url}));
+        self.call("Page.navigate", &json!({"url": url}));
         let begun = Instant::now();
         while self.value("document.body?.dataset.ready ?? ''") != "yes" {
             let said = self.value("document.getElementById('say')?.textContent");
@@ -167,7 +167,7 @@ impl Chrome {
     pub(crate) fn size(&mut self, width: u32, height: u32) {
         let size =
             json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
-        self.call("Emulation.setDeviceMetricsOverride", size);
+        self.call("Emulation.setDeviceMetricsOverride", &size);
     }
 
     /// A mouse's event.
@@ -184,7 +184,7 @@ impl Chrome {
         };
         let event = json!({"type": kind, "x": x, "y": y, "button": button, "buttons": buttons,
             "clickCount": 1, "deltaX": 0, "deltaY": if kind == "mouseWheel" { -300 } else { 0 }});
-        self.call("Input.dispatchMouseEvent", event);
+        self.call("Input.dispatchMouseEvent", &event);
     }
 
     /// Clicks.
@@ -222,7 +222,7 @@ impl Chrome {
         let clip = json!({"x": 0, "y": 0, "width": width, "height": height, "scale": 1});
         let shot = self.call(
             "Page.captureScreenshot",
-            json!({"format": "png", "clip": clip}),
+            &json!({"format": "png", "clip": clip}),
         );
         let data = shot["data"].as_str().expect("a picture");
         let bytes = base64::engine::general_purpose::STANDARD.decode(data);

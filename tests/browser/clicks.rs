@@ -47,7 +47,7 @@ fn the_line_cuts_where_the_page_shows_it() {
     // A sheet folded again and again, tiny and not at the origin.
     folder.write("folded's.obj", "sheet.obj", |[x, y, z]| {
         let fold = (x * 3.0).fract();
-        let fold = if (x * 3.0) as u32 % 2 == 0 {
+        let fold = if ((x * 3.0) as u32).is_multiple_of(2) {
             fold
         } else {
             1.0 - fold
@@ -73,7 +73,7 @@ fn the_line_cuts_where_the_page_shows_it() {
         while hit < PAIRS {
             assert!(missed < 60, "{name}: nothing is hit");
             let turned = [0; 2].map(|_| chance.between(200.0, 500.0));
-            chrome.drag([340.0, 320.0], turned);
+            chrome.drag([150.0, 320.0], turned);
             let points = [0; 2].map(|_| [chance.between(30.0, 650.0), chance.between(60.0, 600.0)]);
             match planned(&mut chrome, &folder, &mesh, points) {
                 true => hit += 1,

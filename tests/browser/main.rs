@@ -1,7 +1,7 @@
 //! Pages in a real browser: Chromium, without a window and without a network, driven as by a mouse.
 //!
 //! These tests are not run unless asked for: `cargo test -p tearmesh-cli --test browser -- --ignored`. A
-//! browser that is not to be had is a failure, unless TEARMESH_SKIP names `chromium`.
+//! browser that is not to be had is a failure, unless `TEARMESH_SKIP` names `chromium`.
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 

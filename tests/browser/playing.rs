@@ -98,7 +98,7 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     ]);
     for theme in ["light", "dark"] {
         let features = json!([{"name": "prefers-color-scheme", "value": theme}]);
-        chrome.call("Emulation.setEmulatedMedia", json!({"features": features}));
+        chrome.call("Emulation.setEmulatedMedia", &json!({"features": features}));
         chrome.open(&folder.path("flag.html"));
         assert_eq!(chrome.text("title"), name);
         assert_eq!(chrome.value("document.title"), json!(name));
@@ -113,9 +113,37 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     assert!(chrome.text("line").contains(" --rays "));
     chrome.press("edges");
     chrome.press("theme");
-    // As on a phone.
+    // As on a phone: two fingers spread, and two taps plan a cut.
     chrome.size(390, 844);
     chrome.drawn();
+    let before = chrome.hidden_text("render");
+    for (kind, apart) in [("touchStart", 40), ("touchMove", 70), ("touchMove", 100)] {
+        let points =
+            json!([{"x": 195 - apart, "y": 250, "id": 1}, {"x": 195 + apart, "y": 260, "id": 2}]);
+        chrome.call(
+            "Input.dispatchTouchEvent",
+            &json!({"type": kind, "touchPoints": points}),
+        );
+    }
+    chrome.call(
+        "Input.dispatchTouchEvent",
+        &json!({"type": "touchEnd", "touchPoints": []}),
+    );
+    chrome.drawn();
+    assert_ne!(chrome.hidden_text("render"), before, "it came nearer");
+    chrome.press("clear");
+    for [x, y] in [[150, 200], [230, 300]] {
+        let points = json!([{"x": x, "y": y}]);
+        chrome.call(
+            "Input.dispatchTouchEvent",
+            &json!({"type": "touchStart", "touchPoints": points}),
+        );
+        chrome.call(
+            "Input.dispatchTouchEvent",
+            &json!({"type": "touchEnd", "touchPoints": []}),
+        );
+    }
+    assert!(chrome.text("line").contains(" --rays "));
     let sticks_out = "document.documentElement.scrollWidth > innerWidth";
     assert_eq!(chrome.value(sticks_out), json!(false));
     chrome.was_quiet();

@@ -118,7 +118,7 @@ pub(crate) struct CutArgs {
     pub(crate) through: bool,
 
     /// Where a cut ends: at vertices between the rays, or at edges whose midpoint is.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, hide_short_help = true, value_enum, default_value_t)]
     pub(crate) tips: Tips,
 
     /// How a split divides mass: by the area of the faces, or by half.

@@ -12,7 +12,8 @@ async function open() {
   let scene = new Scene(canvas);
   let now = 0, state = -1, box, isDirty = false;
   let hasEdges = false, hasBox = true, isDrawing = false;
-  let isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  const prefersDark = matchMedia("(prefers-color-scheme: dark)");
+  let isDark;
   // The points that were clicked, a line that is being drawn, and the cut between them.
   let targets = [], drawn = null, cut = null;
 
@@ -37,15 +38,20 @@ async function open() {
     const ratio = pen.canvas.width / camera.size[0];
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, ...camera.size);
-    if (hasBox) drawAxes(pen, camera, box, data, isDark ? "#a2a9b5" : "#5d6470");
+    const style = getComputedStyle(document.documentElement);
+    const [ink, faint, panel] = ["--ink", "--faint", "--panel"].map((name) => style.getPropertyValue(name));
+    if (hasBox) drawAxes(pen, camera, box, data, faint);
     const points = drawn ?? targets.map((p) => camera.pixel(p)).filter((pixel) => pixel[2] > 0);
-    drawPoints(pen, points, isDark ? "#ffffff" : "#22262e", isDark ? "#181a1f" : "#ffffff");
+    drawPoints(pen, points, ink, panel);
     tellView();
   }
 
   function setTheme(dark) {
     isDark = dark;
-    document.documentElement.classList.toggle("dark", dark);
+    const root = document.documentElement, colors = dark ? data.colors.dark : data.colors.light;
+    root.classList.toggle("dark", dark);
+    root.style.setProperty("--ground", `rgb(${colors.background})`);
+    root.style.setProperty("--accent", `rgb(${colors.trace})`);
     redraw();
   }
 
@@ -249,7 +255,9 @@ async function open() {
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
-    camera.zoom(Math.exp(event.deltaY * [0.0015, 0.03, 0.5][event.deltaMode]), at(event));
+    // Two fingers that spread on a touchpad come as small steps of a wheel, with Ctrl.
+    const speed = [0.0015, 0.03, 0.5][event.deltaMode] * (event.ctrlKey ? 6 : 1);
+    camera.zoom(Math.exp(event.deltaY * speed), at(event));
     redraw();
   }, { passive: false });
 
@@ -280,6 +288,7 @@ async function open() {
   }
   $("copy").addEventListener("click", copy);
   $("clear").addEventListener("click", clear);
+  const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || ["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(event.target.tagName)) return;
     const keys = { f: "fit", e: "edges", b: "box", d: "draw", t: "theme" };
@@ -288,7 +297,9 @@ async function open() {
     else if (isPlayed && event.key === " ") play(!isPlaying);
     else if (isPlayed && event.key === "ArrowRight") step(1);
     else if (isPlayed && event.key === "ArrowLeft") step(-1);
+    else if (turns[event.key]) camera.turn(...turns[event.key]);
     else return;
+    redraw();
     event.preventDefault();
   });
 
@@ -362,8 +373,8 @@ async function open() {
     show(now);
   });
   $("title").textContent = data.title;
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches));
-  document.documentElement.classList.toggle("dark", isDark);
+  prefersDark.addEventListener("change", () => setTheme(prefersDark.matches));
+  setTheme(prefersDark.matches);
   camera.size = [$("stage").clientWidth || 1, $("stage").clientHeight || 1];
   say("");
   show(0);
