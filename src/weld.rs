@@ -91,9 +91,9 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
 pub enum WeldError {
     /// A triangle names a vertex that the buffer does not have.
     Index {
-        /// The index.
+        /// The index that was given.
         index: u32,
-        /// How many vertices there are.
+        /// The number of vertices of the buffer.
         known: usize,
     },
     /// These vertices of the buffer have coordinates that are not finite.
@@ -107,7 +107,10 @@ impl fmt::Display for WeldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             WeldError::Index { index, known } => {
-                write!(f, "a triangle names vertex {index} of {known}")
+                write!(
+                    f,
+                    "a triangle names vertex {index}, but there are {known} vertices"
+                )
             }
             WeldError::Place(error) => error.fmt(f),
             WeldError::Build(error) => write!(f, "welded, this is {error}"),

@@ -469,7 +469,7 @@ fn what_would_be_ignored_is_refused() {
         (
             "\n[[strength]]\nfactor = 2\nfrom = [8, 8, 8]\nto = [9, 9, 9]\n",
             "",
-            "error[E-SCENE-EMPTY]: strength 1 holds no vertex at:2:1",
+            "error[E-SCENE-EMPTY]: strength 1 contains no vertex at:2:1",
         ),
         (
             "[[hold]]\nvertices = [1]\n[[hold]]\nvertices = [1, 999999]\n",
@@ -705,7 +705,7 @@ fn joules_that_the_limiter_of_provot_has_a_part_in_are_not_said() {
         let words = seen(&folder.run(line));
         assert_eq!(words.contains("J put in"), is_said, "{words}");
         assert_eq!(
-            words.contains("the limiter works without bound"),
+            words.contains("the limiter's work grows without bound"),
             !is_said,
             "{words}"
         );

@@ -391,7 +391,7 @@ impl Solver for Implicit {
             ..
         } = system;
         scratch.is_fresh = false;
-        // A state that is beyond all measure already is no matter of the method.
+        // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first_bad(positions, velocities).is_none())?;
         let mut outside = std::mem::take(&mut self.outside);
         outside.clear();
