@@ -1,10 +1,10 @@
 //! Builds meshes from an engine's buffers, in which a vertex is repeated along texture seams and
 //! hard edges.
 //!
-//! An engine's vertex has a place, a texture coordinate and a normal in one, so where one of these
-//! differs from face to face there are several at one place. Taken literally, such a mesh is cut
-//! along every seam. Here vertices at one place are welded. The values that differed belong to the
-//! corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
+//! An engine's vertex combines a position, a texture coordinate and a normal. Where one of these
+//! differs from face to face, there are several vertices at one place. Taken literally, such a mesh
+//! is cut along every seam. Here vertices at one place are welded. The values that differed belong
+//! to the corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
 
 use std::fmt;
 

@@ -262,8 +262,8 @@ pub enum CornerOp<'e> {
     Divide(FaceFamily<'e>),
     /// A vertex slides along an edge, and the values of its corners change with it.
     Carry {
-        /// For each face of the edge along which it slides, up to two, its corner at the vertex and
-        /// that at the other end. The first gets the value at the part `t` of the way to the second.
+        /// For each of the up to two faces of the edge, its corner at the vertex and its corner at
+        /// the other end. The first gets the value at the fraction `t` of the way to the second.
         along: [Option<[HalfEdgeId; 2]>; 2],
         /// How far: strictly between 0 and 1.
         t: f64,

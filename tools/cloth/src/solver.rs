@@ -236,7 +236,8 @@ pub enum StepError {
     Implicit {
         /// The seconds simulated until the last good state, where the system still is.
         elapsed_s: f64,
-        /// What failed; also the [`source`](std::error::Error::source).
+        /// The error of the implicit method, which is also the
+        /// [`source`](std::error::Error::source).
         error: implicit::StepError,
     },
 }

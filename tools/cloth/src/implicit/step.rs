@@ -138,9 +138,9 @@ impl Implicit {
         self.report
     }
 
-    /// Forgets the last step of every system: BDF2 starts anew with a step of order one. Positions and
-    /// velocities may be changed without it; the acceleration of the last step is what BDF2 then goes
-    /// on with.
+    /// Forgets the last step of every system, so that BDF2 starts again with a step of order one.
+    /// This is not needed after positions or velocities were changed: BDF2 then continues with the
+    /// acceleration of the last step.
     pub fn forget(&mut self) {
         self.history.forget();
         let others = self.others.iter_mut();
