@@ -332,7 +332,7 @@ fn a_simulation_that_fails_keeps_its_state_and_says_so() {
     assert_eq!(read(&folder.read("kept.obj")).0.len(), 1089);
 }
 
-/// The slivers of the cut are what the step fails of, so just this cut has to be told.
+/// The slivers of the cut are what the step fails of, so exactly this cut must be reported.
 #[test]
 fn a_cut_whose_step_fails_is_told_of() {
     let folder = Folder::new();
