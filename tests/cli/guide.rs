@@ -179,7 +179,7 @@ fn codes_come_with_the_exit_statuses_of_the_guide() {
         (b"v 1 2 3\nf a b c\n", &[cut, check], "E-OBJ-INDEX"),
         (many.as_bytes(), &[cut, check], "E-OBJ-ARITY"),
         (b"v 1 2 3\n\0\x01", &[cut, check], "E-OBJ-BINARY"),
-        (b"\xff\xfev\0 \01\0", &[cut, check], "E-OBJ-UTF16"),
+        (b"\xff\xfev\0\n\0", &[cut, check], "E-OBJ-UTF16"),
         (
             b"v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\nf 2 3 4\n",
             &[hang],
