@@ -28,7 +28,7 @@ pub trait Blend: Clone + PartialEq {
     #[must_use]
     fn weighted(values: [&Self; 3], weights: [f64; 3]) -> Self;
 
-    /// The value that one, two or three others give.
+    /// Makes a value from the one, two or three values that it derives from.
     #[must_use]
     fn blend(mix: Mix<&Self>) -> Self {
         match mix {

@@ -542,7 +542,7 @@ impl Edits {
 /// }
 /// ```
 pub trait Follower {
-    /// Up to where this follower has seen the log. [`Edits::replay`] moves it.
+    /// This follower's place in the log. [`Edits::replay`] advances it.
     fn cursor(&mut self) -> &mut Cursor;
 
     /// Takes in the record behind its cursor. To be called by [`Edits::replay`] and

@@ -80,8 +80,8 @@ impl Plane {
     ///
     /// # Errors
     ///
-    /// Where a coordinate is not finite, the point is beyond [`COORDINATE_MAX`], or
-    /// the normal is zero.
+    /// [`PlaneError`] if a coordinate is not finite, the point is beyond [`COORDINATE_MAX`], or the
+    /// normal is zero.
     pub fn new(point: Point, normal: Vector) -> Result<Plane, PlaneError> {
         check_point(point).map_err(|_| PlaneError::Point { given: point })?;
         let normal = scaled(normal).ok_or(PlaneError::Normal { given: normal })?;
@@ -193,8 +193,8 @@ impl Ray {
     ///
     /// # Errors
     ///
-    /// Where a coordinate is not finite, the origin is beyond [`COORDINATE_MAX`],
-    /// or the direction is zero.
+    /// [`RayError`] if a coordinate is not finite, the origin is beyond [`COORDINATE_MAX`], or the
+    /// direction is zero.
     pub fn new(origin: Point, direction: Vector) -> Result<Ray, RayError> {
         check_point(origin).map_err(|_| RayError::Origin { given: origin })?;
         scaled(direction).ok_or(RayError::Direction { given: direction })?;

@@ -454,16 +454,16 @@ fn end_of(end: ChordEnd, f: FaceId, face: &Retriangulation) -> Option<usize> {
 pub enum InsertRefusal {
     /// A parameter on an edge is not strictly between 0 and 1.
     Parameter {
-        /// The half-edge.
+        /// A half-edge of the edge.
         half_edge: HalfEdgeId,
-        /// The parameter.
+        /// The parameter that was given.
         t: f64,
     },
     /// A weight in a face is not positive, or the sum of the weights is not finite.
     Weights {
-        /// The face.
+        /// The face in which the point was to be inserted.
         face: FaceId,
-        /// The weights.
+        /// The weights that were given.
         weights: [f64; 3],
     },
     /// Two points coincide on an edge.
@@ -476,20 +476,20 @@ pub enum InsertRefusal {
     /// A chord does not divide its face (its ends must be two places on the outline, with area on
     /// both sides), it crosses another chord, or its face has points inside.
     Chord {
-        /// The face.
+        /// The face that the chord was to cross.
         face: FaceId,
     },
     /// Two points in a face coincide up to rounding, or a point lies on the outline of its face.
     Crowded {
-        /// The face.
+        /// The face that has the points.
         face: FaceId,
     },
     /// A child face would be so small that its share of the parent's area rounds to zero. This
     /// happens between points that are very near a corner.
     Share {
-        /// The face.
+        /// The face that was to be divided.
         face: FaceId,
-        /// The share.
+        /// The share of the face that the child would have.
         share: f64,
     },
     /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
@@ -519,7 +519,10 @@ impl fmt::Display for InsertRefusal {
             InsertRefusal::Chord { face } => write!(f, "a chord does not cross {face}"),
             InsertRefusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
             InsertRefusal::Share { face, share } => {
-                write!(f, "a part of {face} would have the share {share} of it")
+                write!(
+                    f,
+                    "a child of {face} would cover only the fraction {share} of it"
+                )
             }
             InsertRefusal::Full { faces } => {
                 write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)

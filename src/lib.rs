@@ -5,7 +5,9 @@
 //! torn the mesh is, also where it is no longer a 2-manifold. A [`Scissor`] that cuts along two
 //! rays or a plane, and exact [`Masses`], are built on this. The technique is that of M. S. Souza,
 //! A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC Journal on
-//! Interactive Systems 5(1), 2014; where this library differs, the module concerned says why.
+//! Interactive Systems 5(1), 2014. [`guide::paper`] says where this library differs, and why.
+//! [`guide`] also has an introduction, a comparison with other software, and what a version number
+//! promises.
 //!
 //! # Build, split, upload
 //!
@@ -98,6 +100,7 @@ mod draw;
 mod edit;
 mod exact;
 pub mod geometry;
+pub mod guide;
 mod id;
 pub mod insert;
 mod mass;

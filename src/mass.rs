@@ -401,7 +401,7 @@ impl Follower for Masses {
                 }
             }
             (Edit::Insert(_), Store::Half { .. }) => {
-                panic!("masses by halves know no insertion: use masses by area")
+                panic!("masses by halves cannot follow an insertion: use masses by area")
             }
             (Edit::Merge(merge), Store::Area { vertices, .. }) => {
                 vertices[merge.kept.index()] += vertices[merge.gone.index()];
@@ -516,7 +516,7 @@ impl fmt::Display for MassError {
             MassError::OutOfRange { total } => {
                 write!(
                     f,
-                    "the total mass {total:e} leaves no room for parts that are exact"
+                    "the total mass {total:e} is too large or too small to be divided exactly"
                 )
             }
             MassError::TooLight { vertices } => {

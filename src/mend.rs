@@ -367,7 +367,7 @@ impl Copies {
 pub enum MergeRefusal {
     /// Both ids name the same vertex.
     Same {
-        /// The vertex.
+        /// The vertex that was named twice.
         vertex: VertexId,
     },
     /// The vertices were not split from the same vertex.
@@ -391,7 +391,7 @@ impl fmt::Display for MergeRefusal {
             MergeRefusal::Roots { one, other } => {
                 write!(
                     f,
-                    "{one} and {other} were not merged: they were never one vertex"
+                    "{one} and {other} were not merged: they were not split from the same vertex"
                 )
             }
             MergeRefusal::Weights {
@@ -432,7 +432,7 @@ pub enum StitchError {
     Weights,
     /// The vertices are too far apart.
     Distance {
-        /// How far.
+        /// The distance between the vertices.
         distance: f64,
     },
 }
@@ -444,7 +444,7 @@ impl fmt::Display for SewError {
         };
         write!(f, "{kept} and {gone} cannot be sewn: ")?;
         match why {
-            StitchError::Roots => f.write_str("they were never one vertex")?,
+            StitchError::Roots => f.write_str("they were not split from the same vertex")?,
             StitchError::Weights => f.write_str("their weights must be finite and not negative")?,
             StitchError::Distance { distance } => write!(f, "they are {distance} apart")?,
         }

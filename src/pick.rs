@@ -10,11 +10,12 @@
 //!           a             The determinants, as parts of their sum, are the weights of the corners.
 //! ```
 //!
-//! The signs are exact, for vertices whose differences from the origin of the ray were rounded: so no
-//! ray passes between two faces, or through a vertex. (Woop, Benthin and Wald, "Watertight Ray/Triangle
-//! Intersection", JCGT 2(1), 2013, fall back on higher precision where a determinant is zero; here it is
-//! where rounding could have changed the sign, by products without rounding.) That holds while no product
-//! of three coordinates is below the range of `f64`: from 1e-90 units on.
+//! Differences between vertices and the origin of the ray are rounded once, and the signs computed
+//! from them are exact. So no ray slips between two faces, or through a vertex. (Woop, Benthin and
+//! Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, fall back on higher precision if
+//! a determinant is zero. Here products are computed without rounding whenever rounding could have
+//! changed the sign.) This holds as long as no product of three coordinates is below the range of
+//! `f64`, that is, for coordinates from 1e-90 units on.
 //!
 //! All faces are tested, in the order of their ids. That is linear, and there is no search tree to
 //! keep up to date on a mesh that moves and tears.

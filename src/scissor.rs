@@ -538,23 +538,23 @@ impl std::error::Error for ScissorError {}
 pub enum CutError {
     /// The mesh and the positions have different numbers of vertices.
     Positions {
-        /// The vertices of the mesh.
+        /// The number of vertices of the mesh.
         vertices: usize,
-        /// The positions given.
+        /// The number of positions that were given.
         positions: usize,
     },
     /// The positions have not seen all edits.
     Unreplayed {
-        /// Up to where they have seen a log.
+        /// The place in a log up to which the positions have been replayed.
         seen: Cursor,
-        /// The end of this one.
+        /// The end of the log that was passed to the cut.
         made: Cursor,
     },
     /// The end from which the cut should continue has not seen all edits.
     End {
-        /// Up to where it has seen a log.
+        /// The place in a log up to which the end has been replayed.
         seen: Cursor,
-        /// The end of this one.
+        /// The end of the log that was passed to the cut.
         made: Cursor,
     },
 }

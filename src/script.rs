@@ -194,13 +194,13 @@ impl Script {
     pub const OPERATIONS_MAX: usize = 60;
 }
 
-/// One thing to do to a [`World`]. Numbers of vertices, faces and so on are taken modulo
-/// how many there are, so that every operation fits every mesh.
+/// An operation on a [`World`]. Numbers of vertices, faces and so on are taken modulo their counts,
+/// so that every operation fits every mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Split a vertex by a set of its faces.
     Split {
-        /// The vertex.
+        /// The number of the vertex to split.
         vertex: u16,
         /// Which of its faces move to the new vertex: bit `i % 16` for face `i` of them in
         /// ascending order, whatever the order of a walk. The empty and the full set are
@@ -211,7 +211,7 @@ pub enum Operation {
     },
     /// Split a vertex by a plane through it.
     Plane {
-        /// The vertex.
+        /// The number of the vertex to split.
         vertex: u16,
         /// The normal of the plane. Where it is zero, nothing is done.
         normal: [i8; 3],
@@ -220,7 +220,7 @@ pub enum Operation {
     Cut {
         /// Whether the cut goes on beyond the rays.
         through: bool,
-        /// Where it ends if not.
+        /// Where the cut ends if it is not a through cut.
         tips: CutTips,
         /// The rays: each the origin, in units of 1/32, and the direction.
         rays: [[[i8; 3]; 2]; 2],
@@ -246,19 +246,19 @@ pub enum Operation {
         other: u16,
         /// Whether `other` counts among all vertices instead.
         any: bool,
-        /// The weights of both. Negative ones are refused.
+        /// The weights of both vertices. Negative weights are refused.
         weights: [i8; 2],
     },
     /// Slide a vertex, usually along an edge.
     Slide {
-        /// The vertex.
+        /// The number of the vertex to slide.
         vertex: u16,
         /// The vertex to slide towards, as a number among the neighbours in ascending order, or
         /// among all vertices where it has none.
         toward: u16,
         /// Whether the target counts among all vertices instead.
         any: bool,
-        /// How far along, in parts of 64: 0 to 64. Both ends are refused.
+        /// The distance along the edge, from 0 to 64 in units of 1/64. Both ends are refused.
         part: u8,
     },
     /// Sew together all chosen copies, weighted by their masses.
@@ -281,14 +281,14 @@ const OFFSETS: u8 = 12;
 /// A place at which to insert a vertex. If one spot is invalid, its whole insertion is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
-    /// On an edge.
+    /// A spot on an edge.
     Edge {
         /// The half-edge, counted from that of the insertion: 0 to 11.
         offset: u8,
-        /// How far along, in parts of 64: 0 to 64. Both ends are refused.
+        /// The distance along the edge, from 0 to 64 in units of 1/64. Both ends are refused.
         part: u8,
     },
-    /// In a face.
+    /// A spot in a face.
     Face {
         /// A half-edge of the face, counted from that of the insertion: 0 to 11.
         offset: u8,
@@ -300,7 +300,7 @@ pub enum Spot {
 /// A deliberate mistake in a set of faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Nothing.
+    /// The set has no mistake.
     None,
     /// The set names the face at this place in it a second time.
     Repeated(u8),

@@ -42,7 +42,7 @@ impl DisjointSets {
         next
     }
 
-    /// How many numbers there are.
+    /// The number of numbers in the forest.
     #[must_use]
     pub fn len(&self) -> usize {
         self.above.len()
@@ -78,7 +78,7 @@ impl DisjointSets {
         self.above[a.max(b) as usize] = a.min(b);
     }
 
-    /// How many sets there are. Linear.
+    /// The number of disjoint sets. Linear.
     #[must_use]
     pub fn count(&self) -> usize {
         let numbers = self.above.iter().zip(0..);

@@ -79,7 +79,7 @@ pub fn toward<'e>(
 pub enum SlideRefusal {
     /// The parameter is not strictly between 0 and 1.
     Parameter {
-        /// The parameter.
+        /// The parameter that was given.
         t: f64,
     },
     /// No edge joins the vertices.

@@ -241,26 +241,26 @@ fn corner_at(mesh: &Mesh, face: FaceId, v: VertexId) -> Option<HalfEdgeId> {
 pub enum SplitRefusal {
     /// The set of faces to move is empty.
     Empty {
-        /// The vertex that was to be split.
+        /// The vertex that was not split.
         vertex: VertexId,
     },
     /// The set holds all faces of the vertex, which would leave none behind.
     Everything {
-        /// The vertex that was to be split.
+        /// The vertex that was not split.
         vertex: VertexId,
     },
     /// A face of the set does not have the vertex.
     Foreign {
-        /// The vertex that was to be split.
+        /// The vertex that was not split.
         vertex: VertexId,
-        /// The face.
+        /// The face that does not have the vertex.
         face: FaceId,
     },
     /// The set names a face twice.
     Repeated {
-        /// The vertex that was to be split.
+        /// The vertex that was not split.
         vertex: VertexId,
-        /// The face.
+        /// The face that was named twice.
         face: FaceId,
     },
 }

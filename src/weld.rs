@@ -1,10 +1,10 @@
 //! Builds meshes from an engine's buffers, in which a vertex is repeated along texture seams and
 //! hard edges.
 //!
-//! An engine's vertex has a place, a texture coordinate and a normal in one, so where one of these
-//! differs from face to face there are several at one place. Taken literally, such a mesh is cut
-//! along every seam. Here vertices at one place are welded. The values that differed belong to the
-//! corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
+//! An engine's vertex combines a position, a texture coordinate and a normal. Where one of these
+//! differs from face to face, there are several vertices at one place. Taken literally, such a mesh
+//! is cut along every seam. Here vertices at one place are welded. The values that differed belong
+//! to the corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
 
 use std::fmt;
 
@@ -91,9 +91,9 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
 pub enum WeldError {
     /// A triangle names a vertex that the buffer does not have.
     Index {
-        /// The index.
+        /// The index that was given.
         index: u32,
-        /// How many vertices there are.
+        /// The number of vertices of the buffer.
         known: usize,
     },
     /// These vertices of the buffer have coordinates that are not finite.
@@ -107,7 +107,10 @@ impl fmt::Display for WeldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             WeldError::Index { index, known } => {
-                write!(f, "a triangle names vertex {index} of {known}")
+                write!(
+                    f,
+                    "a triangle names vertex {index}, but there are {known} vertices"
+                )
             }
             WeldError::Place(error) => error.fmt(f),
             WeldError::Build(error) => write!(f, "welded, this is {error}"),

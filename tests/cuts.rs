@@ -118,7 +118,7 @@ fn the_seam_is_all_that_was_torn_in_order() {
             edges += made.cut.seam().map(|line| line.lips.len()).sum::<usize>();
         }
     }
-    println!("{edges} edges, in so many lines by method: {lines:?}");
+    println!("{edges} edges; numbers of lines by method: {lines:?}");
     assert!(lines.into_iter().all(|count| count > 100) && edges > 10_000);
 }
 

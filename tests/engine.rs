@@ -249,7 +249,10 @@ fn buffers_that_make_no_mesh_are_refused() {
     };
     let error = refused(&places, &[[0, 1, 4]]);
     assert_eq!(error, WeldError::Index { index: 4, known: 4 });
-    assert_eq!(error.to_string(), "a triangle names vertex 4 of 4");
+    assert_eq!(
+        error.to_string(),
+        "a triangle names vertex 4, but there are 4 vertices"
+    );
     let mut spoilt = places;
     spoilt[3][1] = f32::NAN;
     let WeldError::Place(error) = refused(&spoilt, &[[0, 1, 2]]) else {

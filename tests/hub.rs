@@ -236,7 +236,7 @@ fn hub_table() {
             }
             clocks.push(clock);
         }
-        println!("\nclosed: {closed}; ns a face, for so many thousand faces round one vertex");
+        println!("\nclosed: {closed}; ns a face, by thousands of faces round one vertex");
         print!("{:44}", "");
         sizes.iter().for_each(|faces| print!("{:>7}", faces / 1000));
         println!();

@@ -262,7 +262,7 @@ fn regression_a_child_whose_share_would_be_zero() {
     for t in [1e-300, 1e-170, 5e-324] {
         let refusal: Result<Vec<f64>, InsertRefusal> = divided(t);
         let told = refusal.map_err(|refusal| refusal.to_string());
-        let expected = "nothing was inserted: a part of f0 would have the share 0 of it";
+        let expected = "nothing was inserted: a child of f0 would cover only the fraction 0 of it";
         assert_eq!(told, Err(expected.to_string()), "{t}");
     }
     let shares = divided(1e-150).expect("small, and not zero");

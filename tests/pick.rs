@@ -182,7 +182,7 @@ impl Counts {
                 weights[0] = 1;
             }
             let sum: i64 = weights.iter().sum();
-            // The place is a fraction of so many parts: origin and direction in whole numbers go through it.
+            // The place has the denominator `sum`, so a ray in whole numbers can go through it.
             let far =
                 |random: &mut Random| [0, 1, 2].map(|_| whole_number(random, 2 * lattice.size));
             let origin = match (random.next() * 8.0) as u32 {

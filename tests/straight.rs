@@ -172,7 +172,7 @@ pub(crate) fn random_generic_rays(before: &Surface, random: &mut Random) -> (Ray
     }
 }
 
-/// So many generic cuts of each surface, made by the naive implementation.
+/// A number of generic cuts of each surface, made by the naive implementation.
 pub(crate) fn cases(cuts: usize) -> Vec<Case> {
     let mut random = Random(5);
     let mut cases = Vec::new();

@@ -37,9 +37,9 @@ pub enum Mix<I> {
     },
     /// The weighted sum of three values.
     Weighted {
-        /// The three.
+        /// The three sources.
         of: [I; 3],
-        /// Their weights: positive, of sum one up to rounding.
+        /// The weights of the sources: positive, and of sum one up to rounding.
         weights: [f64; 3],
     },
 }
@@ -118,7 +118,7 @@ pub enum VertexOp {
     Push {
         /// The vertex that it is for: the next one.
         new: VertexId,
-        /// Where it comes from.
+        /// The vertices that the new value derives from.
         from: Mix<VertexId>,
     },
     /// A value is replaced.
@@ -130,7 +130,7 @@ pub enum VertexOp {
     },
     /// A value is removed, and the last one takes its place, as in [`Vec::swap_remove`].
     SwapRemove {
-        /// The vertex that is no more.
+        /// The vertex that disappears.
         gone: VertexId,
     },
 }
@@ -253,7 +253,7 @@ impl ChildFace {
 pub enum CornerOp<'e> {
     /// Corners now belong to another vertex. Their values stay.
     Relabel {
-        /// The corners.
+        /// The corners that go to the other vertex.
         corners: &'e [HalfEdgeId],
         /// The vertex that they are of now.
         to: VertexId,
@@ -262,13 +262,13 @@ pub enum CornerOp<'e> {
     Divide(FaceFamily<'e>),
     /// A vertex slides along an edge, and the values of its corners change with it.
     Carry {
-        /// For each face of the edge along which it slides, up to two, its corner at the vertex and
-        /// that at the other end. The first gets the value at the part `t` of the way to the second.
+        /// For each of the up to two faces of the edge, its corner at the vertex and its corner at
+        /// the other end. The first gets the value at the fraction `t` of the way to the second.
         along: [Option<[HalfEdgeId; 2]>; 2],
         /// How far: strictly between 0 and 1.
         t: f64,
-        /// All corners of the vertex. Another one with the same value as one of those along the
-        /// edge had goes with it: equal values round a vertex are taken for one.
+        /// All corners of the vertex. Corners with equal values share one value, so a corner that
+        /// had the same value as one along the edge changes with it.
         corners: &'e [HalfEdgeId],
     },
 }

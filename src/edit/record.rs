@@ -168,9 +168,9 @@ pub enum InsertLocation {
     },
     /// At the weighted mean of the corners of a face.
     Face {
-        /// The corners.
+        /// The corners of the face.
         vertices: [VertexId; 3],
-        /// Their weights: positive, of sum one up to rounding.
+        /// The weights of the corners: positive, and of sum one up to rounding.
         weights: [f64; 3],
     },
 }
@@ -205,7 +205,7 @@ pub enum CornerSource {
         /// The parameter, strictly between 0 and 1.
         t: f64,
     },
-    /// Inside.
+    /// Inside the parent.
     Face {
         /// The weights of the corners of the parent, in their order.
         weights: [f64; 3],

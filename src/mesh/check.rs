@@ -55,7 +55,7 @@ pub enum Invariant {
 pub struct Violation {
     /// Which invariant is broken.
     pub invariant: Invariant,
-    /// What was found, with ids.
+    /// What was found instead, with ids.
     pub found: String,
 }
 

@@ -98,23 +98,23 @@ impl BuildError {
 pub enum Defect<'e> {
     /// There are more vertices than ids.
     TooManyVertices {
-        /// How many there are.
+        /// The number of vertices given.
         given: usize,
-        /// [`Mesh::MAX_VERTICES`].
+        /// The limit, [`Mesh::MAX_VERTICES`].
         limit: usize,
     },
     /// There are more faces than ids.
     TooManyFaces {
-        /// How many there are.
+        /// The number of faces given.
         given: usize,
-        /// [`Mesh::MAX_FACES`].
+        /// The limit, [`Mesh::MAX_FACES`].
         limit: usize,
     },
     /// A face names a vertex that does not exist.
     IndexOutOfRange {
-        /// The face.
+        /// The face that names the vertex.
         face: FaceId,
-        /// Its corner, 0 to 2.
+        /// The corner of the face, 0 to 2.
         corner: usize,
         /// The vertex index given there.
         index: u32,
@@ -123,9 +123,9 @@ pub enum Defect<'e> {
     },
     /// A face names the same vertex twice.
     RepeatedVertex {
-        /// The face.
+        /// The face that names a vertex twice.
         face: FaceId,
-        /// The vertex.
+        /// The vertex that is named twice.
         vertex: VertexId,
     },
     /// Several faces have the same three vertices, and at least two of them face the same way.
@@ -151,16 +151,16 @@ pub enum Defect<'e> {
     },
     /// Two faces traverse an edge in the same direction, so one of them is flipped.
     FlippedFace {
-        /// Where both half-edges start.
+        /// The vertex at which both half-edges start.
         from: VertexId,
-        /// Where both end.
+        /// The vertex at which both half-edges end.
         to: VertexId,
         /// The two faces, ascending.
         faces: [FaceId; 2],
     },
     /// A vertex has several fans of faces that share no edge (Souza et al. 2014, Fig. 2).
     BowTie {
-        /// The vertex.
+        /// The vertex that has several fans.
         vertex: VertexId,
         /// The faces of each fan; the fan with the smallest face comes first.
         fans: Fans<'e>,

@@ -103,9 +103,9 @@ pub enum TornError {
     /// A root is not the smallest of the vertices that have it, or a vertex without faces has
     /// another vertex as its root or is the root of another one.
     Root {
-        /// The vertex.
+        /// The vertex with the wrong root.
         vertex: VertexId,
-        /// The root that was given for it.
+        /// The root that was given for the vertex.
         root: u32,
     },
     /// The triangles, with each vertex replaced by its root, are not an oriented 2-manifold.
@@ -116,7 +116,10 @@ impl fmt::Display for TornError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             TornError::Index { index, vertices } => {
-                write!(f, "a triangle names vertex {index} of {vertices}")
+                write!(
+                    f,
+                    "a triangle names vertex {index}, but there are {vertices} vertices"
+                )
             }
             TornError::Root { vertex, root } => {
                 write!(f, "vertex {root} cannot be the root of {vertex}")

@@ -24,21 +24,21 @@ use crate::place::Positions;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CutReport {
-    /// The faces that the slit crosses.
+    /// The number of faces that the slit crosses.
     pub faces_crossed: usize,
-    /// The vertices that were split, counted as often as they were.
+    /// The number of splits. A vertex that was split twice counts twice.
     pub splits: usize,
-    /// The splits that were refused because all faces were on one side.
+    /// The number of splits that were refused because all faces were on one side.
     pub refused: usize,
-    /// The half-edges whose pair became a ghost pair: two for each edge of the seam.
+    /// The number of half-edges whose pair became a ghost pair: two for each edge of the seam.
     pub ghost_pairs: usize,
-    /// The components before the cut.
+    /// The number of components before the cut.
     pub pieces_before: usize,
-    /// The components after the cut.
+    /// The number of components after the cut.
     pub pieces: usize,
-    /// The components that a cut exactly along the slit would leave. It is more if the method
-    /// `exact` snaps an end of the slit to the boundary. A face on the plane counts as front,
-    /// except for the method `exact`, which does not cut what the plane merely touches.
+    /// The number of components that a cut exactly along the slit would leave. It is more if the
+    /// method `exact` snaps an end of the slit to the boundary. A face on the plane counts as
+    /// front, except for the method `exact`, which does not cut what the plane merely touches.
     pub pieces_expected: usize,
     /// How many more pieces there are than expected.
     pub crumbs: usize,
@@ -57,7 +57,7 @@ pub struct CutReport {
     /// The largest distance of a seam vertex from the plane, divided by the mean edge length of the
     /// mesh before the cut.
     pub seam_deviation_max_edges: f64,
-    /// The vertices inserted on edges and in faces.
+    /// The number of vertices inserted on edges and in faces.
     pub vertices_inserted: usize,
     /// The smallest angle of any face after the cut, in degrees.
     pub angle_min_deg: f64,

@@ -14,16 +14,16 @@ pub enum Shape {
     /// A grid of cells, with a bit for each diagonal (modulo 64): see
     /// [`shapes::grid_with_diagonals`].
     Grid {
-        /// 1 to 5.
+        /// The number of columns, 1 to 5.
         columns: u8,
-        /// 1 to 5.
+        /// The number of rows, 1 to 5.
         rows: u8,
         /// Bit `row * columns + column`: the diagonal of that cell rises.
         rising: u64,
     },
     /// A fan of triangles around a vertex: see [`shapes::fan`].
     Fan {
-        /// 3 to 16.
+        /// The number of faces, 3 to 16.
         faces: u8,
         /// Whether the fan goes all the way round.
         closed: bool,
@@ -32,26 +32,26 @@ pub enum Shape {
     Saddle,
     /// A tube that is open at both ends: see [`shapes::tube`].
     Tube {
-        /// 3 to 8.
+        /// The number of cells in a ring, 3 to 8.
         around: u8,
-        /// 1 to 4.
+        /// The number of rings, 1 to 4.
         along: u8,
     },
     /// A torus: see [`shapes::torus`].
     Torus {
-        /// 3 to 5.
+        /// The number of cells the long way around, 3 to 5.
         around: u8,
-        /// 3 to 5.
+        /// The number of cells the short way around, 3 to 5.
         across: u8,
     },
     /// A tetrahedron, each face of which is divided into four this many times.
     Tetrahedron {
-        /// 0 or 1.
+        /// The number of subdivisions, 0 or 1.
         subdivisions: u8,
     },
     /// An octahedron, each face of which is divided into four this many times.
     Octahedron {
-        /// 0 or 1.
+        /// The number of subdivisions, 0 or 1.
         subdivisions: u8,
     },
     /// A triangulation of a disc, a sphere or something with holes, grown from one triangle by
@@ -66,7 +66,7 @@ pub enum Shape {
     /// components, and one vertex without a face. What would not be a manifold
     /// is left unglued.
     Glued {
-        /// 1 to 24.
+        /// The number of triangles, 1 to 24.
         faces: u8,
         /// Pairs of sides, up to [`GROWN_MAX`], modulo three times the faces.
         sides: Vec<[u8; 2]>,

@@ -255,7 +255,7 @@ fn simpler_operations(operation: &Operation) -> Vec<Operation> {
     simpler
 }
 
-/// Smaller numbers, from the least on: so many that one of them is, modulo what a small mesh has, the
+/// Smaller numbers, from the least on: enough of them that one is, modulo what a small mesh has, the
 /// same.
 fn below<N>(number: N, least: N) -> impl Iterator<Item = N>
 where

@@ -157,7 +157,7 @@ pub struct ScriptError {
     pub line: usize,
     /// The word that was not understood; empty at the end of the line.
     pub word: String,
-    /// What was expected there.
+    /// What was expected in place of the word.
     pub expected: String,
 }
 
@@ -199,7 +199,7 @@ impl FromStr for Script {
             } else if operations.len() < Script::OPERATIONS_MAX {
                 operations.push(line.operation(first)?);
             } else {
-                return Err(line.error("the end, after so many operations,"));
+                return Err(line.error("the end, after the largest number of operations,"));
             }
             if line.word().is_some() {
                 return Err(line.error("the end of the line"));

@@ -44,14 +44,14 @@ pub struct World {
 pub enum Asked {
     /// On an edge: see [`Plan::on_edge`].
     Edge {
-        /// The half-edge.
+        /// A half-edge of the edge.
         half_edge: HalfEdgeId,
         /// How far along.
         t: f64,
     },
     /// In a face: see [`Plan::in_face`].
     Face {
-        /// The face.
+        /// The face in which to insert.
         face: FaceId,
         /// The weights of its corners.
         weights: [f64; 3],
@@ -75,7 +75,7 @@ pub enum Step<'s> {
     Built,
     /// A split by a set of faces was tried.
     Split {
-        /// The vertex.
+        /// The vertex to split.
         vertex: VertexId,
         /// The faces that were to move.
         faces: &'s [FaceId],
@@ -84,7 +84,7 @@ pub enum Step<'s> {
     },
     /// A split by a plane through the vertex was tried.
     Plane {
-        /// The vertex.
+        /// The vertex to split.
         vertex: VertexId,
         /// The normal of the plane.
         normal: [f64; 3],
@@ -109,9 +109,9 @@ pub enum Step<'s> {
     },
     /// A merge was tried.
     Merge {
-        /// One vertex.
+        /// One of the two vertices.
         one: VertexId,
-        /// The other.
+        /// The other one of the two vertices.
         other: VertexId,
         /// The weights of both.
         weights: [f64; 2],
@@ -120,11 +120,11 @@ pub enum Step<'s> {
     },
     /// A slide was tried.
     Slide {
-        /// The vertex.
+        /// The vertex to slide.
         vertex: VertexId,
         /// The vertex towards which it was to slide.
         toward: VertexId,
-        /// How far.
+        /// The fraction of the way to slide.
         t: f64,
         /// The edit, or why there was none.
         outcome: Result<Cursor, slide::SlideRefusal>,
@@ -133,7 +133,7 @@ pub enum Step<'s> {
     Sewn {
         /// The first edit; those from there on are merges.
         first: Cursor,
-        /// What was to be sewn.
+        /// The stitches that were requested.
         stitches: &'s [Stitch],
         /// The number of merges.
         merges: usize,

@@ -13,6 +13,7 @@ mod frames;
 mod full;
 mod fuzz;
 mod gap;
+mod guide;
 mod harness;
 mod in_process;
 #[cfg(unix)]

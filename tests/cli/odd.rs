@@ -90,7 +90,7 @@ fn regression_words_about_rays_are_about_what_is_wrong() {
         ("x,0,5@0,0,-1 1,0,5:0,0,-1", "expected a finite number"),
         (
             "1e99,0,5:0,0,-1 1,0,5:0,0,-1",
-            "expected an origin that is not so far away",
+            "expected an origin that is less far away",
         ),
         ("0,0,5:0,0,0 1,0,5:0,0,-1", "expected a direction"),
     ] {

@@ -423,7 +423,7 @@ fn a_simulation_that_fails_keeps_its_state_and_says_so() {
     assert_eq!(read(&folder.read("kept.obj")).0.len(), 1089);
 }
 
-/// The slivers of the cut are what the step fails of, so just this cut has to be told.
+/// The slivers of the cut are what the step fails of, so exactly this cut must be reported.
 #[test]
 fn a_cut_whose_step_fails_is_told_of() {
     let folder = Folder::new();
@@ -560,7 +560,7 @@ fn what_would_be_ignored_is_refused() {
         (
             "\n[[strength]]\nfactor = 2\nfrom = [8, 8, 8]\nto = [9, 9, 9]\n",
             "",
-            "error[E-SCENE-EMPTY]: strength 1 holds no vertex at:2:1",
+            "error[E-SCENE-EMPTY]: strength 1 contains no vertex at:2:1",
         ),
         (
             "[[hold]]\nvertices = [1]\n[[hold]]\nvertices = [1, 999999]\n",
@@ -796,7 +796,7 @@ fn joules_that_the_limiter_of_provot_has_a_part_in_are_not_said() {
         let words = seen(&folder.run(line));
         assert_eq!(words.contains("J put in"), is_said, "{words}");
         assert_eq!(
-            words.contains("the limiter works without bound"),
+            words.contains("the limiter's work grows without bound"),
             !is_said,
             "{words}"
         );

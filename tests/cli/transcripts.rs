@@ -65,6 +65,16 @@ fn the_commands_of_the_readme_answer_as_it_says() {
     }
 }
 
+#[test]
+fn the_commands_of_the_guide_answer_as_it_says() {
+    let mut commands = 0;
+    for page in ["cut", "batches", "blender", "codes", "report", "scenes"] {
+        let path = root().join(format!("tools/cli/src/guide/{page}.md"));
+        commands += play(&path, &Folder::new(), false);
+    }
+    assert!(commands >= 9);
+}
+
 /// Plays the commands of a file, and counts them. In Markdown only `console` blocks count.
 fn play(path: &Path, folder: &Folder, plain: bool) -> usize {
     let name = path.file_name().expect("a name").display().to_string();

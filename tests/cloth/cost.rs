@@ -100,7 +100,7 @@ fn an_edit_costs_no_matrix_product_and_a_step_measures_only_what_the_bound_leave
         .expect("a step");
     let products = cloth.system().counters().matrix_products;
     assert!(products > 0);
-    // It is measured again after so many steps, and not before.
+    // It is measured again after 64 steps, and not before.
     for _ in 1..64 {
         cloth
             .step(&mut Verlet::plain(), 2.1 / bound)

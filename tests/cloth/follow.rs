@@ -593,7 +593,7 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
     let error = Cloth::new(&mesh, &few, masses, Fabric::new(1.0)).expect_err("too few");
     assert_eq!(
         error.to_string(),
-        "4 vertices have 1 positions and 4 masses"
+        "there are 1 positions and 4 masses for 4 vertices"
     );
 }
 

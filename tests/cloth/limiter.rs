@@ -88,7 +88,7 @@ fn survivors(name: &str, passes: u32, part: f64) -> usize {
 
 #[test]
 fn table_of_shaken_nets_under_the_limiter_without_a_rewrite() {
-    println!("\nF5, shaken: of four seeds so many keep their energy at .2 .5 .8 .999 of 2/ω");
+    println!("\nF5, shaken: how many of four seeds keep their energy at .2 .5 .8 .999 of 2/ω");
     println!("passes      0     1     2     5    20");
     for name in ["chain", "string", "frame"] {
         let mut line = format!("{name:8}");

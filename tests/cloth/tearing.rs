@@ -370,7 +370,7 @@ fn what_cannot_be_is_refused_with_what_was_given() {
                 delay_s: -1.0,
                 ..stretch(1.5)
             },
-            "a delay of -1 s cannot be waited",
+            "a delay of -1 s is negative or not finite",
         ),
     ];
     for (tearing, text) in refusals {

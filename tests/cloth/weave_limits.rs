@@ -162,7 +162,7 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
         assert_eq!(error, StepError::Triangles { count: 8 });
         assert_eq!(
             error.to_string(),
-            "the method knows springs alone, and 8 triangles resist stretch"
+            "the method supports springs only, and 8 triangles resist stretch"
         );
     }
     let points = (0..3).map(|i| Point::new(f64::from(i), f64::from(i * i), 0.0));

@@ -191,9 +191,9 @@ fn foreign_statements_are_kept_and_reported_once_a_keyword() {
     assert_eq!(
         said,
         [
-            "warning[W-OBJ-FOREIGN] line 2, column 1: `nl` is not interpreted, and kept with its vertex and the copies of that (3 statements, the first here)",
-            "warning[W-OBJ-FOREIGN] line 6, column 1: `vp` is not interpreted, and kept as it is (1 statement)",
-            "warning[W-OBJ-FOREIGN] line 7, column 1: `curv` is not interpreted, and kept as it is (1 statement)",
+            "warning[W-OBJ-FOREIGN] line 2, column 1: `nl` is not interpreted, and is kept with its vertex and the copies of it (3 statements, the first here)",
+            "warning[W-OBJ-FOREIGN] line 6, column 1: `vp` is not interpreted, and is kept as it is (1 statement)",
+            "warning[W-OBJ-FOREIGN] line 7, column 1: `curv` is not interpreted, and is kept as it is (1 statement)",
             "warning[W-OBJ-ELEMENT] line 9, column 1: `l` elements are kept, but never cut (1 statement)",
         ]
     );

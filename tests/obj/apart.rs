@@ -53,8 +53,7 @@ fn a_vertex_that_stands_apart_is_read_where_it_is() {
 #[test]
 fn what_was_edited_since_is_told_from_what_stands_apart() {
     let file = file(3, ITEMS);
-    let message = "`v` 5 stood apart from the other side of its cut and was edited since: it stays \
-                   where it is now";
+    let message = "`v` 5 was written apart from the other side of its cut and was edited since: it stays where it is now";
     let edited = file.replace("v 1.25 0.5 0\n", "v 1.25 0.5 1e-300\n");
     let document = read(edited.as_bytes());
     assert_eq!(said(&document), [("W-OBJ-RECORD-APART", 5, message)]);
@@ -84,7 +83,7 @@ fn what_was_edited_since_is_told_from_what_stands_apart() {
 fn what_is_wrong_with_such_a_line_is_said() {
     let (range, points) = (
         "a number of this record is out of its range",
-        "this record has a vertex without two points that can be used",
+        "this record has a vertex without two usable points",
     );
     let head = "#~ split 5 2 1\n";
     for (items, message) in [
@@ -97,12 +96,12 @@ fn what_is_wrong_with_such_a_line_is_said() {
         ("#~ apart 5 1 0 0 2 0 1e90\n", points),
         (
             "#~ apart 5 1 0 0 2 0 0 1\n",
-            "this line of a record has more than belongs there",
+            "this line of a record has extra words",
         ),
         ("#~ apart 5 1 0 x 2 0 0\n", "cannot read number `x`"),
         (
             "#~ apart 5 1 0 0 1 0 0\n",
-            "this record has a vertex apart from where it is that is there",
+            "this record writes a vertex apart at its own position",
         ),
         (
             "#~ apart 5 1 0 0 2 0 0\n#~ slide 5 1 0 0 0 1 0 0\n",

@@ -129,6 +129,6 @@ fn what_would_be_no_surface_is_refused() {
     let document = read(file.as_bytes());
     let pairs = document.coincident(&document.mesh().expect("two faces"));
     let refused = document.torn_at(&pairs).expect_err("6 would be 4");
-    let said = "`l` may name a vertex by its number, which would be another";
+    let said = "`l` may name a vertex by its number, which sewing would change";
     assert_eq!(refused.to_string(), said);
 }

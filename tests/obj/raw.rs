@@ -47,7 +47,7 @@ fn everything_that_obj_rs_keeps_arrives() {
         said,
         [
             "line 20: 1 face with more than 3 corners is cut into 2 triangles",
-            "`vp` is not interpreted, and kept as it is (1 of them)",
+            "`vp` is not interpreted, and is kept as it is (1 of them)",
             "`p` elements are kept, but never cut (2 of them)",
             "`l` elements are kept, but never cut (2 of them)",
         ]
@@ -176,11 +176,11 @@ fn it_is_as_strict_as_the_reader() {
     };
     assert_eq!(
         refused(&|raw| raw.groups = groups(0, 2)),
-        "`g` \"silk\" goes from face 0 to before 2, of 1"
+        "`g` \"silk\" covers face 0 up to, but not including, 2, of 1"
     );
     assert_eq!(
         refused(&|raw| raw.meshes = groups(1, 0)),
-        "`usemtl` \"silk\" goes from face 1 to before 0, of 1"
+        "`usemtl` \"silk\" covers face 1 up to, but not including, 0, of 1"
     );
     assert_eq!(
         refused(&|raw| raw.meshes.extend(groups(0, 1))),

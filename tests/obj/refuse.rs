@@ -249,7 +249,7 @@ fn indices_out_of_range() {
         ),
         (
             "f 1 2 -4",
-            "E-OBJ-RANGE 4:7+2 vertex -4 does not exist: 3 stand before this line | expected -3 to -1",
+            "E-OBJ-RANGE 4:7+2 vertex -4 does not exist: there are 3 before this line | expected -3 to -1",
         ),
         (
             "f 1/1 2/1 3/1",
@@ -261,7 +261,7 @@ fn indices_out_of_range() {
         ),
         (
             "f 1/-1 2 3",
-            "E-OBJ-RANGE 4:5+2 texture coordinate -1 does not exist: none stands before",
+            "E-OBJ-RANGE 4:5+2 texture coordinate -1 does not exist: there are none before",
         ),
         (
             "f 1 2 2147483649",
@@ -282,7 +282,7 @@ fn indices_out_of_range() {
     ]);
     check(&[(
         b"f -4 -3 -2",
-        "E-OBJ-RANGE 1:3+2 vertex -4 does not exist: none stands before this line",
+        "E-OBJ-RANGE 1:3+2 vertex -4 does not exist: there are none before this line",
     )]);
 }
 
@@ -467,7 +467,7 @@ fn relative_indices_of_lines_and_curves_that_count_back_too_far() {
     check_after_vertices(&[
         (
             "l 1 -4",
-            "E-OBJ-RANGE 4:5+2 vertex -4 does not exist: 3 stand before this line",
+            "E-OBJ-RANGE 4:5+2 vertex -4 does not exist: there are 3 before this line",
         ),
         ("curv 0 -9 1 -4", "E-OBJ-RANGE 4:13+2 vertex -4 does"),
     ]);

@@ -91,7 +91,7 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     bad_line(
         "#~ split 5 2 1 1\n",
         (12, 16),
-        "this line of a record has more than belongs there",
+        "this line of a record has extra words",
     );
     bad_line(
         "#~ splat 5 2 1\n",
@@ -206,28 +206,28 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
         "end 4",
         "end 5",
         (16, 15),
-        "this record has not as many lines as it had",
+        "lines of this record are missing or were added",
     );
     let joined = format!("{file}{}", record(ITEMS));
     warns(
         &joined,
         "W-OBJ-RECORD",
         (17, 1),
-        "this file has a second record: neither is used",
+        "this file has two records, and neither is used",
     );
     let orphan = format!("{TORN}#tearmesh end 0 0123456789abcdef\n");
     warns(
         &orphan,
         "W-OBJ-RECORD",
         (11, 1),
-        "here a record ends that has not begun",
+        "a record ends here that has not begun",
     );
     let comment = "v 0 0 0 #tearmesh end\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     warns(
         comment,
         "W-OBJ-RECORD",
         (1, 9),
-        "here a record ends that has not begun",
+        "a record ends here that has not begun",
     );
     let lonely = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\n";
     let faces = hash_of_faces(&[4, 0, 1, 2]);
@@ -258,7 +258,7 @@ fn what_version_2_adds_is_checked_as_well() {
         (
             "#~ fan 5 2\n#~ fan 6 5\n",
             (13, 10),
-            "a copy of this record is one of a copy",
+            "this record has a copy of a copy",
         ),
         ("#~ fan 6 3\n#~ fan 5 2\n", (13, 8), range),
         ("#~ fan 5 6\n", (12, 10), range),
@@ -278,10 +278,10 @@ fn what_version_2_adds_is_checked_as_well() {
         let file = second(items, "vt 0 0");
         is_plain(&warns(&file, "W-OBJ-RECORD", place, message));
     }
-    let uneven = "this record has a slide without as many numbers before as then";
+    let uneven = "this record has a slide with different counts of numbers before and after";
     let large = "this record has a coordinate that is too large";
-    let nothing = "this record has corners here of nothing that slid";
-    let more = "this line of a record has more than belongs there";
+    let nothing = "this record has corners here without a vertex that slid";
+    let more = "this line of a record has extra words";
     for (items, place, message) in [
         ("#~ vt 2 1\n", (12, 9), range),
         ("#~ vt 1 1\n#~ vt 2 2\n", (13, 7), range),
@@ -289,7 +289,7 @@ fn what_version_2_adds_is_checked_as_well() {
         (
             "#~ vt 1 2\n",
             (13, 1),
-            "this record has other counts than its lines",
+            "the counts of this record do not match its lines",
         ),
         ("#~ vn 1 1\n#~ vt 1 1\n", (12, 7), range),
         ("#~ slide 8 1 0 0 0 1 0 0\n", (12, 10), range),
@@ -389,7 +389,7 @@ fn positions_may_change_and_copies_that_part_are_vertices() {
         panic!("the copy is on record");
     };
     let message = format!(
-        "`v` {copy} was a copy of {of} and is at another place now: it is a vertex of its own"
+        "`v` {copy} was a copy of {of} and has moved away from it: it is now a separate vertex"
     );
     let again = warns(&moved, "W-OBJ-RECORD-MOVED", (line, 1), &message);
     let mesh = again.mesh().expect("a torn mesh");
@@ -470,7 +470,7 @@ fn exercise(bytes: &[u8]) -> bool {
             .iter()
             .filter_map(|one| one.help.as_ref());
         let said = helps
-            .filter(|help| help.contains("left out of what is written"))
+            .filter(|help| help.contains("will not be written again"))
             .count();
         assert_eq!(said, 1, "{:?}\n{}", document.diagnostics(), text(bytes));
     }

@@ -275,7 +275,7 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
             args.method.name()
         );
         let help = if is_exact {
-            "leave it out, since exact ends at the rays themselves, or add --method partition"
+            "leave it out, because exact ends at the rays themselves, or add --method partition"
         } else {
             "leave it out: the paper's methods split vertices between the rays"
         };
@@ -283,7 +283,7 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
     }
     if args.mass == Mass::Half && is_exact {
         return usage(
-            "`--mass half` knows no vertices that are inserted, and the method exact inserts some",
+            "`--mass half` cannot follow inserted vertices, and the method exact inserts some",
             "use --mass area, or --method partition",
         );
     }

@@ -72,7 +72,7 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         return usage(message, foreign.help);
     }
     if args.format == Format::Json && output.is_some_and(is_stream) {
-        let message = "`-o -` and `--format json` both want standard output".to_owned();
+        let message = "`-o -` and `--format json` both use standard output".to_owned();
         return usage(
             message,
             "write the mesh to a file, or the report with --report FILE",
@@ -100,10 +100,7 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         let is_taken = taken.iter().any(|&other| same(other, Some(path)));
         if is_taken || is_stream(path) {
             let message = format!("`{option}` takes the name of a file of its own");
-            return usage(
-                message,
-                "name a file that nothing else is read from or written to",
-            );
+            return usage(message, "name a file that is not used for anything else");
         }
         output::check(path).map_err(|error| unwritable(path, &error))?;
         taken.push(Some(path));
@@ -153,8 +150,9 @@ impl Foreign {
 pub(crate) fn unwritten(args: &FileArgs, output_is_terminal: bool) -> Option<Fault> {
     let is_meant = args.dry_run || args.format == Format::Json || args.output.is_some();
     (output_is_terminal && !is_meant).then(|| {
-        let message = "the mesh will not be written: no -o OUT was given".to_owned();
-        Fault::warning("W-OUTPUT-NONE", message).help("add -o OUT, or --dry-run if that is meant")
+        let message = "the mesh will not be written, because no -o OUT was given".to_owned();
+        Fault::warning("W-OUTPUT-NONE", message)
+            .help("add -o OUT, or --dry-run if that is intended")
     })
 }
 

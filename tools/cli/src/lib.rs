@@ -2,6 +2,9 @@
 //! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
+//! [`guide`] is the guide to the command: how to cut a file, all codes, and all keys of its report and
+//! of scene files.
+//!
 //! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes; `cut`, `tear`, `mend`,
 //! `check`, `render`, `view` and `chart` carry out the verbs, and `shell` prints completions and pages of the
 //! manual; `picture` and `page` show what the verbs that change a mesh made, `session` is what these have in common,
@@ -18,6 +21,7 @@ mod cut;
 mod defects;
 mod exit;
 mod files;
+pub mod guide;
 mod input;
 mod interrupt;
 mod measure;

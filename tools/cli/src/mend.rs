@@ -158,7 +158,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
 fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
     if document.has_record() {
         let message =
-            "`--coincident` is for a file without a record of its cuts, and this one has it";
+            "`--coincident` is for a file without a record of its cuts, and this one has one";
         let fault = Fault::error("E-USAGE", message.to_owned());
         return Err(Stop::new(
             Exit::Usage,
@@ -196,9 +196,13 @@ fn stitches(
 /// Says that vertices stay that were to be taken out.
 fn kept(edited: usize) -> Option<Fault> {
     let vertices = count(edited, "inserted vertex was", "inserted vertices were");
-    let stays = if edited == 1 { "stays" } else { "stay" };
+    let (stays, them) = if edited == 1 {
+        ("stays", "it")
+    } else {
+        ("stay", "them")
+    };
     let message = format!(
-        "{vertices} edited since the cut and {stays}, with the divided faces that hang together there"
+        "{vertices} edited since the cut and {stays}, as do the divided faces that depend on {them}"
     );
     (edited > 0).then(|| Fault::warning("W-MEND-EDITED", message))
 }

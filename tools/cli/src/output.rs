@@ -94,7 +94,7 @@ fn resolve_links(path: &Path) -> io::Result<PathBuf> {
         }
     }
     Err(io::Error::other(
-        "it is a link that leads round in a circle",
+        "it is a symbolic link that leads back to itself",
     ))
 }
 

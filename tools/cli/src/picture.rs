@@ -22,7 +22,7 @@ pub(crate) fn camera(
     let fitted = fit(mesh, place, up, angle, size.as_f64());
     let fitted = fitted.map_err(|error| Stop::new(Exit::Usage, no_camera(error)))?;
     fitted.ok_or_else(|| {
-        let fault = Fault::error("E-VIEW-EMPTY", "the mesh has no face to be seen".to_owned());
+        let fault = Fault::error("E-VIEW-EMPTY", "the mesh has no visible face".to_owned());
         Stop::new(Exit::Input, fault)
     })
 }

@@ -117,7 +117,7 @@ pub(crate) fn miscounted(count: usize) -> (String, &'static str) {
         1 => ("one was given".to_owned(), "a second ray is missing"),
         _ => (format!("{count} were given"), "one too many"),
     };
-    (format!("a cut takes two rays, and {given}"), label)
+    (format!("a cut takes two rays, but {given}"), label)
 }
 
 /// Reads a file of rays: two a line; `#` begins a comment.
@@ -164,10 +164,10 @@ pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
     };
     Ray::new(origin, direction).map_err(|error| {
         let (part, label) = match error {
-            RayError::Origin { .. } => (0..at, "expected an origin that is not so far away"),
+            RayError::Origin { .. } => (0..at, "expected an origin that is less far away"),
             RayError::Direction { .. } => {
                 let label = if aimed {
-                    "expected another point than the origin"
+                    "expected a point other than the origin"
                 } else {
                     "expected a direction"
                 };
@@ -196,7 +196,7 @@ pub(crate) fn plane(text: &str, origin: &str) -> Result<Plane, Fault> {
         let normal = triple(text, at + 1..text.len(), "plane")?;
         Plane::new(point.into(), normal.into()).map_err(|error| {
             let (part, label) = match error {
-                PlaneError::Point { .. } => (0..at, "expected a point that is not so far away"),
+                PlaneError::Point { .. } => (0..at, "expected a point that is less far away"),
                 PlaneError::Normal { .. } => (at + 1..text.len(), "expected a normal"),
             };
             Unreadable {

@@ -19,7 +19,7 @@ pub(crate) fn complete(args: &CompletionsArgs, streams: &mut Streams<'_>) -> Exi
 pub(crate) fn man(args: &ManArgs, streams: &mut Streams<'_>) -> Exit {
     let Some(command) = page_of(&args.verb) else {
         let message = format!("there is no verb `{}`", args.verb.join(" "));
-        let fault = Fault::error("E-USAGE", message).help("name one that `tearmesh help` lists");
+        let fault = Fault::error("E-USAGE", message).help("`tearmesh help` lists the verbs");
         return streams.fail(&fault, Color::Auto, Exit::Usage);
     };
     let mut page = Vec::new();

@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use crate::exit::Exit;
 use crate::say::{Color, Fault, Screen, is_colored};
 
-/// Where the command reads and writes.
+/// The streams that the command reads and writes.
 pub struct Streams<'a> {
     /// Standard input, read where the input is named `-`.
     pub input: &'a mut dyn Read,

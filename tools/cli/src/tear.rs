@@ -411,7 +411,7 @@ impl Play<'_> {
         let many = (scene.cuts.len() > 1).then_some(made.number + 1);
         let at = crate::say::short(cut.at_s);
         let line = crate::cut::words::cut(many, done);
-        let stability = made.stability.as_ref().map(words::stable_steps);
+        let stability = made.stability.as_ref().map(words::stable_steps_in_words);
         let stability = stability.unwrap_or_default();
         session.words.push(format!("{line} · at {at} s{stability}"));
         let kind = (cut.through, cut.method == tearmesh::CutMethod::Exact);

@@ -14,14 +14,14 @@
 //! are those of its areas has just this rate, c over its density, when it moves across. Held
 //! particles have w = 0. Drag adds its own rate where a method takes that by the velocities before.
 //!
-//! Let u be a mode of springs and air together. M, K and D are symmetric, so by u*Mu = 1 the mode is
-//! one of a single oscillator with ω² = u*Ku and λ = u*Du, neither beyond its bound; a step is
-//! stable in every mode where it is for each such oscillator. For symplectic Euler and for velocity
-//! Verlet that is so where (ωΔt/2)² + λΔt/l < 1, with l the limit of λΔt without springs. From
-//! ωΔt/2 + λΔt/l ≤ 1 that follows, and it can be solved for the step: the reciprocals of the two
-//! limits add up. For Runge and Kutta's method (`tools/lab`) the sum was looked at on a grid of ω and λ. A method
-//! that takes springs implicitly has the limit of its air alone, as a spring only shortens what
-//! it does in a step.
+//! To see why the limits combine, let u be a mode of springs and air together. M, K and D are
+//! symmetric, so by u*Mu = 1 the mode is one of a single oscillator with ω² = u*Ku and λ = u*Du,
+//! neither beyond its bound; a step is stable in every mode where it is for each such oscillator.
+//! For symplectic Euler and for velocity Verlet that is so where (ωΔt/2)² + λΔt/l < 1, with l the
+//! limit of λΔt without springs. From ωΔt/2 + λΔt/l ≤ 1 that follows, and it can be solved for the
+//! step: the reciprocals of the two limits add up. For Runge and Kutta's method (`tools/lab`) the
+//! sum was looked at on a grid of ω and λ. A method that takes springs implicitly has the limit of
+//! its air alone, as a spring only shortens what it does in a step.
 //!
 //! Areas grow with the cloth, so they are looked at once a step, where there is wind.
 

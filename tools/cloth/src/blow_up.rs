@@ -16,21 +16,21 @@ pub enum BlowUpSite {
     Beyond(usize),
     /// A stretch constraint that became too long.
     Constraint {
-        /// Its particles.
+        /// The particles of the constraint.
         ends: [usize; 2],
-        /// Its length as a multiple of its rest length.
+        /// The length of the constraint as a multiple of its rest length.
         stretch_ratio: f64,
     },
     /// A bend constraint that became too long.
     Bend {
-        /// Its particles.
+        /// The particles of the constraint.
         ends: [usize; 2],
-        /// Its length as a multiple of its rest length.
+        /// The length of the constraint as a multiple of its rest length.
         stretch_ratio: f64,
     },
     /// A triangle that was stretched too far.
     Triangle {
-        /// Its particles.
+        /// The particles of the triangle.
         corners: [usize; 3],
         /// The length of its warp or weft as a multiple of the rest length.
         stretch_ratio: f64,
@@ -65,13 +65,15 @@ impl fmt::Display for BlowUpSite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             BlowUpSite::Particle(particle) => write!(f, "particle {particle} is not finite"),
-            BlowUpSite::Beyond(particle) => write!(f, "particle {particle} is beyond all measure"),
+            BlowUpSite::Beyond(particle) => {
+                write!(f, "particle {particle} is too far away or too fast")
+            }
             BlowUpSite::Constraint {
                 ends: [a, b],
                 stretch_ratio,
             } => write!(
                 f,
-                "edge {a}-{b} has {} times its rest length",
+                "edge {a}-{b} is {} times its rest length",
                 Digits(stretch_ratio)
             ),
             BlowUpSite::Bend {
@@ -79,7 +81,7 @@ impl fmt::Display for BlowUpSite {
                 stretch_ratio,
             } => write!(
                 f,
-                "the bend {a}-{b} has {} times its rest length",
+                "the bend {a}-{b} is {} times its rest length",
                 Digits(stretch_ratio)
             ),
             BlowUpSite::Triangle {
@@ -87,7 +89,7 @@ impl fmt::Display for BlowUpSite {
                 stretch_ratio,
             } => write!(
                 f,
-                "triangle {a}-{b}-{c} has {} times its size at rest",
+                "triangle {a}-{b}-{c} is {} times its size at rest",
                 Digits(stretch_ratio)
             ),
             BlowUpSite::Unknown => f.write_str("the method gave up"),

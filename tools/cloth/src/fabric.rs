@@ -152,7 +152,7 @@ pub enum Bending {
         /// The flexural stiffness k, in N m²: the bending moment is k times the curvature.
         /// Positive.
         flexural_n_m2: f64,
-        /// Where it buckles.
+        /// The law that says at which length a bend buckles.
         law: Buckling,
     },
 }

@@ -1,9 +1,10 @@
-//! The forces in constraints, and what it takes to hold a particle.
+//! The forces in constraints, and the force that is needed to hold a particle.
 //!
-//! A method with physical stiffness has the force of a spring in its length. [`Pbd`] and
-//! [`Xpbd`] move particles instead, and their force is what they accumulated as multipliers;
-//! [`Provot`] has both, the spring's and the limiter's. A step leaves behind which it was, so that
-//! tear thresholds in newtons and force probes need not know the method.
+//! With a method that has physical stiffness, the force of a spring follows from its length.
+//! [`Pbd`] and [`Xpbd`] move particles instead, and their force is the multiplier that they
+//! accumulated. [`Provot`] has both: the force of the spring, and that of the limiter. A step
+//! records which of these applies, so that thresholds in newtons and force probes need not know the
+//! method.
 //!
 //! [`Pbd`]: crate::Pbd
 //! [`Xpbd`]: crate::Xpbd
@@ -54,8 +55,8 @@ pub fn force_n(system: &System, id: ConstraintId) -> f64 {
 /// rest. It excludes colliders, and the inertia at the corners of a path. The cost is proportional
 /// to the valence, and linear in the system if there is wind.
 ///
-/// After a step of a projecting method forces are means over the last substep, which is the
-/// more exact the more sweeps there were.
+/// After a step of a method that projects, forces are means over the last substep. They are the
+/// more exact the more sweeps it made.
 ///
 /// # Panics
 ///

@@ -1,4 +1,4 @@
-//! The largest frequency of a system.
+//! The largest frequency of a system, which limits the step of explicit methods.
 
 use crate::spectrum::Frequency;
 use crate::system::System;

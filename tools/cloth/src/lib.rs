@@ -25,6 +25,8 @@
 //! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused where there are
 //! triangles or arcs.
 //!
+//! [`guide`] introduces all of this by examples.
+//!
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
@@ -55,6 +57,7 @@ mod follow;
 pub mod force;
 pub mod frequency;
 mod guard;
+pub mod guide;
 pub mod implicit;
 mod incidence;
 mod load;

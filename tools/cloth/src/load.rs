@@ -44,7 +44,7 @@ pub enum Collider {
     Plane(Plane),
     /// A ball.
     Sphere {
-        /// The centre.
+        /// The centre of the ball.
         centre: Point,
         /// The radius, in metres.
         radius_m: f64,

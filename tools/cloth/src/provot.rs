@@ -51,7 +51,7 @@ impl Default for Limiter {
 /// What the limiter did in the last step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimiterReport {
-    /// The passes over all constraints, the last of which may have found nothing to do.
+    /// The number of passes over all constraints. The last one may have found nothing to do.
     pub passes: u32,
     /// The largest stretch ratio before limiting, which is what a tearing threshold is compared
     /// with.
@@ -81,7 +81,7 @@ impl Provot {
         }
     }
 
-    /// The springs without the limiter.
+    /// Provot's springs without the limiter.
     #[must_use]
     pub fn unlimited() -> Provot {
         Provot {

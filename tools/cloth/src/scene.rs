@@ -1,7 +1,7 @@
-//! Scenes as plain data: what is held, moved, blown at and cut, and when.
+//! Scenes as plain data: what is held, led, blown by wind and cut, and when.
 //!
-//! A [`Scene`] says what shall happen to a cloth; a [`Run`] makes it happen. Four
-//! scenes stand ready, sized to whatever mesh they are given: [`Scene::hang`], [`Scene::flag`],
+//! A [`Scene`] says what will happen to a cloth, and a [`Run`] makes it happen. Four scenes are
+//! built in, and are sized to the mesh that they are given: [`Scene::hang`], [`Scene::flag`],
 //! [`Scene::rip`] and [`Scene::trouser`]. Nothing here is read from files: a program fills in a
 //! scene's fields from wherever it likes.
 
@@ -202,14 +202,14 @@ pub enum Region {
     /// fractions of width and height, and the radius as a fraction of [`Frame::size_m`]. With
     /// radius 0 it is just that vertex.
     Near {
-        /// The place.
+        /// The place, in fractions of width and height.
         at: [f64; 2],
         /// The distance.
         radius: f64,
     },
     /// The vertices between these fractions of width and height, bounds included.
     Patch {
-        /// From left to right.
+        /// The range across, from left to right.
         across: [f64; 2],
         /// From bottom to top.
         along: [f64; 2],

@@ -339,7 +339,7 @@ impl Cloth {
         (!self.system.is_held(v.index())).then(|| self.masses.at(v))
     }
 
-    /// The vertices of all faces, three a face: an index buffer, equal to that of the mesh.
+    /// The vertices of all faces, three per face: an index buffer, equal to that of the mesh.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.system.model.faces
@@ -378,8 +378,8 @@ impl Cloth {
         self.edge_of[id.index()]
     }
 
-    /// The edges that are longer than `ratio` times their rest length, each by one half-edge,
-    /// ascending. Linear, and allocates nothing.
+    /// The edges that are longer than `ratio` times their rest length, in ascending order, each as
+    /// one of its half-edges. Linear, and allocates nothing.
     pub fn overstretched(&self, ratio: f64) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let edges = (0..self.stretch_of.len()).filter_map(HalfEdgeId::new);
         edges.filter(move |&h| {

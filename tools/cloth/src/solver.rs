@@ -187,12 +187,12 @@ pub enum StepError {
     Setting(SettingError),
     /// The method supports springs only, and would ignore the triangles of the system.
     Triangles {
-        /// How many there are.
+        /// The number of triangles.
         count: usize,
     },
     /// The method supports springs only, and would treat bends that buckle as springs.
     Buckling {
-        /// How many there are.
+        /// The number of bend constraints that buckle.
         count: usize,
     },
     /// An explicit method would be unstable, because of springs more than of air.
@@ -230,13 +230,14 @@ pub enum StepError {
         /// are stretched beyond the largest ratio are projected or limited.
         at: BlowUpSite,
     },
-    /// An implicit method found no state that solves its equation as exactly as its
-    /// [`Settings`](implicit::Settings) say: no blow-up. A shorter step helps, and so do more of
-    /// Newton's iterations or another tolerance.
+    /// An implicit method found no state that solves its equation within the tolerance of its
+    /// [`Settings`](implicit::Settings). This is not a blow-up. A shorter step helps, as do more
+    /// Newton iterations or a larger tolerance.
     Implicit {
         /// The seconds simulated until the last good state, where the system still is.
         elapsed_s: f64,
-        /// What failed; also the [`source`](std::error::Error::source).
+        /// The error of the implicit method, which is also the
+        /// [`source`](std::error::Error::source).
         error: implicit::StepError,
     },
 }
@@ -255,11 +256,11 @@ impl fmt::Display for StepError {
             StepError::Setting(error) => error.fmt(f),
             StepError::Triangles { count } => write!(
                 f,
-                "the method knows springs alone, and {count} triangles resist stretch"
+                "the method supports springs only, and {count} triangles resist stretch"
             ),
             StepError::Buckling { count } => write!(
                 f,
-                "the method knows springs alone, and {count} bends buckle"
+                "the method supports springs only, and {count} bends buckle"
             ),
             StepError::Unstable {
                 given_s,

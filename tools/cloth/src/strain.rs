@@ -33,9 +33,10 @@ impl Cloth {
     /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
     /// lengths at rest. This allows separate thresholds for warp and weft. Shear does not enter.
     ///
-    /// Warp runs where [`Weave::warp`](crate::Weave::warp) or [`Cloth::with_warps`] says, projected
-    /// onto the face at rest, and weft across it. Where nothing says, warp runs along the x-axis;
-    /// along the y-axis in faces whose normal lies nearer to the x-axis than to the others.
+    /// The direction of warp is that of [`Weave::warp`](crate::Weave::warp) or
+    /// [`Cloth::with_warps`], projected onto the face at rest. Weft is perpendicular to it.
+    /// Otherwise warp runs along the x-axis, or along the y-axis in faces whose normal is nearer to
+    /// the x-axis than to the other axes.
     ///
     /// For a face without area at rest, both numbers are the largest stretch ratio of its edges.
     ///

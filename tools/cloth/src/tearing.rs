@@ -1,9 +1,9 @@
 //! When a cloth tears, and how far: the loop above the paper's rule for one edge.
 //!
-//! [`tear::edge`](tearmesh::tear::edge) says what becomes of an edge that is stretched too far (Souza
-//! et al. 2014 §III-A). Here stands what "too far" is ([`Threshold`]), which edges go first, how
-//! many at once, and what a tear does to its surroundings ([`Tearing`]); [`Tear`] is the state of
-//! a cloth that tears while it runs.
+//! [`tear::edge`](tearmesh::tear::edge) says what becomes of an edge that is stretched too far
+//! (Souza et al. 2014 §III-A). This module says what "too far" is ([`Threshold`]), which edges go
+//! first, how many tear at once, and what a tear does to its surroundings ([`Tearing`]); [`Tear`]
+//! is the state of a cloth that tears while it runs.
 //!
 //! Thresholds are held against a *load*: the strain or force that an edge has, as a multiple of
 //! what it bears, so that 1 is where it tears. By the paper's rule, a threshold of strain, the
@@ -117,12 +117,12 @@ pub struct Tearing {
     pub threshold: Threshold,
     /// The largest number of splits per step, the most overloaded edges first. `None` for no cap.
     pub splits_per_step_max: Option<usize>,
-    /// The factor on the strength of the tips of a tear, above 0 and at most 1. Tips are the
-    /// vertices to which a split tore links; of those, the one that lies best along the splitting
-    /// plane, and the best on the other side where the vertex was whole before. A tip is weak
-    /// against edges that pull across the tear (within 45° at rest), until it is split itself. A
-    /// tear then continues where it is instead of starting elsewhere. `None` for tips that are as
-    /// strong as before.
+    /// A factor on the strength of the tips of a tear, above 0 and at most 1. The tips are the
+    /// vertices at which a tear ends: of the vertices to which a split tore links, the one that
+    /// lies best along the splitting plane, and, if the vertex was whole before, also the best one
+    /// on the other side. A tip is weak against edges that pull across the tear (within 45° at
+    /// rest), until it is split itself. A tear then continues where it is instead of starting
+    /// elsewhere. `None` for tips that are as strong as before.
     pub weakening: Option<f64>,
     /// The time in seconds for which an edge must stay at or above its threshold before it tears; 0
     /// for tearing at once.
@@ -196,24 +196,24 @@ impl Default for Tearing {
 pub enum TearingError {
     /// A threshold is not finite or not above its limit: 1 for ratios, otherwise 0.
     Threshold {
-        /// As given.
+        /// The threshold that was given.
         given: f64,
-        /// What it has to be above.
+        /// The limit that the threshold must be above.
         limit: f64,
     },
     /// The axis of the warp has no direction.
     Axis {
-        /// As given.
+        /// The axis that was given.
         given: Vector,
     },
     /// The factor of weakening is not above 0 and at most 1.
     Weakening {
-        /// As given.
+        /// The factor that was given.
         given: f64,
     },
     /// The delay is negative or not finite.
     Delay {
-        /// As given, in seconds.
+        /// The delay that was given, in seconds.
         given: f64,
     },
     /// The number of strengths differs from the number of vertices.
@@ -227,7 +227,7 @@ pub enum TearingError {
     Strength {
         /// The index of the vertex.
         vertex: usize,
-        /// As given.
+        /// The strength that was given.
         given: f64,
     },
 }
@@ -248,9 +248,11 @@ impl fmt::Display for TearingError {
             TearingError::Weakening { given } => {
                 write!(f, "a weakening by {given} is not above 0 and at most 1")
             }
-            TearingError::Delay { given } => write!(f, "a delay of {given} s cannot be waited"),
+            TearingError::Delay { given } => {
+                write!(f, "a delay of {given} s is negative or not finite")
+            }
             TearingError::Strengths { given, vertices } => {
-                write!(f, "{vertices} vertices have {given} strengths")
+                write!(f, "there are {given} strengths for {vertices} vertices")
             }
             TearingError::Strength { vertex, given } => {
                 write!(

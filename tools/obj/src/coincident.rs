@@ -145,7 +145,7 @@ impl Document {
 pub enum CoincidentError {
     /// A statement may name a vertex by a number that sewing would change.
     Numbers {
-        /// Its keyword.
+        /// The keyword of the statement.
         keyword: String,
     },
     /// The sewn mesh would not be an oriented 2-manifold.
@@ -157,9 +157,11 @@ impl fmt::Display for CoincidentError {
         match self {
             CoincidentError::Numbers { keyword } => write!(
                 f,
-                "`{keyword}` may name a vertex by its number, which would be another"
+                "`{keyword}` may name a vertex by its number, which sewing would change"
             ),
-            CoincidentError::Mesh(error) => write!(f, "sewn they would be no surface: {error}"),
+            CoincidentError::Mesh(error) => {
+                write!(f, "once sewn, they would not form a surface: {error}")
+            }
         }
     }
 }

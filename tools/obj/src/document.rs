@@ -48,7 +48,7 @@ impl Document {
     pub fn extra_numbers(&self, vertex: usize) -> &[f64] {
         assert!(
             vertex < self.positions.len(),
-            "vertex {vertex} is none of this document"
+            "vertex {vertex} is not in this document"
         );
         self.extras.row(vertex)
     }
@@ -68,7 +68,7 @@ impl Document {
     pub fn texture(&self, index: usize) -> &[f64] {
         assert!(
             index < self.texture.len(),
-            "texture coordinate {index} is none of this document"
+            "texture coordinate {index} is not in this document"
         );
         self.texture.row(index)
     }
@@ -100,7 +100,7 @@ impl Document {
         assert!(corner < 3, "a triangle has no corner {corner}");
         assert!(
             triangle < self.triangles().len(),
-            "triangle {triangle} is none of this document"
+            "triangle {triangle} is not in this document"
         );
         self.polygons
             .corner(self.corner_of_polygon(triangle, corner, self.polygon_of(triangle)))
@@ -146,7 +146,7 @@ impl Document {
     pub fn polygon_of(&self, triangle: usize) -> usize {
         assert!(
             triangle < self.triangles().len(),
-            "triangle {triangle} is none of this document"
+            "triangle {triangle} is not in this document"
         );
         match self.triangulation {
             Some(_) => self.polygons.of_triangle(triangle),
@@ -173,7 +173,7 @@ impl Document {
     #[must_use]
     pub fn line_of_vertex(&self, vertex: usize) -> usize {
         let line = self.layout.line_of_vertex(vertex);
-        line.unwrap_or_else(|| panic!("vertex {vertex} is none of this document"))
+        line.unwrap_or_else(|| panic!("vertex {vertex} is not in this document"))
     }
 
     /// The number of `v` statements in the file: the vertices, and the copies of vertices that were
@@ -197,7 +197,7 @@ impl Document {
     pub fn number_of_vertex(&self, vertex: usize) -> usize {
         assert!(
             vertex < self.positions.len(),
-            "vertex {vertex} is none of this document"
+            "vertex {vertex} is not in this document"
         );
         let record = self.record.as_deref();
         record.map_or(vertex, |record| record.number(vertex)) + 1

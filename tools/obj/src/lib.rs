@@ -62,29 +62,9 @@
 //!
 //! # Codes
 //!
-//! | code | refuses |
-//! |---|---|
-//! | `E-OBJ-FLOAT`, `E-OBJ-FINITE`, `E-OBJ-COORDINATE` | what is no number; nan and infinity; a coordinate too large to compute with |
-//! | `E-OBJ-COUNT` | too few or too many numbers in a statement |
-//! | `E-OBJ-INDEX`, `E-OBJ-ZERO`, `E-OBJ-RANGE` | a corner that cannot be read; index 0; an index that nothing has |
-//! | `E-OBJ-CORNERS`, `E-OBJ-REPEAT`, `E-OBJ-ARITY` | faces with less than three corners, a vertex twice, or too many corners |
-//! | `E-OBJ-UTF16`, `E-OBJ-BINARY`, `E-OBJ-EMPTY` | UTF-16; data that is no text; a file without a face |
-//! | `E-OBJ-LINE`, `E-OBJ-LIMIT` | a line too long; more elements than ids |
-//! | `E-MESH-EDGE`, `E-MESH-FLIP`, `E-MESH-BOWTIE`, `E-MESH-DUPLICATE`, `E-MESH-PILLOW`, `E-MESH-REPEAT`, `E-MESH-RANGE`, `E-MESH-LIMIT`, `E-MESH-OTHER` | triangles that are no oriented 2-manifold: the defects of [`tearmesh::Defect`] |
-//!
-//! | code | warns |
-//! |---|---|
-//! | `W-OBJ-QUAD` | larger polygons were cut into triangles |
-//! | `W-OBJ-ELEMENT` | there are `l` or `p` elements, which no cut divides |
-//! | `W-OBJ-FOREIGN` | there are statements that are kept and not interpreted |
-//! | `W-OBJ-RELATIVE` | (note) negative indices of such statements were made absolute |
-//! | `W-OBJ-RECORD` | the record of tears is damaged, of a later version, or of other faces: the file is read as one without |
-//! | `W-OBJ-RECORD-SLID` | vertices that slid cannot be put back, since the number of `vt` or `vn` was changed |
-//! | `W-OBJ-RECORD-APART` | vertices that stood apart from where they are were edited since, and stay where they are now |
-//! | `W-OBJ-RECORD-MOVED` | copies of a vertex for its fans are at different places now, and so vertices of their own |
-//! | `W-OBJ-BOM` | (note) a byte order mark was dropped |
-//! | `W-OBJ-REPAIR-BOWTIE` | fans of a vertex were given vertices of their own ([`Repair`]) |
-//! | `W-OBJ-REPAIR-DUPLICATE`, `W-OBJ-REPAIR-PILLOW`, `W-OBJ-REPAIR-EDGE` | faces were dropped: on the vertices of another, or superfluous on an edge |
+//! The code of a [`Diagnostic`] is stable: `E-OBJ-…` for what a file says, `E-MESH-…` for triangles that
+//! do not form an oriented 2-manifold, and `W-OBJ-…` for warnings and notes. The guide of the crate
+//! `tearmesh-cli` lists them all, together with those of the command (`tearmesh_cli::guide::codes`).
 //!
 //! # The record
 //!

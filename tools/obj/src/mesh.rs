@@ -164,7 +164,7 @@ impl Document {
                 "E-MESH-OTHER",
                 None,
                 defect.to_string(),
-                "repair the model where it was made",
+                "repair the model in the program that made it",
             ),
         };
         Diagnostic {

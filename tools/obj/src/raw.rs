@@ -71,56 +71,56 @@ pub enum RawObjError {
     Empty,
     /// There are more elements of a kind than ids.
     TooMany {
-        /// Of what.
+        /// The kind of element.
         what: Item,
-        /// How many there are.
+        /// The number of elements given.
         given: usize,
-        /// How many there may be.
+        /// The largest number of elements allowed.
         limit: usize,
     },
     /// A number is NaN or infinite.
     NotFinite {
-        /// In what.
+        /// The kind of element that has the number.
         what: Item,
-        /// Its number.
+        /// The index of that element.
         index: usize,
     },
     /// A face, line or point refers to something that does not exist.
     OutOfRange {
-        /// What refers.
+        /// The kind of element that refers to something.
         from: Item,
-        /// Its number.
+        /// The index of that element.
         number: usize,
-        /// To what.
+        /// The kind of element that it refers to.
         to: Item,
-        /// The index given.
+        /// The index that does not exist.
         index: usize,
-        /// How many there are.
+        /// The number of elements that do exist.
         count: usize,
     },
     /// A face has fewer than three corners, or a line fewer than two.
     TooFewCorners {
-        /// A face or a line.
+        /// The kind of element, which is a face or a line.
         what: Item,
-        /// Its number.
+        /// The index of that element.
         number: usize,
-        /// How many there are.
+        /// The number of corners given.
         given: usize,
     },
     /// A face has more corners than a document takes.
     TooManyCorners {
-        /// The face.
+        /// The index of the face.
         face: usize,
-        /// How many it has.
+        /// The number of corners of the face.
         given: usize,
-        /// How many it may have.
+        /// The largest number of corners allowed.
         limit: usize,
     },
     /// A face refers to the same vertex twice.
     RepeatedVertex {
-        /// The face.
+        /// The index of the face.
         face: usize,
-        /// The vertex.
+        /// The index of the vertex.
         vertex: usize,
     },
     /// The range of a group, a material or a smoothing or merging group holds elements that do not
@@ -128,24 +128,24 @@ pub enum RawObjError {
     GroupRange {
         /// The statement, such as `g`.
         keyword: &'static str,
-        /// Its name or number.
+        /// The name or number of the group.
         name: String,
         /// The range, from the first element to before the last.
         range: [usize; 2],
-        /// Of what.
+        /// The kind of element in the range.
         of: Item,
-        /// How many of these there are.
+        /// The number of elements of that kind.
         count: usize,
     },
     /// An element has two materials, smoothing groups or merging groups.
     TwoGroups {
         /// The statement, such as `usemtl`.
         keyword: &'static str,
-        /// Both names or numbers.
+        /// The two names or numbers.
         names: [String; 2],
         /// A face, a line or a point.
         of: Item,
-        /// Its number.
+        /// The index of the element.
         number: usize,
     },
     /// A name cannot be written to a file unchanged: it is empty, contains a blank, a line end or a
@@ -153,7 +153,7 @@ pub enum RawObjError {
     Name {
         /// The statement, such as `g`.
         keyword: &'static str,
-        /// The name.
+        /// The name that cannot be written.
         name: String,
     },
 }
@@ -233,7 +233,7 @@ impl fmt::Display for RawObjError {
                 count,
             } => write!(
                 f,
-                "`{keyword}` {name:?} goes from {of} {start} to before {end}, of {count}"
+                "`{keyword}` {name:?} covers {of} {start} up to, but not including, {end}, of {count}"
             ),
             RawObjError::TwoGroups {
                 keyword,
@@ -650,7 +650,7 @@ fn check_name(keyword: &'static str, name: &str) -> Result<(), RawObjError> {
 
 fn kept(keyword: &str, count: usize) -> Diagnostic {
     let (code, what) = match keyword {
-        "vp" => ("W-OBJ-FOREIGN", "is not interpreted, and kept as it is"),
+        "vp" => ("W-OBJ-FOREIGN", "is not interpreted, and is kept as it is"),
         _ => ("W-OBJ-ELEMENT", "elements are kept, but never cut"),
     };
     Diagnostic {

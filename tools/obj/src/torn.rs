@@ -157,7 +157,7 @@ impl<'d> TornDocument<'d> {
     /// Starts the next cut: edits from now on can be undone separately from those before. Does
     /// nothing if no edit was replayed since the last call.
     ///
-    /// The number counts on from the cuts that the file has on record.
+    /// Cuts are numbered from where the record of the file ends.
     ///
     /// # Panics
     ///
@@ -180,8 +180,8 @@ impl<'d> TornDocument<'d> {
 
     /// The stitches that undo the last `cuts` of the cuts that still separate something.
     ///
-    /// [`mend::sew`](tearmesh::mend::sew) makes them. To sew everything, or what lies near a place,
-    /// takes no record: see [`mend::stitches`](tearmesh::mend::stitches).
+    /// [`mend::sew`](tearmesh::mend::sew) makes them. Sewing everything, or what lies near a place,
+    /// needs no record: see [`mend::stitches`](tearmesh::mend::stitches).
     ///
     /// ```
     /// use tearmesh::{Edits, FaceId, Positions, VertexId, mend, split};

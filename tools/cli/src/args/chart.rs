@@ -66,7 +66,7 @@ pub(crate) struct ParetoArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
 
-    /// The scenes, all unless named.
+    /// The scenes (default: all).
     #[arg(long, value_name = "NAME", value_delimiter = ',',
         value_parser = clap::builder::PossibleValuesParser::new(SCENES.map(|scene| scene.name)))]
     pub(crate) scene: Vec<String>,
@@ -75,12 +75,12 @@ pub(crate) struct ParetoArgs {
     #[arg(long, value_enum, value_delimiter = ',', default_value = "grid")]
     pub(crate) mesh: Vec<ChartMesh>,
 
-    /// Cells a side.
+    /// Cells per side.
     #[arg(long, value_name = "N", value_delimiter = ',', default_value = "16",
         value_parser = clap::value_parser!(u32).range(2..=256))]
     pub(crate) size: Vec<u32>,
 
-    /// How many runs go on at a time; as many as there are processors unless said.
+    /// How many runs are made at a time (default: one per processor).
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -92,7 +92,7 @@ pub(crate) struct ParetoArgs {
     #[arg(long, value_name = "T.svg")]
     pub(crate) time_chart: Option<PathBuf>,
 
-    /// How often each run is made again, alone, for its time; 0 takes that of the one beside others.
+    /// How often each run is repeated alone to be timed; 0 takes the time of the parallel run.
     #[arg(long, value_name = "N", default_value = "5", requires = "time_chart")]
     pub(crate) repeats: u32,
 }
@@ -103,7 +103,7 @@ pub(crate) struct Fig7Args {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
 
-    /// Cells a side of the patches that are ripped.
+    /// Cells per side of the patches that are ripped.
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = fig7::CELLS,
         value_parser = clap::value_parser!(u32).range(2..=256))]
     pub(crate) size: Vec<u32>,

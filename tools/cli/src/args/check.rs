@@ -45,9 +45,9 @@ pub(crate) struct CheckArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
 
-    /// Show everything there is to say of each file, with the text of the lines.
+    /// Show all diagnostics of each file, with the text of the lines.
     ///
-    /// And its bounds, the lengths of its edges, and its largest pieces; JSON has these always.
+    /// Also shows bounds, edge lengths and the largest pieces, which JSON always has.
     #[arg(short, long)]
     pub(crate) verbose: bool,
 }

@@ -65,9 +65,9 @@ pub(crate) struct CutArgs {
 
     /// Show the lips of cuts this far apart: a length, or N% of an edge.
     ///
-    /// Of the mean edge, that is. The two sides of a cut lie on each other, so nothing is seen of it,
-    /// and programs that join points at one place close it. With this each lip is written half of
-    /// the gap away from the other, within the surface, and nothing at a tip; where a face would turn
+    /// A percentage is of the mean edge. The two sides of a cut coincide, so the cut is invisible,
+    /// and programs that join coincident points close it. With this option each lip is written half
+    /// the gap away from the other, within the surface, and not at all at a tip; where a face would turn
     /// over, less. The file has the true places too: `mend`, another `cut` and the masses go by
     /// these. Without it a gap stays as it is, and --gap 0 closes it.
     #[arg(long, value_name = "D", value_parser = super::read::gap, allow_hyphen_values = true)]
@@ -99,7 +99,7 @@ pub(crate) struct CutArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: Method,
 
-    /// How near an end of its edge, as a part of it, a crossing is taken for the end.
+    /// How near the end of an edge, as a fraction of it, a crossing is moved to that end.
     ///
     /// 0 gives a seam straight to the last digit and may give thin faces; with R, the altitude of
     /// no new face is below R(1-R) of that of the face it was part of. An end of the cut moves

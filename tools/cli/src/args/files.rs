@@ -36,7 +36,7 @@ pub(crate) struct FileArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
 
-    /// Draw a picture of the mesh as it is in the end, as PNG.
+    /// Draw a picture of the resulting mesh, as PNG.
     ///
     /// All of it, from its broad side: pieces in colours, torn edges red. `tearmesh render` draws others.
     #[arg(long, value_name = "F.png")]

@@ -28,8 +28,8 @@ pub(crate) struct MendArgs {
 
     /// Sew boundary edges that lie on each other, in a file without a record.
     ///
-    /// For one that went through a program that dropped the record of its cuts. Edges are sewn that
-    /// have the same two ends to the last digit, and lie with no third; inserted vertices stay.
+    /// For a file whose record of cuts another program dropped. Edges are sewn that
+    /// have bit-equal ends, with no third edge at the same place; inserted vertices stay.
     #[arg(long, conflicts_with = "last")]
     pub(crate) coincident: bool,
 
@@ -48,7 +48,7 @@ pub(crate) struct MendArgs {
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     pub(crate) max_distance: Option<f64>,
 
-    /// Take out the vertices that cuts inserted and that keep nothing apart any more.
+    /// Take out inserted vertices that no longer separate anything.
     ///
     /// And put back, to the bit, those that a cut with --snap-move moved. Without this option both
     /// stay, and another `mend --simplify` can still do it. What was edited since is kept.

@@ -41,7 +41,7 @@ pub(super) fn picture_size(text: &str) -> Result<PictureSize, String> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Gap {
     Length(f64),
-    /// As a part of the mean length of the edges.
+    /// A fraction of the mean length of the edges.
     Edges(f64),
 }
 

@@ -43,7 +43,7 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true, conflicts_with_all = ["toughness", "threshold_newton"])]
     pub(crate) threshold: Option<f64>,
 
-    /// Tear by energy, in joules for each metre.
+    /// Tear by energy, in joules per metre of tear.
     ///
     /// Nearly the same mean force on every mesh.
     #[arg(

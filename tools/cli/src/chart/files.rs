@@ -27,7 +27,7 @@ pub(super) fn check<'a>(args: &'a DrawArgs, other: Option<&'a PathBuf>) -> Ended
         let is_it = |other: &&PathBuf| other == path || output::is_same_place(other, path);
         let twice = *path != Path::new("-") && files[..i].iter().any(is_it);
         if twice || (i > 0 && *path == Path::new("-")) {
-            let message = format!("`{}` is wanted twice, or is no file", path.display());
+            let message = format!("`{}` is named twice, or is not a file", path.display());
             let fault = Fault::error("E-USAGE", message).help("name a file for each");
             return Err((Exit::Usage, fault));
         }

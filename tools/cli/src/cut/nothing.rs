@@ -76,7 +76,9 @@ pub(super) fn advice(obstacle: Obstacle, mesh: &Mesh, positions: &Positions) -> 
     };
     let Bounds { min, max } = Bounds::of(mesh, positions);
     let (least, most) = (place(min), place(max));
-    Some(format!("the mesh lies from {least} to {most}{elsewhere}"))
+    Some(format!(
+        "the mesh extends from {least} to {most}{elsewhere}"
+    ))
 }
 
 /// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses words.

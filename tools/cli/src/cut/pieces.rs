@@ -51,7 +51,7 @@ impl Pieces {
         if folder == Path::new("-") {
             let message = "`--pieces` takes the name of a folder".to_owned();
             let fault = Fault::error("E-USAGE", message);
-            let fault = fault.help("name one that is there, or that can be made");
+            let fault = fault.help("name a folder that exists or can be created");
             return Err(Stop::new(Exit::Usage, fault));
         }
         let files = &args.files;

@@ -101,7 +101,7 @@ impl SceneFile {
         };
         let period_s = table.number("period_s").unwrap_or(1.0);
         if !(scene.duration_s / period_s).is_finite() {
-            let message = "`period_s` is too short: the sways of the scene are without number";
+            let message = "`period_s` is too short: the wind would sway too often to be counted";
             let message = message.to_owned();
             faults.push(*self.fault(table, "period_s", "E-SCENE-RANGE", message));
         }
@@ -293,10 +293,12 @@ impl SceneFile {
             [one, other, ..] => {
                 let message = format!("`{}` and `{}` cannot go together", one[0], other[0]);
                 let fault = self.fault(table, other[0], "E-SCENE-CLASH", message);
-                Err(Box::new(fault.help(format!("{what} has one of {choices}"))))
+                Err(Box::new(
+                    fault.help(format!("{what} takes one of {choices}")),
+                ))
             }
             [] => {
-                let message = format!("{what} has to have one of {choices}");
+                let message = format!("{what} must have one of {choices}");
                 let fault = self
                     .source
                     .fault("E-SCENE-MISSING", message, &table.span, "");

@@ -129,11 +129,11 @@ pub(crate) const KEYS: [Key; 74] = [
     key("solver", "substeps", Kind::Count, "xpbd: substeps a step; 1"),
     key("solver", "sweeps", Kind::Count, "xpbd, pbd: sweeps a (sub)step; 1, pbd 10"),
     key("solver", "stiffness", Kind::Part, "pbd: the part of an error a step corrects; 1"),
-    key("solver", "bend_stiffness", Kind::Part, "pbd: the same of bends; 0.1"),
+    key("solver", "bend_stiffness", Kind::Part, "pbd: the part of a bend's error; 0.1"),
     key("solver", "limit_ratio", Kind::Ratio, "provot: the longest the limiter leaves; 1.1"),
     key("solver", "limit_passes", Kind::Count, "provot: passes of the limiter; 20"),
     key("solver", "order", Kind::Word(&["1", "2"]), "implicit: backward Euler, or BDF2; \"1\""),
-    key("solver", "newton_iterations", Kind::Count, "implicit: at most so many a step; 1, linearised"),
+    key("solver", "newton_iterations", Kind::Count, "implicit: the most per step; 1, linearised"),
     key("solver", "tolerance", Kind::Positive, "implicit: a step's error of velocity, by dt^(order + 1); 10"),
 
     key("wind", "velocity_m_per_s", Kind::Vector, "required"),
@@ -147,7 +147,7 @@ pub(crate) const KEYS: [Key; 74] = [
     key("collider", "radius_m", Kind::Positive, "of a ball"),
 
     key("hold", "near", Kind::Pair, "a place in parts of width and height: the nearest vertex"),
-    key("hold", "radius", Kind::NotNegative, "and all so near it, in parts of the larger extent; 0"),
+    key("hold", "radius", Kind::NotNegative, "and all within this part of the larger extent; 0"),
     key("hold", "across", Kind::Range, "between these parts of the width"),
     key("hold", "along", Kind::Range, "and these of the height; [0, 1] each"),
     key("hold", "from", Kind::Vector, "in a box, from this corner"),
@@ -179,7 +179,7 @@ pub(crate) const KEYS: [Key; 74] = [
 
     key("strength", "factor", Kind::Positive, "required: how many times the threshold vertices bear"),
     key("strength", "near", Kind::Pair, "a place in parts of width and height: the nearest vertex"),
-    key("strength", "radius", Kind::NotNegative, "and all so near it, in parts of the larger extent; 0"),
+    key("strength", "radius", Kind::NotNegative, "and all within this part of the larger extent; 0"),
     key("strength", "across", Kind::Range, "between these parts of the width"),
     key("strength", "along", Kind::Range, "and these of the height; [0, 1] each"),
     key("strength", "from", Kind::Vector, "in a box, from this corner"),

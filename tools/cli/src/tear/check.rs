@@ -113,7 +113,7 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
 pub(super) fn known_forces(args: &TearArgs, scene: &Scene) -> Result<(), Stop> {
     if args.forces.is_some() && matches!(scene.solver, Method::Provot(_)) {
         let message =
-            "`--forces` has none to write: Provot's limiter moves vertices without a force";
+            "`--forces` has nothing to write: Provot's limiter moves vertices without a force";
         return refuse(message.to_owned(), "--solver verlet or implicit");
     }
     Ok(())

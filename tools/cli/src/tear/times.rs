@@ -30,7 +30,7 @@ fn seconds(run: &Run) -> Option<Fault> {
         return None;
     }
     let message = format!(
-        "{} s are no whole number of steps of {} s: {} s are simulated, in {}",
+        "{} s is not a whole number of steps of {} s: {} s are simulated, in {}",
         short(asked_s),
         short(step_s),
         short(made_s),

@@ -31,7 +31,7 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
 }
 
 /// What a cut did to the steps of an explicit method.
-pub(super) fn stable_steps(stability: &StableSteps) -> String {
+pub(super) fn stable_steps_in_words(stability: &StableSteps) -> String {
     let [before, after] = [stability.before_s, stability.after_s].map(two_digits);
     let at = stability.ends.map(edge).unwrap_or_default();
     format!(" · stable steps {before} s -> {after} s{at}")
@@ -58,13 +58,12 @@ pub(super) fn balance(run: &Run) -> String {
     let balance = run.energy_balance();
     if has_limited(run) {
         return format!(
-            "energy: {} J there; not said what was put in and lost, as the limiter works without \
-             bound the shorter the steps",
+            "energy: {} J stored; what was put in and lost is not known, because the limiter's work grows without bound as steps get shorter",
             three_digits(balance.kinetic_j + balance.elastic_j)
         );
     }
     let words = format!(
-        "energy: {} J put in, {} J there, {} J lost to drag",
+        "energy: {} J put in, {} J stored, {} J lost to drag",
         three_digits(balance.put_in_j()),
         three_digits(balance.kinetic_j + balance.elastic_j),
         three_digits(-balance.drag_j),
@@ -90,7 +89,7 @@ pub(super) fn gain(run: &Run) -> Option<Fault> {
         let [made, put_in] = [gain.made_j, gain.put_in_j].map(three_digits);
         format!("{made} J out of nothing, from {since} s on, where {put_in} J were put in")
     };
-    let message = format!("the method made {much}: what tore since tore by that as well");
+    let message = format!("the method made {much}: what tore since then tore partly because of it");
     let others = match run.scene().solver {
         Method::Verlet => "--solver implicit",
         Method::Implicit(_) => "--solver verlet",
@@ -107,7 +106,7 @@ pub(super) fn gain(run: &Run) -> Option<Fault> {
 pub(super) fn momentum_broken(run: &Run) -> Option<String> {
     let drift = run.tally().momentum_drift;
     // Each of some millions of terms is rounded; a lost particle is far more.
-    (drift > 1e-6).then(|| format!("edits changed the momentum by {drift:e} of itself"))
+    (drift > 1e-6).then(|| format!("edits changed the momentum by the fraction {drift:e}"))
 }
 
 pub(super) fn energy(run: &Run) -> report::Energy {
@@ -323,7 +322,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                 ends,
                 stretch_ratio,
             } => format!(
-                "the simulation blew up{}, which has {} times its rest length{after}",
+                "the simulation blew up{}, which is {} times its rest length{after}",
                 edge(ends),
                 short(stretch_ratio)
             ),
@@ -331,15 +330,14 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                 ends: [a, b],
                 stretch_ratio,
             } => format!(
-                "the simulation blew up at the bend between the vertices {} and {}, which has {} \
-                 times its rest length{after}",
+                "the simulation blew up at the bend between the vertices {} and {}, which is {} times its rest length{after}",
                 a + 1,
                 b + 1,
                 short(stretch_ratio)
             ),
             BlowUpSite::Particle(particle) | BlowUpSite::Beyond(particle) => {
                 let vertex = particle + 1;
-                format!("the simulation blew up: vertex {vertex} is nowhere{after}")
+                format!("the simulation blew up: vertex {vertex} has no finite position{after}")
             }
             _ => format!("the simulation blew up{after}"),
         },

@@ -40,7 +40,7 @@ impl<'a> Problem<'a> {
         let weights = self.outside.iter().zip(self.masses());
         forces.extend(weights.map(|(g, m)| g * *m));
         for kind in &self.model.kinds() {
-            // What is stretched beyond all measure is found in the state that a step ends in.
+            // Constraints that are far too long are found in the state in which a step ends.
             let _ = kind.forces(x, f64::INFINITY, Also::default(), forces);
         }
     }

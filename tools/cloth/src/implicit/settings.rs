@@ -114,7 +114,7 @@ pub struct Work {
 /// Why an implicit step was not taken. Positions, velocities and history are unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepError {
-    /// The matrix is indefinite, and [`Jacobian::Exact`] was asked for.
+    /// The matrix is indefinite, and [`Jacobian::Exact`] does not allow that.
     Indefinite {
         /// The time step, in s: a shorter one helps.
         time_step_s: f64,
@@ -123,11 +123,11 @@ pub enum StepError {
     NotConverged {
         /// The bound on the rms error of the velocity that was reached, in m/s.
         residual: f64,
-        /// The bound that was asked for, in m/s.
+        /// The bound that the tolerance set, in m/s.
         limit: f64,
-        /// Newton's iterations that were spent; 1 if linearised.
+        /// The number of Newton iterations that were spent; 1 for a linearised step.
         newton_iterations: u32,
-        /// The iterations of conjugate gradients in all of them.
+        /// The total number of conjugate gradient iterations in this step.
         solver_iterations: u64,
     },
     /// The step would have thrown this particle to infinity.

@@ -138,9 +138,9 @@ impl Implicit {
         self.report
     }
 
-    /// Forgets the last step of every system: BDF2 starts anew with a step of order one. Positions and
-    /// velocities may be changed without it; the acceleration of the last step is what BDF2 then goes
-    /// on with.
+    /// Forgets the last step of every system, so that BDF2 starts again with a step of order one.
+    /// This is not needed after positions or velocities were changed: BDF2 then continues with the
+    /// acceleration of the last step.
     pub fn forget(&mut self) {
         self.history.forget();
         let others = self.others.iter_mut();
@@ -391,7 +391,7 @@ impl Solver for Implicit {
             ..
         } = system;
         scratch.is_fresh = false;
-        // A state that is beyond all measure already is no matter of the method.
+        // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first_bad(positions, velocities).is_none())?;
         let mut outside = std::mem::take(&mut self.outside);
         outside.clear();

@@ -15,7 +15,7 @@ use crate::force;
 pub struct TearEvent {
     /// The end of the step, in seconds.
     pub time_s: f64,
-    /// The vertices that were split.
+    /// The number of vertices that were split.
     pub splits: usize,
     /// The rest length of the edges that came apart, in metres.
     pub torn_m: f64,
@@ -202,8 +202,8 @@ impl Chronicle {
         &self.frames
     }
 
-    /// The largest force at one hold in newtons, as a mean over a frame: of those that are led about,
-    /// or of all where none is. `None` where forces are not known.
+    /// The largest force at a single hold in newtons, as a mean over a frame. If any holds are led,
+    /// only those count. `None` if the method does not know its forces.
     #[must_use]
     pub fn largest_force_n(&self) -> Option<f64> {
         let frames = self.frames.iter();

@@ -46,12 +46,12 @@ impl Axis {
     }
 }
 
-/// The bounding box of the faces of a mesh, as one looks at it.
+/// The bounding box of the faces of a mesh, oriented as a viewer sees it.
 ///
-/// *Across* is the longer of the two axes that are level, x or y where both are as long. *Height*
-/// runs up; but a mesh that lies flat (less than a hundredth as high as it is wide) is seen from
-/// above, and its height runs along the third axis. A place is named by its parts of
-/// width and height: (0, 0) is bottom left, (1, 1) is top right.
+/// *Across* is the longer of the two horizontal axes, and x or y if both have the same length.
+/// *Height* runs up. A mesh that lies flat (less than a hundredth as high as it is wide) is seen
+/// from above instead, and its height runs along the third axis. A place is given by its fractions
+/// of width and height: (0, 0) is the bottom left corner, and (1, 1) the top right one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// The direction against gravity.

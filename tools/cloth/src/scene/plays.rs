@@ -96,11 +96,11 @@ impl Scene {
     /// A hanging patch is ripped: one vertex in its middle is grabbed after half a second and
     /// dragged downward (Souza et al. 2014, Figure 6).
     ///
-    /// The patch hangs by its upper edge. A hand does not pull at a point, whose strain grows as the
-    /// mesh gets finer, so the cloth within its grip bears eightfold, and twice that at half the
-    /// distance, as strain does about a point: it tears elsewhere (tried up to 160 cells a side).
-    /// Drag is that of a light cloth in air, or what has come loose would fly away at the speed
-    /// that the energy of its edges gives it, some 10 m/s.
+    /// The patch hangs by its upper edge. The strain around a single pulled vertex grows as the
+    /// mesh gets finer, but a hand does not pull at a point. So the cloth within the grip is eight
+    /// times as strong, and twice that at half the distance, and tears elsewhere (tried up to 160
+    /// cells per side). Drag is that of a light cloth in air. Without it, loose pieces would fly
+    /// away at some 10 m/s, the speed that the energy of torn edges gives them.
     #[must_use]
     pub fn rip(frame: &Frame) -> Scene {
         let down = frame.along.vector() * -frame.extents_m[1];
@@ -129,9 +129,9 @@ impl Scene {
         }
     }
 
-    /// The trouser test: a strip is slit from the middle of its lower edge to its centre, and
-    /// the ends of the two legs are pulled apart, to and from the viewer. No gravity; the sum of
-    /// what the clamps feel is the force that tears.
+    /// The trouser test: a strip is slit from the middle of its lower edge to its centre, and the
+    /// ends of the two legs are pulled apart, to and from the viewer. There is no gravity. The sum
+    /// of the forces at the clamps is the force that tears.
     #[must_use]
     pub fn trouser(frame: &Frame) -> Scene {
         let height = frame.extents_m[1];

@@ -486,17 +486,17 @@ impl Run {
         self.step_s
     }
 
-    /// The longest step at which a method that sweeps pulls about as hard as the fabric's
-    /// stiffness says; `None` for the others. With a longer one, what merely hangs is stretched and
-    /// may tear falsely.
+    /// The longest step at which a method that sweeps pulls about as hard as the fabric's stiffness
+    /// says; `None` for other methods. With a longer step, cloth that merely hangs is stretched,
+    /// and may tear falsely.
     #[must_use]
     pub fn step_wanted_s(&self) -> Option<f64> {
         let speed_m_per_s = step_size::speed_m_per_s(&self.scene);
         step_size::wanted_s(&self.scene.solver, self.cloth.system(), speed_m_per_s)
     }
 
-    /// By how much XPBD leaves the cloth softer than its fabric at the step of this scene, estimated
-    /// from the masses; `None` for the others. Linear.
+    /// An estimate, from the masses, of how much softer XPBD leaves the cloth than its fabric at
+    /// the step of this scene; `None` for other methods. Linear.
     #[must_use]
     pub fn softness(&self) -> Option<Softness> {
         step_size::softness(&self.scene, self.step_s, &self.cloth)
@@ -514,7 +514,7 @@ impl Run {
         self.tally
     }
 
-    /// What the method says of its own steps so far. Costs up to a force evaluation.
+    /// What the method reports about its steps so far. Costs up to a force evaluation.
     #[must_use]
     pub fn quality(&self) -> Quality {
         self.engine.quality(self.cloth.system())
@@ -553,7 +553,7 @@ impl Run {
         &self.cloth
     }
 
-    /// What the last step changed in the mesh, for those who follow it.
+    /// The edits of the mesh in the last step, for followers to replay.
     #[must_use]
     pub fn edits(&self) -> &Edits {
         &self.edits

@@ -29,7 +29,7 @@ pub enum ClothError {
     /// A face of a cloth with a [`Weave`](crate::Weave) has no area at rest, or the direction of
     /// warp is perpendicular to it.
     Face {
-        /// The face.
+        /// The face that cannot be used.
         face: FaceId,
         /// The direction of warp.
         warp: Vector,
@@ -76,7 +76,7 @@ impl fmt::Display for ClothError {
                 warp.x, warp.y, warp.z
             ),
             ClothError::Warps { faces, warps } => {
-                write!(f, "{faces} faces have {warps} directions of warp")
+                write!(f, "there are {warps} directions of warp for {faces} faces")
             }
             ClothError::Counts {
                 vertices,
@@ -84,7 +84,7 @@ impl fmt::Display for ClothError {
                 masses,
             } => write!(
                 f,
-                "{vertices} vertices have {positions} positions and {masses} masses"
+                "there are {positions} positions and {masses} masses for {vertices} vertices"
             ),
         }
     }

@@ -4,22 +4,22 @@
 /// without a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Evaluations of all forces.
+    /// The number of evaluations of all forces.
     pub force_evaluations: u64,
-    /// Products of the stiffness matrix with a vector.
+    /// The number of products of the stiffness matrix with a vector.
     pub matrix_products: u64,
-    /// Sums over all triangles: of forces, of products with the stiffness matrix, of energy for
-    /// line searches, and of stretch for the bound of frequencies.
+    /// The number of sums over all triangles: of forces, of products with the stiffness matrix, of
+    /// energy for line searches, and of stretch for the bound of frequencies.
     pub triangle_evaluations: u64,
-    /// Sums of wind over all faces.
+    /// The number of sums of wind over all faces.
     pub wind_evaluations: u64,
-    /// Sums of areas over all faces, for the rate at which wind slows the system.
+    /// The number of sums of areas over all faces, for the rate at which wind slows the system.
     pub area_evaluations: u64,
-    /// Tests of all particles against one collider.
+    /// The number of passes of all particles over one collider.
     pub collider_passes: u64,
     /// The number of substeps taken.
     pub substeps: u64,
-    /// Linearised implicit steps that overshot, and were taken with Newton's method instead.
+    /// The number of linearised implicit steps that overshot and were redone by Newton's method.
     pub overshoots: u64,
     /// Counts of visits to single constraints, by purpose.
     pub visits: Visits,
@@ -30,15 +30,15 @@ pub struct Counters {
 /// Counts of visits to single constraints (springs, bends and triangles alike), by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
-    /// Visits to project or shorten a constraint.
+    /// The number of visits to project or shorten a constraint.
     pub project: u64,
-    /// Visits for forces, for the stiffness matrix and products with it, for the energies of an
-    /// implicit step's line search, and for the check for blow-up.
+    /// The number of visits for forces, for the stiffness matrix and products with it, for the
+    /// energies of an implicit step's line search, and for the check for blow-up.
     pub force: u64,
-    /// Visits to find constraints that are about to tear. Constraints that are found while forces
-    /// are summed do not count again.
+    /// The number of visits to find constraints that are about to tear. Constraints that are found
+    /// while forces are summed do not count again.
     pub detect: u64,
-    /// Visits to measure the largest stretch and the energy.
+    /// The number of visits to measure the largest stretch and the energy.
     pub meter: u64,
 }
 

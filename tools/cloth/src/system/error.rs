@@ -17,16 +17,16 @@ pub enum SystemError {
         /// The number of masses.
         masses: usize,
     },
-    /// A mass is not positive and finite; the first such particle.
+    /// A mass is not positive and finite. The first such particle is named.
     Mass {
-        /// The particle.
+        /// The particle with the wrong mass.
         particle: usize,
         /// The mass as given, in kilograms.
         given: f64,
     },
-    /// A coordinate is not finite or too large; the first such particle.
+    /// A coordinate is not finite or is too large. The first such particle is named.
     Position {
-        /// The particle.
+        /// The particle with the wrong position.
         particle: usize,
         /// The point as given.
         given: Point,
@@ -60,7 +60,7 @@ impl fmt::Display for SystemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SystemError::Counts { points, masses } => {
-                write!(f, "{points} points have {masses} masses")
+                write!(f, "there are {masses} masses for {points} points")
             }
             SystemError::Mass { particle, given } => write!(
                 f,
@@ -86,8 +86,7 @@ impl fmt::Display for SystemError {
                 stiffness_n_per_m,
             } => write!(
                 f,
-                "a triangle of the particles {a}, {b} and {c} cannot have the places {material_m:?} \
-                 m in the material and the stiffness {stiffness_n_per_m:?} N/m"
+                "a triangle of the particles {a}, {b} and {c} cannot have the material coordinates {material_m:?} m and the stiffness {stiffness_n_per_m:?} N/m"
             ),
             SystemError::Loads { field, given } => {
                 write!(f, "{field} is {given}, which is not finite, or negative")

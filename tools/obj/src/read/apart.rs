@@ -45,11 +45,10 @@ fn tell_edited(document: &mut Document, edited: &[u32]) {
         code: "W-OBJ-RECORD-APART",
         location: Some(Location { line, column: 1 }),
         message: format!(
-            "`v` {} stood apart from the other side of its cut and was edited since: it stays where \
-             it is now{more}",
+            "`v` {} was written apart from the other side of its cut and was edited since: it stays where it is now{more}",
             first + 1
         ),
         excerpt: None,
-        help: Some("what the record has of it is left out of what is written".to_owned()),
+        help: Some("its part of the record will not be written again".to_owned()),
     });
 }

@@ -67,7 +67,7 @@ fn tell_moved(document: &mut Document, moved: &[[u32; 2]]) {
         code: "W-OBJ-RECORD-MOVED",
         location: Some(Location { line, column: 1 }),
         message: format!(
-            "`v` {} was a copy of {} and is at another place now: it is a vertex of its own{more}",
+            "`v` {} was a copy of {} and has moved away from it: it is now a separate vertex{more}",
             copy + 1,
             of + 1
         ),

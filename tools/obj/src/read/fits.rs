@@ -36,7 +36,7 @@ pub(super) fn misfit(items: &Items, hash: u64, document: &Document) -> Option<St
         && !what_may_go_is_last(items)
     {
         return changed(format!(
-            "{} may name a vertex by its number, which would be another without the cuts",
+            "{} may name a vertex by its number, which undoing the cuts would change",
             quoted(keyword)
         ));
     }

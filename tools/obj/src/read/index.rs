@@ -72,14 +72,14 @@ pub(super) fn absolute(
     }
     let (message, label) = match count {
         0 => (
-            format!("{what} {given} does not exist: none stands before this line"),
-            "expected no index that counts back".to_owned(),
+            format!("{what} {given} does not exist: there are none before this line"),
+            "expected an index that does not count back".to_owned(),
         ),
         _ => (
-            format!("{what} {given} does not exist: {count} stand before this line"),
+            format!("{what} {given} does not exist: there are {count} before this line"),
             format!("expected -{count} to -1"),
         ),
     };
     Err(Fault::new("E-OBJ-RANGE", span.clone(), message, label)
-        .help("a negative index counts back from the statement that holds it"))
+        .help("a negative index counts back from its own statement"))
 }

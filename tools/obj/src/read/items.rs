@@ -126,7 +126,7 @@ impl Items {
         let start = scan.at;
         let of = whole(scan, 1, i64::from(copy))? - 1;
         if self.is_copy(of) {
-            let message = "a copy of this record is one of a copy";
+            let message = "this record has a copy of a copy";
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         push(&mut self.fans, [copy, of]);
@@ -217,7 +217,8 @@ impl Items {
         let half = count / 2;
         let places = || [0, half].into_iter().flat_map(|at| at..at + 3);
         if count % 2 != 0 || half < 3 || slides.is_full() {
-            let message = "this record has a slide without as many numbers before as then";
+            let message =
+                "this record has a slide with different counts of numbers before and after";
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         if places().any(|at| row[at].abs() > COORDINATE_MAX) {
@@ -239,7 +240,7 @@ impl Items {
         let count = numbers(scan, &mut value)?;
         let slides = &mut self.record.slides;
         if slides.is_empty() || slides.is_full() || count == 0 || new == old {
-            let message = "this record has corners here of nothing that slid";
+            let message = "this record has corners here without a vertex that slid";
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         slides.push_exchange(Exchange { which, new, old }, &value[..count]);
@@ -260,12 +261,12 @@ impl Items {
         let mut row = [0.0; 6];
         let count = numbers(scan, &mut row)?;
         if count < row.len() || row.iter().any(|x| x.abs() > COORDINATE_MAX) {
-            let message = "this record has a vertex without two points that can be used";
+            let message = "this record has a vertex without two usable points";
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         let [is, shown] = [0, 3].map(|i| Point::new(row[i], row[i + 1], row[i + 2]));
         if is_same_point(is, shown) {
-            let message = "this record has a vertex apart from where it is that is there";
+            let message = "this record writes a vertex apart at its own position";
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         push(&mut self.record.apart, Apart { vertex, is, shown });
@@ -318,6 +319,6 @@ impl Items {
         };
         let is_wrong = is_wrong(self.counts.texture, &self.record.texture)
             || is_wrong(self.counts.normals, &self.record.normals);
-        is_wrong.then_some("this record has other counts than its lines")
+        is_wrong.then_some("the counts of this record do not match its lines")
     }
 }

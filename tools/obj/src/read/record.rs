@@ -103,9 +103,9 @@ impl RecordReader {
         let start = scan.at - HEADER.len();
         self.state = State::Skipping;
         if self.header.is_some() || self.warning.is_some() {
-            let message = "this file has a second record: neither is used";
+            let message = "this file has two records, and neither is used";
             let fault = Fault::new(CODE, start..scan.at, message, "begins here");
-            return Err(fault.help("files that are joined have to be written anew"));
+            return Err(fault.help("after joining files, cut the joined file again"));
         }
         let version = version(scan)?;
         let largest = i64::from(u32::MAX);
@@ -141,7 +141,7 @@ impl RecordReader {
             State::Within => {}
             State::Skipping => return Ok(()),
             State::Outside => {
-                let message = "here a record ends that has not begun";
+                let message = "a record ends here that has not begun";
                 return Err(Fault::new(CODE, start..scan.at, message, "ends here"));
             }
         }
@@ -153,7 +153,10 @@ impl RecordReader {
         scan.find_token();
         let at = scan.at;
         if whole(scan, 0, largest)? as usize != self.lines {
-            return damaged(at..scan.at, "this record has not as many lines as it had");
+            return damaged(
+                at..scan.at,
+                "lines of this record are missing or were added",
+            );
         }
         scan.find_token();
         let at = scan.at;
@@ -219,4 +222,4 @@ fn without_record() -> String {
     )
 }
 
-const LEFT_OUT: &str = "the lines of the record are left out of what is written";
+const LEFT_OUT: &str = "the lines of the record will not be written again";

@@ -176,7 +176,7 @@ impl<'l> Scan<'l> {
         if is_non_number(token) {
             let message = format!("{} is not a finite number", quoted(token));
             return Fault::new("E-OBJ-FINITE", span, message, "expected a finite number")
-                .help("the program that wrote this file computed something undefined; repair the model there");
+                .help("the program that wrote this file computed something undefined; repair the model in that program");
         }
         if std::str::from_utf8(token).is_ok_and(|text| text.parse::<f64>().is_ok()) {
             let message = format!("{} is beyond the range of 64-bit numbers", quoted(token));

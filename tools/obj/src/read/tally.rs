@@ -70,13 +70,12 @@ impl ForeignStatements {
                 _ if is_said_of_vertex(&counted.keyword) => (
                     "W-OBJ-FOREIGN",
                     format!(
-                        "{keyword} is not interpreted, and kept with its vertex and the \
-                         copies of that ({statements})"
+                        "{keyword} is not interpreted, and is kept with its vertex and the copies of it ({statements})"
                     ),
                 ),
                 _ => (
                     "W-OBJ-FOREIGN",
-                    format!("{keyword} is not interpreted, and kept as it is ({statements})"),
+                    format!("{keyword} is not interpreted, and is kept as it is ({statements})"),
                 ),
             };
             diagnostics.push(counted.warn(Level::Warning, code, message));

@@ -95,6 +95,6 @@ pub(super) fn nothing_more(scan: &mut Scan<'_>) -> Parsed<()> {
         return Ok(());
     }
     let end = scan.bytes.len();
-    let message = "this line of a record has more than belongs there";
+    let message = "this line of a record has extra words";
     Err(Fault::new(CODE, scan.at..end, message, DAMAGED))
 }

@@ -27,7 +27,7 @@ pub enum RunError {
     /// The wind is not usable at all times: its velocity with the sway is not finite, or its period
     /// is not positive and finite, or is too short.
     Wind {
-        /// The field.
+        /// The field of the scene that has the unusable number.
         field: &'static str,
         /// The number as given; of a vector, the component.
         given: f64,
@@ -44,13 +44,13 @@ pub enum RunError {
     },
     /// A hold or a strength names a vertex that the mesh does not have.
     NoVertex {
-        /// What names it.
+        /// The part of the scene that names the vertex.
         named_by: Names,
-        /// Its number in the scene.
+        /// The number of that hold or strength in the scene.
         number: usize,
         /// The first such vertex.
         vertex: VertexId,
-        /// How many vertices the mesh has.
+        /// The number of vertices of the mesh.
         vertices: usize,
     },
     /// The times of a hold do not ascend.
@@ -62,10 +62,10 @@ pub enum RunError {
     Cut {
         /// The number of the cut in the scene.
         number: usize,
-        /// Why.
+        /// The reason why the rays span no plane.
         error: ScissorError,
     },
-    /// The time of a cut is not one of the scene: negative, or not finite.
+    /// The time of a cut is negative or not finite.
     CutTime {
         /// The number of the cut in the scene.
         number: usize,
@@ -114,13 +114,13 @@ impl fmt::Display for RunError {
             }
             RunError::Loads(error) => error.fmt(f),
             RunError::Wind { field, given } => {
-                write!(f, "{field} is {given}, with which no wind can blow")
+                write!(f, "{field} is {given}, which gives no usable wind")
             }
             RunError::NothingHeld { number } => {
                 write!(f, "hold {} holds no vertex", number + 1)
             }
             RunError::NothingStrong { number } => {
-                write!(f, "strength {} holds no vertex", number + 1)
+                write!(f, "strength {} contains no vertex", number + 1)
             }
             RunError::NoVertex {
                 named_by,

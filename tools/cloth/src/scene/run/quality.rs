@@ -60,7 +60,7 @@ pub struct NewtonStats {
     /// The number of matrices that proved to be indefinite, which happens to cloth under
     /// compression.
     pub indefinite: u64,
-    /// The number of matrix terms that had a part dropped because of that.
+    /// The number of matrix terms that had a part dropped because the matrix was indefinite.
     pub clamped: u64,
     /// The largest residual of a step, as a bound on the rms error of the velocity in m/s.
     pub residual_max_m_per_s: f64,

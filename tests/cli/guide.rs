@@ -1,0 +1,433 @@
+//! The guide is held against the command: its tables of codes, of keys of the report and of keys of
+//! scene files, its scene, and its batches. (Its commands are held by `transcripts.rs`.)
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::harness::{self, Folder, root};
+
+/// A page of the guide.
+fn page(name: &str) -> String {
+    let path = root().join("tools/cli/src/guide").join(name);
+    fs::read_to_string(path).expect("a page of the guide")
+}
+
+/// The rows of all tables with this header, each as the texts of its cells.
+fn rows(page: &str, header: &str) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    let mut is_within = false;
+    for line in page.lines() {
+        if !line.starts_with('|') {
+            is_within = false;
+        } else if line == header {
+            is_within = true;
+        } else if is_within && !line.starts_with("|---") {
+            let cells = line.trim_matches('|').split(" | ");
+            rows.push(cells.map(|cell| cell.trim().to_owned()).collect());
+        }
+    }
+    rows
+}
+
+/// What stands between back quotes in a text.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+/// The text of the blocks of a page that are fenced as `language`.
+fn blocks(page: &str, language: &str) -> Vec<String> {
+    let opening = format!("```{language}\n");
+    let behind = page.split(&opening).skip(1);
+    let text = |rest: &str| rest.split("```").next().expect("an end").to_owned();
+    behind.map(text).collect()
+}
+
+/// The codes of the guide, each with the exit statuses that go with it.
+fn codes_of_the_guide() -> BTreeMap<String, BTreeSet<i32>> {
+    let rows = rows(&page("codes.md"), "| code | exit | meaning |");
+    let count = rows.len();
+    let code = |row: Vec<String>| {
+        let exits = row[1]
+            .split(", ")
+            .map(|exit| exit.parse().expect("a status"));
+        (row[0].trim_matches('`').to_owned(), exits.collect())
+    };
+    let codes: BTreeMap<_, _> = rows.into_iter().map(code).collect();
+    assert_eq!(codes.len(), count, "a code stands twice");
+    codes
+}
+
+/// Whether a word has the form of a code.
+fn is_code(word: &str) -> bool {
+    let is_part = |part: &str| {
+        let is_sign = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit();
+        !part.is_empty() && part.chars().all(is_sign)
+    };
+    let mut parts = word.split('-');
+    matches!(parts.next(), Some("E" | "W")) && word.len() > 3 && parts.all(is_part)
+}
+
+/// The codes that stand as literals in the sources of a folder, tests left out.
+fn codes_in(folder: &Path, codes: &mut BTreeSet<String>) {
+    for entry in fs::read_dir(folder).expect("sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            codes_in(&path, codes);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let text = fs::read_to_string(&path).expect("a source");
+            let code = text.split("#[cfg(test)]").next().expect("some code");
+            let literals = code.split('"').filter(|word| is_code(word));
+            codes.extend(literals.map(str::to_owned));
+        }
+    }
+}
+
+#[test]
+fn the_guide_has_the_codes_of_the_command_and_no_others() {
+    let mut codes = BTreeSet::new();
+    for folder in [
+        "tools/obj/src",
+        "tools/cloth/src",
+        "tools/view/src",
+        "tools/cli/src",
+    ] {
+        codes_in(&root().join(folder), &mut codes);
+    }
+    assert!(codes.len() > 90, "{codes:?}");
+    let told: BTreeSet<_> = codes_of_the_guide().into_keys().collect();
+    assert_eq!(told, codes);
+}
+
+#[test]
+fn the_guide_has_the_exit_statuses_of_the_command() {
+    let told = rows(&page("codes.md"), "| exit | meaning |");
+    let told: Vec<i32> = told
+        .iter()
+        .map(|row| row[0].parse().expect("a status"))
+        .collect();
+    let exits = fs::read_to_string(root().join("tools/cli/src/exit.rs")).expect("a source");
+    let numbers = exits
+        .lines()
+        .filter_map(|line| line.trim().strip_suffix(','));
+    let numbers = numbers.filter_map(|line| line.split_once(" = "));
+    let numbers: Vec<i32> = numbers
+        .map(|(_, number)| number.parse().expect("one"))
+        .collect();
+    assert_eq!(told, numbers);
+}
+
+/// Fails if an answer has a code that does not come with this exit status. Returns its codes.
+fn codes_of<'a>(
+    answer: &'a str,
+    exit: i32,
+    told: &BTreeMap<String, BTreeSet<i32>>,
+) -> BTreeSet<&'a str> {
+    let words = answer.split(|c: char| !c.is_ascii_alphanumeric() && c != '-');
+    let codes: BTreeSet<_> = words.filter(|word| is_code(word)).collect();
+    let fits = |code: &str| told[code].contains(&exit);
+    let mut errors = codes.iter().filter(|code| code.starts_with('E'));
+    assert!(errors.all(|code| fits(code)), "{answer}");
+    if codes.is_empty() {
+        // Arguments that cannot be parsed have no code.
+        assert!(exit == 0 || exit == 2, "{answer}");
+    } else if exit != 0 {
+        assert!(codes.iter().any(|code| fits(code)), "{answer}");
+    }
+    codes
+}
+
+#[test]
+fn codes_come_with_the_exit_statuses_of_the_guide() {
+    let told = codes_of_the_guide();
+    let mut seen = BTreeSet::new();
+    let mut answers = 0;
+    for entry in fs::read_dir(root().join("tests/cli/transcripts")).expect("transcripts") {
+        let text = fs::read_to_string(entry.expect("one").path()).expect("a transcript");
+        for answer in text.split("$ tearmesh ").skip(1) {
+            // An empty line ends an answer.
+            let answer = answer.split("\n\n").next().expect("an answer");
+            let exit = answer
+                .rsplit_once("(exit ")
+                .map(|(_, end)| end.split(')').next());
+            let exit = exit
+                .flatten()
+                .map_or(0, |exit| exit.parse().expect("a status"));
+            let codes = codes_of(answer, exit, &told);
+            seen.extend(codes.into_iter().map(str::to_owned));
+            answers += 1;
+        }
+    }
+    assert!(answers > 200);
+
+    // What no transcript has.
+    let folder = Folder::new();
+    let points = "v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 1 0\n";
+    let many = format!("{points}f{}\n", " 1 2 4".repeat(2000));
+    let cut = "tearmesh cut bad.obj --plane 0.5,0,0:1,0,0 -o x.obj";
+    let check = "tearmesh check bad.obj";
+    let hang = "tearmesh tear bad.obj --scene hang -o x.obj";
+    let unread = "tearmesh cut flag.obj --plane 0,0:1,0,0 -o x.obj";
+    let zero = "tearmesh cut flag.obj --plane 0,0,0:0,0,0 -o x.obj";
+    let runs: [(&[u8], &[&str], &str); 10] = [
+        (b"v 1 2\n", &[cut, check], "E-OBJ-COUNT"),
+        (b"v 1e99 2 3\n", &[cut, check], "E-OBJ-COORDINATE"),
+        (b"v 1 2 3\nf 1 1\n", &[cut, check], "E-OBJ-CORNERS"),
+        (b"v 1 2 3\nf a b c\n", &[cut, check], "E-OBJ-INDEX"),
+        (many.as_bytes(), &[cut, check], "E-OBJ-ARITY"),
+        (b"v 1 2 3\n\0\x01", &[cut, check], "E-OBJ-BINARY"),
+        (b"\xff\xfev\0\n\0", &[cut, check], "E-OBJ-UTF16"),
+        (
+            b"v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\nf 2 3 4\n",
+            &[hang],
+            "E-SIM-MESH",
+        ),
+        (b"", &[unread], "E-PLANE-SYNTAX"),
+        (b"", &[zero], "E-PLANE-ZERO"),
+    ];
+    for (file, commands, code) in runs {
+        folder.write("bad.obj", file);
+        for typed in commands {
+            let output = folder.run(typed);
+            let exit = output.status.code().expect("a status");
+            let answer = harness::seen(&output);
+            let codes = codes_of(&answer, exit, &told);
+            assert!(exit != 0 && codes.contains(code), "{answer}");
+        }
+        seen.insert(code.to_owned());
+    }
+    println!(
+        "{answers} answers; {} of {} codes seen",
+        seen.len(),
+        told.len()
+    );
+    assert!(seen.len() > 60);
+}
+
+/// Adds the keys of a value, as paths such as `cuts[].plane.point`.
+fn keys_of(value: &Value, path: &str, keys: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(fields) => {
+            for (name, field) in fields {
+                let dot = if path.is_empty() { "" } else { "." };
+                let path = format!("{path}{dot}{name}");
+                keys.insert(path.clone());
+                keys_of(field, &path, keys);
+            }
+        }
+        Value::Array(items) => {
+            let items = items.iter().filter(|item| item.is_object());
+            items.for_each(|item| keys_of(item, &format!("{path}[]"), keys));
+        }
+        _ => {}
+    }
+}
+
+/// Commands that between them print every key there is.
+const REPORTS: &[&str] = &[
+    "cut flag.obj --rays 0,0,9@-0.5,0.2,0 0,0,9@0.5,0.1,0 --layers first --gap 5% --pieces p -o a.obj",
+    "cut flag.obj --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250 -o b.obj",
+    "cut three.obj --plane 0.5,0,0:1,0,0 -o c.obj",
+    "mend b.obj --simplify -o d.obj",
+    "tear sheet.obj --scene rip --seconds 0.8 --frames f --frames-topology final --cache c.pc2 -o e.obj",
+    "tear sheet.obj --scene hang --seconds 0.02 --solver xpbd -o e.obj",
+    "tear sheet.obj --scene hang --seconds 0.02 --solver pbd -o e.obj",
+    "tear sheet.obj --scene hang --seconds 0.02 --solver implicit -o e.obj",
+    "tear sheet.obj --scene hang --seconds 0.02 --solver provot -o e.obj",
+    "tear sheet.obj --scene wild.toml -o e.obj",
+    "tear sheet.obj --scene flag --seconds 1.6 --solver provot -o e.obj",
+    "tear sheet.obj --scene pin.toml --check-step -o e.obj",
+];
+
+#[test]
+fn the_guide_has_the_keys_of_the_report_and_no_others() {
+    let folder = Folder::new();
+    let files = [
+        (
+            "three.obj",
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n",
+        ),
+        (
+            "wild.toml",
+            "base = \"rip\"\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n[tear]\nthreshold = 2.5\n",
+        ),
+        ("pin.toml", "seconds = 0.01\n[[hold]]\nnear = [0, 1]\n"),
+    ];
+    files
+        .iter()
+        .for_each(|(name, text)| folder.write(name, text));
+
+    let mut printed = BTreeSet::new();
+    for typed in REPORTS {
+        let output = folder.run(&format!("tearmesh {typed} --report r.json"));
+        let report = fs::read(folder.path("r.json"));
+        let report = report.unwrap_or_else(|_| panic!("{typed}: {output:?}"));
+        let report = serde_json::from_slice(&report).expect("JSON");
+        fs::remove_file(folder.path("r.json")).expect("a file");
+        keys_of(&report, "", &mut printed);
+    }
+    let output = folder.run("tearmesh check flag.obj quilt.obj three.obj --format json");
+    for line in String::from_utf8(output.stdout).expect("text").lines() {
+        let mut keys = BTreeSet::new();
+        keys_of(&serde_json::from_str(line).expect("JSON"), "", &mut keys);
+        let (diagnostics, own): (Vec<_>, _) = keys
+            .into_iter()
+            .partition(|key| key.starts_with("diagnostics[]"));
+        printed.extend(diagnostics);
+        let own: Vec<_> = own;
+        printed.extend(own.into_iter().map(|key| format!("check: {key}")));
+    }
+
+    let mut told = BTreeSet::new();
+    for row in rows(&page("report.md"), "| key | meaning |") {
+        for key in quoted(&row[0]) {
+            assert!(told.insert(key.to_owned()), "{key} stands twice");
+        }
+    }
+    let lists = |one: &BTreeSet<String>, other: &BTreeSet<String>| {
+        one.difference(other).cloned().collect::<Vec<_>>()
+    };
+    let (missing, made_up) = (lists(&printed, &told), lists(&told, &printed));
+    assert!(
+        missing.is_empty() && made_up.is_empty(),
+        "missing {missing:?}, made up {made_up:?}"
+    );
+    println!("{} keys", told.len());
+}
+
+#[test]
+fn the_guide_has_the_keys_of_scene_files_and_no_others() {
+    let folder = Folder::new();
+    let help = folder.run("tearmesh tear --help");
+    let help = String::from_utf8(help.stdout).expect("text");
+    let (_, schema) = help
+        .split_once("\n  at the top\n")
+        .expect("the keys of scenes");
+    let mut taken = BTreeSet::new();
+    let mut table = String::new();
+    for line in schema.lines() {
+        if let Some(key) = line.strip_prefix("    ").filter(|line| line.contains("  ")) {
+            let key = key.split(' ').next().expect("a word");
+            taken.insert((table.clone(), key.to_owned()));
+        } else if let Some(title) = line.strip_prefix("  [") {
+            table = title.split(']').next().expect("a name").replace('[', "");
+        }
+    }
+
+    let mut told = BTreeSet::new();
+    for section in page("scenes.md").split("\n# ").skip(1) {
+        let title = section.lines().next().expect("a title");
+        let table = quoted(title).next().unwrap_or_default();
+        let table = table.replace(['[', ']'], "");
+        for row in rows(section, "| key | default | meaning |") {
+            told.extend(quoted(&row[0]).map(|key| (table.clone(), key.to_owned())));
+        }
+    }
+    assert_eq!(told, taken);
+    assert!(told.len() > 70);
+}
+
+#[test]
+fn the_scene_of_the_guide_can_be_played() {
+    let folder = Folder::new();
+    let [scene] = &blocks(&page("scenes.md"), "toml")[..] else {
+        panic!("one scene");
+    };
+    folder.write("guide.toml", scene);
+    let output =
+        folder.run("tearmesh tear sheet.obj --scene guide.toml --seconds 0.05 -o played.obj");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    assert!(folder.read("played.obj").contains("\nf "));
+}
+
+/// The command in a folder of its own, which a shell finds.
+fn shell(folder: &Folder, typed: &str) -> std::process::Output {
+    let own = Path::new(env!("CARGO_BIN_EXE_tearmesh")).parent();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders = vec![own.expect("a folder").to_owned()];
+    folders.extend(std::env::split_paths(&path));
+    Command::new("sh")
+        .args(["-c", typed])
+        .env("PATH", std::env::join_paths(folders).expect("a path"))
+        .env("HOME", folder.path("."))
+        .current_dir(folder.path("."))
+        .output()
+        .expect("a shell")
+}
+
+/// Runs the batches of the guide, and each of their cuts alone.
+#[test]
+#[ignore = "needs GNU parallel, as .ci/run installs it"]
+fn batches_by_gnu_parallel() {
+    let skipped = std::env::var("TEARMESH_SKIP").unwrap_or_default();
+    let is_there = Command::new("parallel").arg("--version").output().is_ok();
+    if !is_there && skipped.split(' ').any(|tool| tool == "parallel") {
+        println!("skipped: there is no parallel, and TEARMESH_SKIP names it");
+        return;
+    }
+    assert!(
+        is_there,
+        "there is no parallel; install it, or let TEARMESH_SKIP name it"
+    );
+
+    let folder = Folder::new();
+    fs::create_dir(folder.path("meshes")).expect("a folder");
+    let names = ["flag", "sheet", "sleeve"];
+    for name in names {
+        let copy = folder.path(&format!("meshes/{name}.obj"));
+        fs::copy(folder.path(&format!("{name}.obj")), copy).expect("a copy");
+    }
+    let page = page("batches.md");
+    let [all, reported, places, resumed] = &blocks(&page, "sh")[..] else {
+        panic!("four batches");
+    };
+    let play = |batch: &str, expected: i32| {
+        let output = shell(&folder, batch);
+        assert_eq!(output.status.code(), Some(expected), "{batch}: {output:?}");
+    };
+    let alone = |typed: &str| {
+        let output = folder.run(&format!("tearmesh cut {typed} -q -o alone.obj"));
+        assert!(output.status.success(), "{typed}: {output:?}");
+        folder.read("alone.obj")
+    };
+    let plane = "--plane 0.21,0.05,0:1,0,0";
+    let check = || {
+        for name in names {
+            let cut = folder.read(&format!("cut/{name}.obj"));
+            assert_eq!(cut, alone(&format!("{name}.obj {plane}")), "{name}");
+        }
+    };
+
+    play(all, 0);
+    check();
+    play(places, 0);
+    for x in ["-0.25", "0.1", "0.4"] {
+        let cut = folder.read(&format!("cut/at{x}.obj"));
+        assert_eq!(
+            cut,
+            alone(&format!("flag.obj --plane {x},0,0:1,0,0")),
+            "{x}"
+        );
+    }
+    fs::remove_dir_all(folder.path("cut")).expect("a folder");
+
+    // One run fails; all others are done, and it leaves a report and no mesh.
+    folder.write("meshes/bad.obj", "v 0 0 0\nv 1 0 0\nv 1 0,5 0\nf 1 2 3\n");
+    play(reported, 1);
+    check();
+    assert!(!folder.path("cut/bad.obj").exists());
+    for name in ["bad", "flag", "sheet", "sleeve"] {
+        let report = folder.read(&format!("cut/{name}.json"));
+        let report: Value = serde_json::from_str(&report).expect("JSON");
+        assert_eq!(report["ok"], Value::Bool(name != "bad"), "{name}");
+    }
+
+    // What is done is not done again.
+    fs::remove_file(folder.path("cut/flag.obj")).expect("a file");
+    play(resumed, 0);
+    assert!(!folder.path("cut/flag.obj").exists());
+}

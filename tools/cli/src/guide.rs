@@ -1,0 +1,30 @@
+//! The guide to the command `tearmesh`.
+//!
+//! * [`cut`]: cut a file, step by step: rays, layers, gap, pieces, map, mend.
+//! * [`codes`]: exit codes, and every error code and warning code.
+//! * [`report`]: every key of the JSON report.
+//! * [`scenes`]: every key of a scene file.
+//! * [`batches`]: many files at once, by GNU parallel.
+//! * [`blender`]: play a simulation in Blender.
+//!
+//! The guide of the crate `tearmesh` says what a version number promises, how the project compares
+//! with other software, and where it differs from the paper: [`tearmesh::guide`]. The guide of the
+//! crate `tearmesh-cloth` is about simulating and tearing: [`tearmesh_cloth::guide`].
+
+#[doc = include_str!("guide/cut.md")]
+pub mod cut {}
+
+#[doc = include_str!("guide/codes.md")]
+pub mod codes {}
+
+#[doc = include_str!("guide/report.md")]
+pub mod report {}
+
+#[doc = include_str!("guide/scenes.md")]
+pub mod scenes {}
+
+#[doc = include_str!("guide/batches.md")]
+pub mod batches {}
+
+#[doc = include_str!("guide/blender.md")]
+pub mod blender {}

@@ -1,0 +1,16 @@
+//! The guide to cloth: simulate it, tear it, and cut it while it moves.
+//!
+//! * [`simulate`]: a cloth from a mesh, its fabric, its loads, and the choice of a method.
+//! * [`tear`]: thresholds, what decides where a tear goes, and what is reported.
+//! * [`cut`]: cutting a cloth that is in motion.
+//!
+//! [`tearmesh::guide`] has the guide to the kernel below this crate.
+
+#[doc = include_str!("guide/simulate.md")]
+pub mod simulate {}
+
+#[doc = include_str!("guide/tear.md")]
+pub mod tear {}
+
+#[doc = include_str!("guide/cut.md")]
+pub mod cut {}
