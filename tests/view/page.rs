@@ -144,7 +144,7 @@ fn moments(bytes: &[u8], text: &Value, states: &[[Vec<u32>; 3]]) -> Vec<Shown> {
             let (old, mut missed) = (track.len(), vec![0; vertices]);
             let was = std::mem::take(track);
             for v in 0..vertices {
-                let [beside, read] = [near[v] as i64, off()];
+                let [beside, read] = [i64::from(near[v]), off()];
                 let here = match was.get(v) {
                     Some(&[place, step]) => {
                         let by_neighbour =
