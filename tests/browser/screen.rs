@@ -48,9 +48,10 @@ impl Screen {
     }
 }
 
-/// The colour of a trace, also where it shines through a face: no surface has less green than red and blue.
+/// The colour of a trace, also where it shines through a blue face. Of the first three colours of pieces none
+/// has less green than red and blue, nor has the edge of a red line as much blue as red.
 pub(crate) fn is_trace([r, g, b]: [u8; 3]) -> bool {
-    r.min(b) >= g.saturating_add(14)
+    r.min(b) >= g.saturating_add(14) && b.saturating_add(20) >= r
 }
 
 /// The colour of what is torn.

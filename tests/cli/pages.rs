@@ -6,6 +6,8 @@ use std::io::Read as _;
 use base64::Engine as _;
 use serde_json::Value;
 
+#[cfg(unix)]
+use crate::harness::interrupted_at;
 use crate::harness::{Folder, seen};
 
 const CUT: &str = "tearmesh cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1";
@@ -145,6 +147,51 @@ fn frames_in_a_folder_are_played_in_their_order() {
         .expect("points");
     assert_eq!(stretch.len(), moments.len());
     assert!((stretch[0][1].as_f64().expect("a ratio") - 1.0).abs() < 1e-9);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_simulation_is_shown_as_far_as_it_came() {
+    let folder = Folder::new();
+    let mut command = folder.command();
+    command.args([
+        "tear",
+        "sheet.obj",
+        "--scene",
+        "hang",
+        "--seconds",
+        "100000",
+        "--view",
+        "t.html",
+    ]);
+    command.args(["--frames", "f", "-o", "t.obj", "--report", "r.json"]);
+    let output = interrupted_at(&mut command, &folder.path("f/frame_00002.obj"));
+    assert_eq!(output.status.code(), Some(130), "{}", seen(&output));
+    let report: Value = serde_json::from_str(&folder.read("r.json")).expect("JSON");
+    let text = text(&folder.read("t.html"));
+    let last = text["moments"]
+        .as_array()
+        .and_then(|all| all.last())
+        .expect("moments");
+    assert_eq!(last["time"], report["time_simulated_s"]);
+    assert_eq!(last["cut"][0], "t.obj");
+}
+
+/// What fails in the middle is shown up to there.
+#[test]
+fn a_simulation_that_fails_is_shown_as_far_as_it_came() {
+    let folder = Folder::new();
+    let strict = "base = \"rip\"\n[solver]\nmethod = \"implicit\"\ndt_s = 0.01\nnewton_iterations = 2\ntolerance = 0.1\n";
+    folder.write("s.toml", strict);
+    let output = folder.run("tearmesh tear sheet.obj --scene s.toml -o t.obj --view t.html");
+    assert_eq!(output.status.code(), Some(5), "{}", seen(&output));
+    let text = text(&folder.read("t.html"));
+    let last = text["moments"]
+        .as_array()
+        .and_then(|all| all.last())
+        .expect("moments");
+    assert!(last["time"].as_f64() < Some(3.0), "{last}");
+    assert_eq!(last["cut"][0], "t.obj");
 }
 
 /// Four seconds of a flag with 1,089 vertices and more.

@@ -144,7 +144,7 @@ fn moments(bytes: &[u8], text: &Value, states: &[[Vec<u32>; 3]]) -> Vec<Shown> {
             let (old, mut missed) = (track.len(), vec![0; vertices]);
             let was = std::mem::take(track);
             for v in 0..vertices {
-                let [beside, read] = [near[v] as i64, off()];
+                let [beside, read] = [i64::from(near[v]), off()];
                 let here = match was.get(v) {
                     Some(&[place, step]) => {
                         let by_neighbour =
@@ -347,7 +347,7 @@ fn the_same_moments_give_the_same_bytes() {
     let (data, _) = data.split_once('<').expect("an end");
     let fold = |digest: u64, byte: u8| (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     let digest = data.bytes().fold(0xcbf2_9ce4_8422_2325, fold);
-    assert_eq!(digest, 0x94bb_1194_649b_e461, "{digest:#018x}");
+    assert_eq!(digest, 0xb98f_1ca7_2c74_6bfd, "{digest:#018x}");
 }
 
 #[test]

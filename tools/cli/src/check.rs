@@ -1,22 +1,22 @@
 //! The verb `check`: a line for each file.
 
+mod shown;
+
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tearmesh::{Masses, Positions, Vector};
-use tearmesh_view::Page;
+use tearmesh::{Masses, Positions};
 
+use self::shown::Shown;
 use crate::args::{CheckArgs, Format};
 use crate::exit::{Exit, Stop};
-use crate::files::{is_same, unwritable};
 use crate::input::Input;
 use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
 use crate::report::{Entry, File};
 use crate::say::{Fault, Screen, Severity, count, is_colored, place, short};
 use crate::streams::Streams;
-use crate::{defects, session};
-use crate::{output, page};
+use crate::{defects, output, session};
 
 /// The code of an invariant that does not hold.
 const BROKEN: &str = "E-BUG-INVARIANT";
@@ -83,39 +83,6 @@ fn refuse(stop: &Stop, args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
     faults.fold(stop.exit, |exit, fault| {
         streams.fail(fault, args.color, exit)
     })
-}
-
-/// The page of the meshes that can be cut.
-struct Shown {
-    page: Page,
-    path: PathBuf,
-}
-
-impl Shown {
-    /// Refuses a page that would replace a file.
-    fn at(path: &Path, inputs: &[Result<PathBuf, (PathBuf, Fault)>]) -> Result<Shown, Stop> {
-        let mut inputs = inputs.iter().flatten();
-        if path == Path::new("-") || inputs.any(|input| is_same(input, path)) {
-            let message = "`--view` takes the name of a file of its own".to_owned();
-            let fault = Fault::error("E-USAGE", message);
-            let fault = fault.help("name a file that nothing else is read from or written to");
-            return Err(Stop::new(Exit::Usage, fault));
-        }
-        output::check(path).map_err(|error| unwritable(path, &error))?;
-        Ok(Shown {
-            page: Page::new("checked", Vector::y()),
-            path: path.to_owned(),
-        })
-    }
-
-    fn write(self) -> Result<(), Stop> {
-        if self.page.is_empty() {
-            let message = "there is no mesh to be shown on a page".to_owned();
-            let fault = Fault::error("E-VIEW-EMPTY", message);
-            return Err(Stop::new(Exit::Input, fault));
-        }
-        page::write(&self.path, &self.page)
-    }
 }
 
 fn name(path: &Path) -> String {
@@ -195,9 +162,7 @@ impl Found {
                 let points = document.positions().iter().copied();
                 let positions = Positions::new(points).expect("the reader accepts no others");
                 if let Some(shown) = shown {
-                    let moment = page::moment(Some(&input.name));
-                    // Where the mesh cannot be seen, the line of its file says what it is.
-                    let _ = shown.page.add(&mesh, &positions, moment);
+                    shown.add(&mesh, &positions, &input.name);
                 }
                 found.mesh = Some(Measured {
                     file: File::of(Some(input.name.clone()), &mesh),

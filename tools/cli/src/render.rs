@@ -9,7 +9,7 @@ use crate::args::RenderArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::{Exit, Stop};
 use crate::input::Input;
-use crate::say::{Fault, Screen, count, is_colored};
+use crate::say::{Fault, count};
 use crate::session::{self, Opened};
 use crate::streams::Streams;
 use crate::{files, output, picture, rays, report};
@@ -17,33 +17,11 @@ use crate::{files, output, picture, rays, report};
 /// Draws a picture, and gives the exit status.
 pub(crate) fn run(args: &RenderArgs, streams: &mut Streams<'_>) -> Exit {
     let mut faults = Vec::new();
-    let worked = work(args, &mut faults, streams);
-    let (exit, words) = match worked {
-        Ok(words) => (Exit::Done, words),
-        Err(Stop { exit, faults: why }) => {
-            faults.extend(why);
-            (exit, String::new())
-        }
-    };
-    let colored = is_colored(args.color, streams.error_is_terminal);
-    let mut screen = Screen {
-        error: streams.error,
-        colored,
-    };
-    for fault in &faults {
-        if screen.show(fault).is_err() {
-            break; // Standard error is closed: nowhere is left to complain.
-        }
+    let mut worked = work(args, &mut faults, streams);
+    if args.quiet || args.output == Path::new("-") {
+        worked = worked.map(|_| String::new());
     }
-    let is_picture_there = args.output == Path::new("-");
-    if args.quiet || is_picture_there || words.is_empty() {
-        return exit;
-    }
-    let said = output::print(streams.output, |out| writeln!(out, "{words}"));
-    match said {
-        Ok(_) => exit,
-        Err(fault) => streams.fail(&fault, args.color, Exit::Output),
-    }
+    streams.conclude(worked, faults, args.color)
 }
 
 /// Gives the summary.

@@ -2,7 +2,8 @@
 
 use std::io::{Read, Write};
 
-use crate::exit::Exit;
+use crate::exit::{Exit, Stop};
+use crate::output;
 use crate::say::{Color, Fault, Screen, is_colored};
 
 /// The streams that the command reads and writes.
@@ -20,6 +21,39 @@ pub struct Streams<'a> {
 }
 
 impl Streams<'_> {
+    /// Shows what there is to say of some work, and its summary if there is one; gives the exit status.
+    pub(crate) fn conclude(
+        &mut self,
+        worked: Result<String, Stop>,
+        mut faults: Vec<Fault>,
+        color: Color,
+    ) -> Exit {
+        let (exit, words) = match worked {
+            Ok(words) => (Exit::Done, words),
+            Err(Stop { exit, faults: why }) => {
+                faults.extend(why);
+                (exit, String::new())
+            }
+        };
+        let colored = is_colored(color, self.error_is_terminal);
+        let mut screen = Screen {
+            error: self.error,
+            colored,
+        };
+        for fault in &faults {
+            if screen.show(fault).is_err() {
+                break; // Standard error is closed: nowhere is left to complain.
+            }
+        }
+        if words.is_empty() {
+            return exit;
+        }
+        match output::print(self.output, |out| writeln!(out, "{words}")) {
+            Ok(_) => exit,
+            Err(fault) => self.fail(&fault, color, Exit::Output),
+        }
+    }
+
     /// Shows an error, and ends with this exit status.
     pub(crate) fn fail(&mut self, fault: &Fault, color: Color, exit: Exit) -> Exit {
         let colored = is_colored(color, self.error_is_terminal);

@@ -10,7 +10,7 @@ use crate::args::ViewArgs;
 use crate::exit::{Exit, Stop};
 use crate::input::Input;
 use crate::input::named::named;
-use crate::say::{Fault, Screen, count, is_colored};
+use crate::say::{Fault, count};
 use crate::session::{self, Opened};
 use crate::streams::Streams;
 use crate::{files, output, page, report};
@@ -18,32 +18,11 @@ use crate::{files, output, page, report};
 /// Makes a page, and gives the exit status.
 pub(crate) fn run(args: &ViewArgs, streams: &mut Streams<'_>) -> Exit {
     let mut faults = Vec::new();
-    let worked = work(args, &mut faults, streams);
-    let (exit, words) = match worked {
-        Ok(words) => (Exit::Done, words),
-        Err(Stop { exit, faults: why }) => {
-            faults.extend(why);
-            (exit, String::new())
-        }
-    };
-    let colored = is_colored(args.color, streams.error_is_terminal);
-    let mut screen = Screen {
-        error: streams.error,
-        colored,
-    };
-    for fault in &faults {
-        if screen.show(fault).is_err() {
-            break; // Standard error is closed: nowhere is left to complain.
-        }
+    let mut worked = work(args, &mut faults, streams);
+    if args.quiet {
+        worked = worked.map(|_| String::new());
     }
-    if args.quiet || words.is_empty() {
-        return exit;
-    }
-    let said = output::print(streams.output, |out| writeln!(out, "{words}"));
-    match said {
-        Ok(_) => exit,
-        Err(fault) => streams.fail(&fault, args.color, Exit::Output),
-    }
+    streams.conclude(worked, faults, args.color)
 }
 
 /// Gives the summary; none if the page is on standard output.

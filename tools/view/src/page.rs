@@ -66,7 +66,8 @@ pub struct Page {
 pub struct Moment {
     /// The name of it, as of a file.
     pub label: String,
-    /// When it is, in seconds; moments without a time come 30 a second.
+    /// When it is, in seconds. Moments without a time come 30 a second, or, if there are few of them, one a
+    /// second.
     pub time_s: Option<f64>,
     /// How this mesh is cut; none if there is no file to be cut.
     pub cut: Option<CutLine>,
@@ -116,6 +117,9 @@ impl Error for PageError {}
 
 /// How many moments there are in a second, where nothing else is said.
 pub const MOMENTS_PER_S: f64 = 30.0;
+
+/// From how many moments on they are a film, and fewer are meshes to be looked at one after another.
+const FILM: usize = 12;
 
 /// The faces of a mesh, and how they hang together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -298,6 +302,7 @@ impl Page {
             "origin": array(lattice.origin.coords),
             "side": lattice.side,
             "rate": MOMENTS_PER_S,
+            "few": FILM,
             "states": self.states.len(),
             "faceBytes": faces.len(),
             "moments": self.moments(),

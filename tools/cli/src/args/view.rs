@@ -23,8 +23,8 @@ Examples:
 pub(crate) struct ViewArgs {
     /// The OBJ files to show, or folders of them; `-` is standard input.
     ///
-    /// Several are played, one after another, in the order in which they are named, and those of a folder by
-    /// their names. They may have faces of their own each.
+    /// Several are played in the order in which they are named, and those of a folder by their names: 30 a
+    /// second, or fewer than a dozen one a second. They may have faces of their own each.
     #[arg(value_name = "IN", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
 

@@ -91,7 +91,7 @@ impl Film {
 }
 
 /// How many holds have a line at most: more cannot be told apart.
-const LINES: usize = 6;
+const LINES: usize = 4;
 
 /// The largest ratio of an edge's length to its length at rest.
 fn largest_stretch(run: &Run) -> f64 {

@@ -11,7 +11,8 @@ async function unpack() {
   const places = 4 + length + data.faceBytes;
   data.states = readStates(bytes.subarray(4 + length, places), data.states);
   readPlaces(bytes.subarray(places), data);
-  data.moments.forEach((moment, i) => { moment.seconds = moment.time ?? i / data.rate; });
+  const rate = data.moments.length < data.few ? 1 : data.rate;
+  data.moments.forEach((moment, i) => { moment.seconds = moment.time ?? i / rate; });
   return data;
 }
 

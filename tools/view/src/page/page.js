@@ -348,7 +348,8 @@ async function open() {
     });
     $("play").addEventListener("click", () => play(!isPlaying));
     const counted = { name: "pieces", unit: "", lines: [{ name: "", points: moments.map((m) => [m.seconds, pieces[m.state]]) }] };
-    const plots = [...data.plots, ...(states.length > 1 ? [counted] : [])];
+    const isFilm = moments.length >= data.few && states.length > 1;
+    const plots = [...data.plots, ...(isFilm ? [counted] : [])];
     $("plots").hidden = !plots.length;
     for (const plot of plots) charts.push(new Chart($("plots"), plot, until, data.colors.pieces, seek));
   }

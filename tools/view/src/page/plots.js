@@ -31,7 +31,7 @@ class Chart {
       const drawn = points.map(([t, value]) => `${this.x(t).toFixed(1)},${y(value).toFixed(1)}`).join(" ");
       const stroke = `rgb(${colors[i % colors.length]})`;
       svg("polyline", { points: drawn, style: `stroke: ${stroke}` }, root);
-      if (lines.length > 1) svg("text", { x: right, y: 12 + 12 * i, "text-anchor": "end", style: `fill: ${stroke}` }, root, line.name);
+      if (lines.length > 1) svg("text", { x: right - 46 * (lines.length - 1 - i), y: 12, "text-anchor": "end", style: `fill: ${stroke}` }, root, line.name);
     });
     this.now = svg("line", { y1: top, y2: bottom, class: "now" }, root);
     const go = (event) => {
