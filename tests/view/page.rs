@@ -331,7 +331,8 @@ fn one_mesh_is_kept_to_24_bits_wherever_it_is() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn meshes_that_have_nothing_in_common_are_shown(meshes in prop::collection::vec(soup(), 1..6)) {
         shows(&page_of(&meshes), &meshes);
