@@ -26,6 +26,7 @@ mod pictures;
 mod pieces;
 mod places;
 mod shell;
+mod stability;
 mod step;
 mod tear;
 mod through;

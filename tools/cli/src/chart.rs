@@ -4,6 +4,7 @@ mod fig7;
 mod files;
 mod pareto;
 mod provenance;
+mod stability;
 mod tear;
 
 use indicatif::ProgressDrawTarget;
@@ -19,6 +20,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Pareto(args) => {
             let draw = &args.draw;
             (draw, pareto::work(args, target(draw, streams), streams))
+        }
+        What::Stability(args) => {
+            let draw = &args.draw;
+            (draw, stability::work(args, target(draw, streams), streams))
         }
         What::Fig7(args) => {
             let draw = &args.draw;

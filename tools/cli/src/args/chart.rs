@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 use tearmesh_lab::fig7;
 use tearmesh_lab::pareto::{MeshKind, SCENES};
+use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 
 use crate::say::Color;
 
@@ -31,6 +32,8 @@ pub(crate) enum What {
     Tear(DrawArgs),
     /// The work of all methods against their precision.
     Pareto(ParetoArgs),
+    /// Where methods fail, by theory and as measured, and what one is told of it.
+    Stability(StabilityArgs),
     /// The time that it takes to split vertices while a cloth is ripped, by ghost pairs and without
     /// (figure 7 of the paper).
     Fig7(Fig7Args),
@@ -95,6 +98,29 @@ pub(crate) struct ParetoArgs {
     /// How often each run is made again, alone, for its time; 0 takes that of the one beside others.
     #[arg(long, value_name = "N", default_value = "5", requires = "time_chart")]
     pub(crate) repeats: u32,
+}
+
+/// What `chart stability` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct StabilityArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// The stiffness of springs whose limits are looked for, in N/m.
+    #[arg(long, value_name = "K", value_delimiter = ',', default_values_t = STIFFNESS_N_PER_M,
+        value_parser = stiffness)]
+    pub(crate) stiffness: Vec<f64>,
+
+    /// How many runs go on at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+fn stiffness(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(k) if (1e-3..=1e9).contains(&k) => Ok(k),
+        _ => Err("a number from 1e-3 to 1e9".to_owned()),
+    }
 }
 
 /// What `chart fig7` takes.
