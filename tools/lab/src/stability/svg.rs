@@ -239,7 +239,7 @@ fn scene(root: &Area<'_>, (x, y): (i32, i32), verdict: &Verdict) -> Drawn {
 /// Two digits, as short as they can be written.
 fn short(x: f64) -> String {
     match x {
-        x if x == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         x if (0.01..1000.0).contains(&x) => format!("{}", (x * 100.0).round() / 100.0),
         x => format!("{x:.0e}"),
     }

@@ -90,7 +90,6 @@ fn another_method_is_where_references_are() {
     for (name, off_max) in [("hang", 0.01), ("pretension", 0.03), ("ringing", 0.03)] {
         let off = trial(name).off_by_newton(&|| false);
         let off = off.expect("nobody stops it");
-        println!("{name}: {off:.1e}");
         assert!(off < off_max, "{name}: {off}");
     }
 }

@@ -63,12 +63,9 @@ fn panel(
     place: usize,
     quantity: Quantity,
 ) -> Drawn {
-    let numbers = || cascades.iter().map(|cascade| &cascade.numbers[place]);
-    let all = numbers().flat_map(|number| number.spreads.iter().flatten());
-    let most = all.map(|spread| spread[2]).filter(|x| x.is_finite());
-    let most = 1.05 * most.fold(f64::MIN_POSITIVE, f64::max);
+    let axis = Axis::of(cascades, place);
     let (x0, bottom) = (left + LEFT, top + 40 + HIGH);
-    let at = |x: f64| bottom - (x / most).clamp(0.0, 1.0).mul_add(f64::from(HIGH), 0.0) as i32;
+    let at = |x: f64| bottom - (axis.part(x) * f64::from(HIGH)) as i32;
 
     let [name, unit] = quantity.name();
     let unit = match unit {
@@ -76,7 +73,12 @@ fn panel(
         unit => format!(", {unit}"),
     };
     let first = cascades[0];
-    let caption = format!("{} · {name}{unit}", first.scene);
+    let scale = if axis.is_logarithmic() {
+        ", logarithmic"
+    } else {
+        ""
+    };
+    let caption = format!("{} · {name}{unit}{scale}", first.scene);
     root.draw(&Text::new(caption, (left + 6, top), ("sans-serif", 14)))?;
     let reference = match &first.numbers[place].reference[..] {
         [] => "no reference: no two methods agree".to_owned(),
@@ -86,13 +88,14 @@ fn panel(
     root.draw(&Text::new(reference, (left + 6, top + 17), grey(11)))?;
     let right = x0 + METHOD * cascades.len() as i32;
     for part in [0.0, 0.5, 1.0] {
-        let y = at(part * most);
+        let x = axis.at(part);
+        let y = at(x);
         root.draw(&PathElement::new(
             [(x0, y), (right, y)],
             RGBColor(0xe0, 0xe0, 0xe0),
         ))?;
         let style = grey(10).pos(Pos::new(HPos::Right, VPos::Center));
-        root.draw(&Text::new(short(part * most), (x0 - 4, y), style))?;
+        root.draw(&Text::new(short(x), (x0 - 4, y), style))?;
     }
     if let Some([_, middle, _]) = reference_spread(cascades, place) {
         let y = at(middle);
@@ -128,6 +131,59 @@ fn panel(
         root.draw(&Text::new(verdict, (middle, bottom + 20), style))?;
     }
     Ok(())
+}
+
+/// What a panel shows: from nothing up, or from above it where medians are far apart.
+struct Axis {
+    least: f64,
+    most: f64,
+}
+
+/// Medians that are so many times as large as others leave those no room.
+const FAR: f64 = 12.0;
+
+impl Axis {
+    fn of(cascades: &[&Cascade], place: usize) -> Axis {
+        let numbers = cascades.iter().map(|cascade| &cascade.numbers[place]);
+        let spreads = numbers.flat_map(|number| number.spreads.iter().flatten());
+        let spreads: Vec<[f64; 3]> = spreads
+            .copied()
+            .filter(|spread| spread[2].is_finite())
+            .collect();
+        let least = |i: usize| spreads.iter().map(|s| s[i]).fold(f64::INFINITY, f64::min);
+        let most = |i: usize| {
+            spreads
+                .iter()
+                .map(|s| s[i])
+                .fold(f64::MIN_POSITIVE, f64::max)
+        };
+        let is_far = least(0) > 0.0 && most(1) > FAR * least(1);
+        Axis {
+            least: if is_far { 0.8 * least(0) } else { 0.0 },
+            most: 1.05 * most(2),
+        }
+    }
+
+    fn is_logarithmic(&self) -> bool {
+        self.least > 0.0
+    }
+
+    /// How far up a number is, from 0 to 1.
+    fn part(&self, x: f64) -> f64 {
+        let part = match self.is_logarithmic() {
+            true => (x / self.least).ln() / (self.most / self.least).ln(),
+            false => x / self.most,
+        };
+        part.clamp(0.0, 1.0)
+    }
+
+    /// The number that is so far up.
+    fn at(&self, part: f64) -> f64 {
+        match self.is_logarithmic() {
+            true => self.least * (self.most / self.least).powf(part),
+            false => part * self.most,
+        }
+    }
 }
 
 /// The finest of the first method of the reference.
