@@ -3,9 +3,12 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod all_charts;
 mod cache;
+mod cascades;
 mod check;
 mod cut;
+mod cut_chart;
 mod edited;
 mod fig7;
 mod files;
@@ -28,6 +31,7 @@ mod pictures;
 mod pieces;
 mod places;
 mod shell;
+mod stability;
 mod step;
 mod tear;
 mod through;

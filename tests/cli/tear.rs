@@ -240,6 +240,54 @@ fn the_limiter_counts_in_the_unit_that_it_names() {
     assert!(said.contains(&expected), "{said}");
 }
 
+/// What damps, or has another stiffness than its fabric, is told, also where nothing can tear.
+#[test]
+fn damping_and_stiffness_of_the_method_are_told() {
+    let folder = Folder::new();
+    let scene =
+        |drag: f64| format!("drag_per_s = {drag}\nseconds = 0.5\n[[hold]]\nalong = [0.99, 1]\n");
+    folder.write("calm.toml", scene(0.5));
+    folder.write("thick.toml", scene(1e4));
+    let told = |line: &str| {
+        let line = format!("tearmesh tear flag.obj --dry-run {line}");
+        let output = folder.run(&line);
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        seen(&output)
+    };
+    let said = told("--scene calm.toml --solver implicit");
+    assert!(
+        said.contains("note[W-SIM-DAMPED]: implicit damped motion as much as a drag of "),
+        "{said}"
+    );
+    assert!(
+        said.contains(" /s would, beside the 0.5 /s of the scene"),
+        "{said}"
+    );
+    // Where the scene's own drag is larger, and by a method that damps nothing, it is not.
+    for quiet in [
+        "--scene thick.toml --solver implicit",
+        "--scene calm.toml --solver verlet",
+    ] {
+        let said = told(quiet);
+        assert!(!said.contains("W-SIM-DAMPED"), "{said}");
+    }
+    let said = told("--scene flag --seconds 0.2 --solver pbd --dt 0.05");
+    assert!(
+        said.contains("and the 1000 N/m of the fabric have no part in it"),
+        "{said}"
+    );
+    let coarse = "times too long for a mesh so fine: what merely hangs is stretched\n";
+    assert!(
+        said.contains("W-SIM-COARSE]") && said.contains(coarse),
+        "{said}"
+    );
+    let said = told("--scene calm.toml --solver xpbd");
+    assert!(
+        !said.contains("W-SIM-RIGID") && !said.contains("W-SIM-COARSE"),
+        "{said}"
+    );
+}
+
 /// Where a linearised step overshot, and Newton's method came down but not to the end.
 #[test]
 fn implicit_steps_that_are_taken_unsolved_are_warned_of() {

@@ -1,9 +1,12 @@
 //! The verb `chart`.
 
+mod all;
+mod cut;
 mod fig7;
 mod files;
 mod pareto;
 mod provenance;
+mod stability;
 mod tear;
 
 use indicatif::ProgressDrawTarget;
@@ -15,10 +18,22 @@ use crate::streams::Streams;
 /// Makes the experiment, draws it, and gives the exit status.
 pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
     let (draw, done) = match &args.what {
-        What::Tear(draw) => (draw, tear::work(draw, target(draw, streams), streams)),
+        What::All(args) => return all::run(args, run, streams),
+        What::Tear(args) => {
+            let draw = &args.draw;
+            (draw, tear::work(args, target(draw, streams), streams))
+        }
         What::Pareto(args) => {
             let draw = &args.draw;
             (draw, pareto::work(args, target(draw, streams), streams))
+        }
+        What::Stability(args) => {
+            let draw = &args.draw;
+            (draw, stability::work(args, target(draw, streams), streams))
+        }
+        What::Cut(args) => {
+            let draw = &args.draw;
+            (draw, cut::work(args, target(draw, streams), streams))
         }
         What::Fig7(args) => {
             let draw = &args.draw;

@@ -1,5 +1,6 @@
 //! The verb `tear`.
 
+pub(crate) mod advice;
 mod check;
 mod cost;
 mod film;
@@ -59,7 +60,6 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
     check::known_forces(args, &scene)?;
-    let is_step_chosen = scene.step_s.is_some();
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
     let mut run = run.map_err(|error| check::refused(&error, &opened, &source))?;
     let strengths = match &args.strength {
@@ -70,15 +70,12 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         let with = run.with_strengths(strengths.clone());
         run = with.map_err(|error| check::refused(&error, &opened, &source))?;
     }
-    session
-        .faults
-        .extend(check::warnings(&run, &frame, &opened.document));
-    session.faults.extend(reach::before(&run));
+    let number = |v| opened.document.number_of_vertex(v);
+    session.faults.extend(advice::before(&run, &frame, &number));
     session.faults.extend(times::warnings(&run, args));
     session.warn_now(streams);
     let play = Play {
         name: source.name(),
-        is_step_chosen,
         args,
         opened: &opened,
         frame: &frame,
@@ -133,7 +130,6 @@ fn threshold(
 /// A scene that is about to be played.
 struct Play<'a> {
     name: String,
-    is_step_chosen: bool,
     args: &'a TearArgs,
     opened: &'a Opened,
     frame: &'a Frame,
@@ -223,9 +219,7 @@ impl Play<'_> {
             frames: None,
             cache: None,
         };
-        session.faults.extend(words::infeasible(&run));
-        session.faults.extend(words::residual(&run));
-        session.faults.extend(reach::after(&run));
+        session.faults.extend(advice::after(&run));
         let shortened = shortened.and_then(|shortened| shortened.note(&run));
         session.faults.extend(shortened);
         session.words.push(words::simulation(&tear));
@@ -236,7 +230,6 @@ impl Play<'_> {
             session.words.extend(step::words(check));
             session.faults.extend(step::warnings(check));
         }
-        session.faults.extend(words::gain(&run));
         session.report.tear = Some(tear);
         match ended {
             // Its step may still have been checked then.
@@ -245,7 +238,7 @@ impl Play<'_> {
             Ended::Interrupted => session.exit = Exit::Interrupted,
             Ended::Failed(error) => {
                 session.exit = Exit::Simulation;
-                let fault = words::failure(&error, &run, self.is_step_chosen);
+                let fault = words::failure(&error, &run);
                 session.faults.push(fault);
                 if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                     session.words.clear();

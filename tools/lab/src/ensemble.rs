@@ -16,6 +16,7 @@ mod tests;
 pub use self::compare::{Comparison, Verdict, compare, spread};
 
 use std::num::NonZero;
+use std::ops::RangeInclusive;
 
 use serde::Serialize;
 use tearmesh::{Mesh, Positions, Vector};
@@ -167,7 +168,7 @@ impl Ensemble {
     }
 }
 
-/// Plays a subject with so many seeds for each of these parts of its step, on so many threads at a time.
+/// Plays a subject with these seeds for each of these parts of its step, on so many threads at a time.
 /// All ends at the next step where `stop` says so, and what was not done stands as interrupted. `watch`
 /// hears the part of all work that has been done.
 ///
@@ -180,7 +181,7 @@ impl Ensemble {
 /// If a divided step would make more steps than [`Run::STEPS_MAX`].
 pub fn play(
     subject: Subject<'_>,
-    seeds: u32,
+    seeds: RangeInclusive<u64>,
     parts: &[NonZero<u32>],
     threads: NonZero<usize>,
     stop: &(dyn Fn() -> bool + Sync),
@@ -189,7 +190,7 @@ pub fn play(
     let whole = begun(subject, subject.mesh.clone(), NonZero::<u32>::MIN)?;
     let jobs = parts
         .iter()
-        .flat_map(|&parts| (1..=u64::from(seeds)).map(move |seed| (parts, seed)));
+        .flat_map(|&parts| seeds.clone().map(move |seed| (parts, seed)));
     let jobs: Vec<(NonZero<u32>, u64)> = jobs.collect();
     let cost = |&(parts, _): &(NonZero<u32>, u64)| f64::from(parts.get());
     let all: f64 = jobs.iter().map(cost).sum();
@@ -209,7 +210,7 @@ pub fn play(
     let ensemble = |&parts: &NonZero<u32>| Ensemble {
         parts: parts.get(),
         step_s: whole.step_s() / f64::from(parts.get()),
-        members: members.by_ref().take(seeds as usize).collect(),
+        members: members.by_ref().take(seeds.clone().count()).collect(),
     };
     Ok(parts.iter().map(ensemble).collect())
 }

@@ -10,6 +10,7 @@
 //! ([`Tearing::weakening`]); otherwise it also scatters, and the largest force is less the
 //! edge's and more the crowd's: slopes of +0.67 and +0.06 instead of +0.91 and +0.10.
 
+pub mod cascade;
 mod csv;
 mod first;
 mod pulled;
@@ -20,13 +21,17 @@ pub use self::first::{FirstTear, spread};
 pub use self::pulled::StudyError;
 pub use self::svg::svg;
 
+use std::num::NonZero;
+
 use serde::Serialize;
 use tearmesh::{Mesh, Point, Positions};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
+use self::cascade::Cascade;
 use self::pulled::{Pulled, mean};
-use crate::pool::{side_by_side, workers};
+use crate::pool::side_by_side;
+use crate::provenance::Provenance;
 
 /// Width and height of the strip, in metres.
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];
@@ -43,11 +48,36 @@ pub const TIP: f64 = 0.5;
 /// Forces are written down so many times in a test of four seconds, each as a mean.
 const SAMPLES: u64 = 240;
 
+/// What a chart shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chart {
+    /// How to read the file.
+    pub schema: &'static str,
+    /// Where it comes from.
+    pub provenance: Provenance,
+    /// What it takes to tear strips.
+    #[serde(flatten)]
+    pub study: Study,
+    /// What comes of many seeds.
+    pub cascades: Vec<Cascade>,
+}
+
+impl Chart {
+    /// Of both experiments.
+    #[must_use]
+    pub fn new(provenance: Provenance, study: Study, cascades: Vec<Cascade>) -> Chart {
+        Chart {
+            schema: "tearmesh.chart.tear/2",
+            provenance,
+            study,
+            cascades,
+        }
+    }
+}
+
 /// Both rules on all meshes.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
-    /// How to read the file.
-    pub schema: &'static str,
     /// The stiffness of edges, in N/m.
     pub stretch_n_per_m: f64,
     /// By rule, then by mesh from coarse to fine.
@@ -84,9 +114,10 @@ pub struct Test {
     pub curve: Vec<[f64; 2]>,
 }
 
-/// Tears strips with so many cells across, at least two numbers; with `is_checked` each also for its first
+/// Tears strips with so many cells across, at least two numbers, which are even as the slit runs along
+/// edges; with `is_checked` each also for its first
 /// tear by two methods and two steps, which takes four times as long. `watch` hears of each test that
-/// is done, and may stop the study by saying false: then there is none.
+/// is done. All ends at once, without a study, where `stop` says so.
 ///
 /// # Errors
 ///
@@ -94,7 +125,9 @@ pub struct Test {
 pub fn study(
     cells: &[u32],
     is_checked: bool,
-    mut watch: impl FnMut(usize) -> bool,
+    threads: NonZero<usize>,
+    stop: &(dyn Fn() -> bool + Sync),
+    mut watch: impl FnMut(usize),
 ) -> Result<Option<Study>, StudyError> {
     let k = Scene::STRETCH_N_PER_M;
     let middle = STRIP_M[0] / f64::from(cells[cells.len() / 2]);
@@ -108,21 +141,24 @@ pub fn study(
     let mut count = 0;
     let done = |_| {
         count += 1;
-        watch(count)
+        watch(count);
+        !stop()
     };
     // The finest first, since it takes longest.
     let finest = |(cells, _): &(u32, Threshold)| f64::from(*cells);
-    let tear = |&(cells, rule): &(u32, Threshold)| test(cells, rule, is_checked);
-    let Some(tests) = side_by_side(&strips, workers(), finest, tear, done) else {
+    let tear = |&(cells, rule): &(u32, Threshold)| test(cells, rule, is_checked, stop);
+    let Some(tests) = side_by_side(&strips, threads, finest, tear, done) else {
         return Ok(None);
     };
-    let tests: Vec<Test> = tests.into_iter().collect::<Result<_, _>>()?;
+    let tests: Vec<Test> = match tests.into_iter().collect() {
+        Err(StudyError::Stopped) => return Ok(None),
+        tests => tests?,
+    };
     let (stretch, tough) = tests.split_at(cells.len());
     let slopes = |of: fn(&Test) -> f64| [slope(stretch, of), slope(tough, of)];
     let slopes_largest = slopes(|test| test.force_largest_n);
     let slopes_mean = slopes(|test| test.force_mean_n);
     Ok(Some(Study {
-        schema: "tearmesh.chart.tear/1",
         stretch_n_per_m: k,
         conclusion: conclude(stretch, tough, slopes_largest),
         tests,
@@ -179,7 +215,12 @@ fn slope(tests: &[Test], of: impl Fn(&Test) -> f64) -> f64 {
 }
 
 /// Tears one strip.
-fn test(cells: u32, threshold: Threshold, is_checked: bool) -> Result<Test, StudyError> {
+fn test(
+    cells: u32,
+    threshold: Threshold,
+    is_checked: bool,
+    stop: &dyn Fn() -> bool,
+) -> Result<Test, StudyError> {
     let (mesh, positions) = strip(cells).ok_or(StudyError::Strip)?;
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let scene = Scene {
@@ -197,7 +238,7 @@ fn test(cells: u32, threshold: Threshold, is_checked: bool) -> Result<Test, Stud
         })
     };
     let first = if is_checked {
-        first::first_tears(pulled, &scene)?
+        first::first_tears(pulled, &scene, stop)?
     } else {
         Vec::new()
     };
@@ -207,6 +248,9 @@ fn test(cells: u32, threshold: Threshold, is_checked: bool) -> Result<Test, Stud
     // The steps of the first tear and of the last.
     let mut torn: Option<[usize; 2]> = None;
     while !pulled.run.is_over() {
+        if stop() {
+            return Err(StudyError::Stopped);
+        }
         let splits = pulled.run.tally().splits;
         forces.push(pulled.step()?);
         if pulled.run.tally().splits > splits {
@@ -267,10 +311,23 @@ fn strip(cells: u32) -> Option<(Mesh, Positions)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pool::workers;
+
+    fn made(cells: &[u32], is_checked: bool) -> Study {
+        let study = study(cells, is_checked, workers(), &|| false, |_| {});
+        study.expect("no bug").expect("nobody stopped it")
+    }
 
     fn whole(cells: &[u32]) -> Study {
-        let study = study(cells, false, |_| true).expect("no bug");
-        study.expect("nobody stopped it")
+        made(cells, false)
+    }
+
+    fn drawn(study: &Study) -> Option<String> {
+        svg(&Chart::new(
+            Provenance::default(),
+            study.clone(),
+            Vec::new(),
+        ))
     }
 
     #[test]
@@ -296,9 +353,9 @@ mod tests {
     #[test]
     fn the_chart_and_the_table_say_what_the_study_says_and_always_the_same() {
         let study = whole(&[4, 8]);
-        let (chart, table) = (svg(&study).expect("a chart"), csv(&study));
+        let (chart, table) = (drawn(&study).expect("a chart"), csv(&study));
         let again = whole(&[4, 8]);
-        assert_eq!(Some(&chart), svg(&again).as_ref());
+        assert_eq!(Some(&chart), drawn(&again).as_ref());
         assert_eq!(table, csv(&again));
         assert!(chart.starts_with("<svg ") && chart.contains("slope"));
         let points: usize = study.tests.iter().map(|test| test.curve.len() + 2).sum();
@@ -314,9 +371,7 @@ mod tests {
 
     #[test]
     fn strips_tear_first_at_the_same_force_by_methods_that_share_no_force() {
-        let study = study(&[8, 12], true, |_| true)
-            .expect("no bug")
-            .expect("a study");
+        let study = made(&[8, 12], true);
         for test in &study.tests {
             let [verlet, half, xpbd, fine] = test.first[..] else {
                 panic!("{:?}", test.first);
@@ -337,6 +392,7 @@ mod tests {
 
     #[test]
     fn a_study_can_be_stopped() {
-        assert!(study(&[4, 6], false, |_| false).expect("no bug").is_none());
+        let stopped = study(&[4, 6], true, workers(), &|| true, |_| {});
+        assert!(stopped.expect("no bug").is_none());
     }
 }

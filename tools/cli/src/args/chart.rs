@@ -4,8 +4,10 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use tearmesh_lab::fig7;
 use tearmesh_lab::pareto::{MeshKind, SCENES};
+use tearmesh_lab::stability::STIFFNESS_N_PER_M;
+use tearmesh_lab::tear::cascade::{CascadeScene, METHODS, SEEDS};
+use tearmesh_lab::{fig7, tear};
 
 use crate::say::Color;
 
@@ -27,13 +29,20 @@ pub(crate) struct ChartArgs {
 /// An experiment.
 #[derive(Debug, Subcommand)]
 pub(crate) enum What {
-    /// The force that tears strips of five meshes, by stretch ratio and by toughness.
-    Tear(DrawArgs),
+    /// The force that tears strips of five meshes, by stretch ratio and by toughness; and what comes of
+    /// cascades by every method, with many seeds.
+    Tear(TearChartArgs),
     /// The work of all methods against their precision.
     Pareto(ParetoArgs),
+    /// Where methods fail, by theory and as measured, and what one is told of it.
+    Stability(StabilityArgs),
+    /// The time of cuts by every method and several snaps, against how far their seams are off.
+    Cut(CutChartArgs),
     /// The time that it takes to split vertices while a cloth is ripped, by ghost pairs and without
     /// (figure 7 of the paper).
     Fig7(Fig7Args),
+    /// All of these with their defaults, each as chart, table and figures, into one folder.
+    All(AllArgs),
 }
 
 /// What all charts take.
@@ -95,6 +104,122 @@ pub(crate) struct ParetoArgs {
     /// How often each run is repeated alone to be timed; 0 takes the time of the parallel run.
     #[arg(long, value_name = "N", default_value = "5", requires = "time_chart")]
     pub(crate) repeats: u32,
+}
+
+/// What `chart tear` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct TearChartArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// Write each run of the ensembles as a table.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) runs: Option<PathBuf>,
+
+    /// Cells across the strips: two even numbers or more, as the slit runs along edges.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = tear::CELLS,
+        value_parser = even)]
+    pub(crate) strips: Vec<u32>,
+
+    /// The scenes that are played with many seeds.
+    #[arg(long, value_name = "NAME", value_delimiter = ',',
+        default_values_t = CascadeScene::ALL.map(|scene| scene.name().to_owned()),
+        value_parser = clap::builder::PossibleValuesParser::new(CascadeScene::ALL.map(|scene| scene.name())))]
+    pub(crate) scene: Vec<String>,
+
+    /// The methods that play them.
+    #[arg(long, value_name = "NAME", value_delimiter = ',',
+        default_values_t = METHODS.map(str::to_owned),
+        value_parser = clap::builder::PossibleValuesParser::new(METHODS))]
+    pub(crate) method: Vec<String>,
+
+    /// Seeds of an ensemble, four times as many where they cannot tell; with 0 nothing is played.
+    #[arg(long, value_name = "N", default_value_t = SEEDS,
+        value_parser = clap::value_parser!(u64).range(0..=10_000))]
+    pub(crate) seeds: u64,
+
+    /// Cells across, of each scene its own unless said.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..=256))]
+    pub(crate) size: Option<u32>,
+
+    /// How many runs go on at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+fn even(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(cells) if (4..=256).contains(&cells) && cells % 2 == 0 => Ok(cells),
+        _ => Err("an even number from 4 to 256".to_owned()),
+    }
+}
+
+/// What `chart stability` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct StabilityArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// The stiffness of springs whose limits are looked for, in N/m.
+    #[arg(long, value_name = "K", value_delimiter = ',', default_values_t = STIFFNESS_N_PER_M,
+        value_parser = stiffness)]
+    pub(crate) stiffness: Vec<f64>,
+
+    /// How many runs go on at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+fn stiffness(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(k) if (1e-3..=1e9).contains(&k) => Ok(k),
+        _ => Err("a number from 1e-3 to 1e9".to_owned()),
+    }
+}
+
+/// What `chart cut` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct CutChartArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// Cells a side of the sheets that are cut.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [64, 224],
+        value_parser = clap::value_parser!(u32).range(4..=1024))]
+    pub(crate) size: Vec<u32>,
+
+    /// Lines at random that each is cut along.
+    #[arg(long, value_name = "N", default_value = "40",
+        value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(crate) cuts: u32,
+
+    /// Draw what a record of `tearmesh-bench cut` has beside them: tools/bench/record/*/cut.txt.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) record: Option<PathBuf>,
+}
+
+/// What `chart all` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct AllArgs {
+    /// The folder for `NAME.svg`, `NAME.csv` and `NAME.json` of each chart; made where there is none.
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+
+    /// Make nothing, and print the commands, one a line, as for GNU parallel.
+    #[arg(long)]
+    pub(crate) plan: bool,
+
+    /// Small meshes and few seeds, for a look in half a minute.
+    #[arg(long)]
+    pub(crate) small: bool,
+
+    /// When to use colours on the screen.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) color: Color,
+
+    /// Print no summaries.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
 }
 
 /// What `chart fig7` takes.

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, Softness, TimedCut};
 use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency};
-use tearmesh_obj::Document;
 
 use super::words::two_digits;
 use crate::args::TearArgs;
@@ -244,8 +243,9 @@ fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
     Stop::new(Exit::Usage, fault.help(help))
 }
 
-/// What may tear, or not tear, for reasons that are none of the cloth's.
-pub(super) fn warnings(run: &Run, frame: &Frame, document: &Document) -> Vec<Fault> {
+/// What may tear, or not tear, for reasons that are none of the cloth's. `number` is that of a vertex in its
+/// file.
+pub(super) fn warnings(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) -> Vec<Fault> {
     let mut warnings = Vec::new();
     let size = frame.size_m();
     if !(0.01..=8.0).contains(&size) {
@@ -255,9 +255,11 @@ pub(super) fn warnings(run: &Run, frame: &Frame, document: &Document) -> Vec<Fau
         let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
         warnings.push(Fault::warning("W-SIM-SIZE", message).help(help));
     }
-    warnings.extend(endless(run, document));
+    warnings.extend(endless(run, number));
     warnings.extend(late(run));
     warnings.extend(soft(run));
+    warnings.extend(coarse(run));
+    warnings.extend(rigid(run));
     if run.scene().tearing.is_none() {
         return warnings;
     }
@@ -277,13 +279,12 @@ pub(super) fn warnings(run: &Run, frame: &Frame, document: &Document) -> Vec<Fau
             warnings.push(Fault::warning("W-SIM-PIN", message).help(help));
         }
     }
-    warnings.extend(coarse(run));
     warnings
 }
 
 /// An explicit method takes steps as short as the stiffest edge between the lightest vertices
 /// asks for, and one face without area is enough for years of them.
-fn endless(run: &Run, document: &Document) -> Option<Fault> {
+fn endless(run: &Run, number: &dyn Fn(usize) -> usize) -> Option<Fault> {
     let is_explicit = matches!(run.scene().solver, Method::Verlet | Method::Provot(_));
     if !is_explicit || run.steps_planned() < STEPS_MANY {
         return None;
@@ -291,7 +292,7 @@ fn endless(run: &Run, document: &Document) -> Option<Fault> {
     let frequency = frequency::largest(&mut run.cloth().system().clone());
     let at = frequency.ends.map(|[a, b]| {
         let omega = frequency.omega_rad_per_s;
-        let [a, b] = [a, b].map(|end| document.number_of_vertex(end));
+        let [a, b] = [a, b].map(number);
         format!(
             ": the edge {a}-{b} swings at {omega:.1e} rad/s, as it is stiff and its ends are light"
         )
@@ -353,6 +354,20 @@ fn soft(run: &Run) -> Option<Fault> {
     Some(Fault::warning("W-SIM-SOFT", message).help(help))
 }
 
+/// PBD has no stiffness: how far cloth stretches is what its sweeps leave, and shorter steps leave less.
+fn rigid(run: &Run) -> Option<Fault> {
+    if !matches!(run.scene().solver, Method::Pbd(_)) {
+        return None;
+    }
+    let message = format!(
+        "pbd treats edges as rigid: how far they stretch depends on the step and the number of sweeps, and \
+         not on the {} N/m of the fabric",
+        short(run.scene().fabric.stretch_n_per_m),
+    );
+    let help = "--solver verlet, or xpbd, whose edges are as stiff as the fabric's at short steps";
+    Some(Fault::note("W-SIM-RIGID", message).help(help))
+}
+
 /// Few sweeps or large steps leave a cloth of PBD soft, and it tears of its own weight.
 fn coarse(run: &Run) -> Option<Fault> {
     let Method::Pbd(pbd) = &run.scene().solver else {
@@ -365,10 +380,15 @@ fn coarse(run: &Run) -> Option<Fault> {
     let times = run.step_s() / wanted_s;
     let message = format!(
         "a step of {} s with {} is {} times too long for a mesh so fine: what merely hangs is \
-         stretched, and may tear",
+         stretched{}",
         short(run.step_s()),
         count(pbd.sweeps as usize, "sweep", "sweeps"),
         short((times * 10.0).round() / 10.0),
+        if run.scene().tearing.is_some() {
+            ", and may tear"
+        } else {
+            ""
+        },
     );
     let help = format!("--dt {}, or --solver verlet", two_digits(wanted_s));
     Some(Fault::warning("W-SIM-COARSE", message).help(help))
@@ -379,6 +399,7 @@ mod tests {
     use super::*;
     use tearmesh::Positions;
     use tearmesh_cloth::scene::{Axis, Scene};
+    use tearmesh_obj::Document;
 
     #[test]
     fn any_number_of_sweeps_is_judged() {
@@ -414,7 +435,7 @@ mod tests {
                 ..Scene::hang(&frame)
             };
             let run = Run::new(mesh.clone(), &positions, scene, &frame).expect("a scene");
-            endless(&run, &document).map(|fault| fault.message)
+            endless(&run, &|v| document.number_of_vertex(v)).map(|fault| fault.message)
         };
         let message = warned(Method::Verlet).expect("a warning");
         assert!(message.contains("the edge 2-4 swings at "), "{message}");

@@ -13,7 +13,7 @@ use crate::report;
 use crate::say::{Fault, count, short};
 
 /// Runs at each of the two steps.
-const SEEDS: u32 = 8;
+const SEEDS: u64 = 8;
 
 /// Plays a subject again and again; what was not done when it was interrupted stands as such.
 pub(super) fn check(
@@ -25,7 +25,7 @@ pub(super) fn check(
     let parts = [WHOLE, WHOLE.saturating_add(1)];
     let ensembles = ensemble::play(
         subject,
-        SEEDS,
+        1..=SEEDS,
         &parts,
         pool::workers(),
         &|| guard.is_interrupted(),

@@ -6,6 +6,7 @@ use tearmesh_cloth::{BlowUpSite, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};
+use crate::scene::method_name;
 
 /// The line of the summary.
 pub(super) fn simulation(tear: &report::Tear) -> String {
@@ -101,6 +102,42 @@ pub(super) fn gain(run: &Run) -> Option<Fault> {
     );
     Some(Fault::warning("W-SIM-ENERGY", message).help(help))
 }
+
+/// Says that the method damps motion more than the scene's own drag does, so much that it shows in the time
+/// there was. What Verlet takes is from what is crushed alone, and nothing from what swings.
+pub(super) fn damped(run: &Run) -> Option<Fault> {
+    if matches!(run.scene().solver, Method::Verlet) {
+        return None;
+    }
+    let rate_per_s = run.damping_per_s()?;
+    let drag_per_s = run.scene().drag_per_s;
+    if rate_per_s <= drag_per_s || rate_per_s * run.elapsed_s() <= FADED {
+        return None;
+    }
+    let rate = match rate_per_s {
+        rate if rate > 1000.0 => "more than 1000".to_owned(),
+        rate => three_digits(rate),
+    };
+    let beside = match drag_per_s {
+        0.0 => "although the scene has none".to_owned(),
+        drag => format!("on top of the {} /s of the scene", short(drag)),
+    };
+    let name = method_name(&run.scene().solver);
+    let message = format!(
+        "{name} damped motion as much as a drag of {rate} /s would, {beside}: what swings comes to rest too soon"
+    );
+    let half = two_digits(run.step_s() / 2.0);
+    let help = match run.scene().solver {
+        Method::Implicit(_) => {
+            format!("--dt {half}, `order = \"2\"` in [solver] of a scene file, or --solver verlet")
+        }
+        _ => format!("--dt {half}, or --solver verlet"),
+    };
+    Some(Fault::note("W-SIM-DAMPED", message).help(help))
+}
+
+/// By how much motion has to fade to be told: energy by two fifths.
+const FADED: f64 = 0.25;
 
 /// Momentum that edits made or lost beyond rounding: our bug.
 pub(super) fn momentum_broken(run: &Run) -> Option<String> {
@@ -275,16 +312,21 @@ pub(super) fn work(features: &[report::FeatureCost]) -> String {
     format!("work: {visits} visits of elements: {shares}")
 }
 
-/// Why the simulation failed, with vertices counted as in OBJ, and what would help.
-pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fault {
-    let code = match error {
+/// The code of a step that was not taken.
+pub(super) fn code(error: &StepError) -> &'static str {
+    match error {
         StepError::Unstable { .. } | StepError::Air { .. } | StepError::Substeps { .. } => {
             "E-SIM-UNSTABLE"
         }
         StepError::Implicit { .. } => "E-SIM-UNSOLVED",
         StepError::Setting(_) => "E-SCENE-RANGE",
         _ => "E-SIM-BLOWUP",
-    };
+    }
+}
+
+/// Why the simulation failed, with vertices counted as in OBJ, and what would help.
+pub(super) fn failure(error: &StepError, run: &Run) -> Fault {
+    let code = code(error);
     let after = match run.elapsed_s() {
         0.0 => String::new(),
         elapsed => format!("; the state after {} s is kept", short(elapsed)),
@@ -364,7 +406,7 @@ pub(super) fn failure(error: &StepError, run: &Run, is_step_chosen: bool) -> Fau
                 settings_that_help(&error)
             )
         }
-        _ if is_step_chosen => {
+        _ if run.scene().step_s.is_some() => {
             let shorter = two_digits(run.step_s() / 2.0);
             format!("--dt {shorter}, or --solver implicit")
         }

@@ -535,6 +535,33 @@ impl Run {
         self.watch.gain()
     }
 
+    /// How much the method damps: the rate in 1/s of a drag that would have taken as much from what moves
+    /// as the method did so far, by its own account. Backward Euler's on a mode of frequency ω is ½ω²Δt.
+    /// `None` where it took nothing or does not say, and before 1/60 s. A pass over all constraints.
+    ///
+    /// ```
+    /// use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
+    /// use tearmesh::shapes;
+    ///
+    /// let (mesh, positions) = shapes::grid(6, 6);
+    /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    /// let rate = |solver| {
+    ///     let scene = Scene { solver, duration_s: 0.5, ..Scene::hang(&frame) };
+    ///     let mut run = Run::new(mesh.clone(), &positions, scene, &frame)?;
+    ///     while !run.is_over() {
+    ///         run.step()?;
+    ///     }
+    ///     Ok::<_, Box<dyn std::error::Error>>(run.damping_per_s().unwrap_or(0.0))
+    /// };
+    /// assert!(rate(Method::implicit())? > 1.0 && rate(Method::Verlet)? < 0.01);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn damping_per_s(&self) -> Option<f64> {
+        let method_j = self.energy_balance().method_j?;
+        self.watch.damping_per_s(method_j)
+    }
+
     /// The scene.
     #[must_use]
     pub fn scene(&self) -> &Scene {

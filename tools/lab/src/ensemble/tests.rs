@@ -54,7 +54,7 @@ fn what_never_happens_in_both_is_the_same() {
     assert_eq!(spread(&[7.0]), [7.0; 3]);
 }
 
-fn ensembles(scene: impl Fn(&Frame) -> Scene, seeds: u32) -> Vec<Ensemble> {
+fn ensembles(scene: impl Fn(&Frame) -> Scene, seeds: u64) -> Vec<Ensemble> {
     let (mesh, positions) = shapes::grid(8, 8);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let subject = Subject {
@@ -65,7 +65,7 @@ fn ensembles(scene: impl Fn(&Frame) -> Scene, seeds: u32) -> Vec<Ensemble> {
         strengths: None,
     };
     let threads = NonZero::new(2).expect("not zero");
-    play(subject, seeds, &[ONE, TWO], threads, &|| false, |_| {}).expect("a scene")
+    play(subject, 1..=seeds, &[ONE, TWO], threads, &|| false, |_| {}).expect("a scene")
 }
 
 fn verdict(of: &[Ensemble], quantity: Quantity) -> Comparison {
@@ -152,7 +152,7 @@ fn a_run_that_fails_or_is_stopped_is_a_member_all_the_same() {
         strengths: None,
     };
     let threads = NonZero::<usize>::MIN;
-    let stopped = play(subject, 2, &[ONE], threads, &|| true, |_| {}).expect("a scene");
+    let stopped = play(subject, 1..=2, &[ONE], threads, &|| true, |_| {}).expect("a scene");
     assert!(
         stopped[0]
             .members

@@ -15,7 +15,7 @@ pub(super) enum Look {
 }
 
 /// The colour of a method: those of Okabe and Ito, which also who sees few colours tells apart, and more.
-pub(super) fn colour(family: Family) -> RGBColor {
+pub(crate) fn colour(family: Family) -> RGBColor {
     match family {
         Family::Verlet => RGBColor(0x00, 0x72, 0xb2),
         Family::Plain => RGBColor(0x56, 0xb4, 0xe9),

@@ -115,21 +115,26 @@ fn scattered(cells: u32, random: &mut Random) -> (Mesh, Positions) {
             points.push(p);
         }
     }
+    let mesh = delaunay(&points, 1e-9 * h * h);
+    let positions = Positions::new(points.iter().map(|&[x, y]| Point::new(x, y, 0.0)));
+    (mesh, positions.expect("a sheet's coordinates are finite"))
+}
+
+/// The Delaunay triangles of some points, without those whose area is next to nothing: points in a row on the
+/// border may leave such.
+pub(crate) fn delaunay(points: &[[f64; 2]], next_to_nothing: f64) -> Mesh {
     let named: Vec<delaunator::Point> = points.iter().map(|&p| p.into()).collect();
     let triangles = delaunator::triangulate(&named).triangles;
     let triangles = triangles.chunks_exact(3).filter_map(|t| {
         let [a, b, c] = [points[t[0]], points[t[1]], points[t[2]]];
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        // Points in a row on the border may leave triangles without area.
-        (area.abs() > 1e-9 * h * h).then(|| {
+        (area.abs() > next_to_nothing).then(|| {
             let [a, b, c] = [t[0] as u32, t[1] as u32, t[2] as u32];
             if area > 0.0 { [a, b, c] } else { [a, c, b] }
         })
     });
     let triangles: Vec<[u32; 3]> = triangles.collect();
-    let mesh = Mesh::build(count, &triangles).expect("Delaunay triangles are a manifold");
-    let positions = Positions::new(points.iter().map(|&[x, y]| Point::new(x, y, 0.0)));
-    (mesh, positions.expect("a sheet's coordinates are finite"))
+    Mesh::build(points.len(), &triangles).expect("Delaunay triangles are a manifold")
 }
 
 #[cfg(test)]

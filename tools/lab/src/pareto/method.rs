@@ -262,6 +262,12 @@ impl Named {
         ]
     }
 
+    /// It, with its settings.
+    #[must_use]
+    pub fn settings(&self) -> scene::Method {
+        self.settings.clone()
+    }
+
     /// The step that a scene without one chooses, in seconds.
     #[must_use]
     pub fn step_s(&self, case: &Case) -> f64 {

@@ -36,6 +36,7 @@ const MEAN_S: f64 = 1.0 / 60.0;
 pub(super) fn first_tears(
     pulled: impl Fn(&Scene) -> Result<Pulled, StudyError>,
     scene: &Scene,
+    stop: &dyn Fn() -> bool,
 ) -> Result<Vec<FirstTear>, StudyError> {
     let suited_s = pulled(scene)?.run.step_s();
     let methods = [
@@ -53,6 +54,9 @@ pub(super) fn first_tears(
             let mut pulled = pulled(&scene)?;
             let mut forces = Vec::new();
             while !pulled.run.is_over() {
+                if stop() {
+                    return Err(StudyError::Stopped);
+                }
                 let force_n = pulled.step()?;
                 if pulled.run.tally().splits > 0 {
                     let count = (MEAN_S / dt_s) as usize;

@@ -41,7 +41,7 @@ pub(super) fn mean(forces: &[f64]) -> f64 {
     forces.iter().sum::<f64>() / forces.len().max(1) as f64
 }
 
-/// Why an experiment could not be made: our bug, as its inputs are fixed.
+/// Why an experiment was not made: it was stopped, or our bug, as its inputs are fixed.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {
@@ -51,6 +51,8 @@ pub enum StudyError {
     Step(StepError),
     /// The strip was refused.
     Strip,
+    /// It was to end.
+    Stopped,
 }
 
 impl std::fmt::Display for StudyError {
@@ -59,6 +61,7 @@ impl std::fmt::Display for StudyError {
             StudyError::Run(error) => error.fmt(f),
             StudyError::Step(error) => error.fmt(f),
             StudyError::Strip => f.write_str("the strip is no mesh"),
+            StudyError::Stopped => f.write_str("the experiment was stopped"),
         }
     }
 }

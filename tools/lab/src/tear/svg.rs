@@ -2,10 +2,14 @@
 
 use plotters::prelude::*;
 
-use super::{Study, Test};
+use super::{Chart, Study, Test, cascade};
 use crate::draw::{Area, Drawn, drawn, round_numbers, wrapped};
 
-const SIZE: (u32, u32) = (1100, 560);
+/// Of the trouser tests.
+const SIZE: (u32, u32) = (1100, 500);
+
+/// A line of what stands below all.
+const LINE: u32 = 16;
 const COLOURS: [RGBColor; 5] = [
     RGBColor(0xd9, 0x5f, 0x02),
     RGBColor(0x1b, 0x9e, 0x77),
@@ -14,17 +18,30 @@ const COLOURS: [RGBColor; 5] = [
     RGBColor(0x55, 0x55, 0x55),
 ];
 
-/// Draws a study. `None` where the drawing library fails, which a drawing in memory has no
-/// reason for.
+/// Draws a chart. `None` where the drawing library fails, which a drawing in memory has no reason for.
 #[must_use]
-pub fn svg(study: &Study) -> Option<String> {
-    drawn(SIZE, |root| draw(study, root))
+pub fn svg(chart: &Chart) -> Option<String> {
+    let below = cascade::height(&chart.cascades);
+    let footer = wrapped(&chart.provenance.line(), 170);
+    let foot = SIZE.1 + below;
+    let height = foot + LINE * footer.len() as u32 + 12;
+    drawn((SIZE.0, height), |root| {
+        let (tests, _) = root.split_vertically(SIZE.1);
+        draw(&chart.study, &tests)?;
+        cascade::draw(root, &chart.cascades, SIZE.1 as i32)?;
+        for (i, line) in footer.iter().enumerate() {
+            let at = (20, (foot + LINE * i as u32) as i32 + 4);
+            let style = ("sans-serif", 12).into_font().color(&BLACK.mix(0.6));
+            root.draw(&Text::new(line.clone(), at, style))?;
+        }
+        Ok(())
+    })
 }
 
 fn draw(study: &Study, root: &Area<'_>) -> Drawn {
     let title = "Trouser test: force to tear, by two thresholds";
     root.draw(&Text::new(title, (20, 14), ("sans-serif", 20)))?;
-    let (top, words) = root.margin(44, 4, 8, 8).split_vertically(420);
+    let (top, words) = root.margin(44, 4, 8, 8).split_vertically(380);
     let panels = top.split_evenly((1, 3));
     let rules = [("stretch", "stretch ratio"), ("toughness", "toughness")];
     let largest = study.tests.iter().map(|test| test.force_largest_n);

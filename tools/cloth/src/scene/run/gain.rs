@@ -6,7 +6,8 @@
 //! they came. (At 128 × 128 cells, `rip` by Verlet at 0.67 of the limit: in the 18 ms in which it
 //! begins to shatter, 4011 of 22 million steps of a spring turned it by more than 90°. They made
 //! 16.6 J, and all others lost 1.4 J. With half the step it was 12 that turned.) So the balance of
-//! energy is looked at, at every frame of 1/60 s; see [`EnergyBalance`].
+//! energy is looked at, at every frame of 1/60 s; see [`EnergyBalance`]. What a method takes instead is
+//! weighed against what moves, by the same looks.
 
 use crate::balance::EnergyBalance;
 use crate::scene::{FRAME_S, Method};
@@ -34,6 +35,10 @@ pub(super) struct Watch {
     /// Whether the elastic energy is that of the method's forces.
     has_lengths: bool,
     gain: Option<EnergyGain>,
+    /// Kinetic energy times time so far, by looks, in J s.
+    motion_js: f64,
+    /// The seconds from one look to the next.
+    every_s: f64,
 }
 
 impl Watch {
@@ -52,8 +57,11 @@ impl Watch {
             let spring = springs.get(id);
             0.5 * spring.stiffness_n_per_m * spring.rest_length_m * spring.rest_length_m
         });
+        let every = (FRAME_S / step_s).round().max(1.0);
         Watch {
-            every: (FRAME_S / step_s).round().max(1.0) as u64,
+            every: every as u64,
+            every_s: every * step_s,
+            motion_js: 0.0,
             least_j: Watch::ROUNDING * collapsed.sum::<f64>(),
             // A method that projects with few sweeps leaves lengths that it has no force for.
             has_lengths: !matches!(method, Method::Pbd(_) | Method::Xpbd(_)),
@@ -68,6 +76,7 @@ impl Watch {
 
     /// Looks.
     pub(super) fn judge(&mut self, elapsed_s: f64, balance: &EnergyBalance) {
+        self.motion_js += balance.kinetic_j * self.every_s;
         let lengths_j = if self.has_lengths {
             0.0
         } else {
@@ -89,6 +98,13 @@ impl Watch {
             }
             _ => {}
         }
+    }
+
+    /// The rate of the drag that would have taken from motion what the method took: drag takes 2 c ∫ K dt.
+    /// `None` where it took nothing, or nothing moved.
+    pub(super) fn damping_per_s(&self, method_j: f64) -> Option<f64> {
+        let rate_per_s = -method_j / (2.0 * self.motion_js);
+        (rate_per_s > 0.0 && rate_per_s.is_finite()).then_some(rate_per_s)
     }
 
     pub(super) fn gain(&self) -> Option<EnergyGain> {

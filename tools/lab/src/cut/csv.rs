@@ -1,0 +1,53 @@
+//! The figures of a study as a table.
+
+use std::fmt::Write as _;
+
+use super::Study;
+
+/// A line for each way on each sheet, and for each row of a record, which has a time and a deviation alone.
+#[must_use]
+pub fn csv(study: &Study) -> String {
+    let mut text = String::from(
+        "way,faces,ns_per_face,deviation_edges,deviation_edges_most,length_ratio,length_ratio_most,\
+         divided,crumbs,lost,inserted,edits,angle_min_deg,altitude_ratio,step_ratio,step_ratio_least,\
+         record\n",
+    );
+    for row in &study.rows {
+        let time = row
+            .ns_per_face
+            .map_or(String::new(), |ns| format!("{ns:.3}"));
+        writeln!(
+            text,
+            "{},{},{time},{:.3e},{:.3e},{:.6},{:.6},{},{},{},{},{},{:.4},{:.3e},{:.4},{:.4},",
+            row.way,
+            row.faces,
+            row.deviation_edges,
+            row.deviation_edges_most,
+            row.length_ratio,
+            row.length_ratio_most,
+            row.divided,
+            row.crumbs,
+            row.lost,
+            row.inserted,
+            row.edits,
+            row.angle_min_deg,
+            row.altitude_ratio,
+            row.step_ratio,
+            row.step_ratio_least,
+        )
+        .expect("a string grows");
+    }
+    for rival in &study.rivals {
+        writeln!(
+            text,
+            "{},{},{:.3},{:.3e},,,,,,,,,,,,,{}",
+            rival.name.replace(',', ""),
+            rival.faces,
+            rival.ns_per_face,
+            rival.deviation_edges,
+            rival.processor.replace(',', ""),
+        )
+        .expect("a string grows");
+    }
+    text
+}
