@@ -53,10 +53,11 @@ class Camera {
     this.aim();
   }
 
-  // Sees all of a box, from where it is looked at now.
+  // Sees all of a box, from where it is looked at now, with room for the numbers at its edges.
   fit(box) {
     this.at = between(box.least, box.most, 0.5);
-    const [w, h] = this.size, tall = this.half * 0.86, wide = this.half * w / h * 0.86;
+    const [w, h] = this.size, room = (pixels, beside) => Math.max(0.6, 1 - 2 * beside / pixels);
+    const tall = this.half * room(h, 48), wide = this.half * w / h * room(w, 58);
     let distance = 0;
     for (let bits = 0; bits < 8; bits++) {
       const p = sub(boxCorner(box, bits), this.at), near = dot(p, this.backward);

@@ -9,7 +9,7 @@ async function open() {
   const camera = new Camera(data.up, data.look, data.angle);
   const { moments, states } = data;
   const isPlayed = moments.length > 1;
-  let scene = new Scene(canvas);
+  let scene = new Scene(canvas, data.crease);
   let now = 0, state = -1, box, isDirty = false;
   let hasEdges = false, hasBox = true, isDrawing = false;
   const prefersDark = matchMedia("(prefers-color-scheme: dark)");
@@ -28,7 +28,7 @@ async function open() {
     isDirty = false;
     const colors = isDark ? data.colors.dark : data.colors.light;
     scene.begin(colors.background);
-    scene.drawFaces(camera, box, data.colors.pieces, data.light, data.crease);
+    scene.drawFaces(camera, box, data.colors.pieces, data.light);
     if (hasEdges) scene.drawEdges(camera, box, colors.edge, 0.45);
     if (hasBox) scene.drawLines("box", camera, box, colors.box, 1);
     scene.drawLines("boundary", camera, box, colors.boundary, 1.7);
@@ -369,7 +369,7 @@ async function open() {
   };
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => {
-    scene = new Scene(canvas);
+    scene = new Scene(canvas, data.crease);
     state = -1;
     show(now);
   });

@@ -3,26 +3,22 @@
 const WIDE = 2048;
 const FETCH = `#version 300 es
 precision highp float; precision highp int;
-uniform highp sampler2D places, normals; uniform mat4 matrix; uniform vec3 eye; uniform float nearer;
+uniform highp sampler2D places; uniform mat4 matrix; uniform vec3 eye; uniform float nearer;
 vec4 shown(vec3 p) { return matrix * vec4(eye + (p - eye) * nearer, 1); }
 ivec2 texel(uint v) { return ivec2(int(v) % ${WIDE}, int(v) / ${WIDE}); }
 `;
 const FACES = [`${FETCH}
-uniform vec3 colors[10]; in uint vertex; in uint piece; out vec3 at; out vec3 normal; flat out vec3 color;
+uniform vec3 colors[10]; in uint vertex; in uint piece; in vec3 corner; out vec3 normal; flat out vec3 color;
 void main() {
-  at = texelFetch(places, texel(vertex), 0).xyz;
-  normal = texelFetch(normals, texel(vertex), 0).xyz;
+  normal = corner;
   color = colors[int(piece)];
-  gl_Position = shown(at);
+  gl_Position = shown(texelFetch(places, texel(vertex), 0).xyz);
 }`, `#version 300 es
 precision highp float;
-uniform vec3 backward, key; uniform float light[8]; uniform float crease;
-in vec3 at; in vec3 normal; flat in vec3 color; out vec4 pixel;
+uniform vec3 backward, key; uniform float light[8];
+in vec3 normal; flat in vec3 color; out vec4 pixel;
 void main() {
-  vec3 n = normalize(cross(dFdx(at), dFdy(at)));
-  vec3 s = dot(normal, normal) > 0. ? normalize(normal) : n;
-  if (dot(s, n) < 0.) s = -s;
-  n = normalize(mix(n, s, smoothstep(crease - .08, crease + .08, dot(n, s))));
+  vec3 n = dot(normal, normal) > 0. ? normalize(normal) * (gl_FrontFacing ? 1. : -1.) : backward;
   float bright = light[0] + light[1] * max(dot(n, key), 0.) + light[2] * max(dot(n, backward), 0.);
   vec3 side = gl_FrontFacing ? color : mix(vec3(dot(color, vec3(1. / 3.))), color, light[6]) * light[7];
   pixel = vec4(side * bright, 1);
@@ -50,16 +46,18 @@ void main() {
 }`, EDGES[1]];
 
 class Scene {
-  constructor(canvas) {
+  // From the cosine `crease` on, two faces are one smooth surface.
+  constructor(canvas, crease) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
     if (!gl) throw new Error("This page needs WebGL 2, which this browser does not have or has turned off.");
     this.gl = gl;
     this.canvas = canvas;
+    this.crease = crease;
     this.faces = this.program(FACES);
     this.edges = this.program(EDGES);
     this.lines = this.program(LINES);
     this.buffers = {};
-    this.textures = [gl.createTexture(), gl.createTexture()];
+    this.texture = gl.createTexture();
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.BLEND);
@@ -100,34 +98,60 @@ class Scene {
     this.fill("pieces", numbers);
     this.corners = corners;
     this.hasEdges = false;
+    // The corners at each vertex, one after another: those of v are from first[v] up to first[v + 1].
+    const count = corners.reduce((most, v) => Math.max(most, v), 0) + 1;
+    this.first = new Uint32Array(count + 1);
+    for (const v of corners) this.first[v + 1]++;
+    for (let v = 0; v < count; v++) this.first[v + 1] += this.first[v];
+    const next = this.first.slice();
+    this.around = new Uint32Array(corners.length);
+    corners.forEach((v, corner) => { this.around[next[v]++] = corner; });
   }
 
   setPlaces(places) {
-    const { gl, corners } = this, count = places.length / 3, rows = Math.ceil(count / WIDE);
-    const normals = new Float64Array(places.length);
-    for (let f = 0; f < corners.length; f += 3) {
-      const [i, j, k] = [3 * corners[f], 3 * corners[f + 1], 3 * corners[f + 2]];
+    const { gl } = this, count = places.length / 3, rows = Math.ceil(count / WIDE);
+    const texels = new Float32Array(4 * WIDE * rows);
+    for (let v = 0; v < count; v++) {
+      for (let axis = 0; axis < 3; axis++) texels[4 * v + axis] = places[3 * v + axis];
+    }
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDE, rows, 0, gl.RGBA, gl.FLOAT, texels);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    this.fill("normals", this.normals(places));
+  }
+
+  // The normal of each corner: the mean, by area, of those faces of its vertex that go on without a crease.
+  normals(places) {
+    const { corners, first, around, crease } = this, faces = corners.length / 3;
+    const spanned = new Float64Array(corners.length), sizes = new Float64Array(faces);
+    for (let f = 0; f < faces; f++) {
+      const [i, j, k] = [3 * corners[3 * f], 3 * corners[3 * f + 1], 3 * corners[3 * f + 2]];
       const ux = places[j] - places[i], uy = places[j + 1] - places[i + 1], uz = places[j + 2] - places[i + 2];
       const vx = places[k] - places[i], vy = places[k + 1] - places[i + 1], vz = places[k + 2] - places[i + 2];
       const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-      for (const v of [i, j, k]) {
-        normals[v] += x;
-        normals[v + 1] += y;
-        normals[v + 2] += z;
-      }
+      spanned[3 * f] = x;
+      spanned[3 * f + 1] = y;
+      spanned[3 * f + 2] = z;
+      sizes[f] = Math.sqrt(x * x + y * y + z * z);
     }
-    [places, normals].forEach((numbers, unit) => {
-      const texels = new Float32Array(4 * WIDE * rows);
-      for (let v = 0; v < count; v++) {
-        const [x, y, z] = [numbers[3 * v], numbers[3 * v + 1], numbers[3 * v + 2]];
-        const scale = unit ? 1 / (Math.hypot(x, y, z) || 1) : 1;
-        texels.set([x * scale, y * scale, z * scale], 4 * v);
+    const normals = new Float32Array(3 * corners.length);
+    for (let corner = 0; corner < corners.length; corner++) {
+      const f = (corner / 3) | 0, v = corners[corner], least = crease * sizes[f];
+      const [a, b, c] = [spanned[3 * f], spanned[3 * f + 1], spanned[3 * f + 2]];
+      let x = 0, y = 0, z = 0;
+      for (let at = first[v]; at < first[v + 1]; at++) {
+        const g = (around[at] / 3) | 0, [d, e, h] = [spanned[3 * g], spanned[3 * g + 1], spanned[3 * g + 2]];
+        if (a * d + b * e + c * h < least * sizes[g]) continue;
+        x += d;
+        y += e;
+        z += h;
       }
-      gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, this.textures[unit]);
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDE, rows, 0, gl.RGBA, gl.FLOAT, texels);
-      for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
-    });
+      const scale = 1 / (Math.sqrt(x * x + y * y + z * z) || 1);
+      normals[3 * corner] = x * scale;
+      normals[3 * corner + 1] = y * scale;
+      normals[3 * corner + 2] = z * scale;
+    }
+    return normals;
   }
 
   // Segments, each as six numbers.
@@ -157,7 +181,6 @@ class Scene {
     gl.uniform3fv(names.eye, camera.eye);
     gl.uniform1f(names.nearer, nearer);
     if (names.places) gl.uniform1i(names.places, 0);
-    if (names.normals) gl.uniform1i(names.normals, 1);
     return names;
   }
 
@@ -168,14 +191,13 @@ class Scene {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
   }
 
-  drawFaces(camera, box, colors, [ambient, key, head, b, u, r, ...back], crease) {
+  drawFaces(camera, box, colors, [ambient, key, head, b, u, r, ...back]) {
     const { gl } = this, names = this.use(this.faces, camera, box, 1);
     gl.uniform3fv(names.colors, colors.flat().map((x) => x / 255));
     gl.uniform1fv(names.light, [ambient, key, head, b, u, r, ...back]);
-    gl.uniform1f(names.crease, crease);
     gl.uniform3fv(names.backward, camera.backward);
     gl.uniform3fv(names.key, unit(add(add(times(camera.backward, b), times(camera.up, u)), times(camera.right, r))));
-    this.attributes(this.faces, { vertex: { name: "corners", type: gl.UNSIGNED_INT }, piece: { name: "pieces", type: gl.UNSIGNED_BYTE } });
+    this.attributes(this.faces, { vertex: { name: "corners", type: gl.UNSIGNED_INT }, piece: { name: "pieces", type: gl.UNSIGNED_BYTE }, corner: { name: "normals", stride: 0, offset: 0 } });
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
     gl.drawArrays(gl.TRIANGLES, 0, this.corners.length);
