@@ -2,7 +2,7 @@
 //!
 //! Sheets of random triangles that wave are cut through along lines at random, by every method and with
 //! several snaps, each time the same lines on a mesh as it was at first. What is measured of each is a
-//! [`CutReport`](tearmesh::CutReport), and what the slivers of a cut leave of the step of an explicit
+//! [`CutReport`], and what the slivers of a cut leave of the step of an explicit
 //! solver. Times are those of cuts alone, for each face of the mesh, so that meshes of several sizes and
 //! records from elsewhere can stand in one chart: see [`Rival`].
 

@@ -14,36 +14,32 @@ pub mod cascade;
 mod csv;
 mod first;
 mod pulled;
+mod strip;
 mod svg;
 
 pub use self::csv::csv;
 pub use self::first::{FirstTear, spread};
 pub use self::pulled::StudyError;
+pub use self::strip::{STRIP_M, TIP};
 pub use self::svg::svg;
 
 use std::num::NonZero;
 
 use serde::Serialize;
-use tearmesh::{Mesh, Point, Positions};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
 use self::cascade::Cascade;
 use self::pulled::{Pulled, mean};
+use self::strip::strip;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
-
-/// Width and height of the strip, in metres.
-pub const STRIP_M: [f64; 2] = [0.1, 0.2];
 
 /// Cells across the strip.
 pub const CELLS: [u32; 5] = [8, 12, 16, 24, 32];
 
 /// The ratio at which an edge tears by the paper's rule.
 pub const RATIO: f64 = 1.5;
-
-/// What is left of the strength at the tips of a tear.
-pub const TIP: f64 = 0.5;
 
 /// Forces are written down so many times in a test of four seconds, each as a mean.
 const SAMPLES: u64 = 240;
@@ -280,32 +276,6 @@ fn test(
         first,
         curve,
     })
-}
-
-/// A strip whose diagonals lie in turn; cells are square.
-fn strip(cells: u32) -> Option<(Mesh, Positions)> {
-    let [width, height] = STRIP_M;
-    let rows = (f64::from(cells) * height / width).round() as u32;
-    let n = cells + 1;
-    let points = (0..n * (rows + 1)).map(|i| {
-        let x = f64::from(i % n) / f64::from(cells) * width;
-        let y = f64::from(i / n) / f64::from(rows) * height;
-        Point::new(x, y, 0.0)
-    });
-    let mut triangles = Vec::new();
-    for j in 0..rows {
-        for i in 0..cells {
-            let a = j * n + i;
-            let (b, c, d) = (a + 1, a + n + 1, a + n);
-            if (i + j) % 2 == 0 {
-                triangles.extend([[a, b, c], [a, c, d]]);
-            } else {
-                triangles.extend([[a, b, d], [b, c, d]]);
-            }
-        }
-    }
-    let mesh = Mesh::build((n * (rows + 1)) as usize, &triangles).ok()?;
-    Some((mesh, Positions::new(points).ok()?))
 }
 
 #[cfg(test)]

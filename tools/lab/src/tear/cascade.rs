@@ -25,6 +25,7 @@ use tearmesh::{Mesh, Positions, shapes};
 use tearmesh_cloth::Tearing;
 use tearmesh_cloth::scene::{Axis, Frame, RunError, Scene};
 
+use super::strip::{TIP, strip};
 use crate::ensemble::{self, Comparison, Ensemble, Quantity, Subject, Verdict};
 use crate::pareto::Named;
 
@@ -62,7 +63,7 @@ impl CascadeScene {
     /// A strip or a patch of so many cells.
     fn mesh(self, cells: u32) -> Option<(Mesh, Positions)> {
         match self {
-            CascadeScene::Trouser => super::strip(cells),
+            CascadeScene::Trouser => strip(cells),
             CascadeScene::Rip => Some(shapes::grid_with_diagonals(cells, cells, |i, j| {
                 (i + j) % 2 == 0
             })),
@@ -74,7 +75,7 @@ impl CascadeScene {
             CascadeScene::Rip => Scene::rip(frame),
             CascadeScene::Trouser => {
                 let scene = Scene::trouser(frame);
-                let weakening = Some(super::TIP);
+                let weakening = Some(TIP);
                 let weak = |tearing: Tearing| Tearing {
                     weakening,
                     ..tearing
