@@ -7,7 +7,7 @@ use serde::Serialize;
 use tearmesh::{Mesh, Point, Positions, Ray, Vector, shapes};
 use tearmesh_cloth::implicit::Jacobian;
 use tearmesh_cloth::scene::{
-    Axis, Frame, HeldVertices, Method, Region, Run, Scene, SwayingWind, TimedCut,
+    Axis, FRAME_S, Frame, HeldVertices, Method, Region, Run, Scene, SwayingWind, TimedCut,
 };
 use tearmesh_cloth::{Wind, energy};
 
@@ -68,8 +68,6 @@ struct Stage {
 
 /// The cells a side of the sheet, which measures a metre.
 const CELLS: u32 = 8;
-
-const FRAME_S: f64 = 1.0 / 60.0;
 
 use Class::{Fine, Refused, Wrong};
 
