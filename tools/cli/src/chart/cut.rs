@@ -5,10 +5,11 @@ use std::path::Path;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressDrawTarget;
 use tearmesh_lab::cut::{self, Options, Rival};
 
 use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
+use super::progress;
 use super::provenance;
 use crate::args::CutChartArgs;
 use crate::exit::Exit;
@@ -40,20 +41,12 @@ pub(super) fn work(
         threads: NonZero::<usize>::MIN,
     };
     let cuts = cut::cuts(&options);
-    if !draw.quiet {
-        let faces: f64 = args.size.iter().map(|&n| 2.0 * f64::from(n).powi(2)).sum();
-        let each = cuts as f64 / args.size.len() as f64;
-        let about = some_time(FACE_S * faces * each);
-        // Nowhere is left to say it if standard error is closed.
-        let _ = writeln!(
-            streams.error,
-            "{cuts} cuts, some {about}; Ctrl-C ends it without a chart"
-        );
-    }
-    let bar = ProgressBar::with_draw_target(Some(cuts as u64), target);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {eta} {msg}") {
-        bar.set_style(style);
-    }
+    let faces: f64 = args.size.iter().map(|&n| 2.0 * f64::from(n).powi(2)).sum();
+    let each = cuts as f64 / args.size.len() as f64;
+    let about = some_time(FACE_S * faces * each);
+    let words = format!("{cuts} cuts, some {about}; Ctrl-C ends it without a chart");
+    progress::announce(&words, draw, streams);
+    let bar = progress::bar(cuts as u64, "{pos}/{len} {eta}", target);
     let guard = Guard::new();
     let sizes: Vec<String> = args.size.iter().map(u32::to_string).collect();
     let mut command = format!(

@@ -3,10 +3,11 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use indicatif::{ProgressBar, ProgressDrawTarget};
+use indicatif::ProgressDrawTarget;
 use tearmesh_lab::fig7;
 
 use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
+use super::progress::{self, PARTS, PERCENT};
 use super::provenance;
 use crate::args::Fig7Args;
 use crate::exit::Exit;
@@ -27,18 +28,12 @@ pub(super) fn work(
     let files = check(draw, None)?;
     let costs: Vec<f64> = args.size.iter().map(|&n| f64::from(n).powi(3)).collect();
     let whole: f64 = costs.iter().sum();
-    if !draw.quiet {
-        let about = some_time(CELL_S * whole);
-        // Nowhere is left to say it if standard error is closed.
-        let _ = writeln!(
-            streams.error,
-            "{} rips, some {about}; Ctrl-C ends it without a chart",
-            costs.len()
-        );
-    }
+    let (rips, about) = (costs.len(), some_time(CELL_S * whole));
+    let words = format!("{rips} rips, some {about}; Ctrl-C ends it without a chart");
+    progress::announce(&words, draw, streams);
     let sizes: Vec<String> = args.size.iter().map(u32::to_string).collect();
     let command = format!("tearmesh chart fig7 --size {}", sizes.join(","));
-    let bar = ProgressBar::with_draw_target(Some(1000), target);
+    let bar = progress::bar(PARTS, PERCENT, target);
     let guard = Guard::new();
     let clock = || -> Duration { ThreadTime::now().as_duration() };
     let study = fig7::study(
@@ -48,7 +43,7 @@ pub(super) fn work(
         &clock,
         |rip, part| {
             let before: f64 = costs[..rip].iter().sum();
-            bar.set_position((1000.0 * (before + part * costs[rip]) / whole) as u64);
+            bar.set_position((PARTS as f64 * (before + part * costs[rip]) / whole) as u64);
             !guard.is_interrupted()
         },
     );

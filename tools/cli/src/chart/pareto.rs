@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressDrawTarget;
 use tearmesh_lab::pareto::{self, By, Options, SCENES, Study, VISITS_MAX};
 use tearmesh_lab::{Provenance, pool};
 
 use super::files::{Ended, bug, check, some_time, tell, write, write_all};
+use super::progress::{self, PARTS, PERCENT};
 use super::provenance;
 use crate::args::ParetoArgs;
 use crate::exit::Exit;
@@ -27,12 +28,8 @@ pub(super) fn work(
     let draw = &args.draw;
     let files = check(draw, args.time_chart.as_ref())?;
     let options = options(args);
-    let expected = expected(&options);
     let guard = Guard::new();
-    if !draw.quiet {
-        // Nowhere is left to say it if standard error is closed.
-        let _ = writeln!(streams.error, "{expected}");
-    }
+    progress::announce(&expected(&options), draw, streams);
     let study = made(args, &options, target, &guard);
     drop(guard);
     let drawn = |by| {
@@ -99,10 +96,7 @@ fn expected(options: &Options) -> String {
 }
 
 fn made(args: &ParetoArgs, options: &Options, target: ProgressDrawTarget, guard: &Guard) -> Study {
-    let bar = ProgressBar::with_draw_target(Some(1000), target);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} % {eta} {msg}") {
-        bar.set_style(style);
-    }
+    let bar = progress::bar(PARTS, PERCENT, target);
     let clock: &(dyn Fn() -> Duration + Sync) = &|| ThreadTime::now().as_duration();
     let is_timed = args.time_chart.is_some();
     let study = pareto::study(
@@ -111,7 +105,7 @@ fn made(args: &ParetoArgs, options: &Options, target: ProgressDrawTarget, guard:
         is_timed.then_some(clock),
         &|| guard.is_interrupted(),
         |name, part| {
-            bar.set_position((1000.0 * part) as u64);
+            bar.set_position((PARTS as f64 * part) as u64);
             bar.set_message(name.to_owned());
         },
     );

@@ -1,12 +1,13 @@
 //! `chart stability`: where methods fail, and what one is told.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressDrawTarget;
 use tearmesh_cloth::StepError;
 use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_lab::pool;
 use tearmesh_lab::stability::{self, Options, Teller, Told};
 
 use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
+use super::progress;
 use super::provenance;
 use crate::args::StabilityArgs;
 use crate::exit::Exit;
@@ -33,19 +34,11 @@ pub(super) fn work(
         threads: args.threads.unwrap_or_else(pool::workers),
     };
     let pieces = stability::pieces(&options);
-    if !draw.quiet {
-        let work_s = LIMITS_S * options.stiffness_n_per_m.len() as f64 + SCENES_S;
-        let about = some_time(work_s / options.threads.get() as f64);
-        // Nowhere is left to say it if standard error is closed.
-        let _ = writeln!(
-            streams.error,
-            "{pieces} limits and scenes, some {about}; Ctrl-C ends it without a chart"
-        );
-    }
-    let bar = ProgressBar::with_draw_target(Some(pieces as u64), target);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg}") {
-        bar.set_style(style);
-    }
+    let work_s = LIMITS_S * options.stiffness_n_per_m.len() as f64 + SCENES_S;
+    let about = some_time(work_s / options.threads.get() as f64);
+    let words = format!("{pieces} limits and scenes, some {about}; Ctrl-C ends it without a chart");
+    progress::announce(&words, draw, streams);
+    let bar = progress::bar(pieces as u64, "{pos}/{len}", target);
     let guard = Guard::new();
     let stiffness: Vec<String> = args.stiffness.iter().map(f64::to_string).collect();
     let command = format!(

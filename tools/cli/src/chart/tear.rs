@@ -1,11 +1,12 @@
 //! `chart tear`: the force that tears strips, and what comes of cascades.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressDrawTarget;
 use tearmesh_lab::pool;
 use tearmesh_lab::tear::cascade::{self, CascadeScene, Options};
 use tearmesh_lab::tear::{self, Chart};
 
 use super::files::{Ended, bug, check, interrupted, some_time, tell, write, write_all};
+use super::progress::{self, PARTS, PERCENT};
 use super::provenance;
 use crate::args::TearChartArgs;
 use crate::exit::Exit;
@@ -34,24 +35,15 @@ pub(super) fn work(
     let cascades_s = cascades_s(&options);
     let cubes = args.strips.iter().map(|&cells| f64::from(cells).powi(3));
     let strips_s = 2.0 * STRIP_S * cubes.sum::<f64>();
-    if !draw.quiet {
-        // Nowhere is left to say it if standard error is closed.
-        let _ = writeln!(
-            streams.error,
-            "{}",
-            expected(args, &options, [strips_s, cascades_s])
-        );
-    }
-    let bar = ProgressBar::with_draw_target(Some(1000), target);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} % {eta} {msg}") {
-        bar.set_style(style);
-    }
+    let words = expected(args, &options, [strips_s, cascades_s]);
+    progress::announce(&words, draw, streams);
+    let bar = progress::bar(PARTS, PERCENT, target);
     let guard = Guard::new();
     let stop = || guard.is_interrupted();
     let strips = 2.0 * args.strips.len() as f64;
     let share = strips_s / (strips_s + cascades_s);
     let show = |part: f64, name: &str| {
-        bar.set_position((1000.0 * part) as u64);
+        bar.set_position((PARTS as f64 * part) as u64);
         bar.set_message(name.to_owned());
     };
     let study = tear::study(&args.strips, true, options.threads, &stop, |done| {
