@@ -260,7 +260,7 @@ fn damping_and_stiffness_of_the_method_are_told() {
         "{said}"
     );
     assert!(
-        said.contains(" /s would, beside the 0.5 /s of the scene"),
+        said.contains(" /s would, on top of the 0.5 /s of the scene"),
         "{said}"
     );
     // Where the scene's own drag is larger, and by a method that damps nothing, it is not.
@@ -273,7 +273,7 @@ fn damping_and_stiffness_of_the_method_are_told() {
     }
     let said = told("--scene flag --seconds 0.2 --solver pbd --dt 0.05");
     assert!(
-        said.contains("and the 1000 N/m of the fabric have no part in it"),
+        said.contains("and not on the 1000 N/m of the fabric"),
         "{said}"
     );
     let coarse = "times too long for a mesh so fine: what merely hangs is stretched\n";
