@@ -4,27 +4,27 @@ use std::process::ExitCode;
 
 use crate::say::Fault;
 
-/// How a run ended.
+/// The exit status of a run. The discriminant is the exit code of the process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// The run did what it was asked to do.
+    /// The run succeeded.
     Done = 0,
-    /// Nothing was cut or mended; for `check`, some file does not hold a mesh that could be cut.
+    /// Nothing was cut or mended. For `check`, at least one file does not contain a valid mesh.
     NothingCut = 1,
     /// The arguments are wrong.
     Usage = 2,
-    /// The input cannot be read, or does not hold a valid mesh; for `check`, some file could not be
+    /// The input cannot be read, or does not contain a valid mesh. For `check`, at least one file cannot be
     /// opened.
     Input = 3,
-    /// The rays span no plane.
+    /// The rays do not span a plane.
     NoPlane = 4,
-    /// The simulation failed. Its state up to that point was kept.
+    /// The simulation failed. Its results up to that point were kept.
     Simulation = 5,
-    /// An invariant broke inside tearmesh: our bug.
+    /// An internal invariant was violated, which is a bug in tearmesh.
     Bug = 6,
     /// The output cannot be written.
     Output = 7,
-    /// The run was interrupted. What had been done was saved.
+    /// The run was interrupted. Its results up to that point were saved.
     Interrupted = 130,
 }
 

@@ -4,7 +4,7 @@
 //! * [`codes`]: exit codes, and every error code and warning code.
 //! * [`report`]: every key of the JSON report.
 //! * [`scenes`]: every key of a scene file.
-//! * [`batches`]: many files at once, by GNU parallel.
+//! * [`batches`]: process many files at once with GNU parallel.
 //! * [`blender`]: play a simulation in Blender.
 //!
 //! The guide of the crate `tearmesh` says what a version number promises, how the project compares

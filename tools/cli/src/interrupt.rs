@@ -10,9 +10,8 @@ const IDLE: u8 = 0;
 const RUNNING: u8 = 1;
 const ENDING: u8 = 2;
 
-/// Asks the present run to end by itself. Returns false if there is no run that would, or if this
-/// is the second call; the program should then [abandon its output](crate::abandon_output) and
-/// exit.
+/// Asks the current run to stop, save its results, and end. Returns false if no run can do so, or if the
+/// run was already asked. The program should then [abandon its output](crate::abandon_output) and exit.
 #[must_use]
 pub fn interrupt() -> bool {
     let swap = STATE.compare_exchange(RUNNING, ENDING, Ordering::SeqCst, Ordering::SeqCst);

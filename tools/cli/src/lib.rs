@@ -1,17 +1,16 @@
-//! The command `tearmesh` as a function: [`run`] takes arguments and streams, and gives an
-//! exit status. The program is a thin shell round it, so that tests and fuzz targets can call
+//! The command `tearmesh` as a function: [`run`] takes arguments and streams, and returns an
+//! exit status. The program is a thin shell around it, so that tests and fuzz targets can call
 //! the command in their own process.
 //!
 //! [`guide`] is the guide to the command: how to cut a file, all codes, and all keys of its report and
 //! of scene files.
 //!
-//! Map: `args` says what can be typed, `rays` reads rays, `scene` reads scenes; `cut`, `tear`, `mend`,
-//! `check`, `render`, `view` and `chart` carry out the verbs, and `shell` prints completions and pages of the
-//! manual; `picture` and `page` show what the verbs that change a mesh made, `session` is what these have in common,
-//! `report` is their JSON; `defects` shows what is wrong with a mesh, `measure` how large it is, `say`
-//! puts diagnostics on a screen; `output` writes files whole or not at all, `files` says where; `bug`
-//! writes a reproducer when an invariant broke, `streams` is what a run reads and writes, and `exit`
-//! how it ends.
+//! Map: `args` defines the arguments, `rays` reads rays, and `scene` reads scenes. `cut`, `tear`, `mend`,
+//! `check`, `render`, `view` and `chart` carry out the verbs, and `shell` prints completions and manual
+//! pages. `session` is shared by the verbs that change a mesh, `report` is their JSON report, and `picture`
+//! and `page` show their results. `defects` describes the defects of a mesh, `measure` measures it, and
+//! `say` prints diagnostics. `output` writes files atomically, and `files` checks their paths. `bug` writes
+//! a reproducer if an invariant is violated. `streams` holds the streams of a run, and `exit` its status.
 
 mod args;
 mod bug;
@@ -50,7 +49,8 @@ pub use streams::Streams;
 use args::{Args, Verb};
 use say::Color;
 
-/// Runs the command with these arguments, the first of which is the program's name.
+/// Runs the command with these arguments, the first of which is the name of the program. Returns the exit
+/// status; all output, including errors, goes to the streams and to the files that the arguments name.
 pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -> Exit {
     let args: Vec<OsString> = args.into_iter().collect();
     match Args::read(&args) {

@@ -8,15 +8,16 @@ use crate::say::{Color, Fault, Screen, is_colored};
 
 /// The streams that the command reads and writes.
 pub struct Streams<'a> {
-    /// Standard input, read where the input is named `-`.
+    /// The standard input, which is read if an input file is named `-`.
     pub input: &'a mut dyn Read,
-    /// Standard output: the summary, the JSON report, or the mesh.
+    /// The standard output, for the summary, the JSON report, or a file whose name is `-`.
     pub output: &'a mut dyn Write,
-    /// Standard error: warnings and errors, and words when the mesh is on standard output.
+    /// The standard error stream, for warnings and errors. It also gets the summary if standard output is
+    /// used for the mesh.
     pub error: &'a mut dyn Write,
-    /// Whether standard output is a terminal, which is no place for a mesh.
+    /// Whether standard output is a terminal. A mesh is written to a terminal only on request.
     pub output_is_terminal: bool,
-    /// Whether standard error is a terminal, which shows colours.
+    /// Whether standard error is a terminal. Diagnostics on a terminal are coloured by default.
     pub error_is_terminal: bool,
 }
 

@@ -23,7 +23,7 @@
 //! sum was looked at on a grid of ω and λ. A method that takes springs implicitly has the limit of
 //! its air alone, as a spring only shortens what it does in a step.
 //!
-//! Areas grow with the cloth, so they are looked at once a step, where there is wind.
+//! Areas grow with the cloth, so they are computed once per step if there is wind.
 
 use tearmesh::geometry::{cross, dot};
 
@@ -34,12 +34,12 @@ use crate::system::System;
 pub struct AirRate {
     /// The rate λ, in 1/s.
     pub rate_per_s: f64,
-    /// The particle that sets the bound.
+    /// The index of the particle that sets the bound.
     pub particle: usize,
 }
 
-/// The largest rate at which wind slows the system with its present areas; `None` if there is no
-/// wind. A pass over all faces.
+/// Returns a bound on the rate at which wind slows the system with its present areas; `None` if
+/// there is no wind. Costs a pass over all faces.
 pub fn wind_rate(system: &mut System) -> Option<AirRate> {
     let wind = system.model.loads.wind?;
     let faces = &system.model.faces;

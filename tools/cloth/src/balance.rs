@@ -44,7 +44,8 @@ use crate::system::System;
 /// sample.
 pub(crate) const WIND_S: f64 = 1e-3;
 
-/// Where the energy of a system came from and where it went, in joules, since [`Balance::new`].
+/// The sources and losses of the energy of a system, in joules, since [`Balance::new`]. A work is
+/// positive if it adds energy to the system.
 ///
 /// ```
 /// use tearmesh_cloth::{Balance, Loads, System, Verlet};
@@ -67,11 +68,11 @@ pub(crate) const WIND_S: f64 = 1e-3;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyBalance {
-    /// The kinetic and elastic energy when the balance began.
+    /// The kinetic and elastic energy at the beginning of the balance.
     pub began_j: f64,
-    /// The kinetic energy of the particles that are not held, now.
+    /// The present kinetic energy of the particles that are not held.
     pub kinetic_j: f64,
-    /// The elastic energy of all constraints and triangles, now.
+    /// The present elastic energy of all constraints and triangles.
     pub elastic_j: f64,
     /// The work of gravity on all particles.
     pub gravity_j: f64,
@@ -79,23 +80,24 @@ pub struct EnergyBalance {
     pub held_j: f64,
     /// The work of wind on the particles that are not held.
     pub wind_j: f64,
-    /// The work of drag on the particles that are not held: never positive.
+    /// The work of drag on the particles that are not held, which is never positive.
     pub drag_j: f64,
     /// The work of colliders. It is negative, since impacts are inelastic, except for the energy it
     /// takes to push a particle out against springs or gravity.
     pub colliders_j: f64,
-    /// The energy that edits, which are tears and cuts, have made.
+    /// The energy that edits (tears, cuts and mends) added.
     pub edits_j: f64,
     /// The energy that the method itself made; negative for numerical damping. Each method computes
-    /// it from its own steps, rather than as what this balance lacks. `None` for methods that do
+    /// it from its own steps, rather than from the gap in this balance. `None` for methods that do
     /// not compute it: [`Provot`](crate::Provot), whose limiter does unbounded work as steps get
     /// shorter, and methods from outside this crate.
     pub method_j: Option<f64>,
 }
 
 impl EnergyBalance {
-    /// The energy that was put in, in joules: the energy at the beginning, plus each positive part
-    /// among the work of gravity, hands, wind and colliders and the energy made by edits.
+    /// Returns the energy that was put in, in joules: the energy at the beginning, plus each
+    /// positive part among the work of gravity, hands, wind and colliders and the energy made by
+    /// edits.
     #[must_use]
     pub fn put_in_j(&self) -> f64 {
         let outside = [self.gravity_j, self.held_j, self.wind_j];
@@ -103,16 +105,16 @@ impl EnergyBalance {
         parts.fold(self.began_j, |sum, part| sum + part.max(0.0))
     }
 
-    /// The energy that no part of the balance accounts for, in joules; negative if energy is
-    /// missing.
+    /// Returns the energy that no part of the balance accounts for, in joules; negative if energy
+    /// is missing.
     #[must_use]
     pub fn remainder_j(&self) -> f64 {
         self.made_j() - self.method_j.unwrap_or(0.0)
     }
 
-    /// The energy that came from nothing outside, in joules: what the method says that it made,
-    /// plus the remainder. The energy of an explicit method swings by a few per cent. Anything
-    /// beyond that is an error.
+    /// Returns the energy that came from nothing outside, in joules: the energy that the method
+    /// made by its own account, plus the remainder. With an explicit method it swings by a few per
+    /// cent of the energy. A larger value is an error.
     #[must_use]
     pub fn made_j(&self) -> f64 {
         let worked = self.gravity_j + self.held_j + self.wind_j + self.drag_j;
@@ -121,7 +123,9 @@ impl EnergyBalance {
     }
 }
 
-/// Keeps the energy balance of a system while it is stepped. [`EnergyBalance`] lists what it costs.
+/// A running energy balance of a system that is stepped. A substep costs two passes over particles
+/// with [`Verlet`](crate::Verlet), and with other methods one over constraints and one over
+/// particles.
 #[derive(Clone, Debug, Default)]
 pub struct Balance {
     began_j: f64,
@@ -164,8 +168,8 @@ struct Sampled {
 }
 
 impl Balance {
-    /// Starts a balance now. From now on the system also sums the work of its colliders, which
-    /// cannot be observed from outside.
+    /// Starts a balance at the present state. From now on the system also sums the work of its
+    /// colliders, which cannot be observed from outside.
     #[must_use]
     pub fn new(system: &mut System) -> Balance {
         Balance {
@@ -176,9 +180,9 @@ impl Balance {
         }
     }
 
-    /// The balance up to now. `edits_j` is the energy that edits made since it began:
+    /// Returns the balance up to now. `edits_j` is the energy that edits added since it began:
     /// [`EnergyLedger::made_j`](crate::EnergyLedger::made_j) of a cloth, and zero for a system
-    /// without a mesh. A pass over all constraints.
+    /// without a mesh. Costs a pass over all constraints.
     #[must_use]
     pub fn now(&self, system: &System, edits_j: f64) -> EnergyBalance {
         let sums = self.account;
@@ -200,8 +204,8 @@ impl Balance {
     }
 
     /// Calls `change`, which holds, grabs or releases one particle ([`System::hold`],
-    /// [`System::grab`], [`System::release`]), and counts the work that this takes. Without this
-    /// call that work ends up in the remainder.
+    /// [`System::grab`], [`System::release`]), and adds the work of this change to the balance.
+    /// Without this call that work ends up in the remainder.
     pub fn handle(
         &mut self,
         system: &mut System,
@@ -214,8 +218,8 @@ impl Balance {
         self.taken = self.account;
     }
 
-    /// Calls `change`, which may change gravity ([`System::set_loads`]), and counts the work of the
-    /// new gravity from there on.
+    /// Calls `change`, which may change gravity ([`System::set_loads`]), and adds the work of the
+    /// new gravity from then on.
     pub fn reload<T>(&mut self, system: &mut System, change: impl FnOnce(&mut System) -> T) -> T {
         self.account.gravity_j += self.potential_j - energy::potential_j(system);
         let done = change(system);

@@ -35,8 +35,9 @@ use crate::pair::{Law, Link};
 /// The law by which bend constraints yield under compression: like a spring at first, and then as a
 /// buckled arc (Choi and Ko 2002 §4.2).
 ///
-/// What a bend of rest length L is at d, relative to c L and c L², depends on d/L alone and on the
-/// number c L³ / k, which follows from the d/L at which the arc takes over from the spring.
+/// Relative to c L and c L², the force and energy of a bend of rest length L at length d depend on
+/// d/L and on the number c L³ / k alone. That number follows from the d/L at which the arc takes
+/// over from the spring.
 ///
 /// ```
 /// use tearmesh_cloth::Buckling;
@@ -58,12 +59,12 @@ pub struct Buckling {
 }
 
 impl Buckling {
-    /// The law by which a bend acts as an arc below this fraction of its rest length, and as a
-    /// spring above it. The nearer to 1, the stiffer the spring: c L³ / k is 4 / (p (1 − d/L)),
-    /// which is 247 for 0.95.
+    /// Creates the law by which a bend acts as an arc below this fraction of its rest length, and
+    /// as a spring above it. The nearer to 1, the stiffer the spring: c L³ / k is 4 / (p (1 −
+    /// d/L)), which is 247 for 0.95.
     ///
-    /// `None` unless the fraction is below 1 and above 0.592, where c L³ / k is 4π². A softer
-    /// spring would take over again where the ends are near each other.
+    /// Returns `None` unless the fraction is below 1 and above 0.592, where c L³ / k is 4π². A
+    /// softer spring would take over again where the ends are near each other.
     #[must_use]
     pub fn new(buckles_below: f64) -> Option<Buckling> {
         if !(buckles_below > 0.0 && buckles_below < 1.0) {
@@ -81,14 +82,14 @@ impl Buckling {
         })
     }
 
-    /// The fraction of the rest length below which a bend acts as an arc.
+    /// Returns the fraction of the rest length below which a bend acts as an arc.
     #[must_use]
     pub fn buckles_below(&self) -> f64 {
         self.below
     }
 
-    /// The stiffness c against compression, in N/m, of a bend with the flexural stiffness k and the
-    /// rest length L.
+    /// Returns the stiffness c against compression, in N/m, of a bend with the flexural stiffness k
+    /// and the rest length L.
     #[must_use]
     pub fn compression_n_per_m(&self, flexural_n_m2: f64, rest_length_m: f64) -> f64 {
         self.number * flexural_n_m2 / (rest_length_m * rest_length_m * rest_length_m)

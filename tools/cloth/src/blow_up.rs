@@ -9,33 +9,33 @@ use crate::digits::Digits;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BlowUpSite {
-    /// A particle whose position or velocity is not finite.
+    /// The index of a particle whose position or velocity is not finite.
     Particle(usize),
-    /// A particle that is farther than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX) metres from the
-    /// origin, or faster than that many metres per second.
+    /// The index of a particle that is farther than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX)
+    /// metres from the origin, or faster than that many metres per second.
     Beyond(usize),
     /// A stretch constraint that became too long.
     Constraint {
-        /// The particles of the constraint.
+        /// The indices of the particles of the constraint.
         ends: [usize; 2],
         /// The length of the constraint as a multiple of its rest length.
         stretch_ratio: f64,
     },
     /// A bend constraint that became too long.
     Bend {
-        /// The particles of the constraint.
+        /// The indices of the particles of the constraint.
         ends: [usize; 2],
         /// The length of the constraint as a multiple of its rest length.
         stretch_ratio: f64,
     },
     /// A triangle that was stretched too far.
     Triangle {
-        /// The particles of the triangle.
+        /// The indices of the particles of the triangle.
         corners: [usize; 3],
-        /// The length of its warp or weft as a multiple of the rest length.
+        /// The larger of the ratios of length to rest length along warp and along weft.
         stretch_ratio: f64,
     },
-    /// No place was found: the method gave up on a system without constraints in which all numbers
+    /// No place was found: the method failed in a system without constraints in which all numbers
     /// are finite.
     Unknown,
 }

@@ -19,7 +19,7 @@ use crate::incidence::Incidence;
 pub struct ConstraintId(pub(crate) u32);
 
 impl ConstraintId {
-    /// The index of this id, for tables beside the constraints.
+    /// Returns the index of this id, from 0, for tables beside the constraints.
     #[must_use]
     pub const fn index(self) -> usize {
         self.0 as usize
@@ -121,25 +121,25 @@ impl Constraints {
         }
     }
 
-    /// The number of constraints.
+    /// Returns the number of constraints.
     #[must_use]
     pub fn len(&self) -> usize {
         self.slots.len() - self.free.len()
     }
 
-    /// Whether there are no constraints.
+    /// Returns whether there are no constraints.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The number of colours.
+    /// Returns the number of colours.
     #[must_use]
     pub fn colour_count(&self) -> usize {
         self.colours.len()
     }
 
-    /// The colour of a constraint.
+    /// Returns the colour of a constraint, from 0.
     ///
     /// # Panics
     ///
@@ -149,7 +149,7 @@ impl Constraints {
         self.slot(id).0
     }
 
-    /// The constraint with this id.
+    /// Returns the constraint with this id.
     ///
     /// # Panics
     ///
@@ -171,14 +171,14 @@ impl Constraints {
         (colour != NONE).then(|| self.get(id))
     }
 
-    /// The ids of all constraints in colour order, which is the order of every sweep.
+    /// Returns the ids of all constraints in colour order, which is the order of every sweep.
     pub fn iter(&self) -> impl Iterator<Item = ConstraintId> + '_ {
         self.colours
             .iter()
             .flat_map(|colour| colour.ids.iter().map(|&id| ConstraintId(id)))
     }
 
-    /// The constraints that act on a particle.
+    /// Returns the constraints that act on a particle.
     ///
     /// # Panics
     ///
@@ -188,7 +188,8 @@ impl Constraints {
         ids.map(|(id, _)| ConstraintId(id as u32))
     }
 
-    /// The constraint between two particles, if there is one. Walks the list of the first particle.
+    /// Returns the constraint between two particles; `None` if there is none. Walks the list of
+    /// constraints of the first particle.
     #[must_use]
     pub fn between(&self, a: usize, b: usize) -> Option<ConstraintId> {
         self.of(a).find(|&id| self.get(id).ends.contains(&b))

@@ -1,17 +1,17 @@
-//! Where the energy of a system is: in motion, in strain, and in weight that was lifted.
+//! The energy of a system: kinetic energy, elastic energy and the potential of gravity.
 
 use tearmesh::geometry::dot;
 
 use crate::constraint::Constraint;
 use crate::system::{Family, System};
 
-/// The elastic energy of all constraints and triangles, in joules.
+/// Returns the elastic energy of all constraints and triangles, in joules.
 #[must_use]
 pub fn elastic_j(system: &System) -> f64 {
     system.model.elastic_j(&system.positions)
 }
 
-/// The kinetic energy of the particles that are not held, in joules.
+/// Returns the kinetic energy of the particles that are not held, in joules.
 #[must_use]
 pub fn kinetic_j(system: &System) -> f64 {
     let particles = 0..system.positions.len();

@@ -6,26 +6,26 @@ use tearmesh::geometry::Vector;
 use crate::bend::Buckling;
 use crate::sheet::ClothError;
 
-/// The material of a cloth, and what happens to its constraints when it tears.
+/// The material of a cloth, and the rules for its constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
     /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is 2/√3 times
-    /// that. It may be zero together with a [`Weave`]: edges are then measured, for
+    /// this stiffness. It may be zero together with a [`Weave`]: edges are then measured, for
     /// [`Cloth::overstretched`](crate::Cloth::overstretched), but exert no force.
     pub stretch_n_per_m: f64,
-    /// Triangles that resist stretch and shear; `None` for none.
+    /// The moduli of triangles that resist stretch and shear; `None` for no triangles.
     pub weave: Option<Weave>,
-    /// What resists bending across each interior edge; `None` for no resistance.
+    /// The bending resistance across each interior edge; `None` for no resistance.
     pub bend: Option<Bending>,
     /// How the stiffness of a torn edge is divided between its two constraints.
     pub copies: Copies,
-    /// Which bend constraints a split removes.
+    /// The bend constraints that a split removes.
     pub unbend: Unbend,
 }
 
 impl Fabric {
-    /// A fabric whose edges have this stiffness in N/m, without bending resistance, and with the
-    /// rules for tearing that conserve energy.
+    /// Returns a fabric whose edges have this stiffness in N/m, without bending resistance, and
+    /// with the rules for tearing that conserve energy.
     #[must_use]
     pub fn new(stretch_n_per_m: f64) -> Fabric {
         Fabric {
@@ -37,7 +37,8 @@ impl Fabric {
         }
     }
 
-    /// A fabric of triangles alone, without springs along edges and without bending.
+    /// Returns a fabric of triangles alone, without springs along edges and without bending
+    /// resistance.
     ///
     /// ```
     /// use tearmesh_cloth::{implicit, Cloth, Fabric, Implicit, Pbd, StepError, Weave};
@@ -99,7 +100,7 @@ pub struct Weave {
     /// The shear modulus, in N/m; zero or more.
     pub shear_n_per_m: f64,
     /// The direction of warp in space, for the cloth at rest. It is projected onto each face, and
-    /// weft is perpendicular to it. [`Cloth::with_warps`](crate::Cloth::with_warps) takes a
+    /// weft is perpendicular to it. [`Cloth::with_warps`](crate::Cloth::with_warps) sets a
     /// direction for each face instead.
     pub warp: Vector,
 }
@@ -145,14 +146,14 @@ pub enum Bending {
         /// The stiffness, in N/m; positive.
         stiffness_n_per_m: f64,
     },
-    /// A strip of the same flexural stiffness across every edge, which buckles into an arc when it
-    /// is pushed together (Choi and Ko 2002 §4.2). Its stiffness against compression, before it
-    /// does, follows from its length: the shorter, the stiffer, by the third power.
+    /// A strip of the same flexural stiffness across every edge, which buckles into an arc under
+    /// compression (Choi and Ko 2002 §4.2). Before it buckles, its stiffness against compression is
+    /// inversely proportional to the third power of its length.
     Buckling {
         /// The flexural stiffness k, in N m²: the bending moment is k times the curvature.
         /// Positive.
         flexural_n_m2: f64,
-        /// The law that says at which length a bend buckles.
+        /// The law by which a bend buckles.
         law: Buckling,
     },
 }
@@ -185,18 +186,18 @@ impl Bending {
     }
 }
 
-/// The stiffness of the two constraints that replace a torn edge's one.
+/// The stiffness of the two constraints that replace the constraint of a torn edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Copies {
-    /// Each has half of the stiffness, so a split does not change the energy.
+    /// Each copy has half the stiffness, so a split does not change the energy.
     #[default]
     Halved,
-    /// Each has the full stiffness, as in the paper (Souza et al. 2014 §IV-A). A split then adds ½
-    /// k (l − L)² per edge, which the [`EnergyLedger`](crate::EnergyLedger) reports.
+    /// Each copy has the full stiffness, as in the paper (Souza et al. 2014 §IV-A). A split then
+    /// adds ½ k (l − L)² per edge, which the [`EnergyLedger`](crate::EnergyLedger) reports.
     Whole,
 }
 
-/// Which bend constraints a split removes.
+/// The bend constraints that a split removes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unbend {
     /// The bend constraints across the edges that the split tears.

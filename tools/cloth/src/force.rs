@@ -16,8 +16,8 @@ use crate::constraint::ConstraintId;
 use crate::element::Slope;
 use crate::system::{Family, System};
 
-/// The force in a stretch constraint, computed from its length as k (l − L), in newtons. Tension is
-/// positive.
+/// Returns the force in a stretch constraint, computed from its length as k (l − L), in newtons.
+/// Tension is positive.
 ///
 /// # Panics
 ///
@@ -30,9 +30,9 @@ pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
         .axial(Family::Stretch, &constraint, &system.positions)[1]
 }
 
-/// The force in a stretch constraint as the method of the last step exerted it, in newtons. Tension
-/// is positive. For methods with physical stiffness, and before any step, it is computed from the
-/// length ([`tension_n`]). For methods that project it is the multiplier
+/// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
+/// Tension is positive. For methods with physical stiffness, and before any step, it is computed
+/// from the length ([`tension_n`]). For methods that project it is the multiplier
 /// ([`System::multiplier_n`]). Where a limiter helped the springs, it is the sum of both. Between
 /// two held particles a rigid method ([`Pbd`](crate::Pbd)) moves neither and has no multiplier, so
 /// the length is used.
@@ -49,14 +49,14 @@ pub fn force_n(system: &System, id: ConstraintId) -> f64 {
     read.read(|| tension_n(system, id), by_multiplier)
 }
 
-/// The force, in newtons, that a hand must exert to hold or lead a particle: minus the sum of the
-/// forces of constraints ([`force_n`]), triangles, gravity, wind and drag. On a grabbed particle it
-/// is a force probe. On a free one it is minus the force that accelerates it, which vanishes at
-/// rest. It excludes colliders, and the inertia at the corners of a path. The cost is proportional
-/// to the valence, and linear in the system if there is wind.
+/// Returns the force, in newtons, that a hand must exert to hold or lead a particle: minus the sum
+/// of the forces of constraints ([`force_n`]), triangles, gravity, wind and drag. On a grabbed
+/// particle it is a force probe. On a free one it is minus the force that accelerates it, which
+/// vanishes at rest. It excludes colliders, and the inertia at the corners of a path. The cost is
+/// proportional to the valence, and linear in the system if there is wind.
 ///
-/// After a step of a method that projects, forces are means over the last substep. They are the
-/// more exact the more sweeps it made.
+/// After a step of a method that projects, forces are means over the last substep. More sweeps make
+/// them more exact.
 ///
 /// # Panics
 ///
@@ -84,8 +84,9 @@ pub fn reaction_n(system: &System, particle: usize) -> Vector {
     -(inner_n(system, particle) + wind_n(system, particle) - drag_n)
 }
 
-/// Computes the accelerations of all particles, in m/s², without drag. Counts as a force
-/// evaluation. Returns false if a constraint is stretched beyond [`System::set_stretch_ratio_max`].
+/// Computes the accelerations of all particles, in m/s², without drag; those of held particles are
+/// zero. Counts as a force evaluation. Returns false if a constraint is stretched beyond
+/// [`System::set_stretch_ratio_max`].
 pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bool {
     accelerations.clear();
     accelerations.resize(system.positions.len(), Vector::zeros());
@@ -97,14 +98,13 @@ pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bo
     )
 }
 
-/// The product K u of the stiffness matrix with displacements in metres, in newtons: minus
-/// the change of forces, to first order. Negative stiffness, which springs under
-/// compression have across, counts as zero (the indefinite terms are dropped); that of bends
-/// which buckle does as well.
+/// Returns the product K u of the stiffness matrix with displacements in metres, in newtons: minus
+/// the change of forces, to first order. Negative stiffness, such as that of a compressed spring
+/// across its line or of a buckling bend, counts as zero.
 ///
 /// # Panics
 ///
-/// Unless there is one displacement a particle.
+/// Unless there is one displacement per particle.
 #[must_use]
 pub fn stiffness_times(system: &mut System, displacements: &[Vector]) -> Vec<Vector> {
     assert_eq!(

@@ -1,7 +1,7 @@
 //! The guide to cloth: simulate it, tear it, and cut it while it moves.
 //!
 //! * [`simulate`]: a cloth from a mesh, its fabric, its loads, and the choice of a method.
-//! * [`tear`]: thresholds, what decides where a tear goes, and what is reported.
+//! * [`tear`]: thresholds, the rules for the course of a tear, and reports.
 //! * [`cut`]: cutting a cloth that is in motion.
 //!
 //! [`tearmesh::guide`] has the guide to the kernel below this crate.

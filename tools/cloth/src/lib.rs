@@ -1,16 +1,16 @@
-//! Cloth on the kernel [`tearmesh`]: particles, constraints, solvers, a follower of the log, what
-//! tears, and whole [`scene`]s.
+//! Cloth on the kernel [`tearmesh`]: particles, constraints, solvers, a follower of the log, rules
+//! for tearing, and whole [`scene`]s.
 //!
 //! The kernel is re-exported, so that a game needs this one dependency: `tearmesh_cloth::tearmesh`.
 //! It knows nothing of this crate, and a simulation of your own can follow its log in the same way.
 //!
 //! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A
-//! [`Solver`] advances it; [`System::step`] watches over stability, notices blow-up and steps that
-//! miss their tolerance, and keeps the last good state. A [`Cloth`] is a system made of a mesh, and
-//! a follower of its log. [`Tear`] is what tears it where it is overstretched, by a [`Tearing`]
-//! with a [`Threshold`].
+//! [`Solver`] advances it. [`System::step`] checks stability, detects blow-up and steps that miss
+//! their tolerance, and keeps the last good state. A [`Cloth`] is a system built from a mesh, and a
+//! follower of its log. A [`Tear`] tears it where it is overstretched, by the rules of a
+//! [`Tearing`] with a [`Threshold`].
 //!
-//! | method | what it is for | a step costs |
+//! | method | purpose | cost of a step |
 //! |---|---|---|
 //! | [`Provot`] | the mass-spring model of the paper: a baseline | one force evaluation, and passes of the limiter |
 //! | [`Pbd`] | the second model of the paper: a baseline | sweeps of projections |
@@ -20,9 +20,9 @@
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
-//! What resists stretch is springs along edges, or triangles with a modulus for warp, weft and shear
-//! ([`Weave`]), or both. What resists bending is springs across edges, or arcs that buckle
-//! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused where there are
+//! Stretch is resisted by springs along edges, by triangles with a modulus for warp, weft and shear
+//! ([`Weave`]), or by both. Bending is resisted by springs across edges, or by arcs that buckle
+//! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused if there are
 //! triangles or arcs.
 //!
 //! [`guide`] introduces all of this by examples.

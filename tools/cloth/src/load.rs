@@ -5,7 +5,7 @@
 
 use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
-/// The external loads on the particles. The default has none.
+/// The external loads on the particles. By default there are none.
 ///
 /// ```
 /// use tearmesh::Vector;
@@ -16,23 +16,23 @@ use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loads {
-    /// An acceleration of every particle, in m/s².
+    /// The acceleration of gravity, in m/s²; `None` for no gravity.
     pub gravity_m_per_s2: Option<Vector>,
-    /// The rate c at which velocities fade, in 1/s: the force is −c m v.
+    /// The rate c at which drag slows velocities, in 1/s: the force is −c m v. `None` for no drag.
     pub drag_per_s: Option<f64>,
-    /// Wind on the faces. A system without faces feels none.
+    /// The wind on the faces; `None` for no wind. A system without faces feels none.
     pub wind: Option<Wind>,
-    /// The obstacles that particles cannot enter. Contacts are resolved in this order.
+    /// The obstacles that particles cannot enter. Contacts are resolved in the order of this list.
     pub colliders: Vec<Collider>,
 }
 
-/// Wind. It exerts the force c A (n · (u − v)) n on a face of area A and normal n that moves at the
-/// velocity v (Provot 1995, §3).
+/// Wind on the faces of a system. It exerts the force c A (n · (u − v)) n on a face of area A and
+/// unit normal n that moves at the velocity v (Provot 1995, §3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wind {
     /// The velocity u of the air, in m/s.
     pub velocity_m_per_s: Vector,
-    /// The coefficient c, in kg/(m² s).
+    /// The coefficient c of the force, in kg/(m² s); zero or more.
     pub coefficient: f64,
 }
 
@@ -40,13 +40,13 @@ pub struct Wind {
 /// and has no friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Collider {
-    /// The half-space behind a plane.
+    /// The half-space behind a plane, on the side away from its normal.
     Plane(Plane),
     /// A ball.
     Sphere {
-        /// The centre of the ball.
+        /// The centre of the ball, in metres.
         centre: Point,
-        /// The radius, in metres.
+        /// The radius of the ball, in metres.
         radius_m: f64,
     },
 }
@@ -143,7 +143,8 @@ impl Collider {
     }
 }
 
-/// The path of a grabbed particle: straight from point to point, and at rest before and after.
+/// The path of a grabbed particle: straight from point to point, at rest before the first time and
+/// after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// When to be where; at least one, ascending.
@@ -151,10 +152,10 @@ pub struct Path {
 }
 
 impl Path {
-    /// The path through these points at these times in seconds. `None` unless there is at least one
-    /// point, times and the differences between them are finite, times ascend strictly, and no
-    /// coordinate is beyond [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX). So everything that
-    /// [`Path::at`] returns is finite.
+    /// Creates the path through these points at these times in seconds. Returns `None` unless there
+    /// is at least one point, times and the differences between them are finite, times ascend
+    /// strictly, and no coordinate is beyond [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX). So
+    /// everything that [`Path::at`] returns is finite.
     #[must_use]
     pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
         let points: Vec<_> = points.into_iter().collect();
@@ -165,7 +166,8 @@ impl Path {
         (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
     }
 
-    /// The point of the path at `elapsed_s` seconds.
+    /// Returns the point of the path at `elapsed_s` seconds. It is the first point before the path
+    /// begins, and the last one after it ends.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Point {
         let after = self.points.partition_point(|&(s, _)| s <= elapsed_s);

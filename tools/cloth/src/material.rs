@@ -32,10 +32,11 @@ impl Cloth {
     }
 }
 
-/// The direction in a triangle in which the first texture coordinate grows. That is warp for a
-/// garment whose texture is its flat pattern.
+/// Returns the direction in a triangle, in space, in which the first texture coordinate grows. This
+/// is the direction of warp for a garment whose texture is its flat pattern. It is not a unit
+/// vector.
 ///
-/// `None` if the texture coordinates span no area.
+/// Returns `None` if the texture coordinates span no area.
 ///
 /// ```
 /// use tearmesh::{Point, Vector};

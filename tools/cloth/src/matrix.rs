@@ -22,14 +22,14 @@ impl Block {
     /// The matrix of zeros.
     pub const ZERO: Block = Block([[0.0; 3]; 3]);
 
-    /// The identity matrix, scaled by `s`.
+    /// Returns the identity matrix, scaled by `s`.
     #[inline]
     #[must_use]
     pub fn identity_times(s: f64) -> Block {
         Block([[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]])
     }
 
-    /// The outer product a bᵀ.
+    /// Returns the outer product a bᵀ.
     #[inline]
     #[must_use]
     pub fn outer(a: Vector, b: Vector) -> Block {
@@ -37,7 +37,7 @@ impl Block {
         Block([row(a.x), row(a.y), row(a.z)])
     }
 
-    /// The transpose of this matrix.
+    /// Returns the transpose of this matrix.
     #[inline]
     #[must_use]
     pub fn transposed(&self) -> Block {
@@ -49,7 +49,7 @@ impl Block {
         ])
     }
 
-    /// The sum of this matrix and `s` times another.
+    /// Returns the sum of this matrix and `s` times another.
     #[inline]
     #[must_use]
     pub fn plus(&self, s: f64, other: &Block) -> Block {
@@ -62,7 +62,7 @@ impl Block {
         sum
     }
 
-    /// The product of this matrix with a vector.
+    /// Returns the product of this matrix with a vector.
     #[inline]
     #[must_use]
     pub fn times(&self, v: Vector) -> Vector {
@@ -70,7 +70,7 @@ impl Block {
         Vector::new(row(&self.0[0]), row(&self.0[1]), row(&self.0[2]))
     }
 
-    /// The product of the transpose of this matrix with a vector.
+    /// Returns the product of the transpose of this matrix with a vector.
     #[inline]
     #[must_use]
     pub fn transposed_times(&self, v: Vector) -> Vector {
@@ -79,8 +79,9 @@ impl Block {
         Vector::new(column(0), column(1), column(2))
     }
 
-    /// The inverse of a symmetric positive definite block, computed by Cholesky factorisation;
-    /// `None` if a pivot is not positive, which shows that the block is not positive definite.
+    /// Returns the inverse of a symmetric positive definite block, computed by Cholesky
+    /// factorisation; `None` if a pivot is not positive, which shows that the block is not positive
+    /// definite.
     #[must_use]
     pub fn inverse_if_definite(&self) -> Option<Block> {
         let m = &self.0;
@@ -105,7 +106,7 @@ impl Block {
     }
 }
 
-/// The second derivatives of an energy, in blocks: symmetric, by particle.
+/// The symmetric matrix of second derivatives of an energy, in 3 × 3 blocks by particle.
 ///
 /// ```
 /// use tearmesh::Vector;
@@ -136,7 +137,7 @@ impl Hessian {
         self.off.resize(slots, Block::ZERO);
     }
 
-    /// The block on the diagonal.
+    /// Returns the block of a particle on the diagonal.
     ///
     /// # Panics
     ///
@@ -146,7 +147,7 @@ impl Hessian {
         &self.diagonal[particle]
     }
 
-    /// The block of a slot: row i, column j for the pair (i, j), i < j.
+    /// Returns the block of a slot: row i, column j for the pair (i, j), i < j.
     ///
     /// # Panics
     ///
@@ -193,8 +194,8 @@ impl Hessian {
         }
     }
 
-    /// The product with a vector for each particle; `pairs` says what each slot is for, as
-    /// [`Layout::pairs`](crate::implicit::Layout::pairs) does.
+    /// Computes the product with a vector for each particle, into `out`. `pairs` are the particles
+    /// of each slot, as [`Layout::pairs`](crate::implicit::Layout::pairs) returns them.
     ///
     /// # Panics
     ///

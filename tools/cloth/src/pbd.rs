@@ -17,7 +17,7 @@ use crate::spring;
 use crate::system::System;
 
 /// Position based dynamics. It ignores the stiffness of constraints in N/m: they are rigid, or as
-/// soft as [`Pbd::stiffness`] says.
+/// soft as [`Pbd::stiffness`] makes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pbd {
     /// The number of sweeps over all constraints per step. Zero counts as one.
@@ -32,7 +32,7 @@ pub struct Pbd {
 }
 
 impl Default for Pbd {
-    /// Ten sweeps, rigid stretch constraints, and bend constraints of 0.1.
+    /// Returns the method with ten sweeps, rigid stretch constraints, and a bend stiffness of 0.1.
     fn default() -> Pbd {
         Pbd {
             sweeps: 10,
@@ -43,7 +43,7 @@ impl Default for Pbd {
 }
 
 impl Pbd {
-    /// The method with rigid constraints and `sweeps` sweeps per step.
+    /// Creates the method with rigid constraints and `sweeps` sweeps per step.
     #[must_use]
     pub fn new(sweeps: u32) -> Pbd {
         Pbd {

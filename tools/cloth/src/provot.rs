@@ -48,17 +48,17 @@ impl Default for Limiter {
     }
 }
 
-/// What the limiter did in the last step.
+/// The report of Provot's limiter in one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimiterReport {
-    /// The number of passes over all constraints. The last one may have found nothing to do.
+    /// The number of passes over all constraints. The last pass may have changed nothing.
     pub passes: u32,
-    /// The largest stretch ratio before limiting, which is what a tearing threshold is compared
-    /// with.
+    /// The largest stretch ratio met in the first pass, which is about the one before limiting.
     pub stretch_ratio_before: f64,
-    /// Whether a stretch ratio was above the limit, so that ends were moved.
+    /// Whether a stretch ratio was above the limit, so that particles were moved.
     pub has_shortened: bool,
-    /// How far the largest stretch ratio is still above the limit afterwards.
+    /// The excess of the largest stretch ratio over the limit after limiting; 0 if the limit is
+    /// met.
     pub excess: f64,
     /// Whether the limit cannot be met because held particles are too far apart: the passes ran
     /// out, and the last one removed less than a hundredth of the excess.
@@ -72,7 +72,7 @@ impl Default for Provot {
 }
 
 impl Provot {
-    /// The model with this limiter.
+    /// Creates the model with this limiter.
     #[must_use]
     pub fn new(limiter: Limiter) -> Provot {
         Provot {
@@ -81,7 +81,7 @@ impl Provot {
         }
     }
 
-    /// Provot's springs without the limiter.
+    /// Creates the model without a limiter.
     #[must_use]
     pub fn unlimited() -> Provot {
         Provot {
@@ -90,7 +90,7 @@ impl Provot {
         }
     }
 
-    /// What the limiter did in the last step.
+    /// Returns the report of the limiter in the last step.
     #[must_use]
     pub fn report(&self) -> LimiterReport {
         self.report

@@ -1,9 +1,9 @@
-//! Scenes as plain data: what is held, led, blown by wind and cut, and when.
+//! Scenes as plain data: holds, paths, wind, cuts and their times.
 //!
-//! A [`Scene`] says what will happen to a cloth, and a [`Run`] makes it happen. Four scenes are
-//! built in, and are sized to the mesh that they are given: [`Scene::hang`], [`Scene::flag`],
-//! [`Scene::rip`] and [`Scene::trouser`]. Nothing here is read from files: a program fills in a
-//! scene's fields from wherever it likes.
+//! A [`Scene`] is the plan of a simulation, and a [`Run`] carries it out. Four scenes are built in,
+//! and are sized to the mesh: [`Scene::hang`], [`Scene::flag`], [`Scene::rip`] and
+//! [`Scene::trouser`]. Nothing here is read from files: a program fills in a scene's fields from
+//! any source.
 
 mod chronicle;
 mod frame;
@@ -27,11 +27,11 @@ use crate::pbd::Pbd;
 use crate::provot::Limiter;
 use crate::xpbd::Xpbd;
 
-/// A frame of films and screens, in seconds: steps are whole parts of it, forces are means over it, and
-/// energy is looked at once in it.
+/// The duration of a frame of film or screen, in seconds. Steps that a run chooses are whole
+/// fractions of it, forces are means over it, and the energy balance is checked once per frame.
 pub const FRAME_S: f64 = 1.0 / 60.0;
 
-/// The plan of a simulation: the fabric, the method, and what happens to the cloth and when.
+/// The plan of a simulation: the fabric, the method, and the timed events.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The duration of the scene, in seconds.
@@ -47,9 +47,9 @@ pub struct Scene {
     pub areal_density_kg_per_m2: f64,
     /// The acceleration of gravity, in m/s².
     pub gravity_m_per_s2: Vector,
-    /// The rate at which velocities fade, in 1/s; 0 for none.
+    /// The rate at which drag slows velocities, in 1/s; 0 for no drag.
     pub drag_per_s: f64,
-    /// The wind, if there is any.
+    /// The wind; `None` for no wind.
     pub wind: Option<SwayingWind>,
     /// The obstacles that the cloth cannot enter.
     pub colliders: Vec<Collider>,
@@ -59,8 +59,8 @@ pub struct Scene {
     pub cuts: Vec<TimedCut>,
     /// The rule by which edges tear; `None` if they never tear by themselves.
     pub tearing: Option<crate::Tearing>,
-    /// Regions whose vertices bear a multiple of the tearing threshold. The multiple is 1
-    /// elsewhere. The last region that contains a vertex counts.
+    /// Regions with a strength, as a multiple of the tearing threshold. The strength is 1
+    /// elsewhere. If regions overlap, the last one counts.
     pub strengths: Vec<(Region, f64)>,
 }
 
@@ -68,7 +68,7 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub enum Method {
     /// Provot's mass-spring model with its limiter ([`Provot`](crate::Provot)). The tearing rule
-    /// looks at lengths before the limiter changes them.
+    /// uses lengths before the limiter changes them.
     Provot(Limiter),
     /// Position based dynamics ([`Pbd`]).
     Pbd(Pbd),
@@ -82,27 +82,27 @@ pub enum Method {
 }
 
 impl Method {
-    /// Provot's model with the settings that scenes use by default.
+    /// Returns Provot's model with the settings that scenes use by default.
     #[must_use]
     pub fn provot() -> Method {
         Method::Provot(Limiter::default())
     }
 
-    /// [`Pbd`] with the settings that scenes use by default.
+    /// Returns [`Pbd`] with the settings that scenes use by default.
     #[must_use]
     pub fn pbd() -> Method {
         Method::Pbd(Pbd::default())
     }
 
-    /// [`Xpbd`] with the settings that scenes use by default. A step is one sweep, so that tears
-    /// are looked for after each sweep.
+    /// Returns [`Xpbd`] with the settings that scenes use by default. A step is one sweep, so that
+    /// the cloth can tear after each sweep.
     #[must_use]
     pub fn xpbd() -> Method {
         Method::Xpbd(Xpbd::new(1, 1))
     }
 
-    /// [`Implicit`](crate::Implicit) with the settings that scenes use by default: an error of at
-    /// most 0.2 mm/s in a step of 1/240 s.
+    /// Returns [`Implicit`](crate::Implicit) with the settings that scenes use by default: an error
+    /// of at most 0.2 mm/s in a step of 1/240 s.
     #[must_use]
     pub fn implicit() -> Method {
         Method::Implicit(Settings {
@@ -125,7 +125,7 @@ pub struct SwayingWind {
 }
 
 impl SwayingWind {
-    /// The wind at `elapsed_s` seconds.
+    /// Returns the wind at `elapsed_s` seconds.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Wind {
         let phase = elapsed_s / self.period_s;
@@ -156,7 +156,7 @@ impl SwayingWind {
         Some(("wind.sway_m_per_s", *beyond.next()?.1))
     }
 
-    /// Whether the wind changes with time.
+    /// Returns whether the wind changes with time.
     #[must_use]
     pub fn sways(&self) -> bool {
         self.sway_m_per_s != Vector::zeros()
@@ -165,25 +165,25 @@ impl SwayingWind {
 
 /// A region of vertices that are held in place, or led along a path.
 ///
-/// If several of these hold the same vertex, the one that took it last leads it. When that one lets
-/// go, the previous one takes over: it holds the vertex where it then is, or leads it along its own
-/// path from there.
+/// If several holds contain the same vertex, the hold that took it last leads it. When that hold
+/// releases it, the previous one takes over: it holds the vertex where it then is, or leads it
+/// along its own path from there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldVertices {
-    /// The vertices that are held, given by where they are at rest.
+    /// The vertices that are held, selected by their positions at rest.
     pub region: Region,
-    /// The time, in seconds, at which the vertices are taken, wherever they then are.
+    /// The time in seconds at which the vertices are taken, at their positions of that time.
     pub from_s: f64,
     /// The time, in seconds, at which the vertices are released; `None` for never.
     pub until_s: Option<f64>,
-    /// The path along which the vertices are led: pairs of a time in seconds and an offset in
-    /// metres from where they were taken. Motion is straight between them. Times ascend. Empty for
-    /// vertices that are only held.
+    /// The path along which the vertices are led: pairs of a time in seconds since the beginning of
+    /// the scene and an offset in metres from where a vertex was taken. Motion is straight between
+    /// them. Times must ascend. Empty for vertices that are only held.
     pub moves: Vec<(f64, Vector)>,
 }
 
 impl HeldVertices {
-    /// Holds the vertices of a region where they are, for the whole scene.
+    /// Returns a hold that keeps the vertices of a region where they are for the whole scene.
     #[must_use]
     pub fn still(region: Region) -> HeldVertices {
         HeldVertices {
@@ -195,47 +195,46 @@ impl HeldVertices {
     }
 }
 
-/// A part of a cloth, by where it is at rest.
+/// A part of a cloth, selected by positions at rest or by ids.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
-    /// The vertices within a radius of the vertex that is nearest to a place. The place is given in
-    /// fractions of width and height, and the radius as a fraction of [`Frame::size_m`]. With
-    /// radius 0 it is just that vertex.
+    /// The vertices within a radius of the vertex that is nearest to a place. With radius 0 it is
+    /// just that vertex.
     Near {
-        /// The place, in fractions of width and height.
+        /// The place, in fractions of width and height, from the bottom left corner.
         at: [f64; 2],
-        /// The distance.
+        /// The radius, as a fraction of [`Frame::size_m`].
         radius: f64,
     },
     /// The vertices between these fractions of width and height, bounds included.
     Patch {
-        /// The range across, from left to right.
+        /// The range of fractions of the width, from left to right.
         across: [f64; 2],
-        /// From bottom to top.
+        /// The range of fractions of the height, from bottom to top.
         along: [f64; 2],
     },
-    /// The vertices within a box, in metres, bounds included.
+    /// The vertices within a box along the coordinate axes, bounds included.
     Box {
-        /// The corner with the least coordinates.
+        /// The corner with the smallest coordinates, in metres.
         from: Point,
-        /// The corner with the greatest.
+        /// The corner with the largest coordinates, in metres.
         to: Point,
     },
     /// The vertices within a ball, surface included.
     Ball {
-        /// The centre.
+        /// The centre of the ball, in metres.
         centre: Point,
-        /// The radius, in metres.
+        /// The radius of the ball, in metres.
         radius_m: f64,
     },
-    /// Exactly these vertices.
+    /// The vertices with these ids.
     Vertices(Vec<VertexId>),
 }
 
 impl Region {
-    /// The vertices in the region that belong to a face, in ascending order. Vertices of
-    /// [`Region::Vertices`] keep the order in which they are listed, and those that the mesh does
-    /// not have are left out.
+    /// Returns the vertices in the region that belong to a face, in ascending order. `points` are
+    /// the positions of all vertices. For [`Region::Vertices`] the result is the listed vertices in
+    /// the order of the list, without those that the mesh does not have.
     #[must_use]
     pub fn vertices(&self, mesh: &Mesh, points: &[Point], frame: &Frame) -> Vec<VertexId> {
         if let Region::Vertices(named) = self {
@@ -291,8 +290,8 @@ pub struct TimedCut {
     pub at_s: f64,
     /// The two rays between which the cloth is cut.
     pub rays: [Ray; 2],
-    /// Whether the cloth is cut along the whole plane, and not only between the rays.
+    /// Whether the cut extends along the whole plane of the rays, not only between them.
     pub through: bool,
-    /// The method of the cut.
+    /// The method by which the mesh is cut.
     pub method: tearmesh::CutMethod,
 }

@@ -15,38 +15,38 @@ use crate::solver::{Solver, StepError, StepReport};
 use crate::step::Observer;
 use crate::system::System;
 
-/// The energy that edits have made, in joules; negative where they have taken some.
+/// The energy that edits added to a cloth, in joules; negative if they removed energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
-    /// Elastic energy made by splits: that of full-stiffness copies by the paper's rule, less what
-    /// removed bend constraints held.
+    /// The elastic energy added by splits: that of full-stiffness copies by the paper's rule, minus
+    /// the energy in removed bend constraints.
     pub split_elastic_j: f64,
-    /// Elastic energy made by insertions: that of new edges inside strained faces. The parts of a
-    /// divided edge or triangle together hold what the whole held.
+    /// The elastic energy added by insertions: that of new edges inside strained faces. The parts
+    /// of a divided edge or triangle together hold the energy of the whole.
     pub insert_elastic_j: f64,
-    /// Kinetic energy made by insertions. Velocities are interpolated, so momentum is conserved,
-    /// but differences between corners are partly lost.
+    /// The kinetic energy added by insertions. Velocities are interpolated, so momentum is
+    /// conserved, but differences between corners are partly lost.
     pub insert_kinetic_j: f64,
-    /// Elastic energy made by merges.
+    /// The elastic energy added by merges.
     pub merge_elastic_j: f64,
-    /// Kinetic energy made by merges. It is negative, since two particles become one as in an
+    /// The kinetic energy added by merges. It is negative, since two particles become one as in an
     /// inelastic impact.
     pub merge_kinetic_j: f64,
-    /// Elastic energy made by slides.
+    /// The elastic energy added by slides.
     pub slide_elastic_j: f64,
-    /// Potential energy of gravity made by merges and slides, which move weight. It is not part of
-    /// the other fields.
+    /// The potential energy of gravity added by merges and slides, which move weight. The other
+    /// fields do not include it.
     pub gravity_j: f64,
 }
 
 impl EnergyLedger {
-    /// All energy that edits made, including the potential energy of gravity.
+    /// Returns all energy that edits added, including the potential energy of gravity.
     #[must_use]
     pub fn made_j(&self) -> f64 {
         self.total_j() + self.gravity_j
     }
 
-    /// All elastic and kinetic energy that edits made.
+    /// Returns all elastic and kinetic energy that edits added.
     #[must_use]
     pub fn total_j(&self) -> f64 {
         self.split_elastic_j
@@ -61,16 +61,16 @@ impl EnergyLedger {
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
 /// with a [`Weave`](crate::Weave) a triangle for each face.
 ///
-/// The mesh stays with the caller; this is one more [`Follower`](tearmesh::Follower) of the log. A
-/// split, an insertion or a merge in a running simulation costs what the valence of its vertices
-/// does: no rebuild.
+/// The mesh stays with the caller; a cloth is one more [`Follower`](tearmesh::Follower) of its log.
+/// A split, an insertion or a merge in a running simulation costs time proportional to the valence
+/// of its vertices, without a rebuild.
 ///
-/// * **Split**: the new particle is where the old one is, as fast, and as heavy as [`Masses`] say,
-///   so mass and momentum are exact. Constraints of moved faces go with them; a torn edge gets a
-///   copy. A pinned particle's copy is pinned.
-/// * **Insertion**: the parts of a divided edge are stiffer by the inverse of their share, so
-///   together they are what it was. A new edge inside a face has, times its length, the mean
-///   of the face's edges.
+/// * **Split**: the new particle has the position and velocity of the old one, and [`Masses`]
+///   divides the mass between them, so mass and momentum are exact. Constraints of moved faces go
+///   with them; a torn edge gets a copy. A pinned particle's copy is pinned.
+/// * **Insertion**: the stiffness of each part of a divided edge is that of the edge divided by the
+///   part's share of its length. Stiffness times length of a new edge inside a face is the mean of
+///   the face's edges.
 /// * **Merge**: the inverse of a split; velocities are joined by mass.
 /// * **Slide**: the particle moves along its edge, at rest as well; it keeps its velocity, so
 ///   momentum is exact, and its edges keep stiffness times length.
@@ -135,10 +135,10 @@ pub struct Cloth {
 pub(super) const NO_BEND: ConstraintId = ConstraintId(u32::MAX);
 
 impl Cloth {
-    /// Makes a cloth whose rest state is the mesh as it is now. Linear.
+    /// Creates a cloth whose rest state is the present mesh. Takes linear time.
     ///
-    /// A vertex without a face stays where it is. Where the faces of a vertex have no mass, which
-    /// happens to pieces of a face without area, its particle weighs a unit ([`Masses::unit`]).
+    /// A vertex without a face stays where it is. If the faces of a vertex have no mass, as pieces
+    /// of a face without area, its particle has the mass of one unit ([`Masses::unit`]).
     ///
     /// Both halves of a held vertex are held, and a held vertex stays where it is when a free one is
     /// sewn to it. An inserted vertex is free, between held ones too: an edge between two pins may
@@ -146,9 +146,9 @@ impl Cloth {
     ///
     /// # Errors
     ///
-    /// [`ClothError`]: a stiffness is not positive and finite, an edge (or, with bending, the
-    /// distance across one) has no length, a face of triangles has no area or no warp, or there are
-    /// not as many masses and positions as vertices.
+    /// [`ClothError`] if a stiffness is not positive and finite, an edge (or, with bending, the
+    /// distance across one) has no length, a face of triangles has no area or no warp, or the
+    /// numbers of masses, positions and vertices differ.
     pub fn new(
         mesh: &Mesh,
         positions: &Positions,
@@ -158,15 +158,15 @@ impl Cloth {
         Cloth::with_warps(mesh, positions, masses, fabric, Vec::new())
     }
 
-    /// Makes a cloth as [`Cloth::new`] does, with a direction of warp for each face, in space, for
-    /// the cloth at rest. This is for garments whose texture coordinates give that direction
+    /// Creates a cloth as [`Cloth::new`] does, with a direction of warp for each face, in space,
+    /// for the cloth at rest. This is for garments whose texture coordinates give that direction
     /// ([`warp_of_texture`](crate::warp_of_texture)). It replaces
     /// [`Weave::warp`](crate::Weave::warp), and children of a divided face inherit it.
     ///
     /// # Errors
     ///
-    /// Those of [`Cloth::new`]; and where there is not one direction a face, or one has no
-    /// projection onto its face.
+    /// The errors of [`Cloth::new`], and [`ClothError`] if the numbers of directions and faces
+    /// differ, or a direction has no projection onto its face.
     pub fn with_warps(
         mesh: &Mesh,
         positions: &Positions,
@@ -256,7 +256,7 @@ impl Cloth {
         }
     }
 
-    /// Declares that this cloth belongs to the mesh as it was at the place `seen` in its log.
+    /// Declares that this cloth belongs to the mesh as it was at the cursor `seen` of its log.
     #[must_use]
     pub fn starting_at(mut self, seen: Cursor) -> Cloth {
         self.masses = self.masses.starting_at(seen);
@@ -265,17 +265,17 @@ impl Cloth {
         self
     }
 
-    /// The place in the mesh's log up to which edits have been replayed on this cloth.
+    /// Returns the place in the mesh's log up to which edits have been replayed on this cloth.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Advances by `dt_s` seconds.
+    /// Advances the cloth by `dt_s` seconds.
     ///
     /// # Errors
     ///
-    /// [`StepError`], and the cloth is as it was before.
+    /// [`StepError`]; positions and velocities are then as they were before.
     pub fn step(
         &mut self,
         solver: &mut (impl Solver + ?Sized),
@@ -284,11 +284,12 @@ impl Cloth {
         self.system.step(solver, dt_s)
     }
 
-    /// Advances by `dt_s` seconds under the eyes of an observer, as [`System::step_observed`] does.
+    /// Advances the cloth by `dt_s` seconds, and shows each substep to an observer, as
+    /// [`System::step_observed`] does.
     ///
     /// # Errors
     ///
-    /// [`StepError`], and the cloth is as it was before.
+    /// [`StepError`]; positions and velocities are then as they were before.
     pub fn step_observed(
         &mut self,
         solver: &mut (impl Solver + ?Sized),
@@ -298,38 +299,39 @@ impl Cloth {
         self.system.step_observed(solver, dt_s, observer)
     }
 
-    /// The particles and constraints; vertex v is particle `v.index()`.
+    /// Returns the particles and constraints; vertex v is particle `v.index()`.
     #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
-    /// Mutable access to the particles and constraints, for setting loads, pins and velocities.
+    /// Returns mutable access to the particles and constraints, for setting loads, pins and
+    /// velocities.
     #[must_use]
     pub fn system_mut(&mut self) -> &mut System {
         &mut self.system
     }
 
-    /// The positions of the vertices, in metres. The slice is a [`Place`].
+    /// Returns the positions of the vertices, in metres. The slice is a [`Place`].
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         self.system.positions()
     }
 
-    /// The positions of the vertices at rest, which give the rest lengths of constraints.
+    /// Returns the positions of the vertices at rest, which give the rest lengths of constraints.
     #[must_use]
     pub fn rest_positions(&self) -> &Positions {
         &self.rest
     }
 
-    /// The exact masses of the vertices.
+    /// Returns the exact masses of the vertices.
     #[must_use]
     pub fn masses(&self) -> &Masses {
         &self.masses
     }
 
-    /// The mass of a vertex in kilograms, or `None` for a held vertex. The choice of the vertex to
-    /// split depends on it (Souza et al. 2014 §III-A).
+    /// Returns the mass of a vertex in kilograms, or `None` for a held vertex. The choice of the
+    /// vertex to split depends on it (Souza et al. 2014 §III-A).
     ///
     /// # Panics
     ///
@@ -339,7 +341,8 @@ impl Cloth {
         (!self.system.is_held(v.index())).then(|| self.masses.at(v))
     }
 
-    /// The vertices of all faces, three per face: an index buffer, equal to that of the mesh.
+    /// Returns the vertices of all faces, three per face: an index buffer, equal to that of the
+    /// mesh.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.system.model.faces
@@ -347,7 +350,7 @@ impl Cloth {
 
     /// Writes the positions of the vertices from index `start` on, rounded to `f32`, into a buffer
     /// that is cleared first. With `start` = 0 this is a whole vertex buffer, and otherwise the
-    /// tail that splits added.
+    /// tail that edits added.
     ///
     /// # Panics
     ///
@@ -358,7 +361,7 @@ impl Cloth {
         buffer.extend(tail.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]));
     }
 
-    /// The stretch constraint of an edge, given as either of its half-edges.
+    /// Returns the stretch constraint of an edge, given as either of its half-edges.
     ///
     /// # Panics
     ///
@@ -368,7 +371,7 @@ impl Cloth {
         self.stretch_of[h.index()]
     }
 
-    /// A half-edge of the edge that a stretch constraint belongs to.
+    /// Returns a half-edge of the edge that a stretch constraint belongs to.
     ///
     /// # Panics
     ///
@@ -378,8 +381,8 @@ impl Cloth {
         self.edge_of[id.index()]
     }
 
-    /// The edges that are longer than `ratio` times their rest length, in ascending order, each as
-    /// one of its half-edges. Linear, and allocates nothing.
+    /// Returns the edges that are longer than `ratio` times their rest length, in ascending order,
+    /// each as one of its half-edges. Takes linear time, and allocates nothing.
     pub fn overstretched(&self, ratio: f64) -> impl Iterator<Item = HalfEdgeId> + '_ {
         let edges = (0..self.stretch_of.len()).filter_map(HalfEdgeId::new);
         edges.filter(move |&h| {
@@ -388,7 +391,7 @@ impl Cloth {
         })
     }
 
-    /// The energy that edits of the mesh have made.
+    /// Returns the energy that edits of the mesh added to the cloth.
     #[must_use]
     pub fn ledger(&self) -> EnergyLedger {
         self.ledger

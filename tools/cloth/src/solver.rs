@@ -29,23 +29,25 @@ use crate::system::System;
 /// }
 /// ```
 pub trait Solver {
-    /// Advances positions and velocities by this many seconds. Colliders push afterwards.
+    /// Advances positions and velocities by `dt_s` seconds. Colliders act afterwards.
     ///
     /// # Errors
     ///
-    /// [`Failure`]: positions and velocities may be anything then, and [`System::step`] goes back.
+    /// [`Failure`]; positions and velocities may then have any values, and [`System::step`]
+    /// restores them.
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure>;
 
-    /// What the method can, and up to where it is stable.
+    /// Returns the forces that the method supports, and its stability limits. By default it
+    /// supports springs only, and is stable at any step.
     fn abilities(&self) -> Abilities {
         Abilities::default()
     }
 
-    /// Whether the settings of the method can be used. A step asks first.
+    /// Checks that the settings of the method can be used. [`System::step`] calls this first.
     ///
     /// # Errors
     ///
-    /// [`SettingError`] names the first that cannot.
+    /// [`SettingError`] names the first setting that cannot be used.
     fn check(&self) -> Result<(), SettingError> {
         Ok(())
     }
@@ -65,22 +67,21 @@ impl<S: Solver + ?Sized> Solver for &mut S {
     }
 }
 
-/// What a method supports, and up to which step it is stable. By default it is stable at any step,
-/// and supports springs only.
+/// The forces that a method supports, and its stability limits. By default a method supports
+/// springs only, and is stable at any step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Abilities {
     /// The largest ω Δt at which the method is stable; `None` if there is no limit.
     pub frequency_limit: Option<f64>,
-    /// The largest λ Δt at which the method is stable without springs, where λ is a rate at which
-    /// air slows the system that the method takes in by the velocities before a step: that of wind
-    /// ([`wind_rate`](crate::air::wind_rate)), and of drag where it
-    /// [`takes_drag_explicitly`](Abilities::takes_drag_explicitly). `None` if there is no limit.
+    /// The largest λ Δt at which the method is stable without springs; `None` if there is no limit.
+    /// The rate λ is that at which wind slows the system ([`wind_rate`](crate::air::wind_rate)),
+    /// plus that of drag if the method [`takes_drag_explicitly`](Abilities::takes_drag_explicitly).
     pub air_limit: Option<f64>,
-    /// Whether the method takes in drag by the velocities before a step, so that its rate counts for
-    /// [`air_limit`](Abilities::air_limit).
+    /// Whether the method evaluates drag at the velocities before a step, so that the rate of drag
+    /// counts towards [`air_limit`](Abilities::air_limit).
     pub takes_drag_explicitly: bool,
-    /// Whether neighbours carry the particles that are too light for a step, so that
-    /// [`suited_step_s`](crate::suited_step_s) limits the step rather than the largest frequency.
+    /// Whether neighbours carry the particles that are too light for a step. The step is then
+    /// limited by [`suited_step_s`](crate::suited_step_s) instead of the largest frequency.
     pub carries_light: bool,
     /// Whether the method supports the forces of [`System::triangles`]. A method that does not is
     /// refused if the system has triangles.
@@ -91,7 +92,7 @@ pub struct Abilities {
 }
 
 impl Abilities {
-    /// The abilities of a method that supports all forces and is stable up to these limits.
+    /// Returns the abilities of a method that supports all forces and is stable up to these limits.
     #[must_use]
     pub fn of_forces(frequency_limit: Option<f64>, air_limit: f64) -> Abilities {
         Abilities {
@@ -144,7 +145,7 @@ impl fmt::Display for SettingError {
 
 impl std::error::Error for SettingError {}
 
-/// Why a method did not advance a system.
+/// The reason why a method did not advance a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Failure {
@@ -167,20 +168,21 @@ pub struct StepReport {
     /// The number of substeps into which the stability check divided the step: 1 unless
     /// [`Unstable::Substep`](crate::Unstable::Substep) is set.
     pub substeps: u32,
-    /// The largest step in seconds that would have been admitted whole, by the bound or by the
-    /// measured frequency, whichever decided; `None` where nothing had to be asked.
+    /// The largest step that would have been taken whole, in seconds. `None` if the system allows
+    /// unstable steps ([`Unstable::Allow`](crate::Unstable::Allow)), or if neither springs nor air
+    /// limit the method.
     pub limit_s: Option<f64>,
 }
 
-/// Why a step was not taken. The system is as it was before, and so is what the last step left
-/// behind in constraints and in the balance of energy; [`Counters`](crate::Counters) count what was
-/// tried.
+/// The reason why a step was not taken. Positions and velocities are as they were before, and so is
+/// the balance of energy; [`Counters`](crate::Counters) count the attempt. If the step failed after
+/// it began, the forces and ratios that the last step recorded in constraints are discarded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
     /// The step is not a positive finite number of seconds.
     Step {
-        /// The step as given.
+        /// The step that was given, in seconds.
         given_s: f64,
     },
     /// The method or the system has a setting with an unusable value.
@@ -197,44 +199,44 @@ pub enum StepError {
     },
     /// An explicit method would be unstable, because of springs more than of air.
     Unstable {
-        /// The step as given.
+        /// The step that was given, in seconds.
         given_s: f64,
-        /// The largest step that is admitted, the margin included.
+        /// The largest step that is admitted, in seconds, including the margin.
         limit_s: f64,
-        /// The frequency that sets it.
+        /// The frequency that sets the limit.
         frequency: Frequency,
     },
     /// A method that evaluates drag or wind at the velocities before the step would be unstable,
     /// because of air more than of springs.
     Air {
-        /// The step as given.
+        /// The step that was given, in seconds.
         given_s: f64,
-        /// The largest step that is admitted.
+        /// The largest step that is admitted, in seconds.
         limit_s: f64,
-        /// The rate that sets it.
+        /// The rate that sets the limit.
         rate: AirRate,
     },
     /// The step would need more substeps than [`StepError::SUBSTEPS_MAX`].
     Substeps {
-        /// The step as given.
+        /// The step that was given, in seconds.
         given_s: f64,
-        /// The largest step that is admitted, the margin included.
+        /// The largest step that is admitted, in seconds, including the margin.
         limit_s: f64,
     },
     /// A number is not finite, or a constraint or a velocity is far too large.
     BlowUp {
-        /// The seconds simulated until the last good state, where the system still is.
+        /// The simulated time of the last good state, in seconds. The system is in that state.
         elapsed_s: f64,
-        /// The first particle that is not finite, or the constraint or triangle that is longest for
-        /// its rest length, where the step began or where it was given up: before constraints that
-        /// are stretched beyond the largest ratio are projected or limited.
+        /// The first particle that is not finite, or else the constraint or triangle with the
+        /// largest stretch ratio. The search covers the state where the step began and the one
+        /// where it was given up, before overstretched constraints are projected or limited.
         at: BlowUpSite,
     },
     /// An implicit method found no state that solves its equation within the tolerance of its
     /// [`Settings`](implicit::Settings). This is not a blow-up. A shorter step helps, as do more
     /// Newton iterations or a larger tolerance.
     Implicit {
-        /// The seconds simulated until the last good state, where the system still is.
+        /// The simulated time of the last good state, in seconds. The system is in that state.
         elapsed_s: f64,
         /// The error of the implicit method, which is also the
         /// [`source`](std::error::Error::source).
@@ -243,7 +245,7 @@ pub enum StepError {
 }
 
 impl StepError {
-    /// The most substeps that a step is divided into.
+    /// The largest number of substeps into which a step is divided.
     pub const SUBSTEPS_MAX: u32 = 10_000;
 }
 

@@ -42,7 +42,8 @@ pub struct Frequency {
     /// by mass. It is 1 if nothing could be measured, as in a state that is not finite; ω is the
     /// bound then.
     pub residual: f64,
-    /// The particles of the constraint that has the most energy in this mode.
+    /// The particles of the constraint that has the most energy in this mode; `None` if no mode was
+    /// found.
     pub ends: Option<[usize; 2]>,
 }
 

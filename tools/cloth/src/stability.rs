@@ -106,19 +106,19 @@ fn admit_carried(
     })
 }
 
-/// The step in seconds that suits [`Verlet`](crate::Verlet): the longest at which at most a tenth
-/// of the particles must be carried by their neighbours. A step of up to twice that is taken whole.
-/// It considers springs, and triangles as they are stretched now; it is infinite if there are none.
-/// Cuts and tears do not shorten it, since particles that become light are carried. A pass over all
-/// constraints if something has changed.
+/// Returns the step in seconds that suits [`Verlet`](crate::Verlet): the longest at which at most a
+/// tenth of the particles must be carried by their neighbours. A step of up to twice that is taken
+/// whole. It considers springs, and triangles as they are stretched now; it is infinite if there
+/// are none. Cuts and tears do not shorten it, since particles that become light are carried. Costs
+/// a pass over all constraints if something has changed.
 pub fn suited_step_s(system: &mut System) -> f64 {
     let (model, counters) = (&system.model, &mut system.counters);
     let reach = system.spectrum.reach(model, &system.positions, counters);
     system.guard.suited_s(model, reach)
 }
 
-/// The number of particles that were too light for the last step of [`Verlet`](crate::Verlet), and
-/// so were carried by their neighbours.
+/// Returns the number of particles that were too light for the last step of
+/// [`Verlet`](crate::Verlet), and so were carried by their neighbours.
 #[must_use]
 pub fn carried_count(system: &System) -> usize {
     system.guard.carry().len()
@@ -150,10 +150,10 @@ fn admit_air(system: &System, air: AirShare, dt_s: f64) -> Result<StepReport, St
     Err(air.refused(dt_s, limit_s))
 }
 
-/// The largest step in seconds that is taken whole in the present configuration by a method with
-/// this limit of ω Δt, which is 2 for [`Verlet::plain`](crate::Verlet::plain). Measures the
-/// frequency. It considers springs alone; wind shortens the step further, as
-/// [`Abilities::air_limit`](crate::Abilities::air_limit) and [`wind_rate`](air::wind_rate) say.
+/// Returns the largest step in seconds that is taken whole in the present configuration by a method
+/// with this limit of ω Δt, which is 2 for [`Verlet::plain`](crate::Verlet::plain). Measures the
+/// frequency. It does not consider wind, which shortens the step further
+/// ([`Abilities::air_limit`](crate::Abilities::air_limit), [`wind_rate`](air::wind_rate)).
 pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
     let bound_s = frequency_limit / frequency::bound(system);
     (system.margin * frequency_limit / frequency::largest(system).omega_rad_per_s).max(bound_s)

@@ -15,24 +15,25 @@ use crate::system::{Model, System};
 
 /// An observer that sees a system before and after each substep.
 pub trait Observer {
-    /// A substep is about to be taken; who is led has got the velocity for it.
+    /// Called before each substep. Particles that are led have the velocity for it already.
     fn before(&mut self, system: &System);
 
-    /// It was taken.
+    /// Called after each substep that was taken, with its report.
     fn after(&mut self, system: &System, substep: Substep);
 
-    /// Whether methods are to compute what they themselves make of energy
-    /// ([`Substep::made_j`]), which costs up to a pass over constraints.
+    /// Returns whether methods must compute the energy that they themselves make
+    /// ([`Substep::made_j`]), which costs up to a pass over constraints. The default is false.
     fn meters(&self) -> bool {
         false
     }
 
-    /// The step that these substeps were of has ended. Where it was not taken, all that was seen of
-    /// it is void: the system is where the step began.
+    /// Called at the end of a step, after its substeps. If `is_taken` is false, the step failed and
+    /// the system is back where it began, so all observations of the step are void. Not called for
+    /// a step that was refused before its first substep.
     fn ended(&mut self, is_taken: bool);
 }
 
-/// Nobody looks.
+/// An observer that ignores everything.
 impl Observer for () {
     fn before(&mut self, _: &System) {}
 
@@ -50,8 +51,8 @@ pub struct Substep {
     /// without a stability limit do.
     pub moves_at_end: bool,
     /// The energy that the method itself made in the substep, in joules, including its error in the
-    /// work of wind; negative if it took some. `None` if the method does not compute it, or if [no
-    /// observer wants it](Observer::meters).
+    /// work of wind; negative if it removed energy. `None` if the method does not compute it, or if
+    /// [no observer wants it](Observer::meters).
     pub made_j: Option<f64>,
 }
 
@@ -60,8 +61,8 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`StepError`]: positions and velocities are as they were before, and nothing is left behind in
-    /// constraints.
+    /// [`StepError`]; positions and velocities are then as they were before. If the step failed
+    /// after it began, nothing is left behind in constraints.
     pub fn step(
         &mut self,
         solver: &mut (impl Solver + ?Sized),

@@ -12,9 +12,9 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 use crate::sheet::Cloth;
 
 impl Cloth {
-    /// The largest stretch of a face in any direction, as a multiple of the length at rest: the
-    /// larger singular value of its deformation. It is 1 at rest, up to rounding. Thresholds of
-    /// tearing by strain are compared with it if a cloth has triangles and no springs.
+    /// Returns the largest stretch of a face in any direction, as a multiple of the length at rest:
+    /// the larger singular value of its deformation. It is 1 at rest, up to rounding.
+    /// [`Threshold::PrincipalStretch`](crate::Threshold::PrincipalStretch) is compared with it.
     ///
     /// For a face without area at rest, the result is the largest stretch ratio of its edges.
     ///
@@ -30,13 +30,13 @@ impl Cloth {
         larger_singular_value(derivatives)
     }
 
-    /// The stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples of the
-    /// lengths at rest. This allows separate thresholds for warp and weft. Shear does not enter.
+    /// Returns the stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples
+    /// of the lengths at rest. Shear does not enter.
     ///
     /// The direction of warp is that of [`Weave::warp`](crate::Weave::warp) or
-    /// [`Cloth::with_warps`], projected onto the face at rest. Weft is perpendicular to it.
-    /// Otherwise warp runs along the x-axis, or along the y-axis in faces whose normal is nearer to
-    /// the x-axis than to the other axes.
+    /// [`Cloth::with_warps`], projected onto the face at rest. Weft is perpendicular to it. If the
+    /// fabric sets no direction, warp runs along the x-axis, or along the y-axis in faces whose
+    /// normal is nearer to the x-axis than to the other axes.
     ///
     /// For a face without area at rest, both numbers are the largest stretch ratio of its edges.
     ///

@@ -27,7 +27,7 @@ use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
 
-/// Particles, constraints and loads.
+/// A mass-spring system: particles, constraints, triangles and loads.
 ///
 /// ```
 /// use tearmesh_cloth::{Loads, System, Verlet};
@@ -102,26 +102,26 @@ pub(crate) struct Scratch {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unstable {
-    /// Refuses the step with an error that names the limit, and changes nothing. The limit is that
+    /// Refuses the step with an error that gives the limit, and changes nothing. The limit is that
     /// of the present configuration, with a margin.
     #[default]
     Refuse,
     /// Divides the step into enough substeps to be stable in every configuration by the linear
-    /// theory, and reports how many. Crushed cloth can still make energy with a method that has no
-    /// guards ([`Verlet::plain`](crate::Verlet::plain), [`Provot`](crate::Provot)): springs under
-    /// compression push sideways, which no bound for small motions captures.
+    /// theory, and reports their number. Crushed cloth can still gain energy with a method that has
+    /// no guards ([`Verlet::plain`](crate::Verlet::plain), [`Provot`](crate::Provot)): springs
+    /// under compression push sideways, which no bound for small motions captures.
     Substep,
     /// Takes the step. No frequency is computed, but blow-up is still noticed.
     Allow,
 }
 
 impl System {
-    /// Makes a system of particles at rest at these points, with these masses in kilograms.
+    /// Creates a system of particles at rest at these points, with these masses in kilograms.
     ///
     /// # Errors
     ///
-    /// [`SystemError`]: where a coordinate is not usable, a mass is not positive, or the numbers
-    /// of points and masses differ.
+    /// [`SystemError`] if a coordinate is not finite or too large, a mass is not positive and
+    /// finite, or the numbers of points and masses differ.
     pub fn new(
         points: impl IntoIterator<Item = Point>,
         masses_kg: Vec<f64>,
@@ -189,7 +189,8 @@ impl System {
         }
     }
 
-    /// Adds a stretch constraint between two particles: rest length in metres, stiffness in N/m.
+    /// Adds a stretch constraint between two particles, with its rest length in metres and its
+    /// stiffness in N/m, and returns its id.
     ///
     /// # Errors
     ///
@@ -208,16 +209,17 @@ impl System {
         self.connect(Family::Stretch, ends, rest_length_m, stiffness_n_per_m)
     }
 
-    /// Adds a bend constraint: a spring between two particles that something else joins, so that
-    /// it resists folding (the flexion springs of Provot 1995, §2).
+    /// Adds a bend constraint and returns its id. It is a spring between two particles that are
+    /// also joined in another way, so that it resists folding (the flexion springs of Provot 1995,
+    /// §2).
     ///
     /// # Errors
     ///
-    /// Those of [`System::stretch`].
+    /// The errors of [`System::stretch`].
     ///
     /// # Panics
     ///
-    /// As for [`System::stretch`].
+    /// If the system is that of a cloth, whose constraints follow its mesh.
     pub fn bend(
         &mut self,
         ends: [usize; 2],
@@ -227,11 +229,11 @@ impl System {
         self.connect(Family::Bend, ends, rest_length_m, stiffness_n_per_m)
     }
 
-    /// Makes all bend constraints buckle by this law, those that are there and those to come, or
-    /// makes them springs again. Below its rest length a bend then has, in the place of a spring's
-    /// force, that of an arc ([`Buckling`], Choi and Ko 2002 §4.2), and beyond it none; its stiffness
-    /// is the one against compression before it buckles.
-    /// [`Pbd`](crate::Pbd) and [`Xpbd`](crate::Xpbd), which project springs, are refused then.
+    /// Sets the law by which all bend constraints buckle, present and future ones; `None` makes
+    /// them springs. A bend below its rest length then acts as an arc ([`Buckling`], Choi and Ko
+    /// 2002 §4.2), and one beyond it exerts no force. The stiffness of a bend is the one against
+    /// compression before it buckles. [`Pbd`](crate::Pbd) and [`Xpbd`](crate::Xpbd), which project
+    /// springs, are then refused.
     ///
     /// ```
     /// use tearmesh_cloth::{Buckling, System, energy, force};
@@ -264,18 +266,18 @@ impl System {
         self.guard.forget();
     }
 
-    /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4): its particles,
-    /// their places (u, v) in the material in metres, and the stiffness along u, along v and in
-    /// shear in N/m. Returns its index.
+    /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4), and returns its
+    /// index, from 0. A triangle has three particles, their coordinates (u, v) in the material in
+    /// metres, and the stiffness along u, along v and in shear in N/m.
     ///
     /// # Errors
     ///
-    /// [`SystemError::Triangle`]: a stiffness is negative, a number is not finite, the places
-    /// span no area, or the corners are not three particles.
+    /// [`SystemError::Triangle`] if a stiffness is negative, a number is not finite, the
+    /// coordinates span no area, or the corners are not three different particles.
     ///
     /// # Panics
     ///
-    /// As for [`System::stretch`].
+    /// If the system is that of a cloth, whose triangles follow its mesh.
     pub fn triangle(
         &mut self,
         corners: [usize; 3],
@@ -347,7 +349,7 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemError::Constraint`] where it is not positive and finite.
+    /// [`SystemError::Constraint`] if the stiffness is not positive and finite.
     ///
     /// # Panics
     ///
@@ -383,7 +385,7 @@ impl System {
         constraint
     }
 
-    /// Pins a particle where it is.
+    /// Pins a particle at its present position, with velocity zero.
     ///
     /// # Panics
     ///
@@ -405,7 +407,8 @@ impl System {
         self.weigh(particle);
     }
 
-    /// Leads a particle along a path, starting at the path's present point.
+    /// Leads a particle along a path. The particle moves at once to the point of the path at the
+    /// present time.
     ///
     /// # Panics
     ///
@@ -431,7 +434,7 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemError::Loads`] where a number is not finite, or negative where it must not be.
+    /// [`SystemError::Loads`] if a number is not finite, or is negative where it must not be.
     pub fn set_loads(&mut self, loads: Loads) -> Result<(), SystemError> {
         if let Some((field, given)) = loads.fault() {
             return Err(SystemError::Loads { field, given });
@@ -454,21 +457,21 @@ impl System {
         self.model.stretch_ratio_max = ratio;
     }
 
-    /// The positions of the particles, in metres.
+    /// Returns the positions of the particles, in metres.
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         &self.positions
     }
 
-    /// The velocities of the particles, in m/s.
+    /// Returns the velocities of the particles, in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[Vector] {
         &self.velocities
     }
 
-    /// Mutable access to positions and velocities. The next step notices values that are not
-    /// finite. What the last step left behind in constraints ([`force_n`](crate::force::force_n),
-    /// [`System::unlimited_ratio`]) is discarded.
+    /// Returns mutable access to positions and velocities. The next step notices values that are
+    /// not finite. The forces and ratios that the last step recorded in constraints
+    /// ([`force_n`](crate::force::force_n), [`System::unlimited_ratio`]) are discarded.
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
@@ -478,19 +481,19 @@ impl System {
         (&mut self.positions, &mut self.velocities)
     }
 
-    /// The masses of the particles, in kilograms.
+    /// Returns the masses of the particles, in kilograms.
     #[must_use]
     pub fn masses(&self) -> &[f64] {
         &self.model.masses
     }
 
-    /// The inverse masses of the particles, in 1/kg: zero for a held particle.
+    /// Returns the inverse masses of the particles, in 1/kg: zero for a held particle.
     #[must_use]
     pub fn inverse_masses(&self) -> &[f64] {
         &self.model.inverse_masses
     }
 
-    /// Whether a particle is pinned or grabbed.
+    /// Returns whether a particle is pinned or grabbed.
     ///
     /// # Panics
     ///
@@ -500,49 +503,49 @@ impl System {
         self.model.held[particle]
     }
 
-    /// The stretch constraints.
+    /// Returns the stretch constraints.
     #[must_use]
     pub fn stretches(&self) -> &Constraints {
         &self.model.stretch
     }
 
-    /// The bend constraints.
+    /// Returns the bend constraints.
     #[must_use]
     pub fn bends(&self) -> &Constraints {
         &self.model.bend
     }
 
-    /// The law by which bend constraints buckle; `None` where they are springs.
+    /// Returns the law by which bend constraints buckle; `None` if they are springs.
     #[must_use]
     pub fn buckling(&self) -> Option<Buckling> {
         self.model.buckling
     }
 
-    /// The triangles that resist stretch and shear, by index.
+    /// Returns the triangles that resist stretch and shear, by index.
     #[must_use]
     pub fn triangles(&self) -> &[Triangle] {
         self.model.triangles.as_slice()
     }
 
-    /// The external loads.
+    /// Returns the external loads.
     #[must_use]
     pub fn loads(&self) -> &Loads {
         &self.model.loads
     }
 
-    /// Counts of what has been computed so far.
+    /// Returns counts of the work done so far.
     #[must_use]
     pub fn counters(&self) -> Counters {
         self.counters
     }
 
-    /// The seconds that have been simulated.
+    /// Returns the time simulated so far, in seconds.
     #[must_use]
     pub fn elapsed_s(&self) -> f64 {
         self.elapsed_s
     }
 
-    /// The length of a stretch constraint as a multiple of its rest length.
+    /// Returns the length of a stretch constraint as a multiple of its rest length.
     ///
     /// # Panics
     ///
@@ -553,8 +556,9 @@ impl System {
         pair::length(&self.positions, constraint.ends) / constraint.rest_length_m
     }
 
-    /// The length of a stretch constraint as a multiple of its rest length, as it was in the last
-    /// step before a limiter shortened it; [`System::stretch_ratio`] where there was none.
+    /// Returns the length of a stretch constraint as a multiple of its rest length, as it was in
+    /// the last step before a limiter shortened it. If no limiter ran, this is
+    /// [`System::stretch_ratio`].
     ///
     /// # Panics
     ///
@@ -568,9 +572,10 @@ impl System {
         }
     }
 
-    /// The force in a stretch constraint by the multiplier of the last step of
-    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is positive. Of
-    /// [`Provot`](crate::Provot), the share of the limiter. It is zero before the first step.
+    /// Returns the force in a stretch constraint that belongs to the multiplier of the last step of
+    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is positive. After
+    /// a step of [`Provot`](crate::Provot) it is the share of the limiter. It is zero before the
+    /// first step.
     ///
     /// # Panics
     ///
@@ -648,7 +653,8 @@ impl System {
             .elastic_and_look_j(&self.positions, Some(&mut self.lookout))
     }
 
-    /// The root mean square of the strains l/L − 1 of all stretch constraints.
+    /// Returns the root mean square of the strains l/L − 1 of all stretch constraints; 0 if there
+    /// are none.
     #[must_use]
     pub fn strain_rms(&self) -> f64 {
         let squares = self.model.stretch.iter().map(|id| {

@@ -71,7 +71,7 @@ use std::fmt;
 
 use tearmesh::geometry::{Vector, check_point};
 
-/// When an edge tears.
+/// The condition under which an edge tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Threshold {
@@ -83,14 +83,14 @@ pub enum Threshold {
     Stretch(f64),
     /// An edge tears when its length, as a multiple of the rest length, reaches one ratio for edges
     /// along the warp, which is the direction of `axis` at rest, and another for edges along the
-    /// weft. A diagonal edge, 22.5° or more from both, never tears by itself: it resists shear, and
-    /// shear stiffness tears falsely.
+    /// weft. A diagonal edge, more than 22.5° from both, never tears by itself: it resists shear,
+    /// and shear alone must not tear the cloth.
     WarpWeft {
-        /// The ratio along the axis.
+        /// The ratio at which edges along the warp tear, above 1.
         warp: f64,
-        /// The ratio across it.
+        /// The ratio at which edges along the weft tear, above 1.
         weft: f64,
-        /// The direction of the warp at rest; any length.
+        /// The direction of the warp at rest, as a vector of any length above 0.
         axis: Vector,
     },
     /// An edge tears at the strain √(2 G / (E h)), where G is an energy per length of tear, in J/m,
@@ -101,8 +101,8 @@ pub enum Threshold {
     Toughness(f64),
     /// An edge tears when its force reaches this many newtons, as the method of the last step
     /// exerted it ([`force_n`](crate::force::force_n)). A copy with half the stiffness bears half
-    /// of that. This is for springs: the edges of a [`Weave`](crate::Weave) have no force, except
-    /// with a method that projects.
+    /// that force. This is for springs: the edges of a [`Weave`](crate::Weave) have no force,
+    /// except with a method that projects.
     Force(f64),
     /// A face tears at its most stretched edge when its largest stretch in any direction
     /// ([`Cloth::principal_stretch`](crate::Cloth::principal_stretch)) reaches this ratio, a number
@@ -110,7 +110,7 @@ pub enum Threshold {
     PrincipalStretch(f64),
 }
 
-/// How a cloth tears.
+/// The rules by which a cloth tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tearing {
     /// The threshold at which an edge tears.
@@ -132,8 +132,8 @@ pub struct Tearing {
 }
 
 impl Tearing {
-    /// Tearing at this threshold as in the paper: at once, without a cap, without weakened tips,
-    /// and without splitting held vertices.
+    /// Returns rules with this threshold as in the paper: edges tear at once, without a cap,
+    /// without weakened tips, and held vertices are not split.
     #[must_use]
     pub fn new(threshold: Threshold) -> Tearing {
         Tearing {
@@ -184,13 +184,13 @@ impl Tearing {
 }
 
 impl Default for Tearing {
-    /// At one and a half times the length at rest.
+    /// Returns rules by which an edge tears at one and a half times its rest length.
     fn default() -> Tearing {
         Tearing::new(Threshold::Stretch(1.5))
     }
 }
 
-/// Why a cloth cannot tear this way.
+/// The reason why a cloth cannot tear by given rules or strengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TearingError {
@@ -201,12 +201,12 @@ pub enum TearingError {
         /// The limit that the threshold must be above.
         limit: f64,
     },
-    /// The axis of the warp has no direction.
+    /// The axis of the warp is zero, not finite or too large.
     Axis {
         /// The axis that was given.
         given: Vector,
     },
-    /// The factor of weakening is not above 0 and at most 1.
+    /// The weakening factor is not above 0 and at most 1.
     Weakening {
         /// The factor that was given.
         given: f64,
@@ -225,7 +225,7 @@ pub enum TearingError {
     },
     /// A strength is not positive and finite. The first such vertex is named.
     Strength {
-        /// The index of the vertex.
+        /// The index of the vertex, from 0.
         vertex: usize,
         /// The strength that was given.
         given: f64,

@@ -37,7 +37,7 @@ use crate::matrix::{Block, Hessian};
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle {
-    /// The indices of the three particles.
+    /// The indices of the three particles, one for each corner.
     pub vertices: [u32; 3],
     /// The inverse of the matrix of the triangle's edges in the material, in 1/m. Rows belong to
     /// the edges x₁ − x₀ and x₂ − x₀, and columns to u and v.
@@ -49,9 +49,12 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// A triangle whose corners have the coordinates (u, v) in the material, in metres.
+    /// Creates a triangle with these particles at its corners, with the coordinates (u, v) of the
+    /// corners in the material in metres, and with the stiffness along u, along v and in shear in
+    /// N/m.
     ///
-    /// `None` if the corners span no area, or a number is not finite.
+    /// Returns `None` if the corners span no area, a stiffness is negative, or a number is not
+    /// finite.
     ///
     /// ```
     /// use tearmesh_cloth::Triangle;
@@ -106,7 +109,8 @@ impl Triangle {
         [0, 1].map(|c| [-(d[0][c] + d[1][c]), d[0][c], d[1][c]])
     }
 
-    /// The derivatives `w_u` and `w_v` of the deformation, with the corners at these points.
+    /// Returns the derivatives `w_u` and `w_v` of the positions by the material coordinates u and
+    /// v, with the corners at these points. At rest their lengths are 1.
     #[inline]
     #[must_use]
     pub fn derivatives(&self, [x0, x1, x2]: [Point; 3]) -> [Vector; 2] {

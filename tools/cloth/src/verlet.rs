@@ -60,17 +60,17 @@ use crate::system::System;
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
 /// [`Verlet::new`] is guarded: particles that are too light for the step are carried by their
-/// neighbours, and what is shorter than nine tenths of its rest length is damped. It is stable at
-/// steps of up to twice [`suited_step_s`](crate::suited_step_s) in every configuration, and at rest it is exact.
-/// In motion the guards make light particles swing more slowly about their neighbours; at half the
-/// suited step or less next to none is carried.
+/// neighbours, and constraints shorter than nine tenths of their rest length are damped. It is
+/// stable at steps of up to twice [`suited_step_s`](crate::suited_step_s) in every configuration,
+/// and exact at rest. In motion the guards make light particles swing more slowly about their
+/// neighbours; at half the suited step or less hardly any particle is carried.
 ///
-/// [`Verlet::plain`] is the textbook's, stable for small motions up to ω Δt = 2 and of wind alone up
-/// to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). Its oscillators have the frequency ω′ with
-/// cos ω′Δt = 1 − (ωΔt)²/2, so it runs fast by up to π/2 at the limit.
+/// [`Verlet::plain`] is the textbook method, stable for small motions up to ω Δt = 2 and for wind
+/// alone up to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). Its oscillators have the frequency
+/// ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it runs fast by up to π/2 at the limit.
 ///
-/// Drag is taken in by a backward and a forward half step, and wind by a prediction of the
-/// velocities that it blows at: both leave the order. Contact is of first order.
+/// Drag is applied in a backward and a forward half step, and wind by a prediction of the
+/// velocities at which it acts: both keep the second order. Contact is of first order.
 ///
 /// ```
 /// use tearmesh::Point;
@@ -99,14 +99,14 @@ pub struct Verlet {
 }
 
 impl Verlet {
-    /// Velocity Verlet with its guards.
+    /// Creates velocity Verlet with its guards.
     #[must_use]
     pub fn new() -> Verlet {
         Verlet::default()
     }
 
-    /// Velocity Verlet as in textbooks, without guards: for cloth that is never crushed, and for
-    /// comparisons.
+    /// Creates velocity Verlet as in textbooks, without guards. It is for cloth that is never
+    /// crushed, and for comparisons.
     #[must_use]
     pub fn plain() -> Verlet {
         Verlet {
@@ -115,8 +115,9 @@ impl Verlet {
         }
     }
 
-    /// The energy that the damping of crushed constraints has taken in all steps so far, in joules.
-    /// It is a part of what an energy balance reports as made by the method.
+    /// Returns the energy that the damping of crushed constraints has removed in all steps so far,
+    /// in joules. An energy balance includes it in [`method_j`](crate::EnergyBalance::method_j), as
+    /// a loss.
     #[must_use]
     pub fn damped_j(&self) -> f64 {
         self.damped_j
@@ -134,7 +135,8 @@ impl Verlet {
 }
 
 impl Solver for Verlet {
-    /// Air by the prediction: z² − (1 − 3μ/2) z − μ/2 has the root −1 at μ = λΔt = 1.
+    /// Returns the abilities of the method. With wind at predicted velocities, z² − (1 − 3μ/2) z −
+    /// μ/2 has the root −1 at μ = λΔt = 1.
     fn abilities(&self) -> Abilities {
         Abilities {
             carries_light: !self.is_plain,

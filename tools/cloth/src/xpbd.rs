@@ -5,11 +5,12 @@
 //! less strain for about the same cost. The force in each constraint is known as its
 //! multiplier, so a tear threshold can be in newtons.
 //!
-//! With many sweeps it comes near backward Euler, and damps like it, but not to it: each sweep pushes
-//! along the directions that constraints had then, not those that they have in the end, and once it
-//! has converged there is nothing left to turn the pushes with. At 60 steps a second a chain that sags
-//! by 0.39 m stays off by 0.26 mm where [`Xpbd::residual_n`] is rounding alone. With few sweeps it is softer than its springs, and at
-//! rest too: by how much is in the table of [`Verlet`](crate::Verlet), and the command says it of a scene.
+//! With many sweeps it comes near backward Euler, and damps like it, but not to it: each sweep pushes along
+//! the directions that constraints had then, not those that they have in the end, and once it has converged
+//! there is nothing left to turn the pushes with. At 60 steps a second a chain that sags by 0.39 m stays off
+//! by 0.26 mm where [`Xpbd::residual_n`] is rounding alone. With few sweeps it is softer than its springs,
+//! and at rest too: by how much is in the table of [`Verlet`](crate::Verlet), and the command says it of a
+//! scene.
 //!
 //! Sweeps always run in the same direction; alternating stretches 33 times more. Drag enters the
 //! prediction *and* the compliance (a factor 1 + c Δt), otherwise the static stretch would be
@@ -31,14 +32,14 @@ use crate::system::System;
 /// ([`wind_rate`](crate::air::wind_rate)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Xpbd {
-    /// The number of substeps per step; at least one.
+    /// The number of substeps per step. Zero counts as one.
     pub substeps: u32,
-    /// The number of sweeps over all constraints per substep; at least one, and one is best.
+    /// The number of sweeps over all constraints per substep. Zero counts as one, and one is best.
     pub sweeps: u32,
 }
 
 impl Default for Xpbd {
-    /// Ten substeps of one sweep.
+    /// Returns the method with ten substeps of one sweep.
     fn default() -> Xpbd {
         Xpbd {
             substeps: 10,
@@ -48,7 +49,7 @@ impl Default for Xpbd {
 }
 
 impl Xpbd {
-    /// The method with these numbers of substeps per step and sweeps per substep.
+    /// Creates the method with these numbers of substeps per step and sweeps per substep.
     #[must_use]
     pub fn new(substeps: u32, sweeps: u32) -> Xpbd {
         Xpbd { substeps, sweeps }
@@ -94,9 +95,9 @@ impl Xpbd {
         true
     }
 
-    /// The largest difference, over all free particles, between the sum of the forces that the last
-    /// substep used and the sum of those that the springs have now, in newtons. It is zero if the
-    /// sweeps have converged. Costs one force evaluation.
+    /// Returns the largest difference, over all free particles, between the sum of the forces that
+    /// the last substep used and the sum of those that the springs have now, in newtons. It is zero
+    /// if the sweeps have converged. Costs one force evaluation.
     #[must_use]
     pub fn residual_n(&self, system: &System) -> f64 {
         let mut residual = vec![Vector::zeros(); system.positions.len()];
@@ -122,7 +123,8 @@ impl Xpbd {
 }
 
 impl Solver for Xpbd {
-    /// Each substep has wind of its own.
+    /// Returns the abilities of the method. The air limit is per step, since each substep has its
+    /// own wind.
     fn abilities(&self) -> Abilities {
         Abilities {
             air_limit: Some(2.0 * f64::from(self.substeps.max(1))),

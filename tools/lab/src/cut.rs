@@ -1,10 +1,10 @@
-//! Cut methods: what a cut takes, and how far its seam is from where it should be.
+//! Cut methods: the time of a cut, and the distance of its seam from the plane.
 //!
-//! Sheets of random triangles that wave are cut through along lines at random, by every method and with
-//! several snaps, each time the same lines on a mesh as it was at first. What is measured of each is a
-//! [`CutReport`], and what the slivers of a cut leave of the step of an explicit
-//! solver. Times are those of cuts alone, for each face of the mesh, so that meshes of several sizes and
-//! records from elsewhere can stand in one chart: see [`Rival`].
+//! Wavy sheets of random triangles are cut through along random lines, by every method and with several
+//! snaps. Every method cuts the same lines, each on a fresh copy of the sheet. The results are those of
+//! [`CutReport`], and the stable step of an explicit solver after the cut, which thin faces shorten. Times
+//! are those of cuts alone, per face of the sheet. So meshes of several sizes and records of other programs
+//! fit in one chart: see [`Rival`].
 
 mod csv;
 mod rival;
@@ -34,16 +34,16 @@ use crate::provenance::Provenance;
 use crate::random::Random;
 use crate::sample::median;
 
-/// A method with its settings.
+/// A cut method with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
-    /// As it stands in tables.
+    /// The name in tables.
     pub name: &'static str,
-    /// The method.
+    /// The cut method, without its settings.
     pub method: CutMethod,
-    /// The snap of `exact`.
+    /// The argument of [`Scissor::snap`], as a fraction of an edge; 0 for methods other than `exact`.
     pub snap: f64,
-    /// Whether what snaps is moved onto the plane.
+    /// The argument of [`Scissor::snap_move`]: whether a snapped vertex is moved onto the plane.
     pub is_moved: bool,
 }
 
@@ -56,7 +56,7 @@ const fn way(name: &'static str, method: CutMethod, snap: f64, is_moved: bool) -
     }
 }
 
-/// All that is tried.
+/// All methods and settings that are compared, in the order of tables.
 pub const WAYS: [Way; 10] = [
     way("uniform", CutMethod::Uniform, 0.0, false),
     way("alternating", CutMethod::Alternating, 0.0, false),
@@ -70,68 +70,68 @@ pub const WAYS: [Way; 10] = [
     way("exact .2 moved", CutMethod::Exact, 0.2, true),
 ];
 
-/// What to chart, and how.
+/// The options of the experiment on cut methods.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Cells a side of the sheets.
+    /// The number of cells along each side of a sheet, one sheet per entry. None may be 0.
     pub cells: Vec<u32>,
-    /// Lines that each is cut along.
+    /// The number of lines along which each sheet is cut, at least 1.
     pub cuts: u32,
-    /// How many cuts are made at a time; times are best taken alone.
+    /// The number of cuts to run at a time. Times are most accurate with 1.
     pub threads: NonZero<usize>,
 }
 
-/// The experiment, made.
+/// The results of the experiment on cut methods.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
-    /// How to read the file.
+    /// The name and version of the file format.
     pub schema: &'static str,
-    /// Where it comes from.
+    /// The origin of the results.
     pub provenance: Provenance,
-    /// What lines begin with.
+    /// The seed of the random sheets and lines.
     pub seed: u64,
-    /// Lines that each sheet was cut along.
+    /// The number of lines along which each sheet was cut.
     pub cuts: u32,
-    /// By size and way.
+    /// The results, ordered by sheet and then by method, as in [`WAYS`].
     pub rows: Vec<Row>,
-    /// From elsewhere.
+    /// The results of other programs, read from a record.
     pub rivals: Vec<Rival>,
 }
 
-/// A way on a sheet: numbers are medians over all lines, unless they say otherwise.
+/// The results of one method on one sheet, over all lines.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// The way.
+    /// The name of the method, as in [`Way::name`].
     pub way: &'static str,
-    /// The faces of the sheet.
+    /// The number of faces of the sheet before a cut.
     pub faces: usize,
-    /// CPU time of a cut for each face of the sheet in ns; `None` without a clock.
+    /// The median CPU time of a cut in ns, divided by `faces`; `None` without a clock.
     pub ns_per_face: Option<f64>,
-    /// What the log of a cut has: vertices inserted and split.
+    /// The median number of edits in the log of a cut: vertices inserted and vertices split.
     pub edits: f64,
-    /// The largest distance of the seam from the plane, in mean edges.
+    /// The median over all lines of the largest distance of the seam from the plane, in mean edge lengths.
     pub deviation_edges: f64,
-    /// The same, the largest of all lines.
+    /// The largest distance of any seam from its plane, in mean edge lengths.
     pub deviation_edges_most: f64,
-    /// The length of the seam over that of the slit.
+    /// The median of the length of the seam divided by that of the slit.
     pub length_ratio: f64,
-    /// The same, the largest of all lines.
+    /// The largest ratio of the length of a seam to that of its slit.
     pub length_ratio_most: f64,
-    /// Lines along which the sheet was divided into the pieces that were expected.
+    /// The number of lines along which the cut left the expected number of pieces.
     pub divided: u32,
-    /// Pieces beyond those expected, as a mean.
+    /// The mean number of pieces per cut beyond those expected.
     pub crumbs: f64,
-    /// Pieces short of them, as a mean.
+    /// The mean number of pieces per cut that were expected and are missing.
     pub lost: f64,
-    /// Vertices that were inserted.
+    /// The median number of inserted vertices.
     pub inserted: f64,
-    /// The smallest angle of any face, in degrees: the least of all lines.
+    /// The smallest angle of any face after any of the cuts, in degrees.
     pub angle_min_deg: f64,
-    /// The smallest altitude over that before the cut: the least of all lines.
+    /// The smallest altitude of any face after any of the cuts, divided by the smallest before them.
     pub altitude_ratio: f64,
-    /// The stable step of springs after the cut over that before it.
+    /// The median of the stable step of springs after a cut, divided by that before it.
     pub step_ratio: f64,
-    /// The same, the least of all lines.
+    /// The smallest ratio of the stable step after a cut to that before it.
     pub step_ratio_least: f64,
 }
 
@@ -150,19 +150,21 @@ struct Done {
     step_s: f64,
 }
 
-/// How many cuts that will be.
+/// Returns the number of cuts of the experiment.
 #[must_use]
 pub fn cuts(options: &Options) -> usize {
     options.cells.len() * WAYS.len() * options.cuts as usize
 }
 
-/// Makes the experiment. `clock` tells the CPU time of the thread that asks; without it there are no times,
-/// and the same options give the same study. All ends with the cut under way, without a study, where `stop`
-/// says so; `watch` hears of each cut.
+/// Runs the experiment.
+///
+/// `clock` returns the CPU time of the calling thread. Without it there are no times, and the same options
+/// give the same study. `watch` is called after each cut with the name of its method. Returns `None` when
+/// `stop` returns true, after the cuts that are under way.
 ///
 /// # Panics
 ///
-/// Never: the sheets are data of our own.
+/// If `options.cuts` is 0, or a number of `options.cells` is 0 or more than a mesh can have.
 #[must_use]
 pub fn study(
     options: &Options,

@@ -1,13 +1,12 @@
-//! Ensembles: a scene played many times, each time disturbed by next to nothing.
+//! Ensembles: one scene played many times, each time with a tiny disturbance.
 //!
-//! What tears is chaotic: a nanometre decides which edge goes first, and from there on two runs have
-//! little in common. So single runs say nothing of a step or a method; what they have in common over many
-//! such disturbances does. Each member of an ensemble begins with its free vertices off by up to
-//! [`NOISE_M`] in each direction, and with its faces in another order, as far as the mesh can be built
-//! anew; nothing else differs.
+//! Tearing is chaotic: a nanometre decides which edge tears first, and two runs soon have little in common.
+//! So a single run says nothing about a step or a method, but the distribution over many disturbed runs
+//! does. In each member of an ensemble, the free vertices start off by up to [`NOISE_M`] along each axis.
+//! Its faces are in another order, if the mesh can be built from its faces. Nothing else differs.
 //!
-//! Two ensembles are compared by the ratio of their medians, with an interval of 95 % by bootstrap
-//! (resampling each with replacement): see [`Verdict`].
+//! Two ensembles are compared by the ratio of their medians, with a 95 % interval by bootstrap (resampling
+//! each with replacement): see [`Verdict`].
 
 mod compare;
 #[cfg(test)]
@@ -25,86 +24,87 @@ use tearmesh_cloth::scene::{Chronicle, Frame, Run, RunError, Scene};
 use crate::pool::side_by_side;
 use crate::random::Random;
 
-/// How far a vertex is off at most in each direction, in metres. Larger noise gives the same spread.
+/// The largest disturbance of a vertex along each axis, in metres. Larger noise gives the same spread.
 pub const NOISE_M: f64 = 1e-9;
 
-/// What is played.
+/// The cloth and the scene that an ensemble plays.
 #[derive(Clone, Copy, Debug)]
 pub struct Subject<'a> {
-    /// The cloth at rest.
+    /// The mesh of the cloth.
     pub mesh: &'a Mesh,
-    /// Where its vertices are.
+    /// The positions of the vertices of `mesh` at rest, in metres.
     pub positions: &'a Positions,
-    /// The frame that the scene was made for.
+    /// The frame for which the scene was created.
     pub frame: &'a Frame,
-    /// The scene.
+    /// The scene to play.
     pub scene: &'a Scene,
-    /// The strengths of vertices, where they are not the scene's.
+    /// The strength of each vertex, as in [`Run::with_strengths`]; `None` for the strengths of the scene.
     pub strengths: Option<&'a [f64]>,
 }
 
-/// All that was played with one step.
+/// All runs of a subject with one step.
 #[derive(Clone, Debug, Serialize)]
 pub struct Ensemble {
-    /// Into how many the step of the scene was divided.
+    /// The number by which the step of the scene was divided.
     pub parts: u32,
-    /// The step, in seconds.
+    /// The divided step, in seconds.
     pub step_s: f64,
-    /// By seed.
+    /// The runs, in ascending order of their seeds. Those that failed are included.
     pub members: Vec<Member>,
 }
 
-/// One run of an ensemble: never a gap where it failed.
+/// One run of an ensemble.
 #[derive(Clone, Debug, Serialize)]
 pub struct Member {
-    /// What its noise begins with.
+    /// The seed of the disturbance.
     pub seed: u64,
-    /// `done`, `failed` or `interrupted`.
+    /// The status of the run: `done`, `failed` or `interrupted`.
     pub status: &'static str,
-    /// Why it failed; empty if it did not.
+    /// The reason for a failure; empty if the run did not fail.
     pub why: String,
-    /// What was seen of it; `None` where it was not played to its end.
+    /// The measured quantities; `None` if the run did not reach its end.
     pub observed: Option<Observed>,
 }
 
-/// What is seen of a run.
+/// The measured quantities of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Observed {
-    /// When something tore first, in seconds; `None` if nothing did.
+    /// The time of the first tear, in seconds; `None` if nothing tore.
     pub first_tear_s: Option<f64>,
-    /// The force then in newtons, as [`Chronicle::first_tear`] says; `None` if there was none, or forces
-    /// are not known, as by Provot's method.
+    /// The force at the first tear in newtons, as in [`Chronicle::first_tear`]. `None` if nothing tore, or
+    /// if the method does not know its forces, as Provot's does not.
     pub first_force_n: Option<f64>,
-    /// The rest length of the edges that came apart, in metres.
+    /// The rest length of the edges that tore, in metres.
     pub torn_m: f64,
-    /// The pieces at the end.
+    /// The number of components of the mesh at the end.
     pub pieces: usize,
-    /// The largest force at a hold, in newtons, as [`Chronicle::largest_force_n`] says.
+    /// The largest force at a hold in newtons, as in [`Chronicle::largest_force_n`]; `None` if unknown.
     pub largest_force_n: Option<f64>,
-    /// The work of those who hold and lead, in joules; `None` where forces are not known: Provot's limiter
-    /// works without bound as steps get shorter.
+    /// The work of all holds, led ones included, in joules. `None` if the method does not know its forces:
+    /// the work of Provot's limiter grows without bound as steps get shorter.
     pub work_j: Option<f64>,
 }
 
-/// A number that is seen of a run.
+/// A measured quantity of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// [`Observed::first_tear_s`].
+    /// The time of the first tear, [`Observed::first_tear_s`]; infinite if nothing tore.
     FirstTear,
-    /// [`Observed::first_force_n`].
+    /// The force at the first tear, [`Observed::first_force_n`]; infinite if nothing tore, unless it is
+    /// unknown.
     FirstForce,
-    /// [`Observed::torn_m`].
+    /// The torn length, [`Observed::torn_m`].
     Torn,
-    /// [`Observed::pieces`].
+    /// The number of pieces, [`Observed::pieces`].
     Pieces,
-    /// [`Observed::largest_force_n`].
+    /// The largest force at a hold, [`Observed::largest_force_n`].
     LargestForce,
-    /// [`Observed::work_j`].
+    /// The work of all holds, [`Observed::work_j`].
     Work,
 }
 
 impl Quantity {
-    /// All of them.
+    /// All quantities, in the order of the fields of [`Observed`].
     pub const ALL: [Quantity; 6] = [
         Quantity::FirstTear,
         Quantity::FirstForce,
@@ -114,7 +114,7 @@ impl Quantity {
         Quantity::Work,
     ];
 
-    /// Its name in words, and its unit.
+    /// Returns the name of the quantity in words, and its unit; the unit is empty for a number.
     #[must_use]
     pub fn name(self) -> [&'static str; 2] {
         match self {
@@ -127,7 +127,7 @@ impl Quantity {
         }
     }
 
-    /// Its key in reports.
+    /// Returns the key of the quantity in reports.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -158,7 +158,7 @@ impl Quantity {
 }
 
 impl Ensemble {
-    /// A number of all members that have it, and whether those are all.
+    /// Returns the values of a quantity of all members that have it, and whether every member has it.
     #[must_use]
     pub fn numbers(&self, quantity: Quantity) -> (Vec<f64>, bool) {
         let seen = self.members.iter().filter_map(|member| member.observed);
@@ -168,17 +168,20 @@ impl Ensemble {
     }
 }
 
-/// Plays a subject with these seeds for each of these parts of its step, on so many threads at a time.
-/// All ends at the next step where `stop` says so, and what was not done stands as interrupted. `watch`
-/// hears the part of all work that has been done.
+/// Plays a subject once for each of `parts` and each of `seeds`.
+///
+/// The step of the scene is divided by the part. The result has one ensemble per part, in the order of
+/// `parts`. At most `threads` runs go on at a time. When `stop` returns true, every run ends before its next
+/// step, and those not done are marked as interrupted. `watch` is called after each run with the fraction of
+/// all work that is done.
 ///
 /// # Errors
 ///
-/// [`RunError`]: what is wrong with the scene.
+/// [`RunError`] if the scene cannot be played.
 ///
 /// # Panics
 ///
-/// If a divided step would make more steps than [`Run::STEPS_MAX`].
+/// If a divided step leads to more than [`Run::STEPS_MAX`] steps.
 pub fn play(
     subject: Subject<'_>,
     seeds: RangeInclusive<u64>,

@@ -1,19 +1,18 @@
-//! Figure 7 of the paper: what it takes to split vertices while a hanging cloth is ripped.
+//! Figure 7 of the paper: the time to split vertices while a hanging cloth is ripped.
 //!
-//! "We use a scene where a hanged cloth patch is torn. We measure the time spent only in each call to
-//! the splitting vertex routine and we record the sum of all these measurements taken during the whole
-//! scene. We repeat this test ten times to obtain an average time value. Then, we repeat this process
-//! with triangle meshes of different resolutions. For comparison purposes, we also test an
-//! implementation that do not use the half-edge optimization" (Souza et al. 2014 §VI).
+//! "We use a scene where a hanged cloth patch is torn. We measure the time spent only in each call to the
+//! splitting vertex routine and we record the sum of all these measurements taken during the whole scene. We
+//! repeat this test ten times to obtain an average time value. Then, we repeat this process with triangle
+//! meshes of different resolutions. For comparison purposes, we also test an implementation that do not use
+//! the half-edge optimization" (Souza et al. 2014 §VI).
 //!
-//! Here the scene is [`Scene::rip`], by the method and the step that a user gets. It is played once for each mesh.
-//! What it splits, and by which plane, is played again at once by each way on meshes of its own, ten
-//! for each, one after the other: so what a processor has in its cache is no warmer than beside
-//! a simulation, and all ways are timed in the same moments. In the end all have to have the same
-//! triangles.
+//! Here the scene is [`Scene::rip`], with the default method and step. It is played once per mesh. After
+//! each step, every implementation repeats the splits of that step with the same planes, on meshes of its
+//! own, in ten rounds one after the other. So the processor's cache is no warmer than beside a simulation,
+//! and all implementations are timed at the same moments. In the end, all must have the same triangles.
 //!
-//! The paper does not say what its standard implementation was. Two readings of it are measured: one
-//! that looks for the faces of a vertex among all triangles, and one that keeps a list for each vertex.
+//! The paper does not describe its standard implementation. Two readings are measured: one searches all
+//! triangles for the faces of a vertex, and one keeps a list of faces for each vertex.
 
 mod csv;
 mod svg;
@@ -38,89 +37,89 @@ use self::way::Way;
 use crate::provenance::Provenance;
 use crate::sample;
 
-/// Cells a side of the patches that are ripped unless one says otherwise.
+/// The default numbers of cells along each side of the patches.
 pub const CELLS: [u32; 4] = [8, 16, 32, 64];
 
-/// How often each split is timed, as in the paper.
+/// The default number of times that each split is timed, as in the paper.
 pub const ROUNDS: usize = 10;
 
-/// The experiment, made.
+/// The results of the experiment on the time of splits.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
-    /// How to read the file.
+    /// The name and version of the file format.
     pub schema: &'static str,
-    /// Where it comes from.
+    /// The origin of the results.
     pub provenance: Provenance,
-    /// How often each split was timed.
+    /// The number of times that each split was timed.
     pub rounds: usize,
-    /// By mesh, from coarse to fine.
+    /// The results of each patch, in the order of the `cells` of [`study`].
     pub tests: Vec<Test>,
-    /// What that means, in words.
+    /// A summary of the results of the last patch, in words.
     pub conclusion: String,
 }
 
-/// One patch, ripped.
+/// The results of one patch.
 #[derive(Clone, Debug, Serialize)]
 pub struct Test {
-    /// Cells a side.
+    /// The number of cells along each side of the patch.
     pub cells: u32,
-    /// Vertices before anything was torn.
+    /// The number of vertices before the first tear.
     pub vertices: usize,
-    /// Faces.
+    /// The number of faces, which tearing does not change.
     pub faces: usize,
-    /// The vertices that were split.
+    /// The number of vertex splits.
     pub splits: usize,
-    /// The frames that the scene has.
+    /// The number of frames of the scene, each 1/60 s long.
     pub frames: usize,
-    /// Those in which something was split.
+    /// The number of frames with at least one split.
     pub frames_with_splits: usize,
-    /// The CPU time of the simulation, in seconds, tearing and what follows it included.
+    /// The CPU time of the simulation in seconds, including its own tearing.
     pub simulation_s: f64,
-    /// By way.
+    /// The times of each implementation.
     pub ways: Vec<Timed>,
 }
 
-/// How long a way took.
+/// The times of one implementation on one patch, without the overhead of reading the clock.
 #[derive(Clone, Debug, Serialize)]
 pub struct Timed {
-    /// Its name in tables.
+    /// The name of the implementation in tables.
     pub way: &'static str,
-    /// The time of all splits of the scene in seconds, by round.
+    /// The time of all splits of the scene in seconds, for each round.
     pub sums_s: Vec<f64>,
-    /// Their mean, which the paper shows.
+    /// The mean of `sums_s`, which the paper shows.
     pub mean_s: f64,
-    /// Their median.
+    /// The median of `sums_s`.
     pub median_s: f64,
-    /// The least and the largest.
+    /// The smallest and the largest of `sums_s`.
     pub range_s: [f64; 2],
-    /// The time of all splits of the frame that had most of it in seconds: the median over rounds.
+    /// The time of all splits of the frame that took longest, in seconds: the median over all rounds.
     pub worst_frame_s: f64,
 }
 
 impl Timed {
-    /// What the worst frame gives to splits, as a part of its time.
+    /// Returns `worst_frame_s` as a fraction of a frame of 1/60 s.
     #[must_use]
     pub fn part_of_frame(&self) -> f64 {
         self.worst_frame_s / FRAME_S
     }
 }
 
-/// Why a patch could not be ripped: our bug, since its scene is our own.
+/// An error of the experiment. Since the scene is fixed, it is a bug.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {
     /// The scene was refused, or a step failed.
     Scene {
-        /// Cells a side.
+        /// The number of cells along each side of the patch.
         cells: u32,
-        /// In words.
+        /// The reason in words.
         why: String,
     },
-    /// A way ended with other triangles than the simulation.
+    /// An implementation ended with other triangles than the simulation.
     Differs {
-        /// Cells a side.
+        /// The number of cells along each side of the patch.
         cells: u32,
-        /// The name of the way.
+        /// The name of the implementation.
         way: &'static str,
     },
 }
@@ -141,13 +140,19 @@ impl fmt::Display for StudyError {
 
 impl std::error::Error for StudyError {}
 
-/// Rips patches with so many cells a side, at least one number. `clock` tells the CPU time of the thread
-/// that asks. `watch` hears after each step which part of its scene is done, by the place of the patch
-/// in the list, and may stop the study by saying false: then there is none.
+/// Rips one patch for each entry of `cells`, which is its number of cells along each side.
+///
+/// `clock` returns the CPU time of the calling thread. `watch` is called after each step with the index of
+/// the patch, from 0, and the fraction of its scene that is done. If `watch` returns false, the study stops
+/// and the result is `None`.
 ///
 /// # Errors
 ///
 /// [`StudyError`], which would be a bug.
+///
+/// # Panics
+///
+/// If a number of cells is 0 or more than a mesh can have.
 pub fn study(
     cells: &[u32],
     rounds: usize,

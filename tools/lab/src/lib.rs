@@ -1,11 +1,11 @@
 //! Experiments on tearmesh, and their charts.
 //!
-//! [`tear`] is about what it takes to tear, [`pareto`] about what methods cost and how far they are
-//! off, [`stability`] about where methods fail and what one is told then, [`cut`] about what cuts take
-//! and how straight they are, [`fig7`] about the time that splitting vertices takes, and [`ensemble`] about
-//! what many runs of one scene have in common. Each experiment gives its figures as plain data, which are also drawn as SVG and written as CSV. Nothing here
-//! reads a file or a clock (one that is wanted comes in as an argument), so the same experiment gives the
-//! same bytes. [`rk4`] is a method for experiments alone.
+//! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
+//! [`stability`] measures where methods fail, and whether users are told. [`cut`] measures the time and the
+//! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
+//!
+//! Each experiment returns its figures as plain data, which can be drawn as SVG and written as CSV. Nothing
+//! here reads a file or a clock: a clock is an argument. So the same experiment gives the same bytes.
 
 pub mod cut;
 mod draw;

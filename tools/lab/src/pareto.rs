@@ -1,19 +1,21 @@
-//! Work against precision: what each method costs, and how far it is off, over the same budget.
+//! Work against precision: the cost and the error of each method, over the same budget of steps.
 //!
-//! A [`Case`] is a scene on a mesh. Its runs are references by two methods that share no code of steps, a
-//! gate that says whether trajectories may be compared at all, and the budget: every method at the same
-//! parts of its base step, and what a user gets who names a method and nothing else. A run that fails
-//! is a row with a status. Of what the runs leave behind errors are made by several observables
-//! ([`Observable`]), each in three parts: total, that of the method's limit as Δt → 0 (its *model*), and
-//! what is left (*discretisation*). Fronts and the cheapest for a tolerance are by visits of edges,
-//! which are the same on every machine; and by CPU time, where a clock is given.
+//! A [`Case`] is a scene on a mesh. It has four kinds of runs: references by two methods that share no
+//! stepping code; a gate that tests whether trajectories can be compared at all; the budget, in which every
+//! method runs at the same fractions of its base step; and one run per method at its default settings. A run
+//! that fails is a row with a status.
 //!
-//! What a number can be relied on for:
+//! Errors are computed for several observables ([`Observable`]). Each has three parts: the total error, that
+//! of the method's limit as Δt → 0 (the *model* error), and the distance from that limit (the
+//! *discretisation* error). Fronts and the cheapest run for a tolerance are found by visits of edges, which
+//! are the same on every machine, and by CPU time if there is a clock.
 //!
-//! * The distance of the two references is the *floor*. An error below ten times that is known no
-//!   better, and dominates no other one there.
-//! * A step meets a tolerance if all shorter steps of its series do as well: no error meets it by
-//!   passing zero. One that is larger than that of a longer step is marked, and on no front.
+//! The rules for reading the numbers:
+//!
+//! * The distance between the two references is the *floor*. An error below ten times the floor is known no
+//!   better than that, and dominates no other error there.
+//! * A step meets a tolerance if all shorter steps of its series do too. So no error meets it by passing
+//!   through zero. An error that is larger than that of a longer step is marked and is on no front.
 //! * A point dominates another if it is a tenth better in cost and a tenth better in error.
 
 mod assess;
@@ -59,47 +61,51 @@ use serde::Serialize;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
-/// What to chart, and how.
+/// The options of the experiment on work against precision.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The scenes.
+    /// The scenes to run.
     pub scenes: Vec<Scene>,
-    /// The meshes of each.
+    /// The kinds of meshes on which each scene runs.
     pub meshes: Vec<MeshKind>,
-    /// The cells a side of each mesh.
+    /// The numbers of cells along each side of the meshes.
     pub cells: Vec<u32>,
-    /// How many runs go on at a time.
+    /// The number of runs to execute at a time.
     pub threads: NonZero<usize>,
-    /// The most visits of edges that a row may cost.
+    /// The largest number of visits of edges per row. References have no limit.
     pub visits_max: u64,
-    /// How often each row that succeeded is run again for its time, after once to warm up; one after the
-    /// other, scenes by turns.
+    /// The number of times that each successful row is repeated to measure its CPU time, after one more run
+    /// to warm up; 0 for none. Repetitions run one after the other, alternating between cases.
     pub repeats: u32,
 }
 
-/// Visits that a row may cost unless one says otherwise: some seconds.
+/// The default limit of [`Options::visits_max`], a few seconds of CPU time.
 pub const VISITS_MAX: u64 = 200_000_000;
 
-/// The experiment, made.
+/// The results of the experiment on work against precision.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
-    /// How to read the file.
+    /// The name and version of the file format.
     pub schema: &'static str,
-    /// Where it comes from.
+    /// The origin of the results.
     pub provenance: Provenance,
-    /// What random numbers begin with.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// The most visits that a row might cost.
+    /// The largest number of visits of edges that a row was allowed.
     pub visits_max: u64,
-    /// How often rows were run again for their times.
+    /// The number of times that successful rows were repeated to measure their CPU time.
     pub repeats: u32,
-    /// Whether it was interrupted: what was not begun then stands as such.
+    /// Whether the experiment was interrupted. Runs that were not finished have [`Status::Interrupted`].
     pub is_interrupted: bool,
-    /// By scene, mesh and size.
+    /// The results of each case, ordered by scene, then by kind of mesh, then by size.
     pub cases: Vec<CaseStudy>,
 }
 
-/// The cases of some options.
+/// Returns the cases of the experiment, ordered by scene, then by kind of mesh, then by size.
+///
+/// # Panics
+///
+/// If a number of cells is 0 or more than a mesh can have.
 #[must_use]
 pub fn cases(options: &Options) -> Vec<Case> {
     let mut cases = Vec::new();
@@ -113,7 +119,7 @@ pub fn cases(options: &Options) -> Vec<Case> {
     cases
 }
 
-/// A guess at the visits of edges of all runs, before any is begun.
+/// Returns an estimate of the visits of edges of all runs, repetitions included.
 #[must_use]
 pub fn guessed_visits(options: &Options) -> f64 {
     let once: f64 = cases(options)
@@ -137,14 +143,16 @@ fn guess(planned: &Planned, options: &Options) -> f64 {
     }
 }
 
-/// Makes the experiment. `clock` tells the CPU time of the thread that asks; without it there are no
-/// times, and the same options give the same study. Everything ends at once where `stop` says so,
-/// and what was not done stands as interrupted. `watch` hears of each run that is done, with the
-/// guessed part of all work that has been done.
+/// Runs the experiment.
+///
+/// `clock` returns the CPU time of the calling thread. Without it there are no times, and the same options
+/// give the same study. When `stop` returns true, all runs end as soon as possible and are marked as
+/// interrupted. `watch` is called after each run with its name and the estimated fraction of all work that
+/// is done.
 ///
 /// # Panics
 ///
-/// Never: the scenes are data of our own.
+/// If a number of `options.cells` is 0 or more than a mesh can have.
 #[must_use]
 pub fn study(
     options: &Options,

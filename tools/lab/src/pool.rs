@@ -1,10 +1,10 @@
-//! Work on all processors, with results in the order of the list.
+//! A thread pool that returns results in the order of the jobs.
 
 use std::num::NonZero;
 use std::sync::{Mutex, mpsc};
 use std::thread;
 
-/// How many can work at a time here.
+/// Returns the number of threads that this machine can run at once, or 1 if that is not known.
 #[must_use]
 pub fn workers() -> NonZero<usize> {
     thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)

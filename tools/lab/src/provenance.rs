@@ -2,18 +2,18 @@
 
 use serde::Serialize;
 
-/// Where a chart comes from.
+/// The origin of a chart: the program, the commit and the machine that produced it.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Provenance {
-    /// The command that made it.
+    /// The command line that produced the chart.
     pub command: String,
     /// The version of the program.
     pub version: String,
-    /// The commit that it was built from.
+    /// The commit from which the program was built.
     pub commit: String,
-    /// What it was compiled with.
+    /// The compiler that built the program.
     pub compiler: String,
-    /// The processor that it ran on, where times were taken.
+    /// The processor on which times were measured; `None` if it is unknown or no times were measured.
     pub processor: Option<String>,
 }
 

@@ -1,13 +1,12 @@
-//! The classical Runge–Kutta method: the reference solution.
+//! The classical Runge–Kutta method, used as a reference solution.
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::{Abilities, Failure, Solver, System, force};
 
-/// The classical Runge–Kutta method of fourth order; four force evaluations a step.
+/// The classical Runge–Kutta method of fourth order, with four force evaluations per step.
 ///
-/// Stable up to ω Δt = 2√2, but damps what lies near, and of wind and drag alone up to λ Δt = 2.785.
-/// Held particles move straight on within a
-/// step. Keeps room for three more states.
+/// It is stable up to ω Δt = 2√2, but damps motions near that limit. Under wind and drag alone it is stable
+/// up to λ Δt = 2.785. Held particles move in a straight line within a step. It stores three more states.
 #[derive(Clone, Debug, Default)]
 pub struct Rk4 {
     /// Where the step began.
@@ -18,7 +17,7 @@ pub struct Rk4 {
 }
 
 impl Rk4 {
-    /// The method.
+    /// Returns the method, with no memory allocated yet.
     #[must_use]
     pub fn new() -> Rk4 {
         Rk4::default()

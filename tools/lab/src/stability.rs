@@ -1,14 +1,14 @@
-//! Stability: where each method fails, by theory and as measured, and what a user is told of it.
+//! Stability: where each method fails, in theory and as measured, and what users are told.
 //!
-//! [`Limit`] is about small motions of nets: from which step on they grow without bound, found by
-//! bisection with the watch over stability off, against the limit of theory, whose frequency comes from a
-//! dense matrix that shares no code with the methods; and which steps the watch stops. [`Verdict`] is
-//! about scenes as a user plays them, each made so that some method fails: whether that one does, and the
-//! others do not.
+//! A [`Limit`] concerns small motions of a net of springs: the step from which they grow without bound. It
+//! is found by bisection with the watch over stability off. It is compared with the theoretical limit, whose
+//! frequency comes from a dense matrix that shares no code with the methods. It also records which steps the
+//! watch stops. A [`Verdict`] concerns a scene as a user plays it, built so that some methods fail: whether
+//! exactly those fail.
 //!
-//! What is said comes from who says it, as a [`Teller`]: the words and codes of the command are none of
-//! this crate's. A cell that failed with nothing said is *silent*; one that did something else than it
-//! should, *differs*. There should be none of either.
+//! Messages come from a [`Teller`], since the wording and the codes belong to the command. A cell that
+//! failed without a message is *silent*. One whose outcome is not the expected one *differs*. There should
+//! be neither.
 
 mod csv;
 mod limit;
@@ -36,29 +36,29 @@ use self::limit::Asked;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
-/// What to chart, and how.
+/// The options of the experiment on stability.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The stiffness of the springs whose limits are looked for, in N/m.
+    /// The stiffness values of the springs, in N/m. Each method is tried on each net at each of them.
     pub stiffness_n_per_m: Vec<f64>,
-    /// How many pieces are worked on at a time.
+    /// The number of pieces to work on at a time.
     pub threads: NonZero<usize>,
 }
 
-/// The experiment, made.
+/// The results of the experiment on stability.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
-    /// How to read the file.
+    /// The name and version of the file format.
     pub schema: &'static str,
-    /// Where it comes from.
+    /// The origin of the results.
     pub provenance: Provenance,
-    /// By method, net and stiffness.
+    /// The limits, ordered by method, then by net, then by stiffness.
     pub limits: Vec<Limit>,
-    /// By scene and method.
+    /// The verdicts, ordered by scene and then by method.
     pub verdicts: Vec<Verdict>,
-    /// How many limits and scenes came out otherwise than expected.
+    /// The number of limits and verdicts that differ from the expected outcome.
     pub differing: usize,
-    /// How many cells failed with nothing said.
+    /// The number of cells and verdicts that failed without a message.
     pub silent: usize,
 }
 
@@ -79,14 +79,16 @@ fn jobs(options: &Options) -> Vec<Job> {
     limits.chain(TRIALS.iter().map(Job::Trial)).collect()
 }
 
-/// How many pieces the experiment has.
+/// Returns the number of pieces of the experiment: one per limit and one per scene.
 #[must_use]
 pub fn pieces(options: &Options) -> usize {
     jobs(options).len()
 }
 
-/// Makes the experiment. The same options and words give the same study. All ends at once, without one,
-/// where `stop` says so; `watch` hears of each piece that is done.
+/// Runs the experiment. The same options and messages give the same study.
+///
+/// `watch` is called with the name of each piece that is done. Returns `None` soon after `stop` returns
+/// true.
 #[must_use]
 pub fn study(
     options: &Options,

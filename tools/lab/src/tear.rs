@@ -1,14 +1,14 @@
-//! What it takes to tear a cloth, by two rules and on meshes of several sizes.
+//! The forces that tear a cloth, by two rules and on meshes of several sizes.
 //!
-//! A trouser test ([`Scene::trouser`]): a strip is slit to its middle, and its two legs are pulled
-//! apart. The paper's rule tears an edge at a stretch ratio (Souza et al. 2014 §III-A), whatever
-//! its length; then the force at which an edge tears is proportional to that length, and a mesh
-//! twice as fine is a cloth half as strong. A threshold of toughness, an energy for each metre of
-//! tear, does not have that fault. Both rules are set to agree on the mesh in the middle.
+//! A trouser test ([`Scene::trouser`]): a strip is slit to its middle, and its two legs are pulled apart.
+//! The paper's rule tears an edge at a stretch ratio (Souza et al. 2014 §III-A), whatever its length. So the
+//! force at which an edge tears is proportional to that length, and a cloth on a mesh twice as fine is half
+//! as strong. A threshold of toughness, an energy per metre of tear, does not have that fault. Both rules
+//! are set to agree on the middle mesh.
 //!
-//! In a laboratory the tear runs from the slit. So that it does here, tips are half as strong
-//! ([`Tearing::weakening`]); otherwise it also scatters, and the largest force is less the
-//! edge's and more the crowd's: slopes of +0.67 and +0.06 instead of +0.91 and +0.10.
+//! In a laboratory the tear runs from the slit. To get that here, tips are half as strong
+//! ([`Tearing::weakening`]). Without that the tear also scatters, and the largest force depends more on the
+//! number of edges that share it: the slopes are +0.67 and +0.06 instead of +0.91 and +0.10.
 
 pub mod cascade;
 mod csv;
@@ -35,31 +35,31 @@ use self::strip::strip;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
-/// Cells across the strip.
+/// The default numbers of cells across the strip.
 pub const CELLS: [u32; 5] = [8, 12, 16, 24, 32];
 
-/// The ratio at which an edge tears by the paper's rule.
+/// The stretch ratio at which an edge tears by the paper's rule.
 pub const RATIO: f64 = 1.5;
 
 /// Forces are written down so many times in a test of four seconds, each as a mean.
 const SAMPLES: u64 = 240;
 
-/// What a chart shows.
+/// The results of both experiments on tearing.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chart {
-    /// How to read the file.
+    /// The name and version of the file format.
     pub schema: &'static str,
-    /// Where it comes from.
+    /// The origin of the results.
     pub provenance: Provenance,
-    /// What it takes to tear strips.
+    /// The results of the trouser tests.
     #[serde(flatten)]
     pub study: Study,
-    /// What comes of many seeds.
+    /// The results of many seeds, one entry per scene and method; empty if none were played.
     pub cascades: Vec<Cascade>,
 }
 
 impl Chart {
-    /// Of both experiments.
+    /// Creates a chart of both experiments.
     #[must_use]
     pub fn new(provenance: Provenance, study: Study, cascades: Vec<Cascade>) -> Chart {
         Chart {
@@ -71,53 +71,59 @@ impl Chart {
     }
 }
 
-/// Both rules on all meshes.
+/// The results of the trouser tests.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
-    /// The stiffness of edges, in N/m.
+    /// The stiffness of the edges, in N/m.
     pub stretch_n_per_m: f64,
-    /// By rule, then by mesh from coarse to fine.
+    /// The tests, first all by stretch ratio and then all by toughness, each in the order of `cells`.
     pub tests: Vec<Test>,
-    /// By rule: the slope of the largest force over the length of edges, both as logarithms;
-    /// 1 is proportional, 0 is independent.
+    /// The slope of the largest force against the edge length, both as logarithms, by stretch ratio and by
+    /// toughness. A slope of 1 means proportional, and 0 means independent.
     pub slopes_largest: [f64; 2],
-    /// The same of the mean force.
+    /// The slopes of the mean force, by stretch ratio and by toughness, as in `slopes_largest`.
     pub slopes_mean: [f64; 2],
-    /// What that means, in words.
+    /// The conclusion from slopes and first tears, in words.
     pub conclusion: String,
 }
 
-/// One strip, torn.
+/// The results of one strip.
 #[derive(Clone, Debug, Serialize)]
 pub struct Test {
-    /// `stretch` or `toughness`.
+    /// The tearing rule: `stretch` or `toughness`.
     pub rule: &'static str,
-    /// The ratio, or the joules for each metre.
+    /// The threshold of the rule: a stretch ratio, or a toughness in J/m.
     pub threshold: f64,
     /// The length of the edges along the strip, in metres.
     pub edge_m: f64,
-    /// Cells across.
+    /// The number of cells across the strip.
     pub cells: u32,
-    /// The vertices that were split.
+    /// The number of vertex splits.
     pub splits: u64,
     /// The largest force between the clamps in newtons, as a mean over 1/60 s.
     pub force_largest_n: f64,
-    /// The mean force from the first tear to the last, over displacement.
+    /// The mean force between the clamps from the first tear to the last, in newtons; 0 if nothing tore.
     pub force_mean_n: f64,
-    /// Where it tore first, by two methods with two steps each.
+    /// The first tears by two methods with two steps each, if checked. Runs that did not tear are left out.
     pub first: Vec<FirstTear>,
-    /// The distance between the clamps in metres, and the force in newtons.
+    /// The distances between the clamps in metres and the forces in newtons, in the order of time.
     pub curve: Vec<[f64; 2]>,
 }
 
-/// Tears strips with so many cells across, at least two numbers, which are even as the slit runs along
-/// edges; with `is_checked` each also for its first
-/// tear by two methods and two steps, which takes four times as long. `watch` hears of each test that
-/// is done. All ends at once, without a study, where `stop` says so.
+/// Tears one strip by each rule for each entry of `cells`, which is its number of cells across.
+///
+/// The numbers must be even, since the slit runs along edges. Slopes need at least two numbers. If
+/// `is_checked`, the first tear of each strip is also found by two methods with two steps each, which takes
+/// four times as long. `watch` is called with the number of tests done so far. Returns `None` soon after
+/// `stop` returns true.
 ///
 /// # Errors
 ///
 /// [`StudyError`], which would be a bug.
+///
+/// # Panics
+///
+/// If `cells` is empty.
 pub fn study(
     cells: &[u32],
     is_checked: bool,
@@ -163,7 +169,7 @@ pub fn study(
     }))
 }
 
-/// How far apart the forces of a first tear may be by two methods and two steps.
+/// The largest relative difference at which the forces of a first tear agree.
 pub const AGREEMENT: f64 = 0.05;
 
 fn conclude(stretch: &[Test], tough: &[Test], slopes: [f64; 2]) -> String {

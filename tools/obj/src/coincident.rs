@@ -9,8 +9,8 @@ use crate::document::Document;
 use crate::mesh::MeshError;
 use crate::record::{Record, SplitOff, are_last, runs};
 
-/// Pairs of boundary edges that have bit-equal ends and run in opposite directions, with no third
-/// edge at the same place: see [`Document::coincident`].
+/// The pairs of boundary edges that have bit-equal ends and run in opposite directions, with no third
+/// boundary edge at the same place. Created by [`Document::coincident`].
 #[derive(Clone, Debug, Default)]
 pub struct Coincident {
     edges: usize,
@@ -19,13 +19,13 @@ pub struct Coincident {
 }
 
 impl Coincident {
-    /// The number of pairs of edges.
+    /// Returns the number of pairs of edges.
     #[must_use]
     pub fn edges(&self) -> usize {
         self.edges
     }
 
-    /// The number of vertices that sewing would join to others.
+    /// Returns the number of vertices that sewing would remove by merging them into others.
     #[must_use]
     pub fn vertices(&self) -> usize {
         self.splits.len()
@@ -33,15 +33,15 @@ impl Coincident {
 }
 
 impl Document {
-    /// Whether the file has a usable record of its tears ([the record](crate#the-record)).
+    /// Returns whether the file has a valid record of its tears ([the record](crate#the-record)).
     #[must_use]
     pub fn has_record(&self) -> bool {
         self.record.is_some()
     }
 
-    /// Finds the boundary edges of this document's mesh that lie on each other in pairs.
+    /// Finds the pairs of coincident boundary edges of `mesh`, which must be the mesh of this document.
     ///
-    /// Takes as long as sorting the boundary.
+    /// Linear in the document, plus the time to sort the boundary edges.
     ///
     /// # Panics
     ///
@@ -95,13 +95,13 @@ impl Document {
         }
     }
 
-    /// Treats these pairs of edges as torn by a cut: the returned mesh has them as ghost pairs, and
-    /// [`mend::stitches`](tearmesh::mend::stitches) can sew them.
+    /// Returns this document and its mesh with these pairs of edges marked as torn by cut 1. In the mesh
+    /// they are ghost pairs, for which [`mend::stitches`](tearmesh::mend::stitches) finds the stitches.
     ///
     /// # Errors
     ///
-    /// [`CoincidentError`] if the sewn edges would not form a surface, or if other statements of
-    /// the file would then name other vertices.
+    /// [`CoincidentError`] if the sewn mesh would not be an oriented 2-manifold, or if sewing would
+    /// change vertex numbers to which other statements of the file may refer.
     ///
     /// # Panics
     ///
@@ -139,7 +139,7 @@ impl Document {
     }
 }
 
-/// Why edges that lie on each other cannot be sewn.
+/// The reason why coincident edges cannot be sewn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CoincidentError {

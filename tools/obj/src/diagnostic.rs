@@ -9,26 +9,27 @@ use std::{fmt, io};
 /// One error, warning or note about a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The severity.
+    /// The severity of the diagnostic.
     pub level: Level,
-    /// A stable name such as `E-OBJ-FLOAT`: `E-` errors, `W-` warnings and notes.
+    /// The stable code, such as `E-OBJ-FLOAT`. It begins with `E-` for errors, and with `W-` for warnings
+    /// and notes.
     pub code: &'static str,
     /// The place in the file; `None` if the diagnostic concerns no single line.
     pub location: Option<Location>,
-    /// The message, in one line.
+    /// The message, on one line.
     pub message: String,
     /// The text of the line with the part to underline; `None` if the text is not available.
     pub excerpt: Option<Excerpt>,
-    /// A hint at what to do about it.
+    /// A hint on how to solve the problem; `None` if there is no hint.
     pub help: Option<String>,
 }
 
-/// The severity.
+/// The severity of a [`Diagnostic`]. Levels are ordered from the most to the least severe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Level {
-    /// The file was refused.
+    /// The file was refused, or its triangles do not form a mesh.
     Error,
-    /// The file was read, but something in it will not be treated as a user may expect.
+    /// The file was read, but a part of it is not treated as a user may expect.
     Warning,
     /// The file was read, and something harmless was corrected.
     Note,
@@ -37,30 +38,30 @@ pub enum Level {
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Location {
-    /// The physical line, counted from 1.
+    /// The number of the physical line, counted from 1.
     pub line: usize,
-    /// The character within the line, counted from 1. A byte that is not UTF-8 counts as a
-    /// character.
+    /// The number of the character within the line, counted from 1. A byte that is not UTF-8 counts as
+    /// one character.
     pub column: usize,
 }
 
-/// The text of a line, and the part of it that a diagnostic is about.
+/// The text of a line, and the part of it to underline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Excerpt {
     /// The line without its line end, or a window of it if the line is very long. Control
-    /// characters and bytes that are not UTF-8 show as U+FFFD.
+    /// characters and bytes that are not UTF-8 are replaced by U+FFFD.
     pub text: String,
     /// The column of the first character of `text`: 1, unless a window of the line is shown.
     pub first_column: usize,
-    /// The number of characters to underline, from the column of the [`Location`] on. They lie
-    /// within `text`, or directly behind its end.
+    /// The number of characters to underline, starting at the column of the [`Location`]. They lie
+    /// within `text`, or directly after its end.
     pub length: usize,
-    /// What was expected at the underlined place; may be empty.
+    /// The text to show at the underlined part, such as the expected syntax; may be empty.
     pub label: String,
 }
 
 impl fmt::Display for Diagnostic {
-    /// One line without the code: ``line 3, column 5: cannot read number `0,5` ``.
+    /// Writes one line without the code: ``line 3, column 5: cannot read number `0,5` ``.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(Location { line, column }) = self.location {
             match self.excerpt {
@@ -85,14 +86,14 @@ impl fmt::Display for Level {
 /// Why a file could not be read.
 #[derive(Debug)]
 pub enum ReadError {
-    /// The input failed while it was read.
+    /// An I/O error occurred while the input was read.
     Input(io::Error),
-    /// The file is not valid. The diagnostic names the first offence.
+    /// The file is not valid. The diagnostic describes the first error in it.
     Refused(Box<Diagnostic>),
 }
 
 impl ReadError {
-    /// What is wrong with the file; `None` if the input itself failed.
+    /// Returns the diagnostic of an invalid file; `None` if the input itself failed.
     #[must_use]
     pub fn diagnostic(&self) -> Option<&Diagnostic> {
         match self {

@@ -11,9 +11,9 @@ use crate::triangulate::Triangulation;
 /// An OBJ file in memory: its numbers bit for bit, its faces as polygons and as triangles, and
 /// every other line as bytes, in order.
 ///
-/// Indices count from 0 here, and from 1 in files. A document takes about as much memory as its
-/// file: 24 bytes per vertex and 20 per triangle, and more if corners have texture coordinates or
-/// normals.
+/// Indices of this type count from 0; numbers in the file count from 1. A document takes about as much
+/// memory as its file: 24 bytes per vertex and 20 per triangle, and more if corners have texture
+/// coordinates or normals.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
     pub(crate) positions: Vec<Point>,
@@ -33,13 +33,14 @@ pub struct Document {
 }
 
 impl Document {
-    /// The positions of the vertices.
+    /// Returns the position of each vertex, by its index.
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         &self.positions
     }
 
-    /// The numbers of a `v` statement after x, y and z: a weight, a colour, or both.
+    /// Returns the numbers of a `v` statement after x, y and z: a weight, a colour, or both. The slice
+    /// is empty if there are no such numbers.
     ///
     /// # Panics
     ///
@@ -53,13 +54,13 @@ impl Document {
         self.extras.row(vertex)
     }
 
-    /// The number of texture coordinates.
+    /// Returns the number of texture coordinates (`vt`).
     #[must_use]
     pub fn texture_count(&self) -> usize {
         self.texture.len()
     }
 
-    /// A texture coordinate, as the one, two or three numbers that the file gives.
+    /// Returns the one, two or three numbers of the texture coordinate at an index.
     ///
     /// # Panics
     ///
@@ -73,14 +74,14 @@ impl Document {
         self.texture.row(index)
     }
 
-    /// The normals of the file.
+    /// Returns the numbers of each normal (`vn`), by its index. They need not have length 1.
     #[must_use]
     pub fn normals(&self) -> &[[f64; 3]] {
         &self.normals
     }
 
-    /// The vertices of all triangles. The triangles of a polygon are neighbours, and polygons
-    /// are in the order of the file.
+    /// Returns the vertex indices of each triangle. The triangles of a polygon are consecutive, and
+    /// polygons are in the order of the file.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         match &self.triangulation {
@@ -89,8 +90,9 @@ impl Document {
         }
     }
 
-    /// The vertex, texture coordinate and normal that a corner (0, 1 or 2) of a triangle refers to.
-    /// Logarithmic in the number of polygons, unless all are triangles.
+    /// Returns the vertex, texture coordinate and normal of a corner (0, 1 or 2) of a triangle.
+    ///
+    /// Takes time logarithmic in the number of polygons, or constant if all polygons are triangles.
     ///
     /// # Panics
     ///
@@ -106,8 +108,8 @@ impl Document {
             .corner(self.corner_of_polygon(triangle, corner, self.polygon_of(triangle)))
     }
 
-    /// The number of a corner (0, 1 or 2) of a triangle among the corners of all polygons, counted
-    /// from 0 through the polygons in order. Takes as long as [`Document::corner`].
+    /// Returns the index of a triangle's corner (0, 1 or 2) among the corners of all polygons, in the
+    /// order of the file. Takes as long as [`Document::corner`].
     ///
     /// # Panics
     ///
@@ -118,13 +120,13 @@ impl Document {
         self.corner_of_polygon(triangle, corner, self.polygon_of(triangle))
     }
 
-    /// The number of polygons: the `f` statements.
+    /// Returns the number of polygons, which is the number of `f` statements.
     #[must_use]
     pub fn polygon_count(&self) -> usize {
         self.polygons.len()
     }
 
-    /// The corners of a polygon, in order.
+    /// Returns the corners of the polygon at an index, in the order of its `f` statement.
     ///
     /// # Panics
     ///
@@ -136,8 +138,8 @@ impl Document {
             .map(|corner| self.polygons.corner(corner))
     }
 
-    /// The polygon that a triangle belongs to. Logarithmic in the number of polygons, unless all
-    /// are triangles.
+    /// Returns the index of the polygon that a triangle belongs to. Takes time logarithmic in the number
+    /// of polygons, or constant if all polygons are triangles.
     ///
     /// # Panics
     ///
@@ -154,7 +156,7 @@ impl Document {
         }
     }
 
-    /// The line of the file, counted from 1, on which the `f` statement of a triangle begins.
+    /// Returns the line of the file, counted from 1, on which the `f` statement of a triangle begins.
     ///
     /// # Panics
     ///
@@ -164,8 +166,8 @@ impl Document {
         self.layout.line_of_polygon(self.polygon_of(triangle))
     }
 
-    /// The line of the file, counted from 1, on which the `v` statement of a vertex begins. Meant
-    /// for messages: linear in the number of runs of statements of one kind.
+    /// Returns the line of the file, counted from 1, on which the `v` statement of a vertex begins.
+    /// Intended for messages: takes time linear in the number of runs of statements of one kind.
     ///
     /// # Panics
     ///
@@ -176,8 +178,8 @@ impl Document {
         line.unwrap_or_else(|| panic!("vertex {vertex} is not in this document"))
     }
 
-    /// The number of `v` statements in the file: the vertices, and the copies of vertices that were
-    /// written for their fans ([the record](crate#the-record)).
+    /// Returns the number of `v` statements in the file. This is the number of vertices and of the
+    /// copies that were written for further fans of a vertex ([the record](crate#the-record)).
     #[must_use]
     pub fn vertex_statement_count(&self) -> usize {
         let copies = self
@@ -187,8 +189,8 @@ impl Document {
         self.positions.len() + copies
     }
 
-    /// The number of a vertex in the file, counted from 1. It exceeds the index plus 1 if copies of
-    /// vertices for their fans come before it. Logarithmic in the number of copies.
+    /// Returns the number of a vertex in the file, counted from 1. It exceeds the index plus 1 if
+    /// copies of other vertices precede it. Takes time logarithmic in the number of copies.
     ///
     /// # Panics
     ///
@@ -203,8 +205,8 @@ impl Document {
         record.map_or(vertex, |record| record.number(vertex)) + 1
     }
 
-    /// The vertex that has this number in the file, counted from 1, or that the `v` with this
-    /// number is a copy of; `None` if the file has no such `v`.
+    /// Returns the index of the vertex whose `v` statement, or a copy of it, has this number in the file.
+    /// Numbers count from 1; the result is `None` if the file has no `v` with this number.
     #[must_use]
     pub fn vertex_of_number(&self, number: usize) -> Option<usize> {
         let index = number.checked_sub(1)?;
@@ -213,7 +215,7 @@ impl Document {
         (vertex < self.positions.len()).then_some(vertex)
     }
 
-    /// Warnings and notes, in the order in which they should be shown.
+    /// Returns the warnings and notes, in the order in which they should be shown.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics

@@ -1,11 +1,11 @@
-//! OBJ import and export for triangle meshes that tear: strict and lossless, and nothing is dropped
+//! Strict and lossless OBJ import and export for triangle meshes that tear. Nothing is dropped
 //! silently.
 //!
-//! A [`Document`] is a whole OBJ file in memory. It gives the triangles and positions from which
-//! [`tearmesh::Mesh`] is built, and after any number of vertex splits it writes the file
-//! again, with the torn faces in place of the old ones and everything else as it was. A
-//! [`TornDocument`] follows the log of the mesh, and so also writes what has
-//! new vertices and faces, keeps cuts apart, and undoes them in another session.
+//! A [`Document`] is a whole OBJ file in memory. It provides the triangles and positions from which
+//! a [`tearmesh::Mesh`] is built. After any number of vertex splits it writes the file again, with
+//! the torn faces in place of the old ones and everything else unchanged. A [`TornDocument`] follows
+//! the log of the mesh. It also writes inserted vertices and divided faces, and it records which cut
+//! made each tear, so that another session can undo the cuts one by one.
 //!
 //! ```
 //! use tearmesh::{Edits, FaceId, Positions, VertexId, split};
@@ -41,37 +41,37 @@
 //! # Promises
 //!
 //! * Coordinates, texture coordinates, normals and extra numbers (weights, colours) are `f64`, and
-//!   survive a round trip bit for bit. Reading what was written and writing it again gives the
+//!   survive a round trip bit for bit. Reading a written file and writing it again gives the
 //!   same bytes.
-//! * No line moves, but where a face came before its vertices. New vertices stand behind those of
-//!   their object, so each object keeps its own; those of the objects behind it count on
-//!   ([`TornDocument::vertices_in_order`]). Where statements are kept that may name a vertex by its
-//!   number, vertices keep their numbers, and the new ones follow the last of the file.
+//! * Lines keep their order, unless a face precedes its vertices. New vertices follow the last vertex
+//!   of their object, so each object keeps its own vertices, and the numbers of later vertices
+//!   increase ([`TornDocument::vertices_in_order`]). If an uninterpreted statement may name a vertex
+//!   by its number, all vertices keep their numbers, and the new ones follow the last vertex of the file.
 //! * A split duplicates a position, never a texture coordinate or a normal; each corner keeps
 //!   those it had.
-//! * A torn mesh survives a file: comments at its end say what was one vertex until which cut, and
-//!   what was inserted where ([the record](#the-record)).
-//! * Objects, groups, materials, smoothing groups, comments, and statements nobody has heard of are
-//!   kept byte for byte and in order. What is kept without being understood is reported, by line.
-//!   What `ARCSim` says of a vertex (`nl`, `ny`, `nv`, `vv`) is said of its copies, too.
-//! * Every refusal has a code, line, column, the text, and what was expected. A mesh error names
-//!   the lines of its faces.
-//! * No input makes it panic, or take more memory than the larger of 64 MiB and twelve times the
-//!   file, to name and repair all that is wrong with its mesh included. Lines have at most
-//!   64 MiB, and polygons at most 4096 corners.
+//! * Tears survive a round trip: comments at the end of the file record which vertices were one
+//!   vertex until which cut, and where vertices were inserted ([the record](#the-record)).
+//! * Objects, groups, materials, smoothing groups, comments, and unknown statements are kept byte for
+//!   byte and in order. Statements that are kept without being interpreted are reported. The `ARCSim`
+//!   statements about a vertex (`nl`, `ny`, `nv`, `vv`) are repeated for its copies.
+//! * Every refusal has a code, a line, a column, the text, and the expected syntax. A mesh error
+//!   names the lines of its faces.
+//! * No input causes a panic. Reading a file, and describing and repairing the defects of its mesh,
+//!   takes at most the larger of 64 MiB of memory and twelve times the size of the file. A line has at
+//!   most 64 MiB, and a polygon at most 4096 corners.
 //!
 //! # Codes
 //!
-//! The code of a [`Diagnostic`] is stable: `E-OBJ-…` for what a file says, `E-MESH-…` for triangles that
+//! The code of a [`Diagnostic`] is stable: `E-OBJ-…` for invalid files, `E-MESH-…` for triangles that
 //! do not form an oriented 2-manifold, and `W-OBJ-…` for warnings and notes. The guide of the crate
-//! `tearmesh-cli` lists them all, together with those of the command (`tearmesh_cli::guide::codes`).
+//! `tearmesh-cli` lists all codes, together with those of the command (`tearmesh_cli::guide::codes`).
 //!
 //! # The record
 //!
 //! A torn or divided mesh is written with a record in comments at the end of its file. Vertices
-//! and faces are counted from 1, as everywhere in the file. Any program can read the file
-//! without it; [`Document::read`] takes it in, and then split-off vertices have their root again,
-//! several `v` of one vertex are one, and cuts can be undone ([`TornDocument::stitches_of_last`],
+//! and faces are counted from 1, as everywhere in the file. Other programs ignore the record.
+//! [`Document::read`] uses it to restore which vertices were split from which, and to join the several
+//! `v` of a vertex into one. Cuts can then be undone ([`TornDocument::stitches_of_last`],
 //! [`TornDocument::simplified`]).
 //!
 //! ```text
@@ -81,82 +81,80 @@
 //!         | "#~ fan" COPY VERTEX                  COPY is VERTEX, written again for another fan
 //!         | "#~ edge" VERTEX CUT A B T            inserted by CUT at A + T (B - A)
 //!         | "#~ face" VERTEX CUT A B C WA WB WC   inserted by CUT at WA A + WB B + WC C
-//!         | "#~ parent" FIRST LAST A B C          the faces FIRST to LAST cover what was A B C
+//!         | "#~ parent" FIRST LAST A B C          the faces FIRST to LAST cover the former face A B C
 //!         | "#~ vt" FIRST LAST                    the texture coordinates FIRST to LAST were inserted
 //!         | "#~ vn" FIRST LAST                    the normals FIRST to LAST were inserted
-//!         | "#~ slide" VERTEX CUT BEFORE AFTER    CUT slid VERTEX: the numbers of its `v` before and then
-//!         | "#~ slide-vt" NEW OLD NUMBERS         ... at whose corners NEW is for OLD; NUMBERS are those of NEW
+//!         | "#~ slide" VERTEX CUT BEFORE AFTER    CUT slid VERTEX: the numbers of its `v` before and after
+//!         | "#~ slide-vt" NEW OLD NUMBERS         ... whose corners have NEW, not OLD; NUMBERS are NEW's
 //!         | "#~ slide-vn" NEW OLD X Y Z           ... and likewise for normals
-//!         | "#~ apart" VERTEX X Y Z X Y Z         VERTEX is at the first point, and its `v` says the second
+//!         | "#~ apart" VERTEX X Y Z X Y Z         VERTEX is at the first point, and its `v` has the second
 //! end     = "#tearmesh end" ITEMS HASH
 //! ```
 //!
-//! * Items come in that order (`edge` and `face` together), each kind by its first number,
-//!   ascending. A copy comes behind its vertex.
-//! * A vertex of several copies is named by its root, the lowest of them, in `A`, `B` and `C`;
-//!   `edge` and `face` name the root of what was inserted.
+//! * Items come in that order (`edge` and `face` together), each kind in ascending order of its first
+//!   number. A copy follows its vertex.
+//! * In `A`, `B` and `C`, a vertex that was split is named by its root, which is the lowest of its
+//!   parts. `edge` and `face` name the root of the inserted vertex.
 //! * `V` and `F` count the `v` and `f` of the file. `BEFORE` counts the `vt` or `vn` before any
-//!   was inserted, and `ALL` those of the file. Without items that say which were inserted, these
-//!   are the last.
-//! * Slides come in the order in which they were made, each with its `slide-vt` and `slide-vn` behind
-//!   it. A vertex is put back only if it has the numbers that its last slide left.
-//! * `VERSION` is 2 or 3 where it has to be: version 2 has no `apart`, and version 1 ends with `parent`,
-//!   and the copies are the last `v` of the file. Programs that know earlier versions alone say that
-//!   it is later, and take the file for one without a record.
-//! * A vertex is read where `apart` says that it is, if its `v` says to the bit what stands
-//!   there: whoever moved it since is heeded, with a warning. Copies stand where their vertex does.
-//! * A cut has a number from 1; a later one has a higher one. After a merge, a `split` names
-//!   what VERTEX was last one with, not what it was first split from.
-//! * The hash of the header is that of the number of `v` and of the vertices of all faces, that of
-//!   the end is of the lines between: 64 bits, FNV-1a, in hexadecimal.
+//!   was inserted, and `ALL` those of the file. If no items list the inserted ones, they are the last.
+//! * Slides come in the order in which they were made, each followed by its `slide-vt` and `slide-vn`.
+//!   A vertex is put back only if it has the numbers that its last slide gave it.
+//! * `VERSION` is the lowest version that can express the record. Version 2 has no `apart`. Version 1
+//!   ends with `parent`, and its copies are the last `v` of the file. A program that does not know the
+//!   version reports this, and reads the file as one without a record.
+//! * A vertex with an `apart` item is read at the first point if its `v` is bit-equal to the second
+//!   point. Otherwise its `v` counts, and a warning is reported. Copies stand where their vertex does.
+//! * Cuts are numbered from 1, and later cuts have higher numbers. After a merge, a `split` names the
+//!   vertex with which VERTEX was last one, not the vertex from which it was first split.
+//! * The hash of the header covers the number of `v` and the vertices of all faces; the hash of the end
+//!   covers the lines between. Both are FNV-1a hashes of 64 bits, in hexadecimal.
 //!
-//! What another program does to positions, texture or groups leaves the record in force, and
-//! [`TornDocument::simplified`] keeps the vertices that it was done to.
-//! Where it changed faces or the number of vertices, or the record itself, or added statements that may
-//! name a vertex by a number which mending would change, a warning says so, the file is read as
-//! one without a record, and the lines of what was one are left out of what is written, as the
-//! warning says.
+//! The record remains valid if another program changes positions, texture coordinates or groups;
+//! [`TornDocument::simplified`] keeps the vertices whose data was changed. The record becomes invalid if
+//! another program changes faces, the number of vertices, or the record itself, or adds statements that
+//! may name a vertex by a number which mending would change. The file is then read as one without a
+//! record, a warning says so, and the lines of the invalid record are not written again.
 //!
 //! # Why not obj-rs
 //!
-//! obj-rs 0.7.4 is a fine reader of what a renderer needs. Our tests hold what we read and write
-//! against it, and with the feature `obj-rs` a `RawObj` that a program already holds becomes a
-//! [`Document`] by `TryFrom`. For a file that has to survive a cut it would not do:
+//! obj-rs 0.7.4 is a good reader for the needs of a renderer. Our tests compare our reading and writing
+//! with it, and with the feature `obj-rs` a `RawObj` that a program already holds becomes a
+//! [`Document`] by `TryFrom`. It is not sufficient for a file that has to survive a cut:
 //!
-//! * It keeps coordinates as `f32`: 11,755 of the 11,898 of a real gown would change. Comments are
-//!   gone, of several `o` only the last is left, and the order of groups with them, for they
-//!   live in a hash map. It has no writer.
+//! * It keeps coordinates as `f32`: 11,755 of the 11,898 coordinates of a real gown would change. It
+//!   drops comments, all but the last of several `o`, and the order of groups, which it keeps in a
+//!   hash map. It has no writer.
 //! * It panics on 22 keywords of the format (free-form curves and display attributes); the two
 //!   bytes `sp` are enough.
 //! * It refused 26 of 85 real files, without a line number: for vertex colours, for `g` with no
 //!   name or two, `usemtl` with a blank, `s on`, `f 1/ 2/ 3/`, mixed corners, an unknown keyword, a
-//!   byte order mark, a byte that is no UTF-8 even in a comment, CR line ends, a face before
+//!   byte order mark, a byte that is not UTF-8 even in a comment, CR line ends, a face before
 //!   its vertices.
-//! * It takes nan, infinity, `f 1 1 2` and a face of a million corners without a word.
+//! * It accepts nan, infinity, `f 1 1 2` and a face of a million corners without a warning.
 //! * It takes three to five times as long to read the same file (`tools/bench/record/`).
 //!
 //! # Map
 //!
 //! | file | subject |
 //! |---|---|
-//! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and the compact lists it is made of |
-//! | `read.rs`, `read/` | bytes to document: lines, the usual ones in one go, tokens, numbers, faces, indices, references ahead, what is carried through, the record and whether it fits, faults |
-//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears that are cut off, thin faces that are avoided, diagonals that collide |
+//! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and its compact lists |
+//! | `read.rs`, `read/` | bytes to document: lines, tokens, numbers, faces, indices, the record, errors |
+//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, thin faces, colliding diagonals |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
-//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): what is lost, and in which order the rest stands |
-//! | `repair.rs` | defects mended, on request |
-//! | `coincident.rs` | boundary edges that lie on each other, where no record says why |
-//! | `said.rs` | what foreign statements say of the vertex before them, for its copies |
-//! | `torn.rs`, `torn/` | what became of a document: corners, what was one vertex until which cut, when each vertex is written, what can be taken out again, and what was edited since |
-//! | `record.rs` | what is on record, and the checksum |
-//! | `sections.rs`, `order.rs` | where objects end, and in which order and under which numbers statements are written |
-//! | `write.rs`, `write/` | document and torn mesh to bytes: layout, a vertex for each fan, the record, numbers; a piece by itself |
-//! | `slides.rs` | vertices that slid, and what they were before |
-//! | `simplify.rs` | a document without what can be taken out again |
-//! | `diagnostic.rs`, `keyword.rs` | what there is to say; which keywords there are |
+//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): losses, and the order of statements |
+//! | `repair.rs` | repair of defects, on request |
+//! | `coincident.rs` | coincident boundary edges that no record explains |
+//! | `said.rs` | foreign statements about the vertex before them, for its copies |
+//! | `torn.rs`, `torn/` | edits of a document: corners, splits, order, removable and edited vertices |
+//! | `record.rs` | the contents of the record, and its checksum |
+//! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
+//! | `write.rs`, `write/` | document and torn mesh to bytes: layout, fans, the record, numbers, pieces |
+//! | `slides.rs` | vertices that slid, and their earlier values |
+//! | `simplify.rs` | a document without vertices that can be removed |
+//! | `diagnostic.rs`, `keyword.rs` | diagnostics; the keywords of the format |
 //!
-//! Bytes come in and go out: opening files, replacing them as a whole, and rendering diagnostics
-//! are the caller's.
+//! This crate reads and writes streams of bytes. Opening files, replacing them as a whole, and
+//! rendering diagnostics are left to the caller.
 
 mod coincident;
 mod diagnostic;

@@ -15,9 +15,9 @@ use crate::record::Record;
 const SHOWN: usize = 20;
 
 impl Document {
-    /// Builds the mesh of the triangles. For a file with a record of tears this is the torn mesh
-    /// that was written, with every vertex, pair and ghost pair, and with its faces in the order of
-    /// the file.
+    /// Builds the mesh of the triangles. Face `i` is triangle `i`, and vertices keep their indices. If
+    /// the file has a record of tears, the result is the torn mesh that was written, with every pair
+    /// and ghost pair.
     ///
     /// # Errors
     ///
@@ -54,7 +54,7 @@ impl Document {
         })
     }
 
-    /// Describes a defect of this document's triangles by the lines and numbers of the file.
+    /// Describes a defect of this document's triangles, with the line and vertex numbers of the file.
     ///
     /// # Panics
     ///
@@ -213,8 +213,8 @@ pub struct MeshError {
 }
 
 impl MeshError {
-    /// All defects, in terms of the document's ids: face `i` is its triangle `i`.
-    /// [`Document::describe`] puts each into words.
+    /// Returns all defects. Face `i` of a defect is triangle `i` of the document, and vertex `i` is its
+    /// vertex `i`. [`Document::describe`] describes a defect with the line numbers of the file.
     #[must_use]
     pub fn defects(
         &self,
@@ -222,7 +222,7 @@ impl MeshError {
         self.error.defects()
     }
 
-    /// The first twenty defects, described by the lines and numbers of the file.
+    /// Returns descriptions of the first twenty defects, with the line and vertex numbers of the file.
     #[must_use]
     pub fn shown(&self) -> &[Diagnostic] {
         &self.shown
@@ -230,7 +230,7 @@ impl MeshError {
 }
 
 impl fmt::Display for MeshError {
-    /// A line for each of the first twenty defects.
+    /// Writes one line for each of the first twenty defects, and then the number of further defects.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, diagnostic) in self.shown.iter().enumerate() {
             let separator = if i == 0 { "" } else { "\n" };

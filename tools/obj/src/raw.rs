@@ -41,13 +41,13 @@ use crate::store::{Column, Kind, extend, push};
 impl TryFrom<&RawObj> for Document {
     type Error = RawObjError;
 
-    /// Takes over what obj-rs has read. Linear, but for the sorting of groups.
+    /// Creates a document from a model that obj-rs has read. Linear, except for the sorting of groups.
     ///
-    /// As strict as [`Document::read`], which obj-rs is not.
+    /// The model must satisfy the rules of [`Document::read`], which are stricter than those of obj-rs.
     ///
     /// # Errors
     ///
-    /// [`RawObjError`] names the first offender by its number.
+    /// [`RawObjError`] names the first invalid element by its index.
     ///
     /// ```
     /// use tearmesh_obj::Document;
@@ -63,13 +63,13 @@ impl TryFrom<&RawObj> for Document {
     }
 }
 
-/// Why a [`RawObj`] could not be made into a document. Indices count from 0, as in obj-rs.
+/// The reason why a [`RawObj`] cannot become a document. Indices count from 0, as in obj-rs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RawObjError {
     /// The model has no faces.
     Empty,
-    /// There are more elements of a kind than ids.
+    /// There are more elements of a kind than a document can have.
     TooMany {
         /// The kind of element.
         what: Item,
@@ -80,34 +80,34 @@ pub enum RawObjError {
     },
     /// A number is NaN or infinite.
     NotFinite {
-        /// The kind of element that has the number.
+        /// The kind of element that contains the number.
         what: Item,
         /// The index of that element.
         index: usize,
     },
-    /// A face, line or point refers to something that does not exist.
+    /// A face, line or point refers to an element that does not exist.
     OutOfRange {
-        /// The kind of element that refers to something.
+        /// The kind of the element with the reference.
         from: Item,
         /// The index of that element.
         number: usize,
-        /// The kind of element that it refers to.
+        /// The kind of the element that is referred to.
         to: Item,
         /// The index that does not exist.
         index: usize,
-        /// The number of elements that do exist.
+        /// The number of elements of the kind `to`, all of which have lower indices.
         count: usize,
     },
     /// A face has fewer than three corners, or a line fewer than two.
     TooFewCorners {
-        /// The kind of element, which is a face or a line.
+        /// The kind of element: a face or a line.
         what: Item,
         /// The index of that element.
         number: usize,
         /// The number of corners given.
         given: usize,
     },
-    /// A face has more corners than a document takes.
+    /// A face has more corners than a document allows.
     TooManyCorners {
         /// The index of the face.
         face: usize,
@@ -120,7 +120,7 @@ pub enum RawObjError {
     RepeatedVertex {
         /// The index of the face.
         face: usize,
-        /// The index of the vertex.
+        /// The index of the repeated vertex.
         vertex: usize,
     },
     /// The range of a group, a material or a smoothing or merging group holds elements that do not
@@ -130,20 +130,20 @@ pub enum RawObjError {
         keyword: &'static str,
         /// The name or number of the group.
         name: String,
-        /// The range, from the first element to before the last.
+        /// The index of the first element of the range, and the index after its last element.
         range: [usize; 2],
         /// The kind of element in the range.
         of: Item,
-        /// The number of elements of that kind.
+        /// The number of elements of the kind `of` in the model.
         count: usize,
     },
     /// An element has two materials, smoothing groups or merging groups.
     TwoGroups {
         /// The statement, such as `usemtl`.
         keyword: &'static str,
-        /// The two names or numbers.
+        /// The names or numbers of the two groups.
         names: [String; 2],
-        /// A face, a line or a point.
+        /// The kind of element: a face, a line or a point.
         of: Item,
         /// The index of the element.
         number: usize,

@@ -49,12 +49,12 @@ use crate::polygons::Polygons;
 use crate::triangulate::Triangulation;
 
 impl Document {
-    /// Reads a file. The input need not be buffered.
+    /// Reads an OBJ file. The input need not be buffered.
     ///
     /// # Errors
     ///
-    /// [`ReadError::Refused`] names the first thing that a strict reader cannot accept, with line,
-    /// column and text. [`ReadError::Input`] if the input fails.
+    /// [`ReadError::Refused`] describes the first error in the file, with line, column and text;
+    /// [`ReadError::Input`] if the input fails.
     ///
     /// ```
     /// use tearmesh_obj::Document;

@@ -33,28 +33,28 @@ use crate::store::{Kind, Layout, Run, extend, push};
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
 
-/// How far [`Document::repaired`] may go.
+/// The kinds of repair that [`Document::repaired`] may make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Repair {
-    /// Gives each fan of a bow-tie vertex its own vertex. No face is dropped.
+    /// Adds vertices so that each fan of a bow-tie vertex has its own vertex. No face is dropped.
     SeparateFans,
-    /// Drops all but one of several faces on the same three vertices, drops the superfluous faces
-    /// of an edge, and then separates fans.
+    /// Drops all but the first of several faces on the same three vertices, drops the superfluous
+    /// faces of an edge, and then separates fans as [`Repair::SeparateFans`] does.
     All,
 }
 
 impl Document {
     /// Repairs defects that keep the triangles from forming a mesh, as far as `repair` allows. A
-    /// document that already has a mesh is returned unchanged.
+    /// document whose triangles already form a mesh is returned unchanged.
     ///
-    /// Each repair is a warning among the [`diagnostics`](Document::diagnostics), with its line
-    /// (the first hundred of a kind; the rest are counted). A triangle of a larger polygon may be
-    /// dropped alone; what is left of the polygon then counts as a polygon for each triangle.
-    /// Vertices, texture coordinates and normals keep their numbers, so that elements and foreign
-    /// statements stay right; a copy of a vertex has its position and extra numbers.
+    /// Each repair adds a warning with its line to the [`diagnostics`](Document::diagnostics); beyond
+    /// the first hundred repairs of a kind, the others are only counted. A single triangle of a larger
+    /// polygon may be dropped; each remaining triangle then becomes a polygon of its own.
+    /// Vertices, texture coordinates and normals keep their numbers, so that lines, points and foreign
+    /// statements remain valid. A copy of a vertex has its position and extra numbers.
     ///
-    /// A file with a record of tears is not repaired.
-    /// What is beyond repair, such as a flipped face, is left for [`Document::mesh`] to refuse.
+    /// A file with a record of tears is not repaired. Defects beyond repair, such as a flipped face,
+    /// remain, and [`Document::mesh`] reports them.
     ///
     /// ```
     /// use tearmesh_obj::{Document, Repair};

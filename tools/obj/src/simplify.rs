@@ -7,62 +7,63 @@ use crate::document::Document;
 use crate::torn::TornDocument;
 use crate::write::{Prepared, write};
 
-/// The result of [`TornDocument::simplified`].
+/// The simplified document, and the counts of the vertices concerned. Returned by
+/// [`TornDocument::simplified`].
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Simplified {
-    /// The document without the vertices that could be removed; `None` if none could.
+    /// The simplified document; `None` if there was nothing to remove or put back.
     pub document: Option<Document>,
-    /// The number of inserted vertices that stay only because they were edited since. Other
-    /// vertices may have to stay with them.
+    /// The number of inserted vertices that stay only because they were edited after the insertion.
+    /// Other vertices may have to stay with them, and are not counted.
     pub edited: usize,
-    /// The number of vertices that had slid and were put back.
+    /// The number of vertices that cuts had slid and that were put back.
     pub slid_back: usize,
-    /// The number of vertices that had slid and stay where they are only because they were edited
-    /// since.
+    /// The number of vertices that cuts had slid and that stay in place only because they were edited
+    /// after the slide.
     pub slid_edited: usize,
 }
 
 impl TornDocument<'_> {
-    /// The document without the vertices that cuts inserted and that keep nothing apart any more,
-    /// with the faces that they divided whole again, and with the vertices that they slid put back.
+    /// Removes the vertices that mended cuts inserted, restores the faces that these vertices divided,
+    /// and puts back the vertices that the cuts slid.
     ///
-    /// Mending sews the sides of a cut, and leaves the vertices along it. An inserted vertex goes if
-    /// all its copies are one again and every face that it divided is restored. A divided
-    /// face is restored if every vertex inserted in it or on its edges goes, and all its parts
+    /// Mending sews the sides of a cut, but leaves the vertices along it. An inserted vertex is removed
+    /// if all its copies are one vertex again and every face that it divided is restored. A divided
+    /// face is restored if every vertex inserted in it or on its edges is removed, and all its parts
     /// agree on the vertex, the texture coordinate and the normal at each of its corners. So
-    /// faces go together along the whole length of a cut, up to where it is still open.
-    /// Texture coordinates and normals that were inserted go if no face is left that has them.
+    /// faces are restored along the whole length of a cut, up to where it is still open.
+    /// Inserted texture coordinates and normals are removed if no remaining face uses them.
     ///
     /// A vertex that a cut slid is put back, with its extra numbers and the texture coordinates and
-    /// normals of its corners: if nothing that this cut or a later one tore holds it apart, and
-    /// everything goes that was put beside it since. Several slides of a vertex are undone in
-    /// reverse order.
+    /// normals of its corners. This requires that no tear of this cut or a later one still holds the
+    /// vertex apart, and that all vertices inserted beside it since are removed. Several slides of a
+    /// vertex are undone in reverse order.
     ///
-    /// An inserted vertex stays if it was *edited* since, by another program: if its position, its
-    /// extra numbers, or its texture coordinate or normal at some corner is not,
-    /// but for the rounding of a few operations on `f64`, what the recorded insertion makes of those
-    /// at the vertices that it was put between, as these were then. A vertex was edited, then, if it
-    /// was moved, if an end of its edge was, if its copies lay apart and were sewn
-    /// somewhere between, or if a program rounded all coordinates of the file. The faces round
-    /// it stay divided, and so does what hangs together with them; so the surface is
-    /// where it was. [`Simplified::edited`] counts these vertices. A vertex that slid and has not, to the
-    /// bit, what the slide left it, was edited too, and stays where it is:
-    /// [`Simplified::slid_edited`] counts those. Both stay on record.
+    /// An inserted vertex stays if it was *edited* after the insertion. The recorded insertion determines
+    /// its position, its extra numbers, and its texture coordinate and normal at each corner from those
+    /// of the vertices that it was inserted between, as they were then. If any of these values differs by
+    /// more than the rounding of a few operations on `f64`, the vertex was edited. This is so if the
+    /// vertex or an end of its edge was moved, if its copies lay apart and were sewn somewhere between,
+    /// or if a program rounded all coordinates of the file. The faces around an edited vertex, and those
+    /// that depend on them, stay divided, so the surface does not move. [`Simplified::edited`] counts the
+    /// edited vertices. A vertex that slid was edited if its numbers are not bit-equal to those that the
+    /// slide gave it; it stays where it is, and [`Simplified::slid_edited`] counts it. Edited vertices stay
+    /// in the record.
     ///
-    /// After a cut is mended altogether and nothing was edited, this gives what was there before it,
-    /// byte for byte.
+    /// If a cut is mended completely and nothing was edited, the result when written is byte for byte
+    /// the file before the cut.
     ///
-    /// The document is made by writing and reading: linear, in the memory of a file more.
+    /// The result is written and read again: linear in the document, with memory for one more file.
     ///
     /// # Errors
     ///
-    /// Those of [`Document::read`], where a position is beyond what a file may have.
+    /// The errors of [`Document::read`], if a position exceeds the limits of a file.
     ///
     /// # Panics
     ///
-    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
-    /// position for each vertex.
+    /// If `mesh` is not the mesh whose log was followed to its end, or if the number of positions is
+    /// not its number of vertices.
     ///
     /// ```
     /// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};

@@ -36,23 +36,23 @@ use crate::store::Rows;
 /// A document together with all edits of its mesh. It is a [`Follower`] of the mesh's log, and
 /// writes the edited file.
 ///
-/// A split moves corners, and each keeps its texture coordinate and normal: neither is ever
-/// duplicated. Where a face is divided, its children stand where it stood, and so in its
-/// object, group, material and smoothing group. Their new corners have the texture coordinate and
-/// normal between those of the corners of the divided face *in that face*, so
-/// a seam of the texture stays one; where both sides of an edge hold the same two indices the new one
-/// is a single index on both, torn or not, and where these two are one, so is it.
+/// A split moves corners. Each corner keeps its texture coordinate and normal, and neither is ever
+/// duplicated. The children of a divided face take its place in the file, and so belong to its
+/// object, group, material and smoothing group. The texture coordinate and normal of a new corner
+/// are interpolated between those of the divided face *in that face*, so texture seams remain seams.
+/// If both sides of an edge have the same two indices, both get the same new index, torn or not. If
+/// the two indices are equal, the new one equals them.
 ///
-/// * Texture coordinates, and what a `v` has behind z (if all corners have as many numbers), are
-///   interpolated linearly; a missing number of a texture coordinate is 0.
-/// * A normal is interpolated linearly and then given the length between those of its sources,
-///   so unit normals give a unit normal. Opposite normals give that of the first source.
+/// * Texture coordinates are interpolated linearly; a missing number of one counts as 0. The numbers
+///   of a `v` after z are interpolated linearly if all sources have equally many of them.
+/// * A normal is interpolated linearly, and then scaled to the interpolated length of its sources,
+///   so unit normals give a unit normal. Opposite normals give the normal of the first source.
 /// * A corner has a texture coordinate or normal only if all its sources have one.
-/// * The new vertex of a split has the extra numbers of the old one; of two that are merged,
-///   those of the one that is kept stay.
-/// * Where a vertex slides along an edge, its corners there take theirs with them, and so do all
-///   others that have the same index. What it was before is put on record, as long as nothing but
-///   the log moves it.
+/// * The new vertex of a split has the extra numbers of the old vertex. A merged vertex has the extra
+///   numbers of the vertex that is kept.
+/// * If a vertex slides along an edge, the texture coordinates and normals of its corners at that edge
+///   are interpolated, as are those of its other corners with the same index. The old values are
+///   recorded as long as only the log moves the vertex.
 ///
 /// ```
 /// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};
@@ -104,7 +104,7 @@ pub struct TornDocument<'d> {
 }
 
 impl<'d> TornDocument<'d> {
-    /// Wraps a document before any edit of its mesh has been replayed. Linear in the document.
+    /// Creates a torn document that has followed no edit yet. Linear in the document.
     #[must_use]
     pub fn new(document: &'d Document) -> TornDocument<'d> {
         let count = document.positions.len();
@@ -142,33 +142,34 @@ impl<'d> TornDocument<'d> {
         torn
     }
 
-    /// Declares that the document belongs to the mesh as it was at the place `seen` in its log.
+    /// Sets the position in the mesh's log at which the mesh was that of the document. Edits before it
+    /// are not followed. The default is [`Cursor::START`].
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> TornDocument<'d> {
         TornDocument { seen, ..self }
     }
 
-    /// The document as it was read, without the edits.
+    /// Returns the document as it was read, without the edits.
     #[must_use]
     pub fn document(&self) -> &'d Document {
         self.document
     }
 
-    /// Starts the next cut: edits from now on can be undone separately from those before. Does
-    /// nothing if no edit was replayed since the last call.
+    /// Starts the next cut, so that later edits can be undone separately from earlier ones. Does
+    /// nothing if the current cut has no split, insertion or slide yet.
     ///
-    /// Cuts are numbered from where the record of the file ends.
+    /// The first cut has the number 1, or one more than the highest in the record of the file.
     ///
     /// # Panics
     ///
-    /// After 2³² cuts.
+    /// If the number of the next cut would exceed [`u32::MAX`].
     pub fn next_cut(&mut self) {
         if std::mem::take(&mut self.cut_is_used) {
             self.cut = self.cut.checked_add(1).expect("less than 2^32 cuts");
         }
     }
 
-    /// The numbers of the cuts that still separate something, in ascending order.
+    /// Returns the numbers of the cuts that still hold vertices apart, in ascending order.
     #[must_use]
     pub fn cuts(&self) -> Vec<u32> {
         let split_off = self.split_off(|v| v);
@@ -178,10 +179,11 @@ impl<'d> TornDocument<'d> {
         cuts
     }
 
-    /// The stitches that undo the last `cuts` of the cuts that still separate something.
+    /// Returns the stitches that undo the last `cuts` of [`TornDocument::cuts`], or all of these cuts if
+    /// there are fewer.
     ///
-    /// [`mend::sew`](tearmesh::mend::sew) makes them. Sewing everything, or what lies near a place,
-    /// needs no record: see [`mend::stitches`](tearmesh::mend::stitches).
+    /// [`mend::sew`](tearmesh::mend::sew) sews them. To sew all tears, or those near a place, no record
+    /// is needed: see [`mend::stitches`](tearmesh::mend::stitches).
     ///
     /// ```
     /// use tearmesh::{Edits, FaceId, Positions, VertexId, mend, split};
@@ -220,16 +222,16 @@ impl<'d> TornDocument<'d> {
             .collect()
     }
 
-    /// Sets the points at which vertices are written, one for each vertex of the mesh. Writing the
-    /// two sides of a cut apart makes the cut visible, and keeps other programs from joining them
-    /// again. The record has both points, and reading the file restores the true ones.
+    /// Sets the points at which vertices are written, by vertex index. Writing the two sides of a cut
+    /// apart makes the cut visible, and prevents other programs from joining them again. The record
+    /// has both points, and reading the file restores the true positions.
     ///
-    /// The written points follow the log as the true positions do. A merged vertex is written at
-    /// its true position again.
+    /// Later edits in the log change these points as they change the true positions. A merged vertex
+    /// is written at its true position again.
     ///
     /// # Panics
     ///
-    /// If there is not a point for each vertex.
+    /// If the number of points is not [`TornDocument::vertex_count`].
     ///
     /// ```
     /// use tearmesh::{Edits, FaceId, Point, Positions, VertexId, split};
@@ -283,13 +285,13 @@ impl<'d> TornDocument<'d> {
             .collect()
     }
 
-    /// The number of vertices of the mesh that was followed.
+    /// Returns the number of vertices of the mesh after the edits followed so far.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.ancestry.len()
     }
 
-    /// The number of faces of the mesh that was followed.
+    /// Returns the number of faces of the mesh after the edits followed so far.
     #[must_use]
     pub fn face_count(&self) -> usize {
         match &self.corners {
@@ -298,9 +300,9 @@ impl<'d> TornDocument<'d> {
         }
     }
 
-    /// The faces of the mesh in the order in which they are written. The children of a divided
-    /// face, ordered by id, take its place. A mesh that is read from the written file has the first
-    /// of these as its face 0, and so on.
+    /// Returns the faces of the mesh in the order in which they are written. The children of a divided
+    /// face, ordered by id, take its place. Face `i` of a mesh that is read from the written file is
+    /// the face at index `i` of this list.
     #[must_use]
     pub fn faces_in_order(&self) -> Vec<FaceId> {
         let slots = self.slots();

@@ -50,20 +50,21 @@ use crate::said;
 use crate::store::{Kind, Run};
 use crate::torn::TornDocument;
 
-/// The counts of what was written.
+/// The numbers of statements that were written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WriteSummary {
     /// The number of `v` statements.
     pub vertices: usize,
-    /// The number of `f` statements, all of them triangles.
+    /// The number of `f` statements, each of which is a triangle.
     pub faces: usize,
-    /// The number of `v` statements that were added because a vertex of the mesh had several fans.
+    /// The number of additional `v` statements, one for each further fan of a vertex of the mesh.
+    /// `vertices` includes them.
     pub separated: usize,
 }
 
 impl Document {
     /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
-    /// torn, a record of that is added at the end.
+    /// torn, a record of its tears is added at the end.
     ///
     /// The mesh must be that of [`Document::mesh`] after any number of splits, which are recorded
     /// as a single cut. After any split, all vertices are written at their true positions.
@@ -71,12 +72,12 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// The errors of the output.
+    /// Any I/O error of `out`.
     ///
     /// # Panics
     ///
     /// If the mesh does not have as many faces as the document has triangles, if it has fewer
-    /// vertices than the document, or if there is not a position for each vertex.
+    /// vertices than the document, or if the number of positions is not its number of vertices.
     pub fn write(
         &self,
         mesh: &Mesh,
@@ -99,16 +100,16 @@ impl Document {
 impl TornDocument<'_> {
     /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
     /// torn or has divided faces, a record of that is added at the end. Points set by
-    /// [`TornDocument::set_apart`] are used if nothing but the log has moved any vertex.
+    /// [`TornDocument::set_apart`] are used only if no vertex was moved other than by the log.
     ///
     /// # Errors
     ///
-    /// The errors of the output.
+    /// Any I/O error of `out`.
     ///
     /// # Panics
     ///
-    /// If the mesh is not the one whose log was followed, to its end, or if there is not a
-    /// position for each vertex.
+    /// If `mesh` is not the mesh whose log was followed to its end, or if the number of positions is
+    /// not its number of vertices.
     pub fn write(
         &self,
         mesh: &Mesh,
@@ -120,13 +121,13 @@ impl TornDocument<'_> {
         write(self, &prepared, positions, out)
     }
 
-    /// The vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several
-    /// fans comes once for each fan. Without such vertices this equals
+    /// Returns the vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several
+    /// fans is listed once for each fan. Without such vertices the result equals
     /// [`TornDocument::vertices_in_order`].
     ///
     /// # Panics
     ///
-    /// If the mesh is not the one whose log was followed, to its end.
+    /// If `mesh` is not the mesh whose log was followed to its end.
     #[must_use]
     pub fn statements_in_order(&self, mesh: &Mesh) -> Vec<VertexId> {
         let prepared = Prepared::new(self, mesh, None, Vec::new());
@@ -139,18 +140,19 @@ impl TornDocument<'_> {
     /// in the order of their ids.
     ///
     /// This is for sequences of files that show a mesh as it tears: a vertex keeps its number in
-    /// all later files, and a new vertex gets a number that no earlier file had. To that end all
-    /// new vertices follow the last `v` of the file, and the `v` of objects behind a torn one are
-    /// moved up before it. A vertex with several fans is written once, which other programs may
-    /// take for a defect; [`Document::mesh`] knows from the record that it was torn.
+    /// all later files, and a new vertex gets a number that no earlier file had. For this purpose all
+    /// new vertices follow the last `v` of the file, and the `v` of objects after a torn object are
+    /// moved up before its faces. A vertex with several fans is written once, which other programs may
+    /// treat as a defect; [`Document::mesh`] accepts it because of the record.
     ///
     /// # Errors
     ///
-    /// The errors of the output.
+    /// Any I/O error of `out`.
     ///
     /// # Panics
     ///
-    /// As for [`TornDocument::write`].
+    /// If `mesh` is not the mesh whose log was followed to its end, or if the number of positions is
+    /// not its number of vertices.
     pub fn write_unseparated(
         &self,
         mesh: &Mesh,

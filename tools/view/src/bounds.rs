@@ -3,17 +3,18 @@
 use tearmesh::geometry::{dot, length};
 use tearmesh::{Mesh, Place, Point, Ray};
 
-/// The box round all faces of a mesh, along the axes.
+/// The smallest box around the faces of a mesh whose sides are parallel to the coordinate axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The corner with the smallest coordinates.
     pub least: Point,
-    /// The corner with the largest.
+    /// The corner with the largest coordinates.
     pub most: Point,
 }
 
 impl Bounds {
-    /// The box of a mesh; none if it has no face. Vertices without a face do not count.
+    /// Returns the box around the faces of a mesh, or `None` if the mesh has no face. Vertices without a
+    /// face do not count.
     ///
     /// # Panics
     ///
@@ -24,7 +25,7 @@ impl Bounds {
         Bounds::around(with_face.map(|v| place.at(v)))
     }
 
-    /// The box round points; none if there are none.
+    /// Returns the box around points, or `None` if there are no points.
     #[must_use]
     pub fn around(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         let boxes = points.into_iter().map(|p| Bounds { least: p, most: p });
@@ -39,7 +40,7 @@ impl Bounds {
         })
     }
 
-    /// Its twelve edges.
+    /// Returns the end points of the twelve edges of the box.
     pub fn edges(&self) -> impl Iterator<Item = [Point; 2]> {
         let ends = [self.least, self.most];
         let corner =

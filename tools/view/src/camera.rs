@@ -7,10 +7,9 @@ use std::fmt;
 use tearmesh::geometry::{cross, dot, length, max_abs};
 use tearmesh::{Point, Ray, RayError, Vector};
 
-/// A camera that shows what it looks at in the middle of its picture, in perspective.
+/// A perspective camera. The point that it looks at is in the middle of its picture.
 ///
-/// Computed with + − × ÷ √ alone, as everything that decides where a cut goes: the same pixels give
-/// the same bytes on every machine.
+/// All results are computed with + − × ÷ √ alone, so they are bit-equal on every machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: Point,
@@ -22,14 +21,14 @@ pub struct Camera {
     size: [f64; 2],
 }
 
-/// Why there is no such camera.
+/// The reason why a camera cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CameraError {
-    /// It looks at its own eye.
+    /// The point to look at equals the eye, or is not finite.
     At,
-    /// Up is the way in which it looks.
+    /// The upward direction is zero, not finite, or parallel to the direction of view.
     Up,
-    /// Its angle of view is not between 0 and 180 degrees.
+    /// The angle of view is not between 0 and 180 degrees, both excluded.
     Angle,
 }
 
@@ -46,9 +45,9 @@ impl fmt::Display for CameraError {
 impl Error for CameraError {}
 
 impl Camera {
-    /// The camera at `eye` that looks at `at`, with `up` upright in its picture, and sees so many
-    /// degrees from the lower edge to the upper one. `size` is the width and height of the picture in
-    /// pixels.
+    /// Creates the camera at `eye` that looks at `at`, with `up` upright in its picture. `degrees` is the
+    /// angle of view from the lower edge of the picture to the upper edge. `size` is the width and height of
+    /// the picture, in pixels.
     ///
     /// ```
     /// use tearmesh::{Point, Vector};
@@ -66,7 +65,8 @@ impl Camera {
     ///
     /// # Errors
     ///
-    /// If there is no such camera, why.
+    /// [`CameraError`] if `at` equals `eye`, if `up` is parallel to the direction of view, or if `degrees`
+    /// is not between 0 and 180.
     pub fn new(
         [eye, at]: [Point; 2],
         up: Vector,
@@ -92,12 +92,12 @@ impl Camera {
         })
     }
 
-    /// The ray through a point of the picture, so many pixels right of its left edge and below its
-    /// upper one.
+    /// Returns the ray from the eye through a point of the picture. `x` is the distance from the left edge,
+    /// and `y` the distance from the upper edge, in pixels. The point may be outside the picture.
     ///
     /// # Errors
     ///
-    /// If the eye is too far away, or the point too far from the picture.
+    /// [`RayError`] if the eye is not a valid origin of a ray, or if the direction is not finite.
     pub fn ray(&self, [x, y]: [f64; 2]) -> Result<Ray, RayError> {
         let [width, height] = self.size;
         let across = self.right * (2.0 * x / width - 1.0);
@@ -106,25 +106,25 @@ impl Camera {
         Ray::new(self.eye, (self.middle + across + upward).map(|x| x + 0.0))
     }
 
-    /// The rays through two points.
+    /// Returns the rays through two points of the picture, in pixels as for [`Camera::ray`].
     ///
     /// # Errors
     ///
-    /// As of [`Camera::ray`].
+    /// The first error of [`Camera::ray`].
     pub fn pair(&self, points: [[f64; 2]; 2]) -> Result<[Ray; 2], RayError> {
         let [one, other] = points.map(|point| self.ray(point));
         Ok([one?, other?])
     }
 
-    /// The width and height of the picture in pixels.
+    /// Returns the width and height of the picture, in pixels.
     #[must_use]
     pub fn size(&self) -> [f64; 2] {
         self.size
     }
 
-    /// A point as the camera sees it: divided by z, x is how far right of the middle of the picture it is
-    /// seen, in halves of its width, and y how far above, in halves of its height; z is how far in front
-    /// of the eye it is.
+    /// Returns a point in the coordinates of the camera. The coordinate z is the distance in front of the
+    /// eye along the direction of view, and negative behind the eye. The ratio x / z is −1 at the left edge
+    /// of the picture and 1 at the right edge; y / z is −1 at the lower edge and 1 at the upper edge.
     #[must_use]
     pub fn seen(&self, p: Point) -> Vector {
         let from_eye = p - self.eye;
@@ -132,8 +132,8 @@ impl Camera {
         Vector::new(part(self.right), part(self.up), dot(from_eye, self.middle))
     }
 
-    /// Where in the picture a point is, in pixels from the top left, that is seen like this
-    /// ([`Camera::seen`]) and is in front of the eye.
+    /// Returns the place of a point in the picture: its distances from the left and the upper edge, in
+    /// pixels. `seen` is the result of [`Camera::seen`], and its z must be positive.
     #[must_use]
     pub fn pixel(&self, seen: Vector) -> [f64; 2] {
         let [width, height] = self.size;

@@ -12,7 +12,7 @@ const FILLED: f64 = 0.92;
 /// its broad side.
 const DEEP: f64 = 0.4;
 
-/// The angle of view of a camera for which none was asked, in degrees.
+/// The default angle of view from the lower edge of a picture to the upper edge, in degrees.
 pub const ANGLE_OF_VIEW: f64 = 35.0;
 
 /// The box of the faces of a mesh along three axes: the middle, and half of each side.
@@ -21,10 +21,12 @@ struct Sides {
     halves: [f64; 3],
 }
 
-/// The camera that sees all faces of a mesh, from its broad side and a little from above: what lies flat
-/// is seen from higher up, and what is deep from a corner. None if the mesh has no face.
+/// Places a camera so that all faces of a mesh fit into its picture. The camera looks at the broad side of
+/// the mesh and a little from above. It looks from higher up at a mesh that lies flat, and from a corner at
+/// a deep mesh. The result is `None` if the mesh has no face.
 ///
-/// `up` is upright in its picture, the angle of view is in degrees, and the size of the picture in pixels.
+/// `up` is upright in the picture, `degrees` is the angle of view from the lower edge to the upper edge, and
+/// `size` is the width and height of the picture, in pixels.
 ///
 /// ```
 /// use tearmesh::{shapes, Vector};
@@ -39,7 +41,7 @@ struct Sides {
 ///
 /// # Errors
 ///
-/// If up is no direction, or the angle is not between 0 and 180 degrees.
+/// [`CameraError`] if `up` is zero or not finite, or if `degrees` is not between 0 and 180.
 ///
 /// # Panics
 ///

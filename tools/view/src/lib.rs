@@ -1,16 +1,17 @@
-//! Pictures of torn meshes, without a graphics card and without a window, and pages that show them in a browser.
+//! Pictures of torn meshes, without a graphics card or a window, and pages that show meshes in a browser.
 //!
-//! [`render`] draws a mesh into a [`Picture`], which is written as PNG: shaded from both sides, each piece
-//! in its colour, torn edges red, the boundary dark. A [`Camera`] is placed by hand, or by [`fit`]. Where a
-//! cut would go is the [`trace`] of its scissor. [`write_pc2`] writes a simulation as a point cache.
+//! [`render`] draws a mesh into a [`Picture`], which can be written as a PNG file. Faces are shaded from
+//! both sides, each piece has its own colour, torn edges are red, and the boundary is dark. A [`Camera`] is
+//! placed by hand or by [`fit`]. [`trace`] computes where a cut would go. [`write_pc2`] writes a simulation
+//! as a point cache.
 //!
-//! A [`Page`] is one HTML file that shows meshes by WebGL 2, and needs no network: what stands still can be
-//! turned and cuts planned on it, and what moves or tears is played. What runs in the browser lies in
-//! `src/page` as it is sent: scripts without a library, in the order in which they use each other.
+//! A [`Page`] is one HTML file that shows meshes by WebGL 2 and needs no network. The viewer can turn a
+//! mesh, plan cuts on it, and play a mesh that moves or tears. The scripts of the page are in `src/page`,
+//! exactly as the browser receives them. They use no library, and each uses only those before it.
 //!
-//! Everything that decides a pixel is computed with + − × ÷ √ alone, so the same mesh gives the same
-//! picture on every machine, and a picture can be compared with one that was looked at before. A page has the same
-//! bytes everywhere, too; what a graphics card makes of them is its own.
+//! All operations that determine a pixel are + − × ÷ √, so the same mesh gives the same picture on every
+//! machine, and a test can compare a picture with an earlier one. A page also has the same bytes on every
+//! machine, but graphics cards may draw it differently.
 
 mod bounds;
 mod camera;

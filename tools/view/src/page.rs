@@ -27,14 +27,14 @@ use crate::fit::{ANGLE_OF_VIEW, fit};
 use crate::palette::{self, Color};
 use crate::shade;
 
-/// A page, and the moments that it shows.
+/// An HTML page that shows a mesh at one or more moments.
 ///
-/// One moment is a mesh that stands still. Several are played, and may have other faces each: of a mesh that
-/// tears, only what changed is stored. Whoever clicks two points sees where a cut between them would go, and is told
-/// what to type for it.
+/// A page with one moment shows a mesh at rest. Several moments are played, and each may have other faces;
+/// only changes of the faces are stored. A viewer who clicks two points sees where a cut between them would
+/// go, and the command that makes it.
 ///
-/// Places are as near as a 65,536th of the longest side of the box round all moments; those of the first
-/// moment are kept to 24 bits of it.
+/// Positions of the first moment are kept to 24 bits. Those of later moments are rounded to 1/65,536 of the
+/// longest side of the box around all moments.
 ///
 /// ```
 /// use tearmesh::{shapes, Vector};
@@ -61,46 +61,47 @@ pub struct Page {
     shots: Vec<Shot>,
 }
 
-/// What is said of a moment that a page shows.
+/// The description of a moment that a page shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Moment {
-    /// The name of it, as of a file.
+    /// The name of the moment, such as the name of a file; may be empty.
     pub label: String,
-    /// When it is, in seconds. Moments without a time come 30 a second, or, if there are few of them, one a
-    /// second.
+    /// The time of the moment, in seconds. If it is `None`, the time is the index of the moment divided by
+    /// [`MOMENTS_PER_S`], or the index in seconds if the page has fewer than twelve moments.
     pub time_s: Option<f64>,
-    /// How this mesh is cut; none if there is no file to be cut.
+    /// The parts of the command that cuts this mesh; `None` if the mesh is not in a file.
     pub cut: Option<CutLine>,
 }
 
-/// What stands in a command that cuts a mesh, as a shell reads it.
+/// The parts of the command `tearmesh cut` that a page suggests. The page shows them as given, so names
+/// must already be quoted for a shell.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CutLine {
-    /// The file that is cut.
+    /// The name of the file to cut.
     pub file: String,
-    /// Options, each after a blank.
+    /// Further options, each preceded by a space; may be empty.
     pub options: String,
-    /// Where the mesh is written that was cut.
+    /// The name of the file for the cut mesh.
     pub output: String,
 }
 
-/// Lines over time.
+/// A diagram of one or more quantities over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plot {
-    /// What is drawn.
+    /// The title of the diagram.
     pub name: String,
-    /// In what unit, if there is one.
+    /// The unit of the values; empty if they have no unit.
     pub unit: String,
-    /// The name of each line, and its points: seconds, and how much there is then.
+    /// The name and the points of each line. A point is a time in seconds and the value at that time.
     pub lines: Vec<(String, Vec<[f64; 2]>)>,
 }
 
-/// Why a mesh cannot be on a page.
+/// The reason why a mesh cannot be shown on a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageError {
-    /// It has no face.
+    /// The mesh has no face.
     Empty,
-    /// There is no camera to see it by.
+    /// No camera can be placed, because the upward direction of the page is not valid.
     Camera(CameraError),
 }
 
@@ -115,7 +116,8 @@ impl fmt::Display for PageError {
 
 impl Error for PageError {}
 
-/// How many moments there are in a second, where nothing else is said.
+/// The number of moments per second for moments without a [`Moment::time_s`], on a page with at least
+/// twelve moments.
 pub const MOMENTS_PER_S: f64 = 30.0;
 
 /// From how many moments on they are a film, and fewer are meshes to be looked at one after another.
@@ -149,7 +151,7 @@ struct Shot {
 }
 
 impl Page {
-    /// A page that shows nothing so far. `up` is upright on it.
+    /// Creates a page without moments. `up` is the upward direction of the meshes on it.
     #[must_use]
     pub fn new(title: impl Into<String>, up: Vector) -> Page {
         Page {
@@ -164,38 +166,38 @@ impl Page {
         }
     }
 
-    /// Says something of what is shown: its name, and what it is.
+    /// Adds a row with a name and a value to the table of facts beside the mesh.
     pub fn tell(&mut self, name: impl Into<String>, what: impl Into<String>) {
         self.facts.push([name.into(), what.into()]);
     }
 
-    /// Draws lines over time beside the mesh.
+    /// Adds a diagram beside the mesh.
     pub fn plot(&mut self, plot: Plot) {
         self.plots.push(plot);
     }
 
-    /// Whether nothing is shown.
+    /// Returns whether the page has no moment.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.shots.is_empty()
     }
 
-    /// How many moments there are.
+    /// Returns the number of moments.
     #[must_use]
     pub fn moment_count(&self) -> usize {
         self.shots.len()
     }
 
-    /// What is said of the last moment.
+    /// Returns the description of the last moment, or `None` if the page has no moment.
     pub fn last_mut(&mut self) -> Option<&mut Moment> {
         self.shots.last_mut().map(|shot| &mut shot.moment)
     }
 
-    /// Adds a moment.
+    /// Adds a moment: a mesh, the positions of its vertices, and a description.
     ///
     /// # Errors
     ///
-    /// If the mesh has no face, or if nothing can be upright as it was asked for.
+    /// [`PageError`] if the mesh has no face, or if the upward direction of the page is not valid.
     ///
     /// # Panics
     ///
@@ -240,15 +242,15 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the page. The same moments give the same bytes.
+    /// Writes the page as HTML. The same content gives the same bytes.
     ///
     /// # Errors
     ///
-    /// As of writing.
+    /// Any I/O error of `out`.
     ///
     /// # Panics
     ///
-    /// If nothing is shown.
+    /// If the page has no moment.
     pub fn write(&self, mut out: impl Write) -> io::Result<()> {
         let mut zlib = ZlibEncoder::new(Vec::new(), Compression::best());
         let (text, bytes) = self.content();
@@ -375,7 +377,7 @@ fn escaped(text: &str) -> String {
     html
 }
 
-/// Whether a file that begins like this is a page of ours.
+/// Returns whether a file is a [`Page`], given its first bytes. 4096 bytes are sufficient.
 #[must_use]
 pub fn is_page(start: &[u8]) -> bool {
     let before_title = FRAME.split("{title}").next();

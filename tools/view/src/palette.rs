@@ -1,12 +1,12 @@
-//! The colours of pictures and pages: each has its one home here.
+//! The colours of pictures and pages.
 //!
-//! Pieces take turns in hues that people who confuse red and green can tell apart, by brightness if not
-//! by hue. None of them is red, which is the colour of what was torn.
+//! People who confuse red and green can tell the colours of the pieces apart by hue or by brightness. No
+//! piece is red, which is the colour of torn edges.
 
-/// A colour, as red, green and blue from 0 to 255.
+/// A colour: its red, green and blue parts, each from 0 to 255.
 pub type Color = [u8; 3];
 
-/// The surfaces of pieces, one after another; further ones take turns again.
+/// The surface colours of the pieces, by piece number. Further pieces repeat them: see [`piece`].
 pub const PIECES: [Color; 10] = [
     [111, 157, 205],
     [238, 180, 94],
@@ -20,24 +20,24 @@ pub const PIECES: [Color; 10] = [
     [232, 170, 196],
 ];
 
-/// The colours of all but the pieces.
+/// The colours of a picture or page, except those of the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Theme {
-    /// Where nothing is.
+    /// The colour of the background.
     pub background: Color,
-    /// Torn edges.
+    /// The colour of torn edges.
     pub seam: Color,
-    /// The boundary that a mesh had before anything was torn.
+    /// The colour of boundary edges that are not torn.
     pub boundary: Color,
-    /// Edges between two faces.
+    /// The colour of edges between two faces.
     pub edge: Color,
-    /// Where a cut would go, and the rays that it goes between.
+    /// The colour of the traces of planned cuts, and of their rays.
     pub trace: Color,
-    /// The box round all faces.
+    /// The colour of the box around all faces.
     pub bounding_box: Color,
 }
 
-/// The theme of pictures, and of pages by day.
+/// The theme of pictures, and of pages in light mode.
 pub const LIGHT: Theme = Theme {
     background: [250, 250, 247],
     seam: [214, 24, 31],
@@ -47,7 +47,7 @@ pub const LIGHT: Theme = Theme {
     bounding_box: [140, 144, 150],
 };
 
-/// The theme of pages by night.
+/// The theme of pages in dark mode.
 pub const DARK: Theme = Theme {
     background: [24, 26, 31],
     seam: [255, 62, 62],
@@ -57,7 +57,8 @@ pub const DARK: Theme = Theme {
     bounding_box: [112, 118, 128],
 };
 
-/// The colour of a piece, by its number.
+/// Returns the colour of the piece with a number, counted from 0. Colours repeat after the last of
+/// [`PIECES`].
 #[must_use]
 pub fn piece(number: usize) -> Color {
     PIECES[number % PIECES.len()]

@@ -1,16 +1,18 @@
 //! Point caches: where all vertices of one mesh are, sample by sample.
 //!
 //! The format PC2, which Blender's modifier Mesh Cache plays, and 3ds Max and Houdini read: a header of 32
-//! bytes, `POINTCACHE2` and a zero, then the version (1) and the number of points as 32-bit integers, the frame of the
-//! first sample and the frames from one to the next as 32-bit floats, and the number of samples; behind it
-//! three 32-bit floats for each point of each sample. All of it is little-endian.
+//! bytes, `POINTCACHE2` and a zero, then the version (1) and the number of points as 32-bit integers, the
+//! frame of the first sample and the frames from one to the next as 32-bit floats, and the number of samples;
+//! behind it three 32-bit floats for each point of each sample. All of it is little-endian.
 
 use std::io::{self, Write};
 
 use tearmesh::Point;
 
-/// Writes a cache, a sample for each frame from the first frame (1) on. Each sample has the points of all
-/// vertices, in the order of the mesh that it is played on.
+/// Writes a point cache in the format PC2, with one sample per frame from frame 1. Each sample has `points`
+/// points, one for each vertex, in the vertex order of the mesh that the cache animates.
+///
+/// Coordinates are rounded to `f32`.
 ///
 /// ```
 /// use tearmesh::Point;
@@ -24,8 +26,8 @@ use tearmesh::Point;
 ///
 /// # Errors
 ///
-/// Those of writing; and of the kind `InvalidInput` if a sample has not so many points, or if there are
-/// more samples or points than the format can count.
+/// Any I/O error of `out`. An error of the kind `InvalidInput` if a sample does not have `points` points, or
+/// if the number of samples or points exceeds [`i32::MAX`].
 pub fn write_pc2<S>(
     mut out: impl Write,
     points: usize,

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use crate::palette::Color;
 
-/// A picture: rows of pixels from the top, each from the left.
+/// A picture of RGB pixels. Rows are ordered from top to bottom, and pixels in a row from left to right.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     width: u32,
@@ -12,10 +12,11 @@ pub struct Picture {
     pixels: Vec<u8>,
 }
 
-/// The most pixels that a picture may have.
+/// The largest number of pixels, width times height, that a picture may have.
 pub const PIXELS_MAX: u64 = 1 << 26;
 
-/// The width and height of a picture in pixels: each at least 1, and at most [`PIXELS_MAX`] together.
+/// The width and height of a picture, in pixels. Each is at least 1, and their product is at most
+/// [`PIXELS_MAX`]. The default is 960 by 720 pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureSize {
     width: u32,
@@ -23,7 +24,8 @@ pub struct PictureSize {
 }
 
 impl PictureSize {
-    /// A size; none if a picture cannot have it.
+    /// Creates a size, or returns `None` if width or height is 0 or if their product exceeds
+    /// [`PIXELS_MAX`].
     ///
     /// ```
     /// use tearmesh_view::PictureSize;
@@ -39,26 +41,26 @@ impl PictureSize {
             .then_some(PictureSize { width, height })
     }
 
-    /// In pixels.
+    /// Returns the width, in pixels.
     #[must_use]
     pub fn width(self) -> u32 {
         self.width
     }
 
-    /// In pixels.
+    /// Returns the height, in pixels.
     #[must_use]
     pub fn height(self) -> u32 {
         self.height
     }
 
-    /// Width and height as a camera takes them.
+    /// Returns the width and height, in pixels, as [`Camera::new`](crate::Camera::new) expects them.
     #[must_use]
     pub fn as_f64(self) -> [f64; 2] {
         [f64::from(self.width), f64::from(self.height)]
     }
 }
 
-/// 960 by 720 pixels.
+/// The default is 960 by 720 pixels.
 impl Default for PictureSize {
     fn default() -> PictureSize {
         PictureSize {
@@ -83,29 +85,29 @@ impl Picture {
         }
     }
 
-    /// In pixels.
+    /// Returns the width, in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// In pixels.
+    /// Returns the height, in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Red, green and blue of each pixel, row by row.
+    /// Returns three bytes for each pixel, red, green and blue, row by row from the top left.
     #[must_use]
     pub fn pixels(&self) -> &[u8] {
         &self.pixels
     }
 
-    /// The colour of a pixel, counted from the left and from the top.
+    /// Returns the colour of the pixel in column `x` and row `y`, which count from 0 at the top left.
     ///
     /// # Panics
     ///
-    /// If there is no such pixel.
+    /// If the picture has no such pixel.
     #[must_use]
     pub fn at(&self, x: u32, y: u32) -> Color {
         assert!(x < self.width && y < self.height, "no pixel {x}, {y}");
@@ -113,11 +115,11 @@ impl Picture {
         [0, 1, 2].map(|i| self.pixels[first + i])
     }
 
-    /// Writes a PNG file. The same picture gives the same bytes.
+    /// Writes the picture as a PNG file. The same picture gives the same bytes.
     ///
     /// # Errors
     ///
-    /// As of writing.
+    /// Any I/O error of `out`.
     pub fn write_png(&self, out: impl Write) -> io::Result<()> {
         let mut encoder = png::Encoder::new(out, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);

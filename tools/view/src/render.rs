@@ -12,16 +12,17 @@ use crate::strokes::{Kind, Stroke, Strokes};
 use crate::surface::{Facing, Lattice, Surface};
 use crate::trace::trace;
 
-/// What a picture shows beside the faces.
+/// The lines that a picture shows in addition to the faces, torn edges and the boundary.
 #[derive(Clone, Debug, Default)]
 pub struct RenderOptions {
     /// Whether the edges between two faces are drawn.
     pub edges: bool,
-    /// Whether the box round all faces is drawn.
+    /// Whether the box around all faces is drawn.
     pub bounding_box: bool,
-    /// Cuts that could be made: where they would go, and their rays.
+    /// The planned cuts whose [`trace`] is drawn.
     pub cuts: Vec<Scissor>,
-    /// The rays of cuts, which are drawn from their origins on.
+    /// The rays to draw, each from its origin to beyond the box around all faces. A ray is not drawn if the
+    /// whole box is behind its origin.
     pub rays: Vec<tearmesh::Ray>,
 }
 
@@ -31,7 +32,7 @@ const SIDE: u32 = 3;
 /// About how many lines of sight are looked along at a time, which bounds the memory that is needed.
 const BAND: usize = 1 << 21;
 
-/// Draws a mesh as a camera sees it. The picture is as large as the camera's, in whole pixels.
+/// Draws a mesh as a camera sees it, into a picture of `size`, which should be the size of the camera.
 ///
 /// The same mesh, camera and options give the same picture on every machine.
 ///
@@ -95,8 +96,8 @@ fn in_bands(
     Picture::new(size, pixels)
 }
 
-/// The face that is seen at the middle of each pixel of a camera's picture, row by row; none where there
-/// is none. Of faces that are equally near, the one with the lowest id is seen.
+/// Returns the face that is visible at the centre of each pixel, row by row from the top left, or `None`
+/// where no face is visible. Of several equally near faces, the one with the lowest id is visible.
 ///
 /// # Panics
 ///

@@ -1,9 +1,10 @@
 //! Which face is seen where: a buffer of depths, a band of rows at a time.
 //!
 //! Faces are not clipped. A line of sight (x, y, 1) meets a face if it passes all three of its edges on
-//! the same side, which three determinants tell, linear in x and y (Olano and Greer, "Triangle scan conversion
-//! using 2D homogeneous coordinates", 1997); so do faces that reach behind the eye. The determinant of an
-//! edge is that of the face beside it turned over, to the bit: no line of sight passes between two faces.
+//! the same side, which three determinants tell, linear in x and y (Olano and Greer, "Triangle scan
+//! conversion using 2D homogeneous coordinates", 1997); so do faces that reach behind the eye. The
+//! determinant of an edge is that of the face beside it turned over, to the bit: no line of sight passes
+//! between two faces.
 
 use std::ops::Range;
 
@@ -102,8 +103,8 @@ pub(crate) struct Surface {
 const NOTHING: u32 = u32::MAX;
 
 impl Surface {
-    /// Looks at a mesh whose vertices are seen there ([`crate::Camera::seen`]). Of faces that are equally near,
-    /// the one with the lowest id is seen.
+    /// Looks at a mesh whose vertices are seen there ([`crate::Camera::seen`]). Of faces that are equally
+    /// near, the one with the lowest id is seen.
     pub(crate) fn of(
         mesh: &Mesh,
         seen: &[Vector],

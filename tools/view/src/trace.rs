@@ -3,11 +3,12 @@
 use tearmesh::geometry::between;
 use tearmesh::{Mesh, Place, Plane, Point, Scissor};
 
-/// The segments in which the plane of a scissor meets the faces of a mesh, between its rays if it
-/// has rays. A segment for each face that the plane passes through, in the order of the faces.
+/// Returns the segments in which the plane of a scissor intersects the faces of a mesh, clipped to the
+/// part between its rays if the scissor has rays. There is at most one segment per face, and segments
+/// are in the order of the faces.
 ///
-/// This is where the method `exact` cuts without a snap. Points on the plane count as in front of it, as
-/// for every cut; a face that only touches the plane has no segment.
+/// The cut method `exact` without a snap cuts along these segments. Points on the plane count as in front
+/// of it, as for every cut. A face that only touches the plane has no segment.
 ///
 /// ```
 /// use tearmesh::{shapes, Point, Ray, Scissor, Vector};

@@ -18,8 +18,8 @@ use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::streams::Streams;
 
-/// A cut of a face, with all that is measured of it, took so many seconds on the machine that charts were first
-/// made on.
+/// A cut of a face, with all that is measured of it, took so many seconds on the machine that charts were
+/// first made on.
 const FACE_S: f64 = 2e-6;
 
 /// Cuts the sheets, and draws the chart.

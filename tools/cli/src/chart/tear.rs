@@ -125,9 +125,9 @@ fn expected(args: &TearChartArgs, options: &Options, [strips_s, cascades_s]: [f6
     )
 }
 
-/// The seconds of a processor that a run at the step of each method took there, and those of all runs at it, half
-/// and a quarter of it: a mesh twice as fine has four times as many edges, and steps that are shorter, by half
-/// where the method is explicit.
+/// The seconds of a processor that a run at the step of each method took there, and those of all runs at it,
+/// half and a quarter of it: a mesh twice as fine has four times as many edges, and steps that are shorter,
+/// by half where the method is explicit.
 fn cascades_s(options: &Options) -> f64 {
     let run_s = |scene: CascadeScene, method: &str| {
         let known = RUN_S.iter().find(|(name, _)| *name == method);

@@ -26,8 +26,8 @@ use tempfile::NamedTempFile;
 /// The name of the draft that is being written, if it has one.
 static NAMED: Mutex<Option<PathBuf>> = Mutex::new(None);
 
-/// Removes the file that is being written, if any, and prevents further ones from being finished.
-/// For a program that is about to exit.
+/// Removes the file that is being written, if any, and prevents later files from being completed.
+/// Intended for a program that is about to exit.
 pub fn abandon() {
     let mut named = registry();
     if let Some(path) = named.take() {

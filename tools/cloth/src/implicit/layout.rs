@@ -9,14 +9,14 @@ use crate::element::Element;
 use crate::matrix::Hessian;
 use crate::system::{KINDS, Model, System};
 
-/// The slots of a [`Hessian`], and which slot each constraint adds to.
+/// The slots of a [`Hessian`], and the slot to which each constraint adds.
 ///
-/// [`Layout::follow`] compares it with the constraints as they are now. That is one comparison a
-/// constraint, and O(log n) for each constraint that is new, gone or has other ends: after a tear
-/// only what was torn is touched, and the caller need not say what changed.
+/// [`Layout::follow`] compares the layout with the present constraints. That costs one comparison
+/// per constraint, and O(log n) for each constraint that is new, removed or has other ends. After a
+/// tear only torn constraints are touched, and the caller need not list the changes.
 ///
-/// A slot that nothing uses any more keeps its number, holds a block of zeros, and is given to
-/// the next new pair.
+/// A slot that is no longer used keeps its number, holds a block of zeros, and is given to the next
+/// new pair.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
     /// The pair (i, j), i < j, of each slot.
@@ -45,22 +45,23 @@ const NONE: [u32; 2] = [0, 0];
 const NO_SLOT: u32 = u32::MAX;
 
 impl Layout {
-    /// The pair of particles of each slot. A slot without users has the pair (0, 0).
+    /// Returns the pair of particles of each slot. A slot without users has the pair (0, 0).
     #[must_use]
     pub fn pairs(&self) -> &[[u32; 2]] {
         &self.pairs
     }
 
-    /// For each particle, the lowest particle that constraints connect it with.
+    /// Returns, for each particle, the lowest index among the particles with which constraints
+    /// connect it, itself included.
     #[must_use]
     pub fn pieces(&self) -> &[u32] {
         &self.pieces
     }
 
-    /// Updates the layout to match a system. Returns how many slots of constraints were taken or
-    /// freed, which is zero if nothing changed.
+    /// Updates the layout to match a system. Returns the number of slots of constraints that were
+    /// taken or freed, which is zero if nothing changed.
     ///
-    /// Pieces are found anew when something changed: O(particles + slots).
+    /// The pieces are recomputed if something changed, in O(particles + slots).
     pub fn follow(&mut self, system: &System) -> usize {
         self.follow_model(&system.model)
     }

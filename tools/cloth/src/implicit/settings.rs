@@ -14,7 +14,7 @@ pub enum Method {
     Bdf2,
 }
 
-/// Which second derivatives an implicit step uses.
+/// The second derivatives that an implicit step uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Jacobian {
     /// Exact derivatives. If the matrix proves to be indefinite, the solve is repeated with the
@@ -28,7 +28,8 @@ pub enum Jacobian {
     Clamped,
 }
 
-/// How exactly the equation of a step must be solved: a bound on the rms error of the velocity.
+/// The accuracy to which the equation of a step must be solved: a bound on the rms error of the
+/// velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     /// The bound is T Δt^(p+1), where p is the order of the method, and T is in m/s per s^(p+1). If
@@ -45,7 +46,7 @@ pub enum Tolerance {
 pub struct Settings {
     /// The time discretisation.
     pub method: Method,
-    /// Which second derivatives are used.
+    /// The second derivatives that are used.
     pub jacobian: Jacobian,
     /// The largest number of Newton iterations per step. With 1 a step is linearised, and Newton's
     /// method is used only if that overshoots ([`StepReport::overshot`]). With more, Newton's
@@ -58,7 +59,8 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Backward Euler, linearised; T = 1; 2000 iterations.
+    /// Returns linearised backward Euler, with a tied tolerance of T = 1 and at most 2000
+    /// iterations.
     fn default() -> Settings {
         Settings {
             method: Method::BackwardEuler,
@@ -111,15 +113,15 @@ pub struct Work {
     pub solver_iterations: u64,
 }
 
-/// Why an implicit step was not taken. Positions, velocities and history are unchanged.
+/// The reason why an implicit step was not taken. Positions, velocities and history are unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepError {
     /// The matrix is indefinite, and [`Jacobian::Exact`] does not allow that.
     Indefinite {
-        /// The time step, in s: a shorter one helps.
+        /// The time step, in seconds. A shorter one helps.
         time_step_s: f64,
     },
-    /// The residual stayed above what the tolerance allows.
+    /// The residual stayed above the limit that the tolerance sets.
     NotConverged {
         /// The bound on the rms error of the velocity that was reached, in m/s.
         residual: f64,
@@ -130,9 +132,9 @@ pub enum StepError {
         /// The total number of conjugate gradient iterations in this step.
         solver_iterations: u64,
     },
-    /// The step would have thrown this particle to infinity.
+    /// The step would have moved a particle beyond the coordinates or velocities that are usable.
     NotFinite {
-        /// The first such particle.
+        /// The index of the first such particle.
         particle: usize,
     },
 }

@@ -58,14 +58,15 @@ use crate::moment::{Identity, Moment, Note};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
 
-/// Implicit steps of a system: backward Euler or BDF2. Of springs, triangles, bends and drag they
-/// are stable at any step. Wind is taken in by backward Euler as it is where a step begins, and is
-/// stable up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)); by BDF2 as it will be where the step
-/// ends if all goes on as in the last, which keeps the order, and up to λ Δt = 4/3.
+/// Implicit steps of a system: backward Euler or BDF2. They are stable at any step for springs,
+/// triangles, bends and drag. Backward Euler evaluates wind where a step begins, and is stable up
+/// to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)). BDF2 extrapolates positions and velocities
+/// for wind from the last step, which keeps its order, and is stable up to λ Δt = 4/3.
 ///
-/// One solver may step many systems: BDF2 remembers the last step of each. Where that did not lead to
-/// the state that it finds, because another solver has stepped the system since, a step was
-/// undone, the system is a clone, or particles have come or gone, it begins with a step of order one.
+/// One solver may step many systems: BDF2 remembers the last step of each. It begins again with a
+/// step of order one if that last step did not lead to the present state, because another solver
+/// has stepped the system since, a step was undone, the system is a clone, or particles were added
+/// or removed.
 ///
 /// ```
 /// use tearmesh_cloth::implicit::{self, Settings, Tolerance};
@@ -123,7 +124,7 @@ struct Aside {
 const UNANSWERED: f64 = 0.1;
 
 impl Implicit {
-    /// An implicit method with these settings.
+    /// Returns an implicit method with these settings.
     #[must_use]
     pub fn new(settings: Settings) -> Implicit {
         Implicit {
@@ -132,7 +133,7 @@ impl Implicit {
         }
     }
 
-    /// The report of the last step that was taken.
+    /// Returns the report of the last step that was taken; `None` before the first one.
     #[must_use]
     pub fn report(&self) -> Option<StepReport> {
         self.report
@@ -360,8 +361,8 @@ impl Implicit {
 }
 
 impl Solver for Implicit {
-    /// The limit of air of BDF2 is that of steps of one length, and below the one of backward Euler,
-    /// with which it begins.
+    /// Returns the abilities of the method. The air limit of BDF2 is that of steps of equal length.
+    /// It is below that of backward Euler, with which BDF2 begins.
     fn abilities(&self) -> Abilities {
         let air_limit = match self.settings.method {
             Method::BackwardEuler => 2.0,

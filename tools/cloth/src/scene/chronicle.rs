@@ -13,13 +13,14 @@ use crate::force;
 /// A step in which something tore.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TearEvent {
-    /// The end of the step, in seconds.
+    /// The time at the end of the step, in seconds.
     pub time_s: f64,
     /// The number of vertices that were split.
     pub splits: usize,
-    /// The rest length of the edges that came apart, in metres.
+    /// The total rest length of the edges that came apart, in metres.
     pub torn_m: f64,
-    /// The middle of the edge with the largest load over strength: where it was then, and at rest.
+    /// The midpoint of the edge with the largest load divided by strength: its position at the end
+    /// of the step, and at rest.
     pub place: [Point; 2],
     /// The largest load divided by strength: 1 or more.
     pub load: f64,
@@ -28,31 +29,33 @@ pub struct TearEvent {
 /// The first tear of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstTear {
-    /// The step in which the cloth first tore.
+    /// The first step in which the cloth tore.
     pub event: TearEvent,
-    /// The largest force at a hold in newtons, as [`Chronicle::largest_force_n`] counts, as a mean over
-    /// the [`FRAME_S`] before; `None` where forces are not known.
+    /// The largest force at a hold in newtons, as a mean over the [`FRAME_S`] before the tear, by
+    /// the rule of [`Chronicle::largest_force_n`]; `None` if the method does not know its forces.
     pub force_n: Option<f64>,
 }
 
 /// The forces at all holds of a scene, as means over a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoldForces {
-    /// The end of the frame, in seconds.
+    /// The time at the end of the frame, in seconds.
     pub end_s: f64,
-    /// For each hold, the force in newtons that it takes to hold or lead its vertices, including
-    /// their weight. Zero before it takes the vertices and after it has released them.
+    /// For each hold of the scene, in order, the force in newtons that it takes to hold or lead its
+    /// vertices, including their weight. It is zero before the hold begins and after it has ended.
     pub forces_n: Vec<Vector>,
 }
 
-/// The chronicle of a run. Call [`Chronicle::note`] after each step.
+/// A record of a run: its tears, and the forces at its holds. Call [`Chronicle::note`] after each
+/// step.
 ///
-/// Forces are means over a [`FRAME_S`], since those of single steps are as much the method's as the
-/// cloth's. They are what the method exerts: force times way is the work of the hands that lead, by every method
-/// but Provot's. Its limiter moves particles without a force, so by it none are known.
+/// Forces are means over a [`FRAME_S`], since those of single steps depend on the method as much as
+/// on the cloth. They are the forces that the method exerts: force times displacement is the work
+/// of the hands that lead vertices. With Provot's method no forces are known, since its limiter
+/// moves particles without a force.
 ///
-/// It costs the valence of what is held, a step; where wind blows, a pass over all faces a millisecond
-/// for each vertex that is held.
+/// A step costs the valence of the held vertices. With wind, forces are sampled at most once a
+/// millisecond, and a sample costs a pass over all faces for each held vertex.
 ///
 /// ```
 /// use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene};
@@ -92,7 +95,7 @@ pub struct Chronicle {
 }
 
 impl Chronicle {
-    /// The chronicle of a run that has not begun.
+    /// Creates the chronicle of a run that has not begun.
     #[must_use]
     pub fn new(run: &Run) -> Chronicle {
         let holds = &run.scene().holds;
@@ -111,7 +114,7 @@ impl Chronicle {
         }
     }
 
-    /// Notes a step that the run has just taken.
+    /// Records a step that the run has just taken.
     pub fn note(&mut self, run: &Run, step: &Step) {
         if self.knows_forces {
             self.weigh(run);
@@ -181,13 +184,13 @@ impl Chronicle {
         }
     }
 
-    /// The steps in which something tore, in their order.
+    /// Returns the steps in which something tore, in ascending order of time.
     #[must_use]
     pub fn events(&self) -> &[TearEvent] {
         &self.events
     }
 
-    /// The first tear of the cloth; `None` if it has not torn.
+    /// Returns the first tear of the cloth; `None` if it has not torn.
     #[must_use]
     pub fn first_tear(&self) -> Option<FirstTear> {
         let &event = self.events.first()?;
@@ -195,15 +198,15 @@ impl Chronicle {
         Some(FirstTear { event, force_n })
     }
 
-    /// The forces at all holds, frame by frame. The last frame may be shorter. Empty if the method
-    /// does not know its forces.
+    /// Returns the forces at all holds, frame by frame. The last frame may be shorter than
+    /// [`FRAME_S`]. The slice is empty if the method does not know its forces.
     #[must_use]
     pub fn hold_forces(&self) -> &[HoldForces] {
         &self.frames
     }
 
-    /// The largest force at a single hold in newtons, as a mean over a frame. If any holds are led,
-    /// only those count. `None` if the method does not know its forces.
+    /// Returns the largest force at a single hold in newtons, as a mean over a frame. If any holds
+    /// are led, only those count. `None` if the method does not know its forces.
     #[must_use]
     pub fn largest_force_n(&self) -> Option<f64> {
         let frames = self.frames.iter();

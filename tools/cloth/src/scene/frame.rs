@@ -4,7 +4,7 @@
 use tearmesh::Mesh;
 use tearmesh::geometry::{Point, Vector, dot};
 
-/// A direction along an axis of coordinates.
+/// A direction along a coordinate axis, positive or negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// 0, 1 or 2: x, y or z.
@@ -16,9 +16,9 @@ pub struct Axis {
 impl Axis {
     /// The positive x-axis.
     pub const X: Axis = Axis::new(0);
-    /// The positive y-axis, which is up unless a scene says otherwise.
+    /// The positive y-axis, which is the usual direction up.
     pub const Y: Axis = Axis::new(1);
-    /// The positive z-axis, which is up in many programs.
+    /// The positive z-axis, which is the direction up in many programs.
     pub const Z: Axis = Axis::new(2);
 
     const fn new(number: u8) -> Axis {
@@ -28,7 +28,7 @@ impl Axis {
         }
     }
 
-    /// The opposite direction.
+    /// Returns the opposite direction.
     #[must_use]
     pub const fn opposite(self) -> Axis {
         Axis {
@@ -37,7 +37,7 @@ impl Axis {
         }
     }
 
-    /// The unit vector.
+    /// Returns the unit vector in this direction.
     #[must_use]
     pub fn vector(self) -> Vector {
         let mut vector = Vector::zeros();
@@ -54,22 +54,23 @@ impl Axis {
 /// of width and height: (0, 0) is the bottom left corner, and (1, 1) the top right one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// The direction against gravity.
+    /// The direction opposite to gravity.
     pub up: Axis,
-    /// The axis from left to right.
+    /// The axis from left to right, along which width is measured.
     pub across: Axis,
-    /// The axis from bottom to top.
+    /// The axis from bottom to top, along which height is measured.
     pub along: Axis,
-    /// The remaining axis, toward the viewer or away.
+    /// The remaining axis, perpendicular to width and height. It points toward the viewer or away.
     pub depth: Axis,
-    /// The corner of the bounding box from which across, along and depth are counted.
+    /// The corner of the bounding box from which width, height and depth are measured.
     pub corner: Point,
-    /// The extents of the box in metres: across, along and in depth.
+    /// The extents of the box along `across`, `along` and `depth`, in metres.
     pub extents_m: [f64; 3],
 }
 
 impl Frame {
-    /// The frame of the faces of a mesh with its vertices at these points. Linear.
+    /// Returns the frame of the faces of a mesh whose vertices are at these points. Takes linear
+    /// time.
     #[must_use]
     pub fn new(mesh: &Mesh, points: &[Point], up: Axis) -> Frame {
         let mut low = [f64::INFINITY; 3];
@@ -115,13 +116,14 @@ impl Frame {
         }
     }
 
-    /// The longer of width and height, in metres.
+    /// Returns the longer of width and height, in metres.
     #[must_use]
     pub fn size_m(&self) -> f64 {
         self.extents_m[0].max(self.extents_m[1])
     }
 
-    /// The place of a point, as fractions of width and height.
+    /// Returns the place of a point, as fractions of width and height from the bottom left corner.
+    /// A fraction is 0 along an axis without extent.
     #[must_use]
     pub fn parts(&self, point: Point) -> [f64; 2] {
         let d = point - self.corner;
@@ -135,7 +137,7 @@ impl Frame {
         ]
     }
 
-    /// The point at these fractions of width, height and depth.
+    /// Returns the point at these fractions of width, height and depth.
     #[must_use]
     pub fn point(&self, parts: [f64; 3]) -> Point {
         let [across, along, depth] = [0, 1, 2].map(|i| parts[i] * self.extents_m[i]);

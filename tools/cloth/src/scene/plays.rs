@@ -8,18 +8,20 @@ use crate::load::Wind;
 use crate::{Tearing, Threshold};
 
 impl Scene {
-    /// The mass of a shirt's cotton, in kg/m².
+    /// The mass of shirt cotton per area, in kg/m², which the built-in scenes use.
     pub const AREAL_DENSITY_KG_PER_M2: f64 = 0.15;
-    /// The stiffness of an edge, in N/m: soft for cotton, so that a pull shows.
+    /// The stiffness of an edge in the built-in scenes, in N/m. It is soft for cotton, so that a
+    /// pull shows.
     pub const STRETCH_N_PER_M: f64 = 1000.0;
-    /// The acceleration of gravity, in m/s².
+    /// The magnitude of gravity in the built-in scenes except [`Scene::trouser`], in m/s².
     pub const GRAVITY_M_PER_S2: f64 = 9.81;
-    /// The rate at which velocities fade, in 1/s.
+    /// The rate at which drag slows velocities in [`Scene::fall`], [`Scene::hang`] and
+    /// [`Scene::flag`], in 1/s.
     pub const DRAG_PER_S: f64 = 0.5;
-    /// The stretch ratio at which an edge tears in the built-in scenes.
+    /// The ratio of length to rest length at which an edge tears in built-in scenes with tearing.
     pub const STRETCH_RATIO: f64 = 1.5;
 
-    /// A cloth that nothing holds: it falls for two seconds, and can tear.
+    /// Returns a scene in which nothing holds the cloth: it falls for two seconds, and can tear.
     #[must_use]
     pub fn fall(up: Axis) -> Scene {
         Scene {
@@ -39,8 +41,9 @@ impl Scene {
         }
     }
 
-    /// A sheet that hangs by its two upper corners. Each is clamped over a patch of a tenth of the
-    /// sheet, because the strain at a single pinned vertex would grow as the mesh gets finer.
+    /// Returns a scene in which a sheet hangs by its two upper corners. Each is clamped over a
+    /// patch of a tenth of the sheet, because the strain at a single pinned vertex would grow as
+    /// the mesh gets finer.
     #[must_use]
     pub fn hang(frame: &Frame) -> Scene {
         let corner = |across: f64| {
@@ -55,8 +58,9 @@ impl Scene {
         }
     }
 
-    /// A flag: the left edge is held, wind blows across and sways, and after a second and a half
-    /// the flag is cut in two (Souza et al. 2014, Figure 4). It does not tear by itself.
+    /// Returns the scene of a flag: the left edge is held, wind blows across and sways, and after a
+    /// second and a half the flag is cut in two (Souza et al. 2014, Figure 4). It does not tear by
+    /// itself.
     #[must_use]
     pub fn flag(frame: &Frame) -> Scene {
         let [width, ..] = frame.extents_m;
@@ -93,8 +97,8 @@ impl Scene {
         }
     }
 
-    /// A hanging patch is ripped: one vertex in its middle is grabbed after half a second and
-    /// dragged downward (Souza et al. 2014, Figure 6).
+    /// Returns a scene in which a hanging patch is ripped: one vertex in its middle is grabbed
+    /// after half a second and dragged downward (Souza et al. 2014, Figure 6).
     ///
     /// The patch hangs by its upper edge. The strain around a single pulled vertex grows as the
     /// mesh gets finer, but a hand does not pull at a point. So the cloth within the grip is eight
@@ -129,9 +133,9 @@ impl Scene {
         }
     }
 
-    /// The trouser test: a strip is slit from the middle of its lower edge to its centre, and the
-    /// ends of the two legs are pulled apart, to and from the viewer. There is no gravity. The sum
-    /// of the forces at the clamps is the force that tears.
+    /// Returns a trouser test: a strip is slit from the middle of its lower edge to its centre, and
+    /// the ends of the two legs are pulled apart, toward the viewer and away. There is no gravity.
+    /// The sum of the forces at the clamps is the force that tears.
     #[must_use]
     pub fn trouser(frame: &Frame) -> Scene {
         let height = frame.extents_m[1];
@@ -168,6 +172,6 @@ impl Scene {
         }
     }
 
-    /// How long a trouser test takes, in seconds.
+    /// The duration of a trouser test, in seconds.
     pub const TROUSER_S: f64 = 4.0;
 }

@@ -36,7 +36,7 @@ use crate::stability;
 use crate::system::Unstable;
 use crate::tearing::{Tear, TearReport, Tearing};
 
-/// A scene in progress.
+/// A scene in progress, with its mesh and its cloth.
 ///
 /// ```
 /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
@@ -79,36 +79,37 @@ pub struct RunTally {
     pub splits: u64,
     /// The number of vertices that cuts have split.
     pub cut_splits: u64,
-    /// The number of steps in which more edges were due to tear than the cap allows.
+    /// The number of steps in which the cap on splits left an edge that would have torn.
     pub steps_at_cap: u64,
-    /// The elastic energy of the edges that tore, in joules. It turned into motion.
+    /// The elastic energy of the edges that tore, in joules, which turned into motion.
     pub edge_energy_j: f64,
     /// The largest ratio of an edge's length to its rest length after a step, before tearing and
     /// before Provot's limiter.
     pub stretch_ratio_max: f64,
     /// The farthest that a vertex moved in one substep, in metres. It is measured only if the scene
-    /// has a ball, which a fast vertex may pass through; otherwise 0.
+    /// has a ball, since a fast vertex may pass through one; otherwise it is 0.
     pub farthest_m: f64,
-    /// The largest change of momentum by an edit, as a fraction of the sum of |m v| at that time.
+    /// The largest change of momentum by a cut or by the tears of a step, as a fraction of Σ |m v|
+    /// before it.
     pub momentum_drift: f64,
 }
 
 /// The report of one step of a run.
 #[derive(Debug)]
 pub struct Step {
-    /// What tore in this step; `None` if the scene has no rule for tearing.
+    /// The report of tearing in this step; `None` if the scene has no rule for tearing.
     pub tear: Option<TearReport>,
 }
 
 /// A cut that was made while the cloth moved.
 #[derive(Debug)]
 pub struct CutMade {
-    /// The number of the cut in the scene.
+    /// The index of the cut in the scene, from 0.
     pub number: usize,
-    /// What the cut did to the mesh.
+    /// The report of the changes to the mesh.
     pub report: CutReport,
-    /// How the cut changed the longest stable step of Provot's method, which slivers shorten.
-    /// `None` for other methods; with Verlet, slivers are carried by their neighbours.
+    /// The longest stable step of Provot's method before the cut and after it, which slivers
+    /// shorten. `None` for other methods; with Verlet, neighbours carry slivers.
     pub stability: Option<StableSteps>,
 }
 
@@ -119,17 +120,18 @@ pub struct StableSteps {
     pub before_s: f64,
     /// The longest stable step after the cut, in seconds.
     pub after_s: f64,
-    /// The vertices of the constraint that moves most in the fastest vibration after the cut.
+    /// The vertices of the constraint with the most energy in the fastest vibration after the cut;
+    /// `None` if it could not be measured.
     pub ends: Option<[usize; 2]>,
 }
 
 impl Run {
-    /// Prepares a scene with this mesh at rest. `frame` must be the frame that the scene was made
-    /// for.
+    /// Creates a run of a scene, with this mesh at rest. `frame` must be the frame for which the
+    /// scene was created.
     ///
     /// # Errors
     ///
-    /// [`RunError`]: what is wrong with the scene, or with the mesh for it.
+    /// [`RunError`] if the scene is not valid, or does not fit the mesh.
     pub fn new(
         mesh: Mesh,
         positions: &Positions,
@@ -236,12 +238,12 @@ impl Run {
     /// The largest number of steps in a run.
     pub const STEPS_MAX: u64 = 1 << 40;
 
-    /// Gives each vertex a strength, as a multiple of the tearing threshold, in place of the
-    /// scene's strengths. It has no effect on a scene that never tears.
+    /// Sets the strength of each vertex, as a multiple of the tearing threshold, in place of the
+    /// scene's strengths. It has no effect if the scene has no rule for tearing.
     ///
     /// # Errors
     ///
-    /// [`RunError::Tearing`] where there is not one positive number a vertex.
+    /// [`RunError::Tearing`] unless there is one positive finite number per vertex.
     pub fn with_strengths(mut self, strengths: Vec<f64>) -> Result<Run, RunError> {
         if let Some(tear) = self.tear.take() {
             let tear = tear.with_strengths(strengths);
@@ -250,7 +252,7 @@ impl Run {
         Ok(self)
     }
 
-    /// Divides the step of a run that has not begun by `parts`, to find out what depends on the
+    /// Divides the step of a run that has not begun by `parts`, to show which results depend on the
     /// step. A step that the run chose itself is divided further if stability needs it.
     ///
     /// ```
@@ -269,7 +271,7 @@ impl Run {
     ///
     /// # Panics
     ///
-    /// If a step was taken, or there would be more than [`Run::STEPS_MAX`].
+    /// If a step was taken already, or the run would need more than [`Run::STEPS_MAX`] steps.
     #[must_use]
     pub fn in_smaller_steps(mut self, parts: NonZero<u32>) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
@@ -281,15 +283,15 @@ impl Run {
     }
 
     /// Displaces the vertices of a run that has not begun, each by its offset in metres. The rest
-    /// state does not change, and holds take the displaced vertices.
+    /// state does not change, and holds take the vertices where they then are.
     ///
     /// # Errors
     ///
-    /// [`PositionError`] where a vertex would be at no usable place.
+    /// [`PositionError`] if the new position of a vertex is not finite or too large.
     ///
     /// # Panics
     ///
-    /// If a step was taken.
+    /// If a step was taken already.
     pub fn displaced(
         mut self,
         mut by_m: impl FnMut(VertexId) -> Vector,
@@ -304,12 +306,12 @@ impl Run {
         Ok(self)
     }
 
-    /// Takes one step.
+    /// Advances the scene by one step.
     ///
     /// # Errors
     ///
-    /// [`StepError`]: the cloth is as it was at the end of the last good step, but for what was cut
-    /// at the beginning of this one ([`Run::cuts_made`]).
+    /// [`StepError`]; the cloth is then as it was at the end of the last good step, except for cuts
+    /// made at the beginning of this one ([`Run::cuts_made`]).
     pub fn step(&mut self) -> Result<Step, StepError> {
         self.edits.clear();
         self.cuts_made.clear();
@@ -450,94 +452,98 @@ impl Run {
         }
     }
 
-    /// Whether the scene's time is over.
+    /// Returns whether all steps of the scene were taken.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.tally.steps >= self.steps_planned
     }
 
-    /// Whether an event at this time takes place. Times are rounded to steps, and an event that
-    /// falls on the end of the last step never happens.
+    /// Returns whether an event at this time, in seconds, takes place. Times are rounded to steps,
+    /// and an event at the end of the last step never happens.
     #[must_use]
     pub fn reaches(&self, time_s: f64) -> bool {
         held::step_at(time_s, self.step_s) < self.steps_planned
     }
 
-    /// The steps that the whole scene takes.
+    /// Returns the number of steps of the whole scene.
     #[must_use]
     pub fn steps_planned(&self) -> u64 {
         self.steps_planned
     }
 
-    /// The step in seconds: the scene's, or one that suits it. That is a whole part of 1/60 s.
+    /// Returns the step in seconds. A scene without a step of its own gets 1/60 s divided by a
+    /// whole number:
     ///
-    /// * Verlet: the one that suits nine tenths of the vertices, at most
-    ///   ([`suited_step_s`](crate::suited_step_s)); the others are carried, and so is
-    ///   what gets light where the cloth is torn or cut.
-    /// * Provot: at most 0.7 of the stability limit of the cloth at rest. What is torn or cut may ask
-    ///   for shorter ones; then each is divided ([`Unstable::Substep`]).
-    /// * PBD, XPBD: in each sweep a pull travels an edge or two, so a step must not be so long
-    ///   that it would have to travel farther; see [`Run::step_wanted_s`].
+    /// * Verlet: at most the step that suits nine tenths of the vertices
+    ///   ([`suited_step_s`](crate::suited_step_s)); the others are carried by their neighbours, and
+    ///   so are vertices that become light by a tear or a cut.
+    /// * Provot: at most 0.7 of the stability limit of the cloth at rest. If a tear or a cut lowers
+    ///   the limit, each step is divided ([`Unstable::Substep`]).
+    /// * PBD, XPBD: at most [`Run::step_wanted_s`], since a pull travels only an edge or two in
+    ///   each sweep.
     /// * Implicit: 1/240 s.
     ///
-    /// And at most 0.7 of what wind allows ([`wind_rate`](crate::air::wind_rate)).
+    /// A chosen step is also at most 0.7 of the limit set by wind
+    /// ([`wind_rate`](crate::air::wind_rate)).
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.step_s
     }
 
-    /// The longest step at which a method that sweeps pulls about as hard as the fabric's stiffness
-    /// says; `None` for other methods. With a longer step, cloth that merely hangs is stretched,
-    /// and may tear falsely.
+    /// Returns the longest step at which PBD or XPBD is about as stiff as the fabric, in seconds;
+    /// `None` for other methods. With a longer step, cloth that merely hangs is overstretched, and
+    /// may tear without cause.
     #[must_use]
     pub fn step_wanted_s(&self) -> Option<f64> {
         let speed_m_per_s = step_size::speed_m_per_s(&self.scene);
         step_size::wanted_s(&self.scene.solver, self.cloth.system(), speed_m_per_s)
     }
 
-    /// An estimate, from the masses, of how much softer XPBD leaves the cloth than its fabric at
-    /// the step of this scene; `None` for other methods. Linear.
+    /// Returns an estimate, from the masses, of how much softer XPBD leaves the cloth than its
+    /// fabric at the step of this scene; `None` for other methods. Takes linear time.
     #[must_use]
     pub fn softness(&self) -> Option<Softness> {
         step_size::softness(&self.scene, self.step_s, &self.cloth)
     }
 
-    /// The seconds that have been simulated.
+    /// Returns the time simulated so far, in seconds.
     #[must_use]
     pub fn elapsed_s(&self) -> f64 {
         self.tally.steps as f64 * self.step_s
     }
 
-    /// Totals and extremes of the run so far.
+    /// Returns totals and extremes of the run so far.
     #[must_use]
     pub fn tally(&self) -> RunTally {
         self.tally
     }
 
-    /// What the method reports about its steps so far. Costs up to a force evaluation.
+    /// Returns the report of the method about its steps so far. Costs up to a force evaluation.
     #[must_use]
     pub fn quality(&self) -> Quality {
         self.engine.quality(self.cloth.system())
     }
 
-    /// The energy balance of the scene so far. A pass over all constraints.
+    /// Returns the energy balance of the scene so far. Costs a pass over all constraints.
     #[must_use]
     pub fn energy_balance(&self) -> EnergyBalance {
         let edits_j = self.cloth.ledger().made_j();
         self.balance.now(self.cloth.system(), edits_j)
     }
 
-    /// The energy that the method made out of nothing, if it exceeded a quarter of what was put in.
-    /// The cloth then tears more than it should, and its pieces fly about. Checked every 1/60 s. A
-    /// shorter step helps, as does drag or a method that damps.
+    /// Returns the energy that the method made out of nothing; `None` unless it exceeded a quarter
+    /// of the energy that was put in. The cloth then tears more than it should, and its pieces fly
+    /// about. This is checked every 1/60 s. A shorter step helps, as does drag or a method that
+    /// damps.
     #[must_use]
     pub fn energy_gain(&self) -> Option<EnergyGain> {
         self.watch.gain()
     }
 
-    /// How much the method damps: the rate in 1/s of a drag that would have taken as much from what moves
-    /// as the method did so far, by its own account. Backward Euler's on a mode of frequency ω is ½ω²Δt.
-    /// `None` where it took nothing or does not say, and before 1/60 s. A pass over all constraints.
+    /// Returns the rate of damping by the method, in 1/s: that of a drag that would have removed as
+    /// much energy as the method did so far, by its own account. For backward Euler it is ½ω²Δt for
+    /// a mode of frequency ω. `None` if the method removed none or does not compute it, and before
+    /// 1/60 s. Costs a pass over all constraints.
     ///
     /// ```
     /// use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
@@ -562,44 +568,44 @@ impl Run {
         self.watch.damping_per_s(method_j)
     }
 
-    /// The scene.
+    /// Returns the scene that this run carries out.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The mesh, torn as it is now.
+    /// Returns the mesh in its present state, with all cuts and tears.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The cloth.
+    /// Returns the cloth in its present state.
     #[must_use]
     pub fn cloth(&self) -> &Cloth {
         &self.cloth
     }
 
-    /// The edits of the mesh in the last step, for followers to replay.
+    /// Returns the edits of the mesh in the last step, for followers to replay.
     #[must_use]
     pub fn edits(&self) -> &Edits {
         &self.edits
     }
 
-    /// The cuts that the last step made, at its beginning: also if it failed after that.
+    /// Returns the cuts made at the beginning of the last step, even if that step failed later.
     #[must_use]
     pub fn cuts_made(&self) -> &[CutMade] {
         &self.cuts_made
     }
 
-    /// The state of tearing; `None` for a scene without a rule for tearing.
+    /// Returns the state of tearing; `None` for a scene without a rule for tearing.
     #[must_use]
     pub fn tear(&self) -> Option<&Tear> {
         self.tear.as_ref()
     }
 
-    /// The vertices that a hold of the scene leads or holds now, copies included; empty
-    /// before its time and after.
+    /// Returns the vertices that a hold of the scene holds or leads now, copies included. Holds are
+    /// numbered from 0. The slice is empty before the hold begins and after it ends.
     ///
     /// # Panics
     ///
@@ -609,9 +615,9 @@ impl Run {
         self.held[hold].now()
     }
 
-    /// The number of isolated vertices that a hold of the scene takes, that is, vertices without a
-    /// held neighbour. The strain around such a pin grows as 1/h with the edge length h of the
-    /// mesh; the strain around a clamp does not. Linear.
+    /// Returns the number of isolated vertices that a hold of the scene takes, that is, vertices
+    /// without a held neighbour. The strain around such a pin grows as 1/h with the edge length h
+    /// of the mesh; the strain around a clamp does not. Takes linear time.
     ///
     /// # Panics
     ///
@@ -621,7 +627,7 @@ impl Run {
         self.held[hold].pins(&self.mesh)
     }
 
-    /// The length at rest of all torn edges, each counted once, in metres.
+    /// Returns the length at rest of all torn edges, each counted once, in metres.
     #[must_use]
     pub fn torn_length_m(&self) -> f64 {
         let rest = self.cloth.rest_positions().as_slice();

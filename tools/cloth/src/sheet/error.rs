@@ -5,25 +5,26 @@ use std::fmt;
 use tearmesh::geometry::Vector;
 use tearmesh::{FaceId, MassError, VertexId};
 
-/// Why a cloth was refused.
+/// The reason why a cloth was refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClothError {
     /// The masses were refused.
     Mass(MassError),
-    /// A stiffness is not a positive finite number, or the stiffness of some bend would not be.
+    /// A stiffness is not a positive finite number, or the stiffness of a bend constraint would not
+    /// be one.
     Stiffness {
-        /// The field of [`Fabric`](crate::Fabric).
+        /// The name of the field of [`Fabric`](crate::Fabric).
         field: &'static str,
-        /// The number as given.
+        /// The value that was given.
         given: f64,
     },
     /// Two vertices that a constraint joins are at the same place, or have coordinates that are not
     /// finite.
     Length {
-        /// The vertices.
+        /// The two vertices.
         ends: [VertexId; 2],
-        /// The rest length, in metres.
+        /// The rest length between them, in metres.
         given: f64,
     },
     /// A face of a cloth with a [`Weave`](crate::Weave) has no area at rest, or the direction of
@@ -31,14 +32,14 @@ pub enum ClothError {
     Face {
         /// The face that cannot be used.
         face: FaceId,
-        /// The direction of warp.
+        /// The direction of warp that was given, in space.
         warp: Vector,
     },
     /// The number of warp directions differs from the number of faces.
     Warps {
         /// The number of faces.
         faces: usize,
-        /// The number of directions.
+        /// The number of warp directions.
         warps: usize,
     },
     /// The number of positions or masses differs from the number of vertices.

@@ -1,6 +1,6 @@
 //! The cost of a simulation, counted without a clock.
 
-/// Counts of what was computed since the system was made. They measure the cost of a simulation
+/// Counts of the work done since the system was created. They measure the cost of a simulation
 /// without a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -42,19 +42,20 @@ pub struct Visits {
     pub meter: u64,
 }
 
-/// Counts of visits to single elements, by the feature of the model that they belong to: what a scene
-/// pays for each feature, without a clock. Visits to constraints add up to [`Visits::project`] and
-/// [`Visits::force`] together.
+/// Counts of visits to single elements, by the feature of the model to which they belong. They
+/// measure the cost of each feature of a scene without a clock. Visits to constraints add up to
+/// [`Visits::project`] and [`Visits::force`] together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeatureVisits {
-    /// Visits to springs along edges.
+    /// The number of visits to springs along edges.
     pub stretch: u64,
-    /// Visits to springs and arcs across edges.
+    /// The number of visits to springs and arcs across edges.
     pub bend: u64,
-    /// Visits to triangles with a modulus.
+    /// The number of visits to triangles with a modulus.
     pub triangle: u64,
-    /// Visits to faces, for the force of wind and for the rate at which air slows the system.
+    /// The number of visits to faces, for the force of wind and for the rate at which air slows the
+    /// system.
     pub wind: u64,
-    /// Visits to particles, one for each collider that they are tested against.
+    /// The number of visits to particles, one for each collider against which a particle is tested.
     pub collider: u64,
 }

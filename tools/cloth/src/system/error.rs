@@ -6,7 +6,7 @@ use tearmesh::geometry::Point;
 
 use crate::Constraint;
 
-/// Why particles, constraints or loads were refused.
+/// The reason why particles, constraints, triangles or loads were refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SystemError {
@@ -19,39 +19,39 @@ pub enum SystemError {
     },
     /// A mass is not positive and finite. The first such particle is named.
     Mass {
-        /// The particle with the wrong mass.
+        /// The index of the particle with the unusable mass.
         particle: usize,
-        /// The mass as given, in kilograms.
+        /// The mass that was given, in kilograms.
         given: f64,
     },
     /// A coordinate is not finite or is too large. The first such particle is named.
     Position {
-        /// The particle with the wrong position.
+        /// The index of the particle with the unusable position.
         particle: usize,
-        /// The point as given.
+        /// The position that was given, in metres.
         given: Point,
     },
-    /// The rest length or the stiffness is not positive and finite, or the ends are not two
-    /// particles.
+    /// The rest length or the stiffness of a constraint is not positive and finite, or its ends are
+    /// not two different particles.
     Constraint {
         /// The constraint as given.
         given: Constraint,
     },
-    /// A stiffness of a triangle is negative, a number is not finite, its places in the material
-    /// span no area, or its corners are not three particles.
+    /// A stiffness of a triangle is negative, one of its numbers is not finite, its coordinates in
+    /// the material span no area, or its corners are not three different particles.
     Triangle {
-        /// The corners as given.
+        /// The indices of the particles that were given as corners.
         corners: [usize; 3],
-        /// The places as given, in metres.
+        /// The coordinates (u, v) of the corners in the material, in metres.
         material_m: [[f64; 2]; 3],
-        /// The stiffness as given, in N/m.
+        /// The stiffness that was given along u, along v and in shear, in N/m.
         stiffness_n_per_m: [f64; 3],
     },
-    /// A number of a load is not finite, or negative where it must not be.
+    /// A number of a load is not finite, or is negative where it must not be.
     Loads {
-        /// The field of [`Loads`](crate::Loads).
+        /// The name of the field of [`Loads`](crate::Loads).
         field: &'static str,
-        /// The number as given; of a vector, the component.
+        /// The value that was given; for a vector, its unusable component.
         given: f64,
     },
 }

@@ -87,16 +87,17 @@ struct Due {
 pub struct TearReport {
     /// The number of vertices that were split.
     pub splits: usize,
-    /// The number of edges that were at or above their threshold before the step.
+    /// The number of overloaded edges before the step: those with a load of at least the smaller
+    /// strength of their ends.
     pub overstretched: usize,
     /// The number of overloaded edges whose delay is not over yet.
     pub waiting: usize,
-    /// The number of overloaded edges that were relieved by a split at one of their ends.
+    /// The number of further overloaded edges that were relieved by a split at one of their ends.
     pub relieved: usize,
-    /// The number of overloaded edges neither of whose ends can be split, because it is held or has
-    /// all faces on one side.
+    /// The number of overloaded edges neither of whose ends can be split, because each is held,
+    /// bears the load, or has all faces on one side.
     pub refused: usize,
-    /// Whether the cap left an edge that would have torn.
+    /// Whether the cap on splits left an edge that would have torn.
     pub cap_hit: bool,
     /// The overloaded edge with the largest load divided by strength, and that quotient, which is 1
     /// or more. `None` if no edge was overloaded.
@@ -105,18 +106,18 @@ pub struct TearReport {
     /// constraints across the tear. It is negative if full-stiffness copies by the paper's rule
     /// made energy, and 0 with halved copies and no bending.
     pub energy_released_j: f64,
-    /// The elastic energy of the edges that tore, in joules. It turns into motion.
+    /// The elastic energy of the edges that tore, in joules, which turns into motion.
     pub edge_energy_j: f64,
-    /// The rest length of the edges that came apart, in metres.
+    /// The total rest length of the edges that came apart, in metres.
     pub tear_length_m: f64,
 }
 
 impl Tear {
-    /// The state of tearing of a cloth that has not torn yet, with the strength 1 everywhere.
+    /// Creates the state of tearing of a cloth that has not torn yet, with strength 1 everywhere.
     ///
     /// # Errors
     ///
-    /// [`TearingError`]: a number cannot be used.
+    /// [`TearingError`] if a number of `tearing` cannot be used.
     pub fn new(cloth: &Cloth, tearing: Tearing) -> Result<Tear, TearingError> {
         tearing.check()?;
         let (count, seen) = (cloth.positions().len(), cloth.seen());
@@ -136,11 +137,12 @@ impl Tear {
         })
     }
 
-    /// Sets the strength of each vertex, as a multiple of the threshold.
+    /// Sets the strength of each vertex, as a multiple of the threshold, in the order of the
+    /// vertices.
     ///
     /// # Errors
     ///
-    /// [`TearingError`]: there is not one for each vertex, or one is not positive.
+    /// [`TearingError`] unless there is one positive finite strength per vertex.
     pub fn with_strengths(self, strengths: Vec<f64>) -> Result<Tear, TearingError> {
         let vertices = self.strengths.as_slice().len();
         if strengths.len() != vertices {
@@ -161,13 +163,13 @@ impl Tear {
         })
     }
 
-    /// The rules by which the cloth tears.
+    /// Returns the rules by which the cloth tears.
     #[must_use]
     pub fn tearing(&self) -> &Tearing {
         &self.tearing
     }
 
-    /// The strength of a vertex as it was given, without any weakening.
+    /// Returns the strength of a vertex as it was given, without any weakening.
     ///
     /// # Panics
     ///
@@ -177,7 +179,7 @@ impl Tear {
         *self.strengths.at(v)
     }
 
-    /// Whether a vertex is the tip of a tear, which [`Tearing::weakening`] is for.
+    /// Returns whether a vertex is the tip of a tear, to which [`Tearing::weakening`] applies.
     ///
     /// # Panics
     ///
@@ -199,13 +201,13 @@ impl Tear {
         }
     }
 
-    /// The edge with the largest load over strength, and that: from 1 on it tears. `None` for a cloth
-    /// without a stretched edge. Linear; what [`Tear::apply`] finds costs next to nothing, and ends
-    /// at what tears.
+    /// Returns the edge with the largest load divided by strength, and that quotient; at 1 or more
+    /// the edge tears. `None` if no edge is stretched. Takes linear time; [`TearReport::worst`] is
+    /// cheaper, but covers overloaded edges only.
     ///
     /// # Panics
     ///
-    /// If cloth or tear are not in step with the mesh.
+    /// If the cloth or this state is not in step with the mesh.
     #[must_use]
     pub fn worst(&self, mesh: &Mesh, cloth: &Cloth) -> Option<(HalfEdgeId, f64)> {
         let severity = |edge| {
@@ -217,18 +219,19 @@ impl Tear {
         edges.reduce(|worst, other| if other.1 > worst.1 { other } else { worst })
     }
 
-    /// Tears what is overstretched now, after a step of `dt_s` seconds. Mesh and log advance, and
-    /// the cloth and this follow them; other followers replay the log when it suits them.
+    /// Tears the edges that are overstretched now, after a step of `dt_s` seconds. The mesh and the
+    /// log advance, and the cloth and this state follow them. Other followers can replay the log
+    /// later.
     ///
-    /// Edits that are already in the log are followed first. Cost: a walk round the ends of each
-    /// overstretched edge; and, where the method did not compute lengths at the end of the step, a
-    /// pass over edges; over edges and the faces beside them where
-    /// [`Threshold::PrincipalStretch`](super::Threshold) decides.
+    /// Edits that are already in the log are replayed first. The cost is a walk round the ends of
+    /// each overstretched edge. If the method did not compute lengths at the end of the step, a
+    /// pass over edges is added. With [`Threshold::PrincipalStretch`](super::Threshold) it is a
+    /// pass over edges and the faces beside them.
     ///
     /// # Panics
     ///
-    /// If cloth or tear are not in step with the mesh, or records that they have not seen were
-    /// cleared.
+    /// If the cloth or this state is not in step with the mesh, or edits that they have not seen
+    /// were cleared from the log.
     pub fn apply(
         &mut self,
         mesh: &mut Mesh,

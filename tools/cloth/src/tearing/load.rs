@@ -12,8 +12,8 @@ use crate::sheet::Cloth;
 use crate::system::System;
 
 impl Threshold {
-    /// The load of a link in a system without a mesh. The link tears at 1 or more. It is negative
-    /// under compression, and `None` for thresholds that need a mesh.
+    /// Returns the load of a link in a system without a mesh. The link tears at 1 or more. The load
+    /// is negative under compression, and `None` for thresholds that need a mesh.
     ///
     /// # Panics
     ///
@@ -32,9 +32,9 @@ impl Threshold {
         }
     }
 
-    /// The load of an edge of a cloth. The edge tears at 1 or more, if both its ends have the
-    /// strength 1. It is negative under compression, and `None` for an edge that never tears by
-    /// itself.
+    /// Returns the load of an edge of a cloth. The edge tears at 1 or more, if both its ends have
+    /// the strength 1. The load is negative under compression, and `None` for an edge that never
+    /// tears by itself.
     ///
     /// # Panics
     ///

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::Study;
 
-/// A line for each way on each sheet, and for each row of a record, which has a time and a deviation alone.
+/// Returns the study as CSV: one line per sheet and method, and one per row of a record. The latter has only
+/// a name, a number of faces, a time, a deviation and its processor.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(

@@ -4,22 +4,22 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// A row of a record.
+/// A row of a record: the time and the accuracy of a cut by some program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Rival {
-    /// The program, or the way by our own.
+    /// The name of the program, or of a method of tearmesh.
     pub name: String,
-    /// The faces of what was cut.
+    /// The number of faces of the mesh before the cut.
     pub faces: usize,
-    /// CPU time for each of those, in ns.
+    /// The CPU time of the cut in ns, divided by `faces`.
     pub ns_per_face: f64,
-    /// The largest distance of the seam from the plane, in mean edges.
+    /// The largest distance of the seam from the plane, in mean edge lengths.
     pub deviation_edges: f64,
-    /// The processor, as the record has it.
+    /// The processor, as named in the record; `unknown` if the record does not name it.
     pub processor: String,
 }
 
-/// A text that is no record of cuts.
+/// The error for a text that has no cut with both a time and a deviation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoRecord;
 
@@ -31,12 +31,14 @@ impl fmt::Display for NoRecord {
 
 impl std::error::Error for NoRecord {}
 
-/// The rows of a record that have both a time and a deviation: each mesh has a table of times with the column
-/// `ms`, and one of measures with the column `in edges`. Columns are told apart by two blanks or more.
+/// Reads the rows of a record of `tearmesh-bench cut` that have both a time and a deviation.
+///
+/// For each mesh the record has a table of times, in the column `ms`, and a table of measures, with the
+/// column `in edges`. Columns are separated by two or more spaces.
 ///
 /// # Errors
 ///
-/// [`NoRecord`], where there is none.
+/// [`NoRecord`] if there is no such row.
 pub fn rivals(text: &str) -> Result<Vec<Rival>, NoRecord> {
     let cpu = text.lines().find_map(|line| line.strip_prefix("CPU"));
     let processor = cpu.unwrap_or("unknown").trim().to_owned();

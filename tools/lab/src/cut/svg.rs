@@ -30,7 +30,7 @@ const COLOURS: [RGBColor; 10] = [
     RGBColor(0x44, 0x22, 0x66),
 ];
 
-/// Draws a study. `None` where the drawing library fails, which a drawing in memory has no reason for.
+/// Draws a study as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(study: &Study) -> Option<String> {
     let footer = wrapped(&footer(study), 180);

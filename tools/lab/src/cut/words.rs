@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Study;
 
-/// A table of all measures for each sheet.
+/// Returns the main measures as a text table, one table per sheet.
 #[must_use]
 pub fn summary(study: &Study) -> String {
     let mut text = String::new();

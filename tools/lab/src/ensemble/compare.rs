@@ -5,20 +5,20 @@ use serde::Serialize;
 use crate::random::Random;
 use crate::sample::{median, point};
 
-/// What can be said of two ensembles.
+/// The result of a comparison of two ensembles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// The medians are surely a tenth apart: the interval has no point in common with 0.9 … 1.1.
+    /// The medians differ by more than a tenth: the 95 % interval of their ratio lies outside 0.9 … 1.1.
     Differ,
-    /// They are surely within a quarter: the interval lies within 0.8 … 1.25.
+    /// The medians are within a quarter of each other: the 95 % interval of their ratio lies in 0.8 … 1.25.
     Same,
-    /// Neither, with so many runs.
+    /// The runs are too few for either conclusion.
     CannotTell,
 }
 
 impl Verdict {
-    /// In words.
+    /// Returns the verdict in words, in lower case.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -29,14 +29,14 @@ impl Verdict {
     }
 }
 
-/// Two samples, compared.
+/// A comparison of the medians of two samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// The median of the second over that of the first; 1 where they are equal, whatever they are.
+    /// The median of the second sample divided by that of the first; 1 if both are equal, even to 0.
     pub ratio: f64,
-    /// The 2.5 and 97.5 per cent points of that ratio, by bootstrap.
+    /// The 95 % interval of the ratio by bootstrap: its 2.5 % and 97.5 % points.
     pub interval: [f64; 2],
-    /// What follows.
+    /// The verdict that follows from the interval.
     pub verdict: Verdict,
 }
 
@@ -49,11 +49,11 @@ const APART: [f64; 2] = [0.9, 1.1];
 /// Medians that are surely within this are the same.
 const CLOSE: [f64; 2] = [0.8, 1.25];
 
-/// Compares two samples that are not empty.
+/// Compares the medians of two samples. The same samples give the same result.
 ///
 /// # Panics
 ///
-/// If one is empty.
+/// If a sample is empty.
 #[must_use]
 pub fn compare(first: &[f64], second: &[f64]) -> Comparison {
     assert!(
@@ -90,11 +90,11 @@ fn ratio(first: f64, second: f64) -> f64 {
     if first == second { 1.0 } else { second / first }
 }
 
-/// The 10 %, 50 % and 90 % points of some numbers, between neighbours in proportion.
+/// Returns the 10 %, 50 % and 90 % points of a sample in any order, interpolated linearly.
 ///
 /// # Panics
 ///
-/// If there is none.
+/// If the sample is empty.
 #[must_use]
 pub fn spread(numbers: &[f64]) -> [f64; 3] {
     let mut sorted = numbers.to_vec();

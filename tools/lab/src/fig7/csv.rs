@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Study;
 
-/// A line for each patch, way and round, with what does not depend on the round repeated.
+/// Returns the study as CSV: one line per patch, implementation and round.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(

@@ -20,8 +20,7 @@ const COLOURS: [RGBColor; 3] = [
 /// A number of a way.
 type Of = fn(&Timed) -> f64;
 
-/// Draws a study. `None` where the drawing library fails, which a drawing in memory has no
-/// reason for.
+/// Draws a study as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(study: &Study) -> Option<String> {
     drawn(SIZE, |root| draw(study, root))

@@ -11,97 +11,97 @@ use super::run::{Cost, Outcome, Status};
 use super::scene::Case;
 use crate::ensemble::NOISE_M;
 
-/// A case and all that is known of it.
+/// The results of a case.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseStudy {
-    /// Its name: scene, mesh and cells.
+    /// The name of the case: scene, mesh and number of cells.
     pub name: String,
-    /// What happens in the scene.
+    /// A short description of the scene.
     pub about: &'static str,
-    /// How many particles there are.
+    /// The number of particles.
     pub particles: usize,
-    /// How many edges.
+    /// The number of edges.
     pub edges: usize,
-    /// By how much noise grows: metres over metres. `None` where nobody asked, or the runs failed.
+    /// The distance of the two runs of the gate divided by the noise; `None` if they failed or did not run.
     pub amplification: Option<f64>,
-    /// Whether that bars displacements from being compared.
+    /// Whether displacements are not compared, because noise grows too much or its growth is unknown.
     pub is_barred: bool,
-    /// The edges that tore first in both references, where that is what was asked.
+    /// The runs of the references and of the gate.
     pub references: Vec<ReferenceRun>,
-    /// By observable: what the two references differ by.
+    /// The floor of each observable that is compared.
     pub floors: Vec<Floor>,
-    /// Each run of the budget.
+    /// The runs of the budget and those at default settings.
     pub rows: Vec<Row>,
-    /// Who is cheapest, by observable and tolerance.
+    /// The cheapest rows for each observable and tolerance.
     pub cheapest: Vec<Cheapest>,
 }
 
-/// A run that references and the gate are made of.
+/// A run of a reference or of the gate.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceRun {
-    /// Its name.
+    /// The name of the run, without the name of the case.
     pub name: String,
-    /// How it ended.
+    /// The way in which the run ended.
     pub status: Status,
-    /// Why, where it failed.
+    /// The reason if a step failed or the energy grew too much; otherwise empty.
     pub why: String,
-    /// Its step, in seconds.
+    /// The step, in seconds.
     pub dt_s: f64,
-    /// What it cost.
+    /// The cost of the run.
     pub cost: Cost,
 }
 
-/// How well the truth is known.
+/// The accuracy to which the true value of an observable is known.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Floor {
-    /// By what.
+    /// The observable.
     pub observable: Observable,
-    /// The distance of the two references, or what is left where rows end at rest, if that is more; `None` where one of them has no answer, so that there is
-    /// none to hold rows against.
+    /// The relative distance between the two references, or the error that remains where rows end at rest,
+    /// if that is larger. `None` if a reference has no value; then rows have no error.
     pub floor: Option<f64>,
 }
 
-/// Errors below so many times the floor are told as being there.
+/// The multiple of the floor below which errors are not distinguished.
 pub const FLOORS: f64 = 10.0;
 
-/// A run of the budget.
+/// A run of the budget or at default settings.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Its name: case, method and settings, and the part of its base step.
+    /// The name of the run: case, method with settings, and the fraction of the base step or `default`.
     pub run: String,
-    /// The method whatever its settings.
+    /// The name of the family of methods, as in [`Family::name`].
     pub family: &'static str,
-    /// The method and its settings.
+    /// The name of the method with its settings.
     pub series: &'static str,
-    /// The part of the base step; `None` of a row at the step that a scene chooses.
+    /// The fraction of the base step; `None` for a run at default settings.
     pub part: Option<f64>,
-    /// Whether it is what a user gets who names nothing.
+    /// Whether this is the run of the default method at default settings.
     pub is_default: bool,
     /// The step, in seconds.
     pub dt_s: f64,
-    /// How it ended.
+    /// The way in which the run ended.
     pub status: Status,
-    /// Why, where it failed.
+    /// The reason if a step failed or the energy grew too much; otherwise empty.
     pub why: String,
-    /// The seconds that it simulated.
+    /// The simulated time, in seconds.
     pub simulated_s: f64,
-    /// What it cost.
+    /// The cost of the run.
     pub cost: Cost,
-    /// The CPU times of repetitions: the least and the median, in seconds.
+    /// The smallest and the median CPU time of the repetitions, in seconds; `None` without repetitions.
     pub repeated_s: Option<[f64; 2]>,
-    /// By observable, as far as they are known.
+    /// The errors of a run that succeeded, one per observable whose error is known.
     pub errors: Vec<Error>,
 }
 
 impl Row {
-    /// Its error by an observable.
+    /// Returns the error of the row for an observable; `None` if it is not known.
     #[must_use]
     pub fn error(&self, observable: Observable) -> Option<&Error> {
         let mut errors = self.errors.iter();
         errors.find(|error| error.observable == observable)
     }
 
-    /// Its method.
+    /// Returns the family of methods; `None` if the name in the field `family` is unknown.
     #[must_use]
     pub fn family(&self) -> Option<Family> {
         let mut all = Family::ALL.into_iter();
@@ -109,72 +109,72 @@ impl Row {
     }
 }
 
-/// How far a run is off by an observable, in three parts.
+/// The error of a run for one observable, in three parts. Errors are relative; smaller is better.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Error {
-    /// By what.
+    /// The observable.
     pub observable: Observable,
-    /// From the reference.
+    /// The distance of the run from the reference.
     pub total: f64,
-    /// The reference from the limit that the method goes to as Δt → 0; `None` where it has none.
+    /// The distance of the reference from the method's limit as Δt → 0; `None` if no limit is known.
     pub model: Option<f64>,
-    /// The run from that limit.
+    /// The distance of the run from that limit; `None` if no limit is known.
     pub discretisation: Option<f64>,
-    /// The largest total of this and all shorter steps: what it can be relied on for.
+    /// The largest `total` of this and all shorter steps of the series, which is compared with tolerances.
     pub vouched: f64,
-    /// Whether it is larger than that of a longer step.
+    /// Whether `total` exceeds that of a longer step by more than a tenth, and is above ten times the floor.
     pub is_rising: bool,
-    /// Whether it is below ten times the floor, and known no better than that.
+    /// Whether `total` is below ten times the floor, and so known no better than that.
     pub is_at_floor: bool,
-    /// Whether it is on the front by visits of edges.
+    /// Whether the run is on the front of error against visits of edges.
     pub is_on_front: bool,
-    /// Whether it is on the front by CPU time, where that was taken.
+    /// Whether the run is on the front of error against CPU time; false if no time was measured.
     pub is_on_front_by_time: bool,
 }
 
-/// Who is cheapest of those that meet a tolerance.
+/// The cheapest rows of the budget that meet a tolerance.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cheapest {
-    /// By what.
+    /// The observable.
     pub observable: Observable,
-    /// The largest error that is allowed.
+    /// The largest relative error that is allowed.
     pub tolerance: f64,
-    /// Whether the references know the truth well enough to tell.
+    /// Whether the tolerance is at least ten times the floor. If not, there is no winner.
     pub is_known: bool,
-    /// The run, and its visits of edges.
+    /// The row with the fewest visits of edges; `None` if no row meets the tolerance.
     pub winner: Option<Winner>,
-    /// The cheapest of the other methods.
+    /// The row with the fewest visits of those of other families; `None` if there is none.
     pub runner_up: Option<Winner>,
-    /// The winner by CPU time, where that was taken.
+    /// The row with the least CPU time; `None` if no row meets the tolerance or no time was measured.
     pub winner_by_time: Option<Winner>,
-    /// What the default costs over the winner, where it meets the tolerance.
+    /// The visits of the default method divided by those of the winner; `None` if either is missing.
     pub default_ratio: Option<f64>,
 }
 
-/// A run that meets a tolerance.
+/// A row that meets a tolerance.
 #[derive(Clone, Debug, Serialize)]
 pub struct Winner {
-    /// Its name, after the slash.
+    /// The name of the run, without the name of the case.
     pub run: String,
-    /// Its method.
+    /// The name of the family of methods, as in [`Family::name`].
     pub family: &'static str,
-    /// Its cost, by visits or by seconds.
+    /// The cost, in visits of edges or, by time, in seconds.
     pub cost: f64,
 }
 
 /// What is made or lost of energy below ten times this, as a part, is told as nothing.
 const ENERGY_FLOOR: f64 = 1e-4;
 
-/// The tolerances of displacements.
+/// The tolerances for [`Observable::Displacement`], as relative errors.
 pub const FINE: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// Those of all else.
+/// The tolerances for all other observables, as relative errors.
 pub const COARSE: [f64; 4] = [0.2, 0.1, 0.05, 0.02];
 
-/// The amplification from which on displacements are barred.
+/// The largest amplification of noise at which displacements are compared.
 pub const AMPLIFICATION_MAX: f64 = 1e3;
 
-/// Makes of the runs of a case what they say.
+/// Computes the results of a case from its runs. `outcomes` must be in the order of `plan`.
 #[must_use]
 pub fn assess(case: &Case, plan: &[Planned], outcomes: &[Outcome]) -> CaseStudy {
     let both = || plan.iter().zip(outcomes);
@@ -288,8 +288,8 @@ pub fn assess(case: &Case, plan: &[Planned], outcomes: &[Outcome]) -> CaseStudy 
 }
 
 impl CaseStudy {
-    /// Marks errors that rise and rows on fronts, and finds who is cheapest; again where times were taken
-    /// since.
+    /// Marks rising errors and rows on fronts, and finds the cheapest rows. A change of times needs a new
+    /// call.
     pub fn rank(&mut self) {
         self.cheapest.clear();
         for known in self.floors.clone() {
@@ -395,7 +395,8 @@ impl CaseStudy {
 }
 
 impl Row {
-    /// What it cost, by visits of edges or by the median of its CPU times, or the one that there is.
+    /// Returns the visits of edges or, if `time` is true, the CPU time in seconds: the median of the
+    /// repetitions, or the time of the single run. `None` if no time was measured.
     #[must_use]
     pub fn cost_by(&self, time: bool) -> Option<f64> {
         if time {

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use super::{CaseStudy, Error, Row, Study};
 
-/// A line for each row and observable, and one without an observable for each row that failed, or of
-/// which nothing is known. Empty where there is no answer: no limit, no time. Runs of references and of
-/// the gate have lines with the series `reference`.
+/// Returns the study as CSV: one line per row and observable, and one for a row without errors.
+///
+/// A cell is empty if there is no value. The runs of references and of the gate have the series `reference`.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(

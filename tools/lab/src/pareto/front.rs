@@ -3,17 +3,17 @@
 /// By how much a point has to be better, as a part, to dominate.
 pub(super) const MARGIN: f64 = 0.1;
 
-/// What a run cost, and how far it was off.
+/// The cost and the error of a run. For both, smaller is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Any measure of work.
+    /// The cost, in any unit; positive and finite.
     pub cost: f64,
-    /// Any measure of error.
+    /// The error, in any unit.
     pub error: f64,
 }
 
 impl Point {
-    /// Whether it is a tenth better in cost and a tenth better in error.
+    /// Returns whether this point is a tenth better than `other` in cost and a tenth better in error.
     #[must_use]
     pub fn dominates(self, other: Point) -> bool {
         let better = |a: f64, b: f64| a <= (1.0 - MARGIN) * b;
@@ -21,7 +21,9 @@ impl Point {
     }
 }
 
-/// Which points no other one dominates. Sorts: O(n log n).
+/// Returns, for each point, whether no other point dominates it, in O(n log n).
+///
+/// Costs must be positive and finite.
 #[must_use]
 pub fn front(points: &[Point]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();

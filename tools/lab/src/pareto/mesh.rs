@@ -7,23 +7,23 @@ use crate::random::Random;
 /// The mass of a square metre, in kg.
 pub(super) const DENSITY_KG_PER_M2: f64 = 0.15;
 
-/// What both meshes are made from.
+/// The seed of the meshes and of all other random numbers of the experiments.
 pub const SEED: u64 = 1;
 
-/// How a sheet is meshed.
+/// The kinds of meshes of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MeshKind {
-    /// Square cells with diagonals at random.
+    /// Square cells with diagonals in random directions.
     Grid,
-    /// Delaunay triangles of points at random, no two of them too near to each other.
+    /// Delaunay triangles of random points that keep a minimum distance from each other.
     Delaunay,
 }
 
 impl MeshKind {
-    /// Both.
+    /// All kinds of meshes.
     pub const ALL: [MeshKind; 2] = [MeshKind::Grid, MeshKind::Delaunay];
 
-    /// As it stands in names.
+    /// Returns the name of the kind, as part of the names of cases.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,25 +33,25 @@ impl MeshKind {
     }
 }
 
-/// The particles and edges of a square sheet that lies flat, in the order of the mesh.
+/// The particles and edges of a flat square sheet, in the order of its mesh.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// Where the particles are at rest, in metres: x to the right, y up, from the origin.
+    /// The positions of the particles at rest, in metres: x to the right, y up, from a corner at the origin.
     pub points: Vec<Point>,
-    /// Their masses, in kg.
+    /// The masses of the particles, in kg.
     pub masses: Vec<f64>,
-    /// The ends of each edge.
+    /// The two ends of each edge, as indices into `points`.
     pub edges: Vec<[usize; 2]>,
     /// The length of a side, in metres.
     pub side_m: f64,
 }
 
 impl Sheet {
-    /// A sheet of (n + 1)² particles with sides of so many metres.
+    /// Creates a sheet of (`cells` + 1)² particles with sides of `side_m` metres.
     ///
     /// # Panics
     ///
-    /// If there is no cell, or more than a mesh can have.
+    /// If `cells` is 0 or more than a mesh can have, or if `side_m` is 0 or not finite.
     #[must_use]
     pub fn new(kind: MeshKind, cells: u32, side_m: f64) -> Sheet {
         let mut random = Random(SEED);
@@ -73,13 +73,13 @@ impl Sheet {
         }
     }
 
-    /// The length of an edge at rest, in metres.
+    /// Returns the rest length of an edge in metres, given its two ends as indices into `points`.
     #[must_use]
     pub fn length_m(&self, [a, b]: [usize; 2]) -> f64 {
         (self.points[b] - self.points[a]).norm()
     }
 
-    /// The mean length of edges, in metres.
+    /// Returns the mean rest length of the edges, in metres.
     #[must_use]
     pub fn edge_m(&self) -> f64 {
         let lengths = self.edges.iter().map(|&ends| self.length_m(ends));

@@ -9,41 +9,41 @@ use tearmesh_cloth::{
 use super::scene::Case;
 use crate::rk4::Rk4;
 
-/// A method with its settings: a series of the chart.
+/// A method with its settings, which is a series of the chart.
 #[derive(Clone, Copy, Debug)]
 pub struct Method {
-    /// As it stands in names of runs.
+    /// The name of the series, as part of the names of runs.
     pub name: &'static str,
-    /// The method whatever its settings.
+    /// The family of methods to which it belongs.
     pub family: Family,
     kind: Kind,
 }
 
-/// What is drawn as one.
+/// The families of methods, which ignore settings. The chart draws each in one colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Family {
-    /// [`Verlet::new`].
+    /// The family of [`Verlet::new`].
     Verlet,
-    /// [`Verlet::plain`].
+    /// The family of [`Verlet::plain`].
     Plain,
-    /// [`Rk4`].
+    /// The family of [`Rk4`].
     Rk4,
-    /// [`Provot::unlimited`]: symplectic Euler.
+    /// The family of [`Provot::unlimited`], which is symplectic Euler.
     Euler,
-    /// [`Provot`] with its limiter at 10 %.
+    /// The family of [`Provot`] with its limiter at 10 %.
     Provot,
-    /// [`Pbd`].
+    /// The family of [`Pbd`].
     Pbd,
-    /// [`Xpbd`].
+    /// The family of [`Xpbd`].
     Xpbd,
-    /// [`Implicit`] by backward Euler, linearised.
+    /// The family of [`Implicit`] with linearised backward Euler.
     BackwardEuler,
-    /// [`Implicit`] by BDF2, linearised.
+    /// The family of [`Implicit`] with linearised BDF2.
     Bdf2,
 }
 
 impl Family {
-    /// All, in the order of legends.
+    /// All families, in the order of legends.
     pub const ALL: [Family; 9] = [
         Family::Verlet,
         Family::Plain,
@@ -56,7 +56,7 @@ impl Family {
         Family::Bdf2,
     ];
 
-    /// As it stands in legends.
+    /// Returns the name of the family in legends.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -72,8 +72,7 @@ impl Family {
         }
     }
 
-    /// Where the method should win, or what it is there for if it should nowhere: said before the
-    /// experiment was made.
+    /// Returns the scene in which the family should win, which was fixed before the experiment was run.
     #[must_use]
     pub fn claim(self) -> Claim {
         match self {
@@ -111,12 +110,12 @@ impl Family {
     }
 }
 
-/// What is claimed of a method before the experiment.
+/// A claim about a family of methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// It is the cheapest at some tolerance in this scene.
+    /// The family is the cheapest at some tolerance in the scene of this name.
     Wins(&'static str),
-    /// Nothing: it is what others are compared with.
+    /// The family need not win anywhere: others are compared with it.
     Baseline,
 }
 
@@ -139,7 +138,7 @@ const fn method(name: &'static str, family: Family, kind: Kind) -> Method {
 const BE: implicit::Method = implicit::Method::BackwardEuler;
 const BDF2: implicit::Method = implicit::Method::Bdf2;
 
-/// All methods with all settings.
+/// All methods with all settings, grouped by family.
 pub const METHODS: [Method; 19] = [
     method("verlet", Family::Verlet, Kind::Verlet),
     method("verlet-plain", Family::Plain, Kind::Plain),
@@ -174,14 +173,14 @@ pub const METHODS: [Method; 19] = [
     method("bdf2-1000", Family::Bdf2, Kind::Implicit(BDF2, 1000.0)),
 ];
 
-/// The parts of a method's base step that are tried; the last three are two halvings.
+/// The fractions of the base step that each method tries, in descending order. The last two are halvings.
 pub const PARTS: [f64; 8] = [2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.125, 0.0625];
 
 /// The margin of base steps to what the watch admits, which would otherwise refuse them on the way.
 const MARGIN: f64 = 0.95;
 
 impl Method {
-    /// A solver that has seen nothing yet.
+    /// Returns a new solver with these settings.
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
         match self.kind {
@@ -200,9 +199,11 @@ impl Method {
         }
     }
 
-    /// The step that parts are of, in seconds: of explicit methods .95 of what the watch over stability
-    /// admits at the start, the time in which a pull travels an edge for those that sweep, and 1/60 s
-    /// for implicit ones.
+    /// Returns the base step in seconds, which [`PARTS`] multiply.
+    ///
+    /// For explicit methods it is 0.95 times the longest step that the watch over stability admits at the
+    /// start. For methods that sweep it is the time in which a pull travels an edge. For implicit methods it
+    /// is 1/60 s.
     #[must_use]
     pub fn base_s(&self, case: &Case) -> f64 {
         let mut system = case.system();
@@ -231,12 +232,12 @@ fn limit_s(system: &mut System, solver: &dyn Solver) -> f64 {
     }
 }
 
-/// The method that a user gets who names it and nothing else; of who names none it is Verlet.
+/// A method at its default settings. The default method is Verlet.
 #[derive(Clone, Debug)]
 pub struct Named {
-    /// As it is typed.
+    /// The name on the command line.
     pub name: &'static str,
-    /// As which it is drawn.
+    /// The family of methods to which it belongs.
     pub family: Family,
     settings: scene::Method,
 }
@@ -245,7 +246,7 @@ pub struct Named {
 pub(super) const DEFAULT: &str = "verlet";
 
 impl Named {
-    /// All that can be typed.
+    /// Returns all methods that have a name on the command line.
     #[must_use]
     pub fn all() -> [Named; 5] {
         let named = |name, family, settings| Named {
@@ -262,19 +263,19 @@ impl Named {
         ]
     }
 
-    /// It, with its settings.
+    /// Returns the method with its settings, as a scene has it.
     #[must_use]
     pub fn settings(&self) -> scene::Method {
         self.settings.clone()
     }
 
-    /// The step that a scene without one chooses, in seconds.
+    /// Returns the default step for a case, in seconds.
     #[must_use]
     pub fn step_s(&self, case: &Case) -> f64 {
         suggested_step_s(&self.settings, &mut case.system(), case.speed_m_per_s())
     }
 
-    /// A solver that has seen nothing yet.
+    /// Returns a new solver with the default settings.
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
         match self.settings {

@@ -2,44 +2,45 @@
 
 use serde::Serialize;
 
-/// What is asked of a run.
+/// The observables of a run, by which errors are measured. Errors are relative to the reference. Of
+/// positions and strains the largest error of all checkpoints counts. An edge is *loaded* if it bears more
+/// than 0.3 of the largest strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Observable {
-    /// Displacements, relative L2 by mass, the largest of the checkpoints.
+    /// The mass-weighted L2 norm of the position errors, divided by that of the displacements from the start.
     Displacement,
-    /// Strains by lengths of the edges that bear more than .3 of the largest: the rms of what each is
-    /// off by, as a part of its own; as in all strains the largest of the checkpoints.
+    /// The rms over all loaded edges of the relative error of their strain by length.
     StrainRms,
-    /// The 99th percentile of the same.
+    /// The 99th percentile over all loaded edges of the relative error of their strain by length.
     Strain99,
-    /// The largest strain by lengths.
+    /// The relative error of the largest strain by length of any edge.
     StrainLargest,
-    /// Strains by the forces of the method, f/kL: the rms.
+    /// The rms over all loaded edges of the relative error of their strain by force, f/(kL).
     ForceRms,
-    /// The 99th percentile of the same.
+    /// The 99th percentile over all loaded edges of the relative error of their strain by force, f/(kL).
     Force99,
-    /// The largest strain by forces.
+    /// The relative error of the largest strain by force, f/(kL), of any edge.
     ForceLargest,
-    /// The force of those who hold, as a mean over the scene.
+    /// The force at the held particles, as a mean over the scene; in a scene that ends at rest, at its end.
     ReactionMean,
-    /// The largest of its means over 1/60 s.
+    /// The largest mean over 1/60 s of the force at the held particles.
     ReactionLargest,
-    /// When an edge first reaches the stretch ratio.
+    /// The time at which an edge first reaches [`TEAR_RATIO`](super::TEAR_RATIO).
     TearTime,
-    /// The force of the clamps then, as a mean over the last 1/60 s.
+    /// The force at the clamps at [`TearTime`](Observable::TearTime), as a mean over the last 1/60 s.
     TearForce,
-    /// When an edge first reaches the toughness.
+    /// The time at which an edge first reaches [`TOUGHNESS_J_PER_M`](super::TOUGHNESS_J_PER_M).
     ToughTime,
-    /// The force of the clamps then.
+    /// The force at the clamps at [`ToughTime`](Observable::ToughTime), as a mean over the last 1/60 s.
     ToughForce,
-    /// The rate at which the slowest mode decays.
+    /// The rate at which the slowest mode decays, in 1/s.
     Decay,
-    /// Its frequency.
+    /// The frequency of the slowest mode, in rad/s.
     Frequency,
-    /// The most energy that was made, over what was put in.
+    /// The largest unexplained gain of energy, divided by the energy put in. The true value is 0.
     EnergyMade,
-    /// The most that was lost, over the same.
+    /// The largest unexplained loss of energy, divided by the energy put in. The true value is 0.
     EnergyLost,
 }
 
@@ -72,7 +73,7 @@ pub(super) enum Raw {
 pub(super) const RAWS: usize = 7;
 
 impl Observable {
-    /// As it stands in tables and captions.
+    /// Returns the name of the observable in tables and captions.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -96,7 +97,7 @@ impl Observable {
         }
     }
 
-    /// Whether the truth is zero, so that no reference is asked.
+    /// Returns whether the true value is zero, so that no reference is needed.
     #[must_use]
     pub fn is_energy(self) -> bool {
         matches!(self, Observable::EnergyMade | Observable::EnergyLost)

@@ -17,12 +17,12 @@ pub struct Records {
     /// By [`Raw`]: coordinates and strains by checkpoint; two means; times and forces; rate and
     /// frequency; energy. Empty where nobody asked, NaN where there was no answer.
     raw: [Vec<f64>; RAWS],
-    /// The edges that tore first, by stretch and by toughness.
+    /// The indices of the edges that tore first, by stretch and by toughness; `None` if none did.
     pub torn: [Option<usize>; 2],
 }
 
 impl Records {
-    /// Linear combinations of the same numbers of two runs: w a + (1 − w) b.
+    /// Returns the linear combination w a + (1 − w) b of the numbers of two runs.
     #[must_use]
     pub fn mixed(weight: f64, a: &Records, b: &Records) -> Records {
         let mix = |i: usize| {
@@ -35,9 +35,9 @@ impl Records {
         }
     }
 
-    /// What three runs, each with half the step of the one before, go to: by the ratio of their
-    /// differences (Aitken), of vectors as a whole, of scalars one by one. NaN where differences do not
-    /// become smaller: there is no limit then.
+    /// Returns the numbers to which three runs converge, each with half the step of the one before. It uses
+    /// the ratio of their differences (Aitken), of vectors as a whole and of scalars one by one. The result
+    /// is NaN if the differences do not become smaller, since there is no limit then.
     #[must_use]
     pub fn limit([coarse, middle, fine]: [&Records; 3]) -> Records {
         let of = |i: usize| {

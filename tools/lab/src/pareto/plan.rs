@@ -9,42 +9,44 @@ use super::run::{Bounds, Outcome, Settings, fitted_step_s, run};
 use super::scene::{Case, REST_M_PER_S, Until};
 use crate::ensemble::NOISE_M;
 
-/// A run of a case.
+/// A planned run of a case.
 #[derive(Clone, Debug)]
 pub struct Planned {
-    /// Its name, after the slash.
+    /// The name of the run, without the name of the case.
     pub name: String,
-    /// What it is for.
+    /// The purpose of the run.
     pub role: Role,
     /// What a part is of, in seconds.
     base_s: f64,
     part: f64,
-    /// A guess at its visits of edges.
+    /// An estimate of its visits of edges.
     pub guess: f64,
 }
 
-/// What a run is for.
+/// The purpose of a run.
 #[derive(Clone, Debug)]
 pub enum Role {
-    /// A reference by Verlet's method, and again with half the step where there is no rest.
+    /// A reference by Verlet's method: two runs, the second with half the step, or one if the scene ends at
+    /// rest.
     Verlet,
-    /// One by Newton's method, and the same.
+    /// A reference by Newton's method: two runs, the second with half the step, or one if the scene ends at
+    /// rest.
     Newton,
-    /// What a row is off by at best where it ends at [`REST_M_PER_S`].
+    /// A run that ends at [`REST_M_PER_S`], where references go on. Its error is a lower bound of the floor.
     Rest,
-    /// The gate of conditioning, without noise and with it.
+    /// One of the two runs of the gate, which differ by noise.
     Gate {
-        /// Whether it starts from positions with noise.
+        /// Whether its start has noise.
         is_disturbed: bool,
     },
     /// A row of the budget.
     Budget {
-        /// Which of [`METHODS`].
+        /// The index of the method in [`METHODS`].
         method: usize,
-        /// Which of [`PARTS`].
+        /// The index of the fraction of the base step in [`PARTS`].
         part: usize,
     },
-    /// A row at the settings of who names a method and nothing else.
+    /// A row at the default settings of a method.
     Named(Box<Named>),
 }
 
@@ -61,11 +63,12 @@ const NEWTON_STEPS: f64 = 20_000.0;
 /// The step of references at rest by Newton's method, in seconds.
 const REST_STEP_S: f64 = 0.02;
 
-/// All runs of a case.
+/// Returns all runs of a case: the references, the gate, the budget by method and step, and the runs at
+/// default settings.
 ///
 /// # Panics
 ///
-/// Never: the methods are data of our own.
+/// If the numbers of the scene are not usable; those of [`SCENES`](super::SCENES) are.
 #[must_use]
 pub fn plan(case: &Case) -> Vec<Planned> {
     let edges = case.edges.len() as f64;
@@ -167,7 +170,7 @@ fn visits_of(method: &Method, products: &dyn Fn(f64) -> f64, dt_s: f64) -> f64 {
 }
 
 impl Planned {
-    /// Does it.
+    /// Executes the run.
     #[must_use]
     pub fn carry_out(&self, case: &Case, bounds: &Bounds<'_>) -> Outcome {
         let mut system = case.system();

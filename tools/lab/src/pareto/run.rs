@@ -11,28 +11,29 @@ use super::method::Store;
 use super::observe::{Probe, Records};
 use super::scene::{Case, Until};
 
-/// How a run ended.
+/// The ways in which a run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It got to its end.
+    /// The run reached its end.
     Ok,
-    /// Its step was refused, at first or on the way.
+    /// A step was refused, at the start or later.
     Refused,
-    /// There was more than 1.25 times the energy that was put in, or something that is not a number.
+    /// The energy exceeded [`ENERGY_MAX`] times the energy put in, or a number was infinite, NaN or too
+    /// large.
     BlownUp,
-    /// An implicit step was not solved.
+    /// The equations of an implicit step were not solved.
     Unsolved,
-    /// It did not come to rest, or to its tears, in the time of the scene.
+    /// The time of the scene passed before the cloth came to rest, or before both thresholds were reached.
     Restless,
-    /// It visited more edges than a run may.
+    /// The run exceeded its limit of visits of edges.
     TooDear,
-    /// The experiment was interrupted before or while it ran.
+    /// The experiment was interrupted before the run was done.
     Interrupted,
 }
 
 impl Status {
-    /// As it stands in tables.
+    /// Returns the name of the status in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,23 +48,23 @@ impl Status {
     }
 }
 
-/// What a run cost: visits of single edges by what they were for, and steps.
+/// The cost of a run: its steps, and its visits of single edges by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Cost {
-    /// Steps that were taken.
+    /// The number of steps that succeeded.
     pub steps: u64,
-    /// Visits to project or shorten.
+    /// The number of visits to project or shorten edges.
     pub project: u64,
-    /// Visits for forces, products with the matrix, frequencies, and to see that nothing blew up.
+    /// The number of visits for forces, products with the matrix and frequencies, and to detect blow-up.
     pub force: u64,
-    /// Visits to find what is about to tear, and to meter.
+    /// The number of visits to find edges that are about to tear, and to measure.
     pub other: u64,
-    /// The seconds of its thread, where a clock was given.
+    /// The CPU time of all steps in seconds; `None` without a clock.
     pub cpu_s: Option<f64>,
 }
 
 impl Cost {
-    /// All visits of edges.
+    /// Returns the number of all visits of edges.
     #[must_use]
     pub fn visits(&self) -> u64 {
         self.project + self.force + self.other
@@ -76,25 +77,25 @@ impl Cost {
     }
 }
 
-/// How a run went.
+/// The result of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// How it ended.
+    /// The way in which the run ended.
     pub status: Status,
-    /// Why, where it failed.
+    /// The reason if a step failed or the energy grew too much; otherwise empty.
     pub why: String,
-    /// Its step, in seconds.
+    /// The step in seconds; NaN if the run was not begun.
     pub dt_s: f64,
-    /// The seconds that it simulated.
+    /// The simulated time, in seconds.
     pub simulated_s: f64,
-    /// What it cost.
+    /// The cost of the run.
     pub cost: Cost,
-    /// What was noted.
+    /// The recorded numbers.
     pub records: Records,
 }
 
 impl Outcome {
-    /// A run that was not begun, as the experiment was interrupted.
+    /// Returns the outcome of a run that was not begun because the experiment was interrupted.
     #[must_use]
     pub fn interrupted() -> Outcome {
         Outcome {
@@ -108,20 +109,21 @@ impl Outcome {
     }
 }
 
-/// The most energy that there may be, as a multiple of what was put in.
+/// The largest energy that is allowed, as a multiple of the energy put in.
 pub const ENERGY_MAX: f64 = 1.25;
 
-/// The places in a run's time at which positions and strains are compared.
+/// The number of checkpoints at which positions and strains are compared, evenly spaced over the time of the
+/// scene. A scene that ends at rest has one, at its end.
 pub const CHECKPOINTS: u64 = 10;
 
-/// What bounds a run from outside.
+/// The limits that are imposed on a run from outside.
 #[derive(Clone, Copy)]
 pub struct Bounds<'a> {
-    /// The most visits of edges.
+    /// The largest number of visits of edges.
     pub visits_max: u64,
-    /// The CPU time of this thread; without it no time is told.
+    /// The function that returns the CPU time of the calling thread; `None` to measure no times.
     pub clock: Option<&'a (dyn Fn() -> Duration + Sync)>,
-    /// Whether everything is to end now; asked before each step.
+    /// The function that returns whether the run must end. It is called before each step.
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 

@@ -13,77 +13,78 @@ use crate::random::Random;
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
-    /// As it is typed, and as it stands in names of runs.
+    /// The name on the command line and in the names of runs.
     pub name: &'static str,
-    /// What happens, in a few words.
+    /// A short description of the scene.
     pub about: &'static str,
-    /// The stiffness of edges, in N/m.
+    /// The stiffness of the edges, in N/m.
     pub stiffness_n_per_m: f64,
     /// The length of a side of the sheet, in metres.
     pub side_m: f64,
-    /// Gravity along the axes, in m/s².
+    /// The gravity along the x, y and z axes, in m/s².
     pub gravity_m_per_s2: [f64; 3],
-    /// The rate at which velocities fade, in 1/s.
+    /// The rate at which velocities decay by drag, in 1/s.
     pub drag_per_s: f64,
-    /// How it starts.
+    /// The shape in which the sheet starts.
     pub start: Start,
-    /// Who is held.
+    /// The particles that are held.
     pub held: Held,
-    /// When it ends.
+    /// The condition under which the scene ends.
     pub until: Until,
-    /// What is asked of it.
+    /// The observables that are compared.
     pub observables: &'static [Observable],
-    /// Whether trajectories may be compared only if they pass the gate of conditioning.
+    /// Whether displacements are compared only if noise does not grow too much.
     pub is_gated: bool,
 }
 
-/// How a scene starts: at rest, in this shape.
+/// The shapes in which a sheet starts, with all velocities zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
-    /// As it is.
+    /// The flat sheet at rest.
     Flat,
-    /// As it is, with edges stored in an order at random.
+    /// The flat sheet at rest, with its edges stored in random order.
     Shuffled,
-    /// Bulged out of its plane, at its middle by so much of its side: what is flat would buckle to either
-    /// side by chance when it is pulled.
+    /// A bulge out of the plane, whose height in the middle is this fraction of the side. When pulled, a
+    /// flat sheet would buckle to either side by chance.
     Bulged(f64),
-    /// With edges that are this much longer than at rest, as a part, in the mean: as the sheet then lies
-    /// in its frame without gravity.
+    /// A taut sheet in its frame without gravity, with edges longer than at rest by this fraction on
+    /// average.
     Taut(f64),
-    /// Turned out of its plane by 30° about its upper edge.
+    /// The flat sheet, turned out of its plane by 30° about its upper edge.
     Turned,
-    /// The same, with one vertex in the middle of a hundredth of its mass.
+    /// The sheet of [`Turned`](Start::Turned), with the mass of the middle particle divided by 100.
     TurnedSliver,
-    /// At so much of its size.
+    /// The flat sheet, scaled by this factor.
     Crushed(f64),
 }
 
-/// Who is held.
+/// The particles that are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Held {
-    /// Nobody.
+    /// No particles.
     Nobody,
-    /// The upper edge.
+    /// The particles of the upper edge.
     Top,
-    /// All of the border.
+    /// All particles of the boundary.
     Frame,
-    /// The lower edge, and the upper edge that is led upward at so many metres a second.
+    /// The particles of the lower edge, and those of the upper edge, which move upward at this speed in m/s.
     Pulled(f64),
 }
 
-/// When a scene ends.
+/// The conditions under which a scene ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Until {
-    /// After so many seconds.
+    /// The scene ends after this many seconds.
     Time(f64),
-    /// When nothing moves faster than [`REST_M_PER_S`], at the latest after so many seconds.
+    /// The scene ends at rest, as in [`REST_M_PER_S`]. A run that takes more than this many seconds fails.
     Rest(f64),
-    /// When an edge has reached each threshold, at the latest after so many seconds.
+    /// The scene ends when both [`TEAR_RATIO`] and [`TOUGHNESS_J_PER_M`] have been reached. A run that takes
+    /// more than this many seconds fails.
     Tears(f64),
 }
 
 impl Until {
-    /// The longest that it takes, in seconds.
+    /// Returns the longest time of the scene, in seconds.
     #[must_use]
     pub fn seconds(self) -> f64 {
         match self {
@@ -92,19 +93,20 @@ impl Until {
     }
 }
 
-/// What moves no faster is at rest.
+/// The speed in m/s below which a particle is at rest.
 pub const REST_M_PER_S: f64 = 1e-6;
 
-/// The stretch ratio at which the strip tears.
+/// The stretch ratio at which an edge of the strip tears.
 pub const TEAR_RATIO: f64 = 1.3;
 
-/// The toughness at which it tears, in J/m: that of a ratio of 1.3 where edges are as long as a
-/// sixteenth of the strip.
+/// The toughness at which an edge of the strip tears, in J/m. It equals a stretch ratio of 1.3 if edges are
+/// a sixteenth of the strip long.
 pub const TOUGHNESS_J_PER_M: f64 = 0.28;
 
 const G: f64 = 9.81;
 
-/// The slowest mode of a strip that hangs by an end, ω₁ = πc/2 over its length of a metre, with c = √(k/ρ) at 1000 N/m.
+/// The slowest mode of a strip that hangs by an end, ω₁ = πc/2 over its length of a metre, with c = √(k/ρ) at
+/// 1000 N/m.
 const SLOWEST_RAD_PER_S: f64 = PI / 2.0 * 81.649_658_092_772_6;
 
 /// What is asked where the slowest mode rings.
@@ -142,7 +144,7 @@ const SWING: Scene = Scene {
     is_gated: true,
 };
 
-/// All scenes.
+/// All scenes of the experiment.
 pub const SCENES: [Scene; 11] = [
     Scene {
         name: "hang",
@@ -244,14 +246,14 @@ pub const SCENES: [Scene; 11] = [
     },
 ];
 
-/// A scene on a mesh: what references, rows and fronts belong to.
+/// A scene on a mesh, with its own references, rows and fronts.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The scene.
+    /// The scene, copied from the argument of [`Case::new`].
     pub scene: Scene,
-    /// How the sheet is meshed.
+    /// The kind of mesh of the sheet.
     pub mesh: MeshKind,
-    /// Cells a side.
+    /// The number of cells along each side.
     pub cells: u32,
     pub(super) sheet: Sheet,
     /// Where particles start.
@@ -261,11 +263,11 @@ pub struct Case {
 }
 
 impl Case {
-    /// Meshes the sheet of a scene.
+    /// Creates the sheet of a scene and its start.
     ///
     /// # Panics
     ///
-    /// If there is no cell, or more than a mesh can have.
+    /// If `cells` is 0 or more than a mesh can have.
     #[must_use]
     pub fn new(scene: &Scene, mesh: MeshKind, cells: u32) -> Case {
         let mut sheet = Sheet::new(mesh, cells, scene.side_m);
@@ -297,19 +299,19 @@ impl Case {
         case
     }
 
-    /// Its name, before the slash in the names of runs.
+    /// Returns the name of the case, which is the first part of the names of its runs.
     #[must_use]
     pub fn name(&self) -> String {
         format!("{}/{}-{}", self.scene.name, self.mesh.name(), self.cells)
     }
 
-    /// The speed at which a pull travels, c = √(k/ρ), in m/s.
+    /// Returns the speed at which a pull travels, c = √(k/ρ), in m/s.
     #[must_use]
     pub fn speed_m_per_s(&self) -> f64 {
         (self.scene.stiffness_n_per_m / DENSITY_KG_PER_M2).sqrt()
     }
 
-    /// The time in which a pull travels an edge of mean length, h/c, in seconds.
+    /// Returns the time in which a pull travels an edge of mean length, h/c, in seconds.
     #[must_use]
     pub fn edge_s(&self) -> f64 {
         self.sheet.edge_m() / self.speed_m_per_s()
@@ -328,11 +330,11 @@ impl Case {
         }
     }
 
-    /// The system as it starts.
+    /// Returns the system at its start.
     ///
     /// # Panics
     ///
-    /// Never: the scenes are data of our own.
+    /// If the numbers of the scene are not usable; those of [`SCENES`] are.
     #[must_use]
     pub fn system(&self) -> System {
         let Case { scene, sheet, .. } = self;
@@ -373,11 +375,12 @@ impl Case {
         system
     }
 
-    /// The same with its free particles moved at random, by up to so many metres along each axis.
+    /// Returns the system at its start, with each free particle moved at random by up to `noise_m` metres
+    /// along each axis, always in the same way.
     ///
     /// # Panics
     ///
-    /// Never: the scenes are data of our own.
+    /// If the numbers of the scene are not usable; those of [`SCENES`] are.
     #[must_use]
     pub fn disturbed(&self, noise_m: f64) -> System {
         let mut random = Random(SEED);

@@ -13,12 +13,12 @@ use super::run::Status;
 use super::{AMPLIFICATION_MAX, Study};
 use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
 
-/// What costs are counted in.
+/// The units of cost in a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
-    /// Visits of edges: the same on every machine.
+    /// The cost in visits of edges, which is the same on every machine.
     Visits,
-    /// CPU time, where it was taken.
+    /// The cost in CPU time. Rows without a time are not drawn.
     Time,
 }
 
@@ -31,7 +31,7 @@ const LEAST: f64 = 0.01;
 
 const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 
-/// Draws a study. `None` where the drawing library fails, which a drawing in memory has no reason for.
+/// Draws a study as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(study: &Study, by: By) -> Option<String> {
     let panels: Vec<(&CaseStudy, Observable)> = study

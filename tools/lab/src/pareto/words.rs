@@ -6,7 +6,7 @@ use super::method::{Claim, Family};
 use super::observable::{Observable, TOLD};
 use super::{CaseStudy, Cheapest, Study};
 
-/// The cheapest for each tolerance, scene by scene; and whether methods win where they should.
+/// Returns a summary in words: the cheapest method for each tolerance, by case, and which claims hold.
 #[must_use]
 pub fn summary(study: &Study) -> String {
     let mut text = String::from(

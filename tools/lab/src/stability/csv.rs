@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use super::{Study, Told};
 
-/// A line for each limit, with its step in the place of the part; one for each step of it; and one for
-/// each scene and method.
+/// Returns the study as CSV: one line per limit, one per step of a limit, and one per scene and method.
+///
+/// The first column is `limit`, `step` or `scene`. In a line of a limit, `dt_s` is the measured limit.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(

@@ -8,18 +8,19 @@ use super::told::{Class, Teller, Told};
 use crate::pareto::{Family, METHODS, Method};
 use crate::random::Random;
 
-/// What theory says of a method.
+/// The theoretical stability of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Theory {
-    /// Small motions are stable up to this ω Δt, and none are beyond.
+    /// Small motions are stable if and only if ω Δt is at most this number.
     UpTo(f64),
-    /// Stable up to twice the step that suits; beyond that nothing is said, and steps are refused.
+    /// Stable up to twice the step that suits the method. Theory is silent on longer steps, which are
+    /// refused.
     Suited,
     /// Stable at any step.
     Always,
 }
 
-/// The methods that are asked, by their names among [`METHODS`], and what theory says of each.
+/// The names of the methods whose limits are measured, as in [`METHODS`], each with its theory.
 pub const ASKED: [(&str, Theory); 9] = [
     ("verlet-plain", Theory::UpTo(2.0)),
     ("euler", Theory::UpTo(2.0)),
@@ -32,7 +33,7 @@ pub const ASKED: [(&str, Theory); 9] = [
     ("bdf2-10", Theory::Always),
 ];
 
-/// The stiffness of springs in N/m, unless one says otherwise.
+/// The default stiffness values of the springs, in N/m.
 pub const STIFFNESS_N_PER_M: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
 
 /// Parts of the limit that are tried where there is one.
@@ -41,7 +42,7 @@ const PARTS: [f64; 7] = [0.5, 0.9, 0.99, 1.01, 1.1, 2.0, 10.0];
 /// Multiples of 2/ω that are tried where there is none.
 const MULTIPLES: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 
-/// The limit that is measured may be off by so much of itself.
+/// The largest relative difference between a measured and a theoretical limit that agree.
 pub const AGREEMENT: f64 = 2e-3;
 
 /// A method on a net of one stiffness.
@@ -53,56 +54,56 @@ pub(super) struct Asked {
     theory: Theory,
 }
 
-/// What came of it.
+/// The stability limit of a method on a net of one stiffness, in theory and as measured.
 #[derive(Clone, Debug, Serialize)]
 pub struct Limit {
-    /// The net.
+    /// The name of the net, as in [`NetKind::name`].
     pub net: &'static str,
-    /// The stiffness of its springs, in N/m.
+    /// The stiffness of the springs, in N/m.
     pub stiffness_n_per_m: f64,
-    /// The method, as [`Family::name`] has it.
+    /// The name of the method, as in [`Family::name`].
     pub method: &'static str,
-    /// The largest frequency of the net in rad/s, by its dense matrix.
+    /// The largest frequency of the net in rad/s, from its dense matrix.
     pub omega_rad_per_s: f64,
-    /// The limit by theory in seconds; `None` where there is none.
+    /// The longest stable step in theory, in seconds; `None` if every step is stable.
     pub theory_s: Option<f64>,
-    /// Whether that is a promise of at least so much, and no more is known.
+    /// Whether `theory_s` is a lower bound and the true limit is unknown.
     pub is_promise: bool,
-    /// The shortest step in seconds at which it blew up; `None` where it never did.
+    /// The shortest step in seconds at which the method failed with the watch off; `None` if it never did.
     pub measured_s: Option<f64>,
-    /// The longest that was tried, in seconds.
+    /// The longest step that was tried, in seconds.
     pub longest_s: f64,
-    /// Single steps: with the watch off, and with it on.
+    /// The results at single steps, in ascending order of the step.
     pub cells: Vec<Cell>,
-    /// Whether all of it is as theory says.
+    /// Whether the measured limit and all cells agree with theory.
     pub agrees: bool,
 }
 
-/// A method on a net at one step.
+/// The results of a method on a net at one step.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cell {
-    /// The step as a part of the limit, or of 2/ω where there is none.
+    /// The step as a multiple of the theoretical limit, or of 2/ω if there is no limit.
     pub part: f64,
     /// The step, in seconds.
     pub dt_s: f64,
-    /// What should come of it unwatched; `None` where theory does not say.
+    /// The expected outcome with the watch off; `None` if theory makes no statement.
     pub expected: Option<Class>,
-    /// What did.
+    /// The measured outcome with the watch over stability off.
     pub unwatched: Class,
-    /// What came of it with the watch over stability, which is on unless one turns it off.
+    /// The measured outcome with the watch on, which is the default.
     pub watched: Class,
-    /// What was said then.
+    /// The messages about the run with the watch on: at most one.
     pub told: Vec<Told>,
 }
 
 impl Cell {
-    /// Whether it failed, on its own or with the watch.
+    /// Returns whether the method failed, with the watch on or off.
     #[must_use]
     pub fn has_failed(&self) -> bool {
         self.unwatched != Class::Fine || self.watched != Class::Fine
     }
 
-    /// Whether it failed and nobody was told: what the watch let pass, or refused without a word.
+    /// Returns whether the method failed, with the watch on or off, and there was no message.
     #[must_use]
     pub fn is_silent(&self) -> bool {
         self.has_failed() && (self.watched == Class::Fine || self.told.is_empty())

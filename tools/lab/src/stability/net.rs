@@ -16,20 +16,20 @@ pub(super) struct Net {
     held: Vec<bool>,
 }
 
-/// Which net.
+/// The kinds of nets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NetKind {
-    /// Sixteen links in a row, held by one end.
+    /// A chain of 16 links, held at one end.
     Chain,
-    /// The same between two nails, 5 % longer than at rest.
+    /// A chain of 16 links between two nails, 5 % longer than at rest.
     String,
-    /// A grid of 6 × 6 cells, held all round, 2 % longer than at rest.
+    /// A grid of 6 × 6 cells, held along its whole boundary, 2 % longer than at rest.
     Frame,
-    /// A Delaunay sheet of 6 × 6 cells that hangs by its upper edge.
+    /// A Delaunay mesh of a square, with as many particles as a grid of 6 × 6 cells, held by its upper edge.
     Sheet,
-    /// The same with the middle particle of a hundredth of its mass.
+    /// The net of [`Sheet`](NetKind::Sheet), with the mass of its middle particle divided by 100.
     Sliver,
-    /// The same with the mass of that halved ten times over.
+    /// The net of [`Sheet`](NetKind::Sheet), with the mass of its middle particle divided by 1024.
     Halved,
 }
 
@@ -40,7 +40,7 @@ const CELLS: u32 = 6;
 const LINKS: usize = 16;
 
 impl NetKind {
-    /// All of them.
+    /// All kinds, in the order of charts.
     pub const ALL: [NetKind; 6] = [
         NetKind::Chain,
         NetKind::String,
@@ -50,7 +50,7 @@ impl NetKind {
         NetKind::Halved,
     ];
 
-    /// As it stands in tables and captions.
+    /// Returns the name of the net in tables and captions.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ impl NetKind {
         }
     }
 
-    /// What it is, in a few words.
+    /// Returns a short description of the net.
     #[must_use]
     pub fn about(self) -> &'static str {
         match self {
@@ -121,9 +121,9 @@ impl Net {
         lengths.sum::<f64>() / self.springs.len() as f64
     }
 
-    /// The step in seconds that suits velocity Verlet with its guards, by its definition: √(2μ/r), μ = .65, where r is
-    /// the sum of stiffness at a particle over its mass, and no more than a tenth of the particles have a
-    /// larger one.
+    /// The step in seconds that suits velocity Verlet with its guards, by its definition: √(2μ/r), μ = .65,
+    /// where r is the sum of stiffness at a particle over its mass, and no more than a tenth of the particles
+    /// have a larger one.
     pub(super) fn suited_s(&self, stiffness_n_per_m: f64) -> f64 {
         let touching = |i: usize| {
             self.springs
@@ -290,7 +290,8 @@ mod tests {
     use super::*;
 
     /// A chain of n links that is held by one end has 2√(k/m) sin((2n − 1)π/(2(2n + 1))) as its largest
-    /// frequency, and one between nails with tension, along which it swings as without, 2√(k/m) sin((n − 1)π/(2n)).
+    /// frequency, and one between nails with tension, along which it swings as without, 2√(k/m) sin((n −
+    /// 1)π/(2n)).
     #[test]
     fn chains_have_the_frequencies_of_books() {
         let n = LINKS as f64;

@@ -42,7 +42,7 @@ fn colour(class: Class) -> RGBColor {
     }
 }
 
-/// Draws a study. `None` where the drawing library fails, which a drawing in memory has no reason for.
+/// Draws a study as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(study: &Study) -> Option<String> {
     let mut methods: Vec<&str> = study.limits.iter().map(|limit| limit.method).collect();

@@ -4,22 +4,22 @@ use serde::Serialize;
 use tearmesh_cloth::StepError;
 use tearmesh_cloth::scene::{Frame, Run};
 
-/// What came of a method in some scene at some step.
+/// The outcome of a method in a scene at one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Class {
-    /// It did what it should.
+    /// The outcome is right.
     Fine,
-    /// It came to its end, somewhere else than it should.
+    /// The run ended normally with a wrong result.
     Wrong,
-    /// It has energy that nobody put in, without bound.
+    /// The energy grew without bound.
     BlowsUp,
-    /// It was not done.
+    /// A step was refused, or could not be solved.
     Refused,
 }
 
 impl Class {
-    /// In words.
+    /// Returns the outcome in words, in lower case.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -31,21 +31,21 @@ impl Class {
     }
 }
 
-/// Something that a user is told.
+/// A message to a user.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Told {
-    /// The code, such as `W-SIM-SOFT`.
+    /// The code of the message, such as `W-SIM-SOFT`.
     pub code: String,
-    /// The words.
+    /// The text of the message.
     pub words: String,
 }
 
-/// Who tells users: the command, whose words are none of this crate's.
+/// The source of messages to users: the command, whose wording is not part of this crate.
 pub trait Teller: Sync {
-    /// What is said of a step that was not taken, to who takes steps of a system.
+    /// Returns the message about a step that failed, for a user who steps a system.
     fn step(&self, error: &StepError) -> Told;
 
-    /// What is said of a run that has ended, warnings from before its first step included, to who plays
-    /// scenes; with the error that ended it, if one did.
+    /// Returns the messages about a run that has ended, for a user who plays scenes. They include warnings
+    /// from before the first step. `error` is the error that ended the run; `None` if it reached its end.
     fn run(&self, run: &Run, frame: &Frame, error: Option<&StepError>) -> Vec<Told>;
 }

@@ -15,20 +15,20 @@ use super::limit;
 use super::told::{Class, Teller, Told};
 use crate::pareto::Named;
 
-/// A scene, and what should come of it by each method.
+/// A scene, with the expected outcome of each method.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
-    /// As it stands in tables.
+    /// The name of the scene in tables.
     pub name: &'static str,
-    /// What happens, and what is to go wrong with it.
+    /// A short description of the scene and of the failure that it provokes.
     pub about: &'static str,
     judge: Judge,
     set: fn(&mut Stage),
-    /// What should come of it, by the order of [`METHODS`].
+    /// The expected outcomes, in the order of [`METHODS`].
     pub expected: [Class; 5],
 }
 
-/// The methods as a user names them, by the order of [`Named::all`].
+/// The names of the methods, in the order of [`Named::all`].
 pub const METHODS: [&str; 5] = ["verlet", "xpbd", "implicit", "pbd", "provot"];
 
 /// What tells right from wrong.
@@ -44,11 +44,10 @@ enum Judge {
     Ends,
 }
 
-/// The rms of what vertices are off by over ten moments, as a part of the rms of their way, that is still
-/// right.
+/// The largest position error that counts as right, as a fraction of the displacement; both are rms values.
 pub const OFF_MAX: f64 = 0.1;
 
-/// The part of the energy there was that may be made.
+/// The largest gain of energy that counts as right, as a fraction of the energy at the start.
 pub const MADE_MAX: f64 = 0.25;
 
 /// The strain of what is not strained: rounding, and what the tolerance of implicit steps leaves.
@@ -71,7 +70,7 @@ const CELLS: u32 = 8;
 
 use Class::{Fine, Refused, Wrong};
 
-/// All of them.
+/// All scenes, in the order of tables.
 pub const TRIALS: [Trial; 12] = [
     Trial {
         name: "free fall",
@@ -314,28 +313,28 @@ impl Stage {
     }
 }
 
-/// What came of it.
+/// The outcome of a scene by one method.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
-    /// The trial.
+    /// The name of the scene.
     pub trial: &'static str,
-    /// The method.
+    /// The name of the method, as in [`METHODS`].
     pub method: &'static str,
     /// The step, in seconds.
     pub dt_s: f64,
-    /// What should come of it.
+    /// The expected outcome.
     pub expected: Class,
-    /// What did.
+    /// The measured outcome.
     pub measured: Class,
-    /// What was measured, where it came to its end: the largest strain, what vertices are off by as
-    /// a part of their way, or the energy there was at most as a part of that at the start.
+    /// The largest strain, the relative position error, or the largest energy divided by that at the start,
+    /// depending on the scene. Smaller is better. `None` if the run failed, or if the scene only has to end.
     pub measure: Option<f64>,
-    /// What was said.
+    /// The messages about the run.
     pub told: Vec<Told>,
 }
 
 impl Verdict {
-    /// Whether it failed and nobody was told.
+    /// Returns whether the method failed without a message.
     #[must_use]
     pub fn is_silent(&self) -> bool {
         self.measured != Fine && self.told.is_empty()

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::{Class, Study};
 
-/// What differs and what is silent, first of all; then the limits by method, and the scenes in which
-/// something failed with what was said.
+/// Returns a summary in words: the numbers of differing and silent results, the limits by method, and then
+/// each scene in which a method failed, with the codes of its messages.
 #[must_use]
 pub fn summary(study: &Study) -> String {
     let mut text = format!(

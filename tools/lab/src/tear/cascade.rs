@@ -1,11 +1,12 @@
-//! What tears after the first tear: ensembles by every method, at its step and at a half and a quarter of it.
+//! Tearing after the first tear: ensembles by every method, at its step and at a half and a quarter of it.
 //!
-//! A cascade is chaotic, and two single runs of one scene differ by a fifth in half of all pairs. So
-//! every method plays each scene with many seeds ([`ensemble`]), and what is told are medians with the 10 and
-//! 90 % points, and whether medians differ. Where nobody can tell, four times as many seeds are played, once.
-//! A method has *converged* in a number where its step and half of it have the same. Where the
-//! finest ensembles of two methods have the same, theirs are the reference, and the others are compared with
-//! it; where those of no two have, there is none, and nobody is right or wrong.
+//! A cascade is chaotic, and two single runs of one scene differ by a fifth in half of all pairs. So every
+//! method plays each scene with many seeds ([`ensemble`]). The results are medians with the 10 % and 90 %
+//! points, and whether medians differ. If that is undecided, the number of seeds is quadrupled once.
+//!
+//! A method has *converged* in a number if the ensembles at its step and at half of it have the same median.
+//! If the finest ensembles of two methods have the same median, they are the reference with which all
+//! methods are compared. If no two methods agree, there is no reference.
 
 mod csv;
 mod svg;
@@ -29,20 +30,20 @@ use super::strip::{TIP, strip};
 use crate::ensemble::{self, Comparison, Ensemble, Quantity, Subject, Verdict};
 use crate::pareto::Named;
 
-/// A scene in which something tears.
+/// The scenes in which cascades are played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CascadeScene {
     /// The trouser test of a strip, with tips of half the strength.
     Trouser,
-    /// A patch that is ripped by a hand in its middle.
+    /// A patch that a hand rips in its middle.
     Rip,
 }
 
 impl CascadeScene {
-    /// Both.
+    /// All scenes.
     pub const ALL: [CascadeScene; 2] = [CascadeScene::Trouser, CascadeScene::Rip];
 
-    /// As it is typed.
+    /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -51,7 +52,7 @@ impl CascadeScene {
         }
     }
 
-    /// Cells across, unless one says otherwise.
+    /// Returns the default number of cells across.
     #[must_use]
     pub fn cells(self) -> u32 {
         match self {
@@ -89,10 +90,10 @@ impl CascadeScene {
     }
 }
 
-/// The methods that are played, by their names among [`Named::all`].
+/// The names of the methods, as in [`Named::all`].
 pub const METHODS: [&str; 5] = ["verlet", "xpbd", "implicit", "pbd", "provot"];
 
-/// What is told; what tore first is told of single runs.
+/// The quantities that are reported. The first tear is reported for single runs only.
 pub const TOLD: [Quantity; 4] = [
     Quantity::Torn,
     Quantity::Pieces,
@@ -100,25 +101,25 @@ pub const TOLD: [Quantity; 4] = [
     Quantity::LargestForce,
 ];
 
-/// What to play, and how.
+/// The options of the experiment on cascades.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The scenes.
+    /// The scenes to play.
     pub scenes: Vec<CascadeScene>,
-    /// Cells across; of each scene its own where there is none.
+    /// The number of cells across, not 0; `None` for the default of each scene.
     pub cells: Option<u32>,
-    /// Names of [`METHODS`].
+    /// The names of the methods to play, from [`METHODS`]. Other names are ignored.
     pub methods: Vec<String>,
-    /// How many seeds.
+    /// The number of seeds of each ensemble.
     pub seeds: u64,
-    /// How many runs go on at a time.
+    /// The number of runs to execute at a time.
     pub threads: NonZero<usize>,
 }
 
-/// The seeds of an ensemble, unless one says otherwise.
+/// The default number of seeds of an ensemble.
 pub const SEEDS: u64 = 16;
 
-/// So many times as many are played where nobody can tell.
+/// The factor by which the number of seeds grows if a comparison is undecided.
 pub const MORE: u64 = 4;
 
 /// A step's parts.
@@ -128,51 +129,54 @@ const PARTS: [NonZero<u32>; 3] = [
     NonZero::<u32>::MIN.saturating_add(3),
 ];
 
-/// A scene by a method.
+/// The results of one scene by one method.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cascade {
-    /// The scene.
+    /// The name of the scene.
     pub scene: &'static str,
-    /// Cells across.
+    /// The number of cells across.
     pub cells: u32,
-    /// The method.
+    /// The name of the method.
     pub method: &'static str,
-    /// What came of each of [`TOLD`].
+    /// The results for each quantity, in the order of [`TOLD`].
     pub numbers: Vec<Number>,
-    /// At the step, and a half and a quarter of it.
+    /// The ensembles at the step, at half of it and at a quarter of it.
     pub ensembles: Vec<Ensemble>,
 }
 
-/// A number of a cascade.
+/// The results of a cascade for one quantity.
 #[derive(Clone, Debug, Serialize)]
 pub struct Number {
-    /// Which, as [`Quantity::key`] has it.
+    /// The key of the quantity, as in [`Quantity::key`].
     pub name: &'static str,
-    /// The 10, 50 and 90 % points by ensemble; `None` where nobody says it.
+    /// The 10 %, 50 % and 90 % points of each ensemble; `None` if no run has a value.
     pub spreads: Vec<Option<[f64; 3]>>,
-    /// The step compared with half of it, and that with a quarter.
+    /// The comparisons of the step with half of it, and of half with a quarter; `None` without values.
     pub halvings: Vec<Option<Comparison>>,
-    /// The methods whose finest ensembles are the reference, this one among them or not; empty where
-    /// there is none.
+    /// The names of the two methods whose finest ensembles are the reference; empty if no two methods agree.
     pub reference: Vec<&'static str>,
-    /// The ensemble at the step compared with the reference; `None` where there is none.
+    /// The comparison of the reference with the ensemble at the step, whose median is the numerator of the
+    /// ratio. `None` if there is no reference or no value.
     pub against_reference: Option<Comparison>,
 }
 
 impl Number {
-    /// Whether the step and half of it have the same; `None` where that is not known.
+    /// Returns the verdict on whether halving the step changes the median; `None` if either ensemble has no
+    /// value.
     #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
         Some((*self.halvings.first()?)?.verdict)
     }
 }
 
-/// Plays all of it. `watch` hears of what is being played, with the part of all work that has been done.
-/// `None` where `stop` says so: all ends at once.
+/// Plays all scenes by all methods. The results are ordered by scene and then by method, as in [`METHODS`].
+///
+/// `watch` is called with the name of the current scene and method, and the fraction of all work that is
+/// done. Returns `None` soon after `stop` returns true.
 ///
 /// # Errors
 ///
-/// [`RunError`]: a scene that cannot be played, which would be our bug.
+/// [`RunError`] if a scene cannot be played, which would be a bug.
 pub fn play(
     options: &Options,
     stop: &(dyn Fn() -> bool + Sync),
@@ -210,7 +214,7 @@ fn methods(options: &Options) -> Vec<Named> {
     Named::all().into_iter().filter(is_wanted).collect()
 }
 
-/// How many runs that will be at least.
+/// Returns the smallest number of runs of the experiment. Undecided comparisons add more.
 #[must_use]
 pub fn runs(options: &Options) -> u64 {
     let each = options.seeds * PARTS.len() as u64;

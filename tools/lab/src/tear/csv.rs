@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::Study;
 
-/// One line for each point of each curve, and for each test a line `largest`, one `mean`, and one for
-/// each of its first tears, `first` with the method and, behind an `@`, its step in seconds.
+/// Returns the study as CSV: for each test a line `largest`, a line `mean`, a line `curve` per point of its
+/// curve, and a line per first tear, such as `first xpbd @0.001` with its step in seconds.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from("rule,threshold,cells,edge_m,what,displacement_m,force_n\n");

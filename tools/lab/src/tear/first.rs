@@ -11,16 +11,16 @@ use tearmesh_cloth::scene::{Method, Scene};
 
 use super::pulled::{Pulled, StudyError, mean};
 
-/// Where a strip tore first.
+/// The first tear of a strip by one method at one step.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct FirstTear {
-    /// `verlet` or `xpbd`.
+    /// The method: `verlet` or `xpbd`.
     pub method: &'static str,
-    /// The step in seconds.
+    /// The step, in seconds.
     pub dt_s: f64,
     /// The distance between the clamps, in metres.
     pub displacement_m: f64,
-    /// The force between the clamps in newtons, as a mean over the last 1/60 s before.
+    /// The force between the clamps in newtons, as a mean over the last 1/60 s before the tear.
     pub force_n: f64,
 }
 
@@ -76,7 +76,7 @@ pub(super) fn first_tears(
     Ok(tears)
 }
 
-/// By how much the largest of these forces is above the smallest, as a part of it; 0 without any.
+/// Returns the relative spread of the forces of first tears, largest/smallest − 1; 0 if `tears` is empty.
 #[must_use]
 pub fn spread(tears: &[FirstTear]) -> f64 {
     let forces = || tears.iter().map(|tear| tear.force_n);

@@ -41,7 +41,7 @@ pub(super) fn mean(forces: &[f64]) -> f64 {
     forces.iter().sum::<f64>() / forces.len().max(1) as f64
 }
 
-/// Why an experiment was not made: it was stopped, or our bug, as its inputs are fixed.
+/// An error of the experiment. Since its inputs are fixed, it is a bug.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum StudyError {
@@ -49,9 +49,9 @@ pub enum StudyError {
     Run(RunError),
     /// A step failed.
     Step(StepError),
-    /// The strip was refused.
+    /// The strip is not a mesh.
     Strip,
-    /// It was to end.
+    /// The experiment was stopped. [`study`](super::study) returns `None` instead of this error.
     Stopped,
 }
 

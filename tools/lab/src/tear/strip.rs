@@ -2,10 +2,11 @@
 
 use tearmesh::{Mesh, Point, Positions};
 
-/// Width and height of the strip, in metres.
+/// The width and the height of the strip, in metres.
 pub const STRIP_M: [f64; 2] = [0.1, 0.2];
 
-/// What is left of the strength at the tips of a tear.
+/// The factor on the strength of the tips of a tear, as in
+/// [`Tearing::weakening`](tearmesh_cloth::Tearing::weakening).
 pub const TIP: f64 = 0.5;
 
 /// A strip whose diagonals lie in turn; cells are square.

@@ -18,7 +18,7 @@ const COLOURS: [RGBColor; 5] = [
     RGBColor(0x55, 0x55, 0x55),
 ];
 
-/// Draws a chart. `None` where the drawing library fails, which a drawing in memory has no reason for.
+/// Draws a chart as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(chart: &Chart) -> Option<String> {
     let below = cascade::height(&chart.cascades);

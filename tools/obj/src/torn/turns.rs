@@ -16,14 +16,14 @@ use crate::sections::{Of, Sections};
 const COPIES: u64 = 1 << 32;
 
 impl TornDocument<'_> {
-    /// The vertices of the mesh in the order in which they are written. The mesh that is read again
-    /// has the first of them as its vertex 0, and so on.
+    /// Returns the vertices of the mesh in the order in which they are written. Vertex `i` of a mesh
+    /// that is read from the written file is the vertex at index `i` of this list.
     ///
-    /// Those of the document come in its order. A vertex that was split off comes behind the last
-    /// vertex of the object of its root, and one that was inserted behind the last of the object
-    /// of the vertices that it was put between: where several objects have vertices of their own, the
-    /// new ones of the first come before all of the second. Several in one place come in the order in
-    /// which they were made.
+    /// The vertices of the document keep their order. A split-off vertex follows the last vertex of the
+    /// object of its root. An inserted vertex follows the last vertex of the object of the vertices that
+    /// it was inserted between. So if several objects have vertices of their own, the new vertices of the
+    /// first object precede all vertices of the second. New vertices of the same object are in the order
+    /// of their creation.
     #[must_use]
     pub fn vertices_in_order(&self) -> Vec<VertexId> {
         let order = Turns::in_sections(self).vertices().in_order();

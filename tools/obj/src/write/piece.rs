@@ -20,7 +20,10 @@ use crate::read::statements;
 use crate::store::Kind;
 use crate::torn::TornDocument;
 
-/// Writes each piece of a torn document to a file of its own.
+/// A writer of the pieces of a torn document, each to a file of its own.
+///
+/// A file has the vertices and faces of the piece, its texture coordinates and normals, and the `o`, `g`,
+/// `usemtl`, `s` and `mtllib` statements that apply to it. It has no record, comments or other statements.
 ///
 /// ```
 /// use tearmesh::{Edits, FaceId, Positions, VertexId, split};
@@ -54,20 +57,20 @@ pub struct PieceWriter<'t> {
     said: SaidOfFaces<'t>,
 }
 
-/// The names that a document gives to the faces of a piece. Each name is listed once, in the order
+/// The names of the objects, groups and materials of a piece. Each name is listed once, in the order
 /// of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PieceNames {
-    /// The names of objects (`o`).
+    /// The names of the objects (`o`) of the faces.
     pub objects: Vec<String>,
-    /// The names of groups (`g`).
+    /// The names of the groups (`g`) of the faces.
     pub groups: Vec<String>,
-    /// The names of materials (`usemtl`).
+    /// The names of the materials (`usemtl`) of the faces.
     pub materials: Vec<String>,
 }
 
 impl<'t> PieceWriter<'t> {
-    /// Prepares to write the pieces of a torn document. Linear in the document.
+    /// Creates a writer of the pieces of a torn document. Linear in the document.
     #[must_use]
     pub fn new(torn: &'t TornDocument<'t>) -> PieceWriter<'t> {
         let document = torn.document();
@@ -87,16 +90,17 @@ impl<'t> PieceWriter<'t> {
         }
     }
 
-    /// Writes a piece of the mesh whose log was followed to its end. `positions` are those of the
-    /// whole mesh. A vertex with several fans is written once for each fan.
+    /// Writes a piece of the mesh whose log the torn document has followed to its end. `positions` are
+    /// those of the whole mesh. A vertex with several fans is written once for each fan.
     ///
     /// # Errors
     ///
-    /// The errors of the output.
+    /// Any I/O error of `out`.
     ///
     /// # Panics
     ///
-    /// If the piece or the positions belong to another mesh.
+    /// If the number of positions is not the number of vertices of the whole mesh, or if the piece
+    /// belongs to another mesh.
     pub fn write(
         &self,
         piece: &DerivedMesh,
@@ -178,7 +182,7 @@ impl<'t> PieceWriter<'t> {
         })
     }
 
-    /// The names that the document gives to the faces of a piece.
+    /// Returns the names of the objects, groups and materials of a piece.
     ///
     /// # Panics
     ///

@@ -1,9 +1,9 @@
 //! Lists of numbers, of which mostly a few change: the faces of a mesh that tears.
 //!
 //! A list is written as what is other than in the list before: its length, and then runs: how many numbers
-//! stay, how many are new, and each new one as the difference to the new one before it. Counts are written seven
-//! bits a byte, the lowest first, the eighth bit set where more follow; differences are folded, so that
-//! 0, −1, 1, −2 are 0, 1, 2, 3.
+//! stay, how many are new, and each new one as the difference to the new one before it. Counts are written
+//! seven bits a byte, the lowest first, the eighth bit set where more follow; differences are folded, so
+//! that 0, −1, 1, −2 are 0, 1, 2, 3.
 
 /// Writes a list that has followed another.
 pub(super) fn write_change(before: &[u32], now: &[u32], out: &mut Vec<u8>) {

@@ -1,11 +1,12 @@
 //! Where the vertices are, moment by moment.
 //!
-//! Those of the first moment are 32-bit floats, from 0 to 1 along the longest side of the box: all first bytes, then
-//! all second ones, and so on, since bytes of one kind are alike and pack well. Those of the moments after
-//! it are points of a lattice of 65,536 steps, and only how far each is off from a guess is written: the point
-//! before, or that and the last step again; and from either, how far the guess for a neighbour was off may be
-//! taken. Each moment is written by the guess that suits it best, which a byte says. What is left
-//! is folded as in [`super::codec`], and of all moments the lowest bytes come first, then the middle and the highest.
+//! Those of the first moment are 32-bit floats, from 0 to 1 along the longest side of the box: all first
+//! bytes, then all second ones, and so on, since bytes of one kind are alike and pack well. Those of the
+//! moments after it are points of a lattice of 65,536 steps, and only how far each is off from a guess is
+//! written: the point before, or that and the last step again; and from either, how far the guess for a
+//! neighbour was off may be taken. Each moment is written by the guess that suits it best, which a byte
+//! says. What is left is folded as in [`super::codec`], and of all moments the lowest bytes come first, then
+//! the middle and the highest.
 
 use tearmesh::Point;
 use tearmesh::geometry::max_abs;

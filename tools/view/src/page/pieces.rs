@@ -15,8 +15,8 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// The number of each face's piece in the mesh that comes next. What comes apart keeps its number where most
-    /// faces are, and gets new ones elsewhere.
+    /// The number of each face's piece in the mesh that comes next. What comes apart keeps its number where
+    /// most faces are, and gets new ones elsewhere.
     pub(super) fn next(&mut self, mesh: &Mesh) -> Vec<u32> {
         let components = mesh.components();
         let mut faces = vec![Vec::new(); components.count()];

@@ -8,76 +8,77 @@ use crate::sheet::ClothError;
 use crate::system::SystemError;
 use crate::tearing::TearingError;
 
-/// Why a scene was refused.
+/// The reason why a scene was refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RunError {
-    /// No cloth can be made of the mesh.
+    /// The mesh cannot become a cloth.
     Cloth(ClothError),
-    /// The step is not positive, the scene does not last a finite time, or it would take more than
-    /// [`Run::STEPS_MAX`](super::Run::STEPS_MAX) steps.
+    /// The step is not positive and finite, the duration is negative or not finite, or the run
+    /// would need more than [`Run::STEPS_MAX`](super::Run::STEPS_MAX) steps.
     Times {
         /// The step, in seconds.
         step_s: f64,
-        /// How long the scene lasts, in seconds.
+        /// The duration of the scene, in seconds.
         duration_s: f64,
     },
-    /// A number of a load is not finite, or negative where it must not be.
+    /// A number of a load is not finite, or is negative where it must not be.
     Loads(SystemError),
     /// The wind is not usable at all times: its velocity with the sway is not finite, or its period
     /// is not positive and finite, or is too short.
     Wind {
-        /// The field of the scene that has the unusable number.
+        /// The name of the field of the scene with the unusable number.
         field: &'static str,
-        /// The number as given; of a vector, the component.
+        /// The value that was given; for a vector, its unusable component.
         given: f64,
     },
-    /// A hold has no vertex in its region.
+    /// The region of a hold contains no vertex.
     NothingHeld {
-        /// The number of the hold in the scene.
+        /// The index of the hold in the scene, from 0.
         number: usize,
     },
-    /// A region of strengths has no vertex in it.
+    /// The region of a strength contains no vertex.
     NothingStrong {
-        /// The number of the strength in the scene.
+        /// The index of the strength in the scene, from 0.
         number: usize,
     },
     /// A hold or a strength names a vertex that the mesh does not have.
     NoVertex {
         /// The part of the scene that names the vertex.
         named_by: Names,
-        /// The number of that hold or strength in the scene.
+        /// The index of that hold or strength in the scene, from 0.
         number: usize,
-        /// The first such vertex.
+        /// The first vertex that the mesh does not have.
         vertex: VertexId,
         /// The number of vertices of the mesh.
         vertices: usize,
     },
-    /// The times of a hold do not ascend.
+    /// The times of a hold are negative, not finite or not ascending, or an offset of its path is
+    /// unusable.
     Moves {
-        /// The number of the hold in the scene.
+        /// The index of the hold in the scene, from 0.
         number: usize,
     },
     /// The rays of a cut span no plane.
     Cut {
-        /// The number of the cut in the scene.
+        /// The index of the cut in the scene, from 0.
         number: usize,
         /// The reason why the rays span no plane.
         error: ScissorError,
     },
     /// The time of a cut is negative or not finite.
     CutTime {
-        /// The number of the cut in the scene.
+        /// The index of the cut in the scene, from 0.
         number: usize,
-        /// The time as given.
+        /// The time that was given, in seconds.
         given_s: f64,
     },
-    /// The cuts do not ascend in time.
+    /// The times of the cuts do not ascend.
     CutTimes {
-        /// The number of the first that is earlier than the one before it.
+        /// The index of the first cut that is earlier than the one before it, from 0.
         number: usize,
     },
-    /// The rule for tearing has a number that cannot be used.
+    /// A number of the rule for tearing cannot be used.
     Tearing(TearingError),
 }
 

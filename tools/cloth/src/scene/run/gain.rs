@@ -19,9 +19,10 @@ pub struct EnergyGain {
     /// The time at which it was first noticed, in seconds: at most 1/60 s after it exceeded the
     /// margin.
     pub since_s: f64,
-    /// The largest amount that was made so far, in joules.
+    /// The largest energy made so far, in joules.
     pub made_j: f64,
-    /// The energy that had been put in by then, in joules: see [`EnergyBalance::put_in_j`].
+    /// The energy put in by the time of that largest value, in joules: see
+    /// [`EnergyBalance::put_in_j`].
     pub put_in_j: f64,
 }
 

@@ -3,37 +3,36 @@
 use crate::implicit::StepReport;
 use crate::provot::LimiterReport;
 
-/// What the method of a run reports about its own steps: where they fell short of the model, and by
-/// how much.
+/// A measure of how far the steps of a run's method fell short of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Quality {
-    /// For velocity Verlet: what its guards did.
+    /// The report of the guards of velocity Verlet.
     Guards(GuardStats),
-    /// For Provot's method: what its limiter did.
+    /// The report of the limiter of Provot's method.
     Limiter(LimiterStats),
     /// For PBD: the root mean square of the present strains. PBD treats constraints as rigid, so
-    /// all strain is what its sweeps failed to remove.
+    /// all strain is an error that its sweeps left.
     Strain(f64),
     /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
     /// substep used and the one that the springs have now
     /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
     Residual(f64),
-    /// For an implicit method: what its Newton iterations did.
+    /// The report of the Newton iterations of an implicit method.
     Newton(NewtonStats),
 }
 
-/// What the guards of velocity Verlet did in a run.
+/// The report of the guards of velocity Verlet in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuardStats {
     /// The number of vertices that are too light for the step, and so are carried by their
     /// neighbours at present.
     pub carried: usize,
-    /// The energy that the damping of crushed constraints took in all steps, in joules.
+    /// The energy that the damping of crushed constraints removed in all steps, in joules.
     pub damped_j: f64,
 }
 
-/// What Provot's limiter did in all steps of a run.
+/// The report of Provot's limiter over all steps of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimiterStats {
     /// The number of passes over all constraints.
@@ -43,14 +42,15 @@ pub struct LimiterStats {
     /// The number of steps (or substeps) in which further passes no longer helped, because held
     /// vertices are too far apart.
     pub steps_infeasible: u64,
-    /// The largest amount by which a stretch ratio was still above the limit.
+    /// The largest excess of a stretch ratio over the limit after a step; 0 if the limit was always
+    /// met.
     pub excess_max: f64,
     /// The number of steps (or substeps) in which some edge was longer than the limit and was
     /// shortened.
     pub steps_limited: u64,
 }
 
-/// What the Newton iterations of an implicit method did in all steps of a run.
+/// The report of the Newton iterations of an implicit method over all steps of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NewtonStats {
     /// The number of Newton iterations; one per step if steps are linearised.
@@ -67,7 +67,8 @@ pub struct NewtonStats {
     /// The number of steps (or substeps) that were taken with a residual above the tolerance:
     /// linearised steps that overshot, after which Newton's method did not converge fully.
     pub unsolved: u64,
-    /// The largest residual of a step, as a multiple of what the tolerance allowed in that step.
+    /// The largest ratio of a step's residual to the one that the tolerance allowed; 1 or less if
+    /// all steps met it.
     pub excess_max: f64,
 }
 

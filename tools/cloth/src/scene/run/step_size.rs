@@ -9,9 +9,9 @@ use crate::system::System;
 /// The longest step in seconds that is chosen for any scene.
 const LONGEST_S: f64 = FRAME_S / 2.0;
 
-/// The step in seconds that a [`Run`](super::Run) chooses for a method where its scene names none:
-/// one that suits the method and a system through which a pull travels at the speed c = √(k/ρ), in
-/// m/s. It is a whole fraction of 1/60 s.
+/// Returns the step in seconds that a [`Run`](super::Run) chooses if its scene sets none. It suits
+/// the method, and a system through which a pull travels at the speed c = √(k/ρ), in m/s. It is
+/// 1/60 s divided by a whole number.
 pub fn suggested_step_s(method: &Method, system: &mut System, speed_m_per_s: f64) -> f64 {
     let engine = &Engine::new(method);
     let suited_s = stability::suited_s(system, engine);
@@ -63,7 +63,7 @@ fn reach(sweeps: u32, fraction: f64) -> f64 {
 /// The time for a sweep as a multiple of h/c.
 const SWEEP: f64 = 1.0;
 
-/// How much softer a cloth is than its fabric: the result of
+/// The excess softness of a cloth compared with its fabric: the result of
 /// [`Run::softness`](super::Run::softness).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Softness {
@@ -126,6 +126,6 @@ fn add((sum, count): (f64, f64), rate: f64) -> (f64, f64) {
 }
 
 impl Softness {
-    /// The excess up to which no warning is given.
+    /// The excess stretch up to which no warning is given, as a fraction.
     pub const TOLERABLE: f64 = 0.05;
 }

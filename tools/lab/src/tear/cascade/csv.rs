@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Cascade;
 
-/// A line a run, those that failed with why.
+/// Returns all runs of the ensembles as CSV, one line per run. The last column is the reason of a failure.
 #[must_use]
 pub fn csv(cascades: &[Cascade]) -> String {
     let mut text = String::from(

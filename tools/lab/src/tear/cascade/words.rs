@@ -5,8 +5,10 @@ use std::fmt::Write as _;
 use super::{Cascade, TOLD};
 use crate::ensemble::Verdict;
 
-/// A line for each scene, number and method: medians with 10 and 90 % at the step, half and a quarter of it, and
-/// whether halving makes a difference; and which methods are the reference, if any are.
+/// Returns a summary in words: for each scene and quantity the reference, if any, and a line per method.
+///
+/// A line has the medians with the 10 % and 90 % points at the step, half and a quarter of it, and whether
+/// halving the step makes a difference.
 #[must_use]
 pub fn summary(cascades: &[Cascade]) -> String {
     let mut text = String::new();
