@@ -16,19 +16,20 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A value that can be interpolated.
 ///
-/// Implemented for floats, [`Point`], [`Vector`], and arrays of values that can be blended. Corners
-/// of a vertex that hold equal values are treated as sharing one value.
+/// The trait is implemented for floats, [`Point`], [`Vector`], and arrays of values that implement
+/// it. Corners of one vertex that hold equal values are treated as sharing one value.
 pub trait Blend: Clone + PartialEq {
-    /// The value at the part `t` of the way from `self` to `other`: `self + t (other − self)`.
-    /// Equal values have to give that value.
+    /// Returns the value at the fraction `t` of the way from `self` to `other`: `self + t (other −
+    /// self)`. If `self` and `other` are equal, the result must equal them.
     #[must_use]
     fn between(&self, other: &Self, t: f64) -> Self;
 
-    /// The weighted sum of three values. The weights are positive and of sum one.
+    /// Returns the weighted sum of three values. The weights are positive, and their sum is one up
+    /// to rounding.
     #[must_use]
     fn weighted(values: [&Self; 3], weights: [f64; 3]) -> Self;
 
-    /// Makes a value from the one, two or three values that it derives from.
+    /// Computes a value from the one, two or three values that it derives from.
     #[must_use]
     fn blend(mix: Mix<&Self>) -> Self {
         match mix {
@@ -111,58 +112,59 @@ pub struct PerVertex<T> {
 }
 
 impl<T: Blend> PerVertex<T> {
-    /// Takes one value for each vertex, in the order of the ids, before any edit has been replayed.
+    /// Creates the list from one value for each vertex, in the order of the ids. The list has seen
+    /// no edit yet.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
         let seen = Cursor::START;
         PerVertex { values, seen }
     }
 
-    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
+    /// Sets the place in the log up to which these values have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
         PerVertex { seen, ..self }
     }
 
-    /// The place in the mesh's log up to which edits have been replayed on these values.
+    /// Returns the place in the log up to which these values have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Makes room for `vertices` more vertices, so that replaying that many splits allocates
-    /// nothing apart from what cloning a value allocates.
+    /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
+    /// nothing except for cloning values.
     pub fn reserve(&mut self, vertices: usize) {
         self.values.reserve(vertices);
     }
 
-    /// The value of a vertex.
+    /// Returns the value of the vertex `v`.
     ///
     /// # Panics
     ///
-    /// If there is no such vertex.
+    /// If `v` is not a vertex of the list.
     #[must_use]
     pub fn at(&self, v: VertexId) -> &T {
         v.of(&self.values)
     }
 
-    /// Mutable access to the value of a vertex.
+    /// Returns a mutable reference to the value of the vertex `v`.
     ///
     /// # Panics
     ///
-    /// If there is no such vertex.
+    /// If `v` is not a vertex of the list.
     #[must_use]
     pub fn at_mut(&mut self, v: VertexId) -> &mut T {
         &mut self.values[v.index()]
     }
 
-    /// The values of all vertices, by id.
+    /// Returns the values of all vertices, indexed by vertex.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
         &self.values
     }
 
-    /// Mutable access to the values of all vertices, indexed by id.
+    /// Returns mutable access to the values of all vertices, indexed by vertex.
     #[must_use]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.values
@@ -181,10 +183,10 @@ impl<T: Blend> Follower for PerVertex<T> {
     }
 }
 
-/// One value for each corner. A split or a merge leaves corner values alone. Where a face is
-/// divided, the corners of its children get values interpolated from the corners of that face
-/// alone. Where a vertex slides along an edge, its corners in the faces of that edge are
-/// interpolated along it; its other corners that hold the same value are changed with them.
+/// One value for each corner. A split or a merge does not change corner values. Where a face is
+/// divided, the values of its children's corners are interpolated from the corners of that face
+/// alone. Where a vertex slides along an edge, the values of its corners in the faces of that edge
+/// are interpolated along it; its other corners with the same value change with them.
 ///
 /// ```
 /// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerCorner};
@@ -207,31 +209,31 @@ pub struct PerCorner<T> {
 }
 
 impl<T: Blend> PerCorner<T> {
-    /// Takes three values per face, in the order of the half-edge ids, before any edit has been
-    /// replayed.
+    /// Creates the list from three values per face, in the order of the half-edge ids. The list has
+    /// seen no edit yet.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
         let seen = Cursor::START;
         PerCorner { values, seen }
     }
 
-    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
+    /// Sets the place in the log up to which these values have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
         PerCorner { seen, ..self }
     }
 
-    /// The value of a corner.
+    /// Returns the value of the corner at which the half-edge `h` starts.
     ///
     /// # Panics
     ///
-    /// If there is no such corner.
+    /// If `h` is not a corner of the list.
     #[must_use]
     pub fn at(&self, h: HalfEdgeId) -> &T {
         h.of(&self.values)
     }
 
-    /// The values of all corners, by half-edge.
+    /// Returns the values of all corners, indexed by half-edge.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
         &self.values
@@ -273,30 +275,30 @@ pub struct PerFace<T> {
 }
 
 impl<T: Clone> PerFace<T> {
-    /// Takes one value for each face, in the order of the ids, before any edit has been replayed.
+    /// Creates the list from one value for each face, in the order of the ids. The list has seen no edit yet.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
         let seen = Cursor::START;
         PerFace { values, seen }
     }
 
-    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
+    /// Sets the place in the log up to which these values have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
         PerFace { seen, ..self }
     }
 
-    /// The value of a face.
+    /// Returns the value of the face `f`.
     ///
     /// # Panics
     ///
-    /// If there is no such face.
+    /// If `f` is not a face of the list.
     #[must_use]
     pub fn at(&self, f: FaceId) -> &T {
         f.of(&self.values)
     }
 
-    /// The values of all faces, by id.
+    /// Returns the values of all faces, indexed by face.
     #[must_use]
     pub fn as_slice(&self) -> &[T] {
         &self.values

@@ -1,22 +1,22 @@
-//! Sorts the faces around a vertex into those in front of a plane and those behind it.
+//! The classification of faces as lying in front of a plane or behind it.
 //!
-//! A face is behind a plane where its centre is strictly behind it (Souza et al. 2014 §IV: "the
-//! ones whose centers are behind the plane are assigned to the new vertex"). Three times the signed
+//! A face is behind a plane if its centre is strictly behind it (Souza et al. 2014 §IV: "the ones
+//! whose centers are behind the plane are assigned to the new vertex"). Three times the signed
 //! distance of the centre is the sum of the signed distances of the corners. They are summed in
-//! ascending vertex order, so the answer does not depend on the order of corners. Zero counts as
-//! front. For a plane through one of the vertices that vertex contributes an exact zero, and the
-//! rule reads n·(b − v) + n·(c − v) < 0.
+//! ascending order of vertices, so the result does not depend on the order of corners. A sum of
+//! zero counts as front. If the plane passes through a vertex v of the face, v contributes exactly
+//! zero, and the condition for the back is n·(b − v) + n·(c − v) < 0.
 
 use crate::geometry::{Plane, Side};
 use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// The side of a plane on which the centre of a face lies.
+/// Returns the side of a plane on which the centre of a face lies. A centre on the plane counts as front.
 ///
 /// # Panics
 ///
-/// If the face is not in this mesh (I2), or `place` does not know its vertices.
+/// If `f` is not in this mesh (I2), or `place` does not store the positions of its vertices.
 #[must_use]
 pub fn face(mesh: &Mesh, f: FaceId, plane: &Plane, place: &(impl Place + ?Sized)) -> Side {
     side(mesh, f, |v| plane.offset(place.at(v)))
@@ -30,12 +30,12 @@ pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> 
     Side::of(a + b + c)
 }
 
-/// The faces of a vertex, each with its side of the plane, in the order of [`Mesh::corners_of`].
-/// The two sides are the two sets of faces of Souza et al. 2014 §IV-B.
+/// Returns the faces of a vertex, each with its side of the plane, in the order of
+/// [`Mesh::corners_of`]. The two sides are the two sets of faces of Souza et al. 2014 §IV-B.
 ///
 /// # Panics
 ///
-/// If the vertex is not in this mesh (I2), or `place` does not know its neighbours.
+/// If `v` is not in this mesh (I2), or `place` does not store the positions of its neighbours.
 pub fn faces_of<'m, P: Place + ?Sized>(
     mesh: &'m Mesh,
     v: VertexId,

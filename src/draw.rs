@@ -20,13 +20,13 @@ use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// The vertex and index buffer of a mesh whose corners have values, such as texture coordinates: a
-/// [`Follower`] of its log.
+/// The vertex and index buffers of a mesh whose corners have values, such as texture coordinates.
+/// They are a [`Follower`] of the mesh's log.
 ///
-/// The index buffer gives the slot of each corner. Corners of one vertex with equal values share a
+/// The index buffer holds the slot of each corner. Corners of one vertex with equal values share a
 /// slot, and every slot has at least one corner. (A value that is not equal to itself, such as NaN,
-/// never shares a slot.) Beside the values, the buffers take 12 bytes per corner and at most 20
-/// bytes per slot.
+/// never shares a slot.) In addition to the values, the buffers use 12 bytes per corner and at most
+/// 20 bytes per slot.
 ///
 /// ```
 /// use tearmesh::{shapes, split, DrawBuffers, Edits, FaceId, VertexId};
@@ -82,26 +82,25 @@ struct Slot {
 
 const NONE: u32 = u32::MAX;
 
-/// The parts of the buffers that were written since the last query: see
-/// [`DrawBuffers::take_changes`].
+/// The parts of the buffers that changed since the previous call of [`DrawBuffers::take_changes`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DrawChanges {
-    /// The slots of the vertex buffer that were written, ascending. A slot beyond the length of the
-    /// buffer no longer exists.
+    /// The slots of the vertex buffer that changed, in ascending order. Slots that no longer exist
+    /// may be listed; they lie beyond the end of the buffer.
     pub slots: Vec<u32>,
-    /// The entries of the index buffer that were written, ascending. Entry `i` belongs to corner
-    /// `i`.
+    /// The entries of the index buffer that changed, in ascending order. Entry `i` belongs to
+    /// corner `i`.
     pub corners: Vec<u32>,
 }
 
 impl<T: Blend> DrawBuffers<T> {
-    /// Builds the buffers of a mesh from the values at its corners, three per face, before any edit
-    /// has been replayed. Slots are ordered by vertex, and then by the first corner that uses them.
-    /// O(n log n).
+    /// Creates the buffers from the values at the corners of a mesh, three per face, in the order
+    /// of the half-edge ids. The buffers have seen no edit yet. Slots are ordered by vertex, and
+    /// then by the first corner that uses them. O(n log n).
     ///
     /// # Panics
     ///
-    /// If there is not a value for each corner.
+    /// If `corner_values` does not have one value for each corner.
     #[must_use]
     pub fn new(mesh: &Mesh, corner_values: Vec<T>) -> DrawBuffers<T> {
         let corners = mesh.half_edge_count();
@@ -126,82 +125,82 @@ impl<T: Blend> DrawBuffers<T> {
         buffers
     }
 
-    /// Declares that these values belong to the mesh as it was at the place `seen` in its log.
+    /// Sets the place in the log up to which these buffers have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> DrawBuffers<T> {
         DrawBuffers { seen, ..self }
     }
 
-    /// The number of slots, which is the number of vertices as a GPU counts them.
+    /// Returns the number of slots, which is the number of vertices in the GPU's vertex buffer.
     #[must_use]
     pub fn len(&self) -> usize {
         self.slots.len()
     }
 
-    /// Whether the vertex buffer is empty.
+    /// Returns whether the vertex buffer is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()
     }
 
-    /// The index buffer: the slot of each corner, three per face.
+    /// Returns the index buffer: the slot of each corner, three per face, in the order of the half-edge ids.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
 
-    /// The mesh vertex that a slot belongs to.
+    /// Returns the vertex of the mesh that a slot belongs to.
     ///
     /// # Panics
     ///
-    /// If there is no such slot.
+    /// If `slot` is not a slot of the buffers.
     #[must_use]
     pub fn vertex(&self, slot: u32) -> VertexId {
         self.slots[slot as usize].vertex
     }
 
-    /// The value of a slot.
+    /// Returns the corner value that a slot holds.
     ///
     /// # Panics
     ///
-    /// If there is no such slot.
+    /// If `slot` is not a slot of the buffers.
     #[must_use]
     pub fn value(&self, slot: u32) -> &T {
         &self.values[self.slots[slot as usize].corner as usize]
     }
 
-    /// The slots in order, each by its vertex and its value.
+    /// Returns the vertex and the value of each slot, in the order of the slots.
     #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (VertexId, &T)> {
         let slots = self.slots.iter();
         slots.map(|slot| (slot.vertex, &self.values[slot.corner as usize]))
     }
 
-    /// The position of a slot, rounded to `f32`.
+    /// Returns the position of a slot, rounded to `f32`.
     ///
     /// # Panics
     ///
-    /// If there is no such slot, or its vertex is unknown to `place`.
+    /// If `slot` is not a slot of the buffers, or `place` does not store the position of its vertex.
     #[must_use]
     pub fn place_f32(&self, slot: u32, place: &(impl Place + ?Sized)) -> [f32; 3] {
         let point = place.at(self.vertex(slot));
         [point.x as f32, point.y as f32, point.z as f32]
     }
 
-    /// The positions of all slots, rounded to `f32`: for a mesh whose vertices all move.
+    /// Returns the positions of all slots, rounded to `f32`. Use it for a mesh whose vertices all move.
     ///
     /// # Panics
     ///
-    /// If a vertex is unknown to `place`.
+    /// If `place` does not store the position of a vertex.
     #[must_use]
     pub fn places_f32(&self, place: &(impl Place + ?Sized)) -> Vec<[f32; 3]> {
         let slots = 0..self.slots.len() as u32;
         slots.map(|slot| self.place_f32(slot, place)).collect()
     }
 
-    /// Returns what edits have changed since the last call, and starts a new list. A slot counts as
-    /// changed if an edit moved its vertex. Motion that is not in the log, such as that of a
-    /// simulation, is not tracked here.
+    /// Returns the changes that edits made since the previous call, and starts a new list. A slot
+    /// counts as changed if an edit moved its vertex. Motion that is not in the log, such as that
+    /// of a simulation, is not tracked.
     #[must_use = "what was changed is not told again"]
     pub fn take_changes(&mut self) -> DrawChanges {
         DrawChanges {

@@ -32,7 +32,7 @@ pub use record::{
 
 use crate::id::{HalfEdgeId, VertexId};
 
-/// The log of edits.
+/// The log of the edits of a mesh.
 ///
 /// ```
 /// use tearmesh::{shapes, split, Edits, Plane, Positions, Vector, VertexId};
@@ -110,14 +110,14 @@ struct SlideRest {
 }
 
 impl Edits {
-    /// An empty log. Its first record will have the number 0.
+    /// Creates an empty log. Its first record will have the number 0.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// An empty log that continues where another one ended: for a mesh that was saved together with
-    /// its followers and their cursors.
+    /// Creates an empty log that continues another one, which ended at `cursor`. It is meant for a
+    /// mesh that was saved together with its followers and their cursors.
     #[must_use]
     pub fn starting_at(cursor: Cursor) -> Self {
         Edits {
@@ -126,44 +126,44 @@ impl Edits {
         }
     }
 
-    /// Makes room for `splits` splits that together move `corners` corners and tear `torn` links. A
-    /// corner counts once for each split that moves it. A link tears only once.
+    /// Reserves memory for `splits` splits that together move `corners` corners and tear `torn`
+    /// links. A corner counts once for each split that moves it. A link tears only once.
     pub fn reserve(&mut self, splits: usize, corners: usize, torn: usize) {
         self.records.reserve(splits);
         self.corners.reserve(corners);
         self.links.reserve(torn);
     }
 
-    /// The number of records in the log.
+    /// Returns the number of records in the log, without those that were cleared.
     #[must_use]
     pub fn len(&self) -> usize {
         self.records.len()
     }
 
-    /// Whether the log has no record.
+    /// Returns whether the log has no record.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
 
-    /// The place after the last record, which is the cursor of a follower that is up to date with
-    /// the mesh.
+    /// Returns the place after the last record. It is the cursor of a follower that has seen all
+    /// edits.
     #[must_use]
     pub fn cursor(&self) -> Cursor {
         self.place(self.records.len())
     }
 
-    /// The records, oldest first.
+    /// Returns the records, from the oldest to the newest.
     #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Edit<'_>> + DoubleEndedIterator {
         (0..self.records.len()).map(|i| self.record(i))
     }
 
-    /// The records after a given place, oldest first.
+    /// Returns the records after the place `cursor`, from the oldest to the newest.
     ///
     /// # Panics
     ///
-    /// If the place is not in this log, or if records after it were cleared.
+    /// If `cursor` is not a place in this log, or if records after it were cleared.
     #[must_use]
     pub fn since(
         &self,
@@ -193,21 +193,21 @@ impl Edits {
         (skipped..self.records.len()).map(|i| self.record(i))
     }
 
-    /// Brings a follower, or each follower of a tuple, up to date: shows it every record that it
-    /// has not seen yet, in order, and advances its cursor.
+    /// Replays the log for a follower, or for each follower of a tuple. Each one receives every
+    /// record that it has not seen yet, in order, and its cursor advances to the end of the log.
     ///
     /// # Panics
     ///
     /// If a follower has seen the records of another log, or if records that it has not seen were
-    /// cleared. The message says which of the two happened, and what to call.
+    /// cleared. The message names the cause and the method to call.
     pub fn replay<F: Followers + ?Sized>(&self, followers: &mut F) {
         followers.see(self);
     }
 
-    /// Brings a list of vertex values up to date. `mix` makes a new value from the ones that it
-    /// derives from.
+    /// Replays the log on a list of vertex values, and advances `seen` to the end of the log. `mix`
+    /// computes a new value from the values that it derives from.
     ///
-    /// Values may be of any type. They need not implement any trait of this crate.
+    /// Values may be of any type, and need not implement any trait of this crate.
     ///
     /// ```
     /// use tearmesh::{shapes, insert::Plan, Cursor, Edits, HalfEdgeId, Mix};
@@ -226,7 +226,7 @@ impl Edits {
     ///
     /// # Panics
     ///
-    /// As [`Edits::replay`], or if there is not one value for each vertex.
+    /// For the same reasons as [`Edits::replay`], or if `values` does not have one value for each vertex.
     pub fn replay_vertices<T>(
         &self,
         seen: &mut Cursor,
@@ -239,15 +239,15 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Brings a list of corner values, three per face, up to date. `mix` makes a new value from the
-    /// ones that it derives from.
+    /// Replays the log on a list of corner values, three per face, and advances `seen` to the end
+    /// of the log. `mix` computes a new value from the values that it derives from.
     ///
-    /// Where a vertex slides, its corners with equal values change together. That is why values
-    /// must be comparable.
+    /// When a vertex slides, its corners with equal values change together, so values must be
+    /// comparable.
     ///
     /// # Panics
     ///
-    /// As [`Edits::replay`], or if there are not three values for each face.
+    /// For the same reasons as [`Edits::replay`], or if `values` does not have three values for each face.
     pub fn replay_corners<T: PartialEq>(
         &self,
         seen: &mut Cursor,
@@ -260,12 +260,12 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Brings an index buffer, which holds the vertex of each corner as
-    /// [`Mesh::indices`](crate::Mesh::indices) does, up to date.
+    /// Replays the log on an index buffer, and advances `seen` to the end of the log. The buffer holds
+    /// the vertex of each corner, three per face, as [`Mesh::indices`](crate::Mesh::indices) does.
     ///
     /// # Panics
     ///
-    /// As [`Edits::replay`], or if there are not three indices for each face.
+    /// For the same reasons as [`Edits::replay`], or if `indices` does not have three entries for each face.
     pub fn replay_indices(&self, seen: &mut Cursor, indices: &mut Vec<u32>) {
         for edit in self.since(*seen) {
             edit.corner_ops()
@@ -274,12 +274,12 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Brings a list of face values up to date. Where a face is divided, each of its children gets
-    /// a copy of its value.
+    /// Replays the log on a list of face values, and advances `seen` to the end of the log. Each
+    /// child of a divided face gets a copy of the face's value.
     ///
     /// # Panics
     ///
-    /// As [`Edits::replay`], or if there is not one value for each face.
+    /// For the same reasons as [`Edits::replay`], or if `values` does not have one value for each face.
     pub fn replay_faces<T: Clone>(&self, seen: &mut Cursor, values: &mut Vec<T>) {
         for edit in self.since(*seen) {
             edit.families()
@@ -288,8 +288,8 @@ impl Edits {
         *seen = self.cursor();
     }
 
-    /// Forgets the records. Keeps the allocated memory and goes on counting records. Let all
-    /// followers replay first.
+    /// Removes all records, and keeps the allocated memory. Later records are numbered from where
+    /// these end. All followers must replay the log first.
     pub fn clear(&mut self) {
         self.first = self.cursor();
         self.records.clear();
@@ -508,12 +508,12 @@ impl Edits {
     }
 }
 
-/// Anything that keeps data beside a mesh and brings it up to date from the log.
+/// A type that keeps data beside a mesh and updates it from the log.
 ///
 /// Plain values of vertices, corners and faces need no follower of their own:
-/// [`Edits::replay_vertices`] and its siblings bring any list up to date, and
-/// [`PerVertex`](crate::PerVertex) is such a list with its cursor. Implement a follower for data
-/// with more structure; it may use those lists for its parts:
+/// [`Edits::replay_vertices`] and its siblings update any list, and [`PerVertex`](crate::PerVertex)
+/// is such a list with its cursor. Implement a follower for data with more structure; it may
+/// contain such lists:
 ///
 /// ```
 /// use tearmesh::{Cursor, Edit, Follower, Masses, Mix};
@@ -542,11 +542,11 @@ impl Edits {
 /// }
 /// ```
 pub trait Follower {
-    /// This follower's place in the log. [`Edits::replay`] advances it.
+    /// Returns this follower's place in the log. [`Edits::replay`] advances it.
     fn cursor(&mut self) -> &mut Cursor;
 
-    /// Takes in the record behind its cursor. To be called by [`Edits::replay`] and
-    /// [`Edit::pass_on`] alone, which then move the cursor.
+    /// Applies the record that comes after the cursor. Only [`Edits::replay`] and [`Edit::pass_on`]
+    /// may call this method; they advance the cursor afterwards.
     fn follow(&mut self, edit: &Edit<'_>);
 }
 
@@ -561,12 +561,12 @@ impl<F: Follower + ?Sized> Follower for &mut F {
 }
 
 impl Edit<'_> {
-    /// Shows this record to one follower and advances its cursor: for a follower that is made of
-    /// other followers.
+    /// Applies this record to one follower and advances its cursor. Use it in a follower that
+    /// contains other followers.
     ///
     /// # Panics
     ///
-    /// If the follower does not stand before this record.
+    /// If the cursor of the follower is not the place before this record.
     pub fn pass_on<F: Follower + ?Sized>(&self, follower: &mut F) {
         let (seen, number) = (*follower.cursor(), self.number());
         assert!(
@@ -579,10 +579,9 @@ impl Edit<'_> {
     }
 }
 
-/// One follower, or a tuple of up to six. Each of them is shown the records that it has not seen
-/// yet.
+/// One follower, or a tuple of up to six followers, each with its own cursor.
 pub trait Followers {
-    /// Brings them up to date. See [`Edits::replay`].
+    /// Applies to each follower the records that it has not seen yet. See [`Edits::replay`].
     fn see(&mut self, edits: &Edits);
 }
 

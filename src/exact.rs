@@ -55,7 +55,7 @@ pub(crate) fn product(a: f64, b: f64) -> [f64; 2] {
 const DIGITS: usize = 68;
 const DIGIT_BITS: usize = 32;
 
-/// The exact sum of any number of finite `f64`.
+/// The exact sum of any number of finite `f64` numbers.
 ///
 /// ```
 /// use tearmesh::ExactSum;
@@ -74,7 +74,7 @@ pub struct ExactSum {
 }
 
 impl ExactSum {
-    /// The empty sum.
+    /// Creates the sum of no numbers, which is zero.
     #[must_use]
     pub const fn new() -> Self {
         ExactSum {
@@ -83,7 +83,7 @@ impl ExactSum {
         }
     }
 
-    /// Adds `x`, without rounding.
+    /// Adds `x` to the sum, without rounding.
     ///
     /// # Panics
     ///
@@ -115,8 +115,8 @@ impl ExactSum {
         }
     }
 
-    /// The sum, rounded once to the nearest `f64` (ties to even); infinite beyond
-    /// the largest.
+    /// Returns the sum, rounded once to the nearest `f64` (ties to even). A sum beyond the largest
+    /// finite `f64` becomes infinite.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         let digits = self.normalised();

@@ -1,10 +1,9 @@
 //! Points, planes and rays, the rule for points on a plane, and arithmetic that gives the same bits
 //! on every machine.
 //!
-//! The types are re-exported at the root of the crate. The functions are for programs that compute
-//! beside a mesh and want the same promise: each uses only `+ − × ÷ √`, in the order that is
-//! written here, whereas a linear algebra library may sum in any order. Nothing here has a hidden
-//! epsilon.
+//! The types are re-exported at the root of the crate. The functions are for programs that need the
+//! same reproducible results as this crate: each uses only `+ − × ÷ √`, in the documented order,
+//! whereas a linear algebra library may sum in any order. There is no hidden epsilon.
 //!
 //! ```
 //! use tearmesh::geometry::{Point, Vector, between, cross, dot, length};
@@ -24,28 +23,29 @@ use crate::exact::{exponent_above, power_of_two};
 /// A point in space, in the units of the model.
 pub type Point = nalgebra::Point3<f64>;
 
-/// A direction or a difference of points.
+/// A direction, or the difference of two points.
 pub type Vector = nalgebra::Vector3<f64>;
 
-/// The largest coordinate that is accepted, by absolute value: 2^250, about 1.8e75.
+/// The largest absolute value of a coordinate that this library accepts: 2^250, about 1.8e75.
 ///
 /// Up to this size the square of an area is a finite `f64`, so no operation of this library can
 /// overflow.
 pub const COORDINATE_MAX: f64 = f64::from_bits((250 + 1023) << 52);
 
-/// The side of a plane on which a face or a point counts as lying.
+/// The side of a plane on which a face or a point lies.
 ///
-/// Zero counts as front: `Front` means "on the plane or in front of it".
+/// A distance of zero counts as `Front`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
-    /// The side to which the normal points, and the plane itself.
+    /// On the plane, or on the side to which the normal points.
     Front,
-    /// Strictly behind the plane.
+    /// Strictly on the side away from the normal.
     Back,
 }
 
 impl Side {
-    /// The side that a signed distance, or a sum of signed distances, stands for.
+    /// Returns the side for a signed distance or a sum of signed distances: `Back` if it is
+    /// negative, and otherwise `Front`, also for NaN.
     #[inline]
     #[must_use]
     pub fn of(offset: f64) -> Side {
@@ -57,7 +57,7 @@ impl Side {
     }
 }
 
-/// A plane through a point, with a normal.
+/// A plane, given by a point on it and a normal.
 ///
 /// ```
 /// use tearmesh::{Plane, Point, Vector};
@@ -76,12 +76,12 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through `point` with this normal, which need not be a unit vector.
+    /// Creates the plane through `point` with the given normal, which need not be a unit vector.
     ///
     /// # Errors
     ///
-    /// [`PlaneError`] if a coordinate is not finite, the point is beyond [`COORDINATE_MAX`], or the
-    /// normal is zero.
+    /// [`PlaneError`] if a coordinate is not finite, a coordinate of the point exceeds
+    /// [`COORDINATE_MAX`] in absolute value, or the normal is zero.
     pub fn new(point: Point, normal: Vector) -> Result<Plane, PlaneError> {
         check_point(point).map_err(|_| PlaneError::Point { given: point })?;
         let normal = scaled(normal).ok_or(PlaneError::Normal { given: normal })?;
@@ -92,30 +92,31 @@ impl Plane {
         })
     }
 
-    /// The point that the plane was made with.
+    /// Returns the point from which the plane was created.
     #[must_use]
     pub fn point(&self) -> Point {
         self.point
     }
 
-    /// The normal, as a unit vector.
+    /// Returns the normal as a unit vector.
     #[must_use]
     pub fn normal(&self) -> Vector {
         self.normal / self.length
     }
 
-    /// A number with the same sign as the distance, and zero where the distance is zero: n · (p −
-    /// o), where n is the normal scaled by a power of two rather than to unit length.
+    /// Returns a number that is positive, zero or negative like the signed distance of `p` from the
+    /// plane. It is n · (p − o), where o is the point of the plane and n is the normal scaled by a
+    /// power of two rather than to unit length.
     ///
-    /// It has one rounding fewer than [`Plane::distance`], so every decision about a side uses it.
+    /// The number has one rounding fewer than [`Plane::distance`], so every decision about a side uses it.
     #[inline]
     #[must_use]
     pub fn offset(&self, p: Point) -> f64 {
         dot(self.normal, p - self.point)
     }
 
-    /// The signed distance of a point from the plane, positive on the side to which the normal
-    /// points.
+    /// Returns the signed distance of a point from the plane. It is positive on the side to which
+    /// the normal points.
     #[inline]
     #[must_use]
     pub fn distance(&self, p: Point) -> f64 {
@@ -133,7 +134,7 @@ impl Plane {
         Plane { point, ..*self }
     }
 
-    /// This plane with its normal reversed.
+    /// Returns this plane with its normal reversed.
     #[must_use]
     pub fn flipped(&self) -> Plane {
         Plane {
@@ -143,17 +144,17 @@ impl Plane {
     }
 }
 
-/// Why a plane was refused.
+/// The reason why a plane was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlaneError {
-    /// A coordinate of the point is not finite, or beyond [`COORDINATE_MAX`].
+    /// A coordinate of the point is not finite, or exceeds [`COORDINATE_MAX`] in absolute value.
     Point {
-        /// The point as given.
+        /// The point that was given.
         given: Point,
     },
-    /// The normal is zero, or not finite.
+    /// The normal is zero, or one of its coordinates is not finite.
     Normal {
-        /// The normal as given.
+        /// The normal that was given.
         given: Vector,
     },
 }
@@ -189,42 +190,42 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The ray from `origin` along `direction`.
+    /// Creates the ray from `origin` along `direction`.
     ///
     /// # Errors
     ///
-    /// [`RayError`] if a coordinate is not finite, the origin is beyond [`COORDINATE_MAX`], or the
-    /// direction is zero.
+    /// [`RayError`] if a coordinate is not finite, a coordinate of the origin exceeds
+    /// [`COORDINATE_MAX`] in absolute value, or the direction is zero.
     pub fn new(origin: Point, direction: Vector) -> Result<Ray, RayError> {
         check_point(origin).map_err(|_| RayError::Origin { given: origin })?;
         scaled(direction).ok_or(RayError::Direction { given: direction })?;
         Ok(Ray { origin, direction })
     }
 
-    /// The point at which the ray starts.
+    /// Returns the point at which the ray starts.
     #[must_use]
     pub fn origin(&self) -> Point {
         self.origin
     }
 
-    /// The direction, as it was given.
+    /// Returns the direction that was given, which need not be a unit vector.
     #[must_use]
     pub fn direction(&self) -> Vector {
         self.direction
     }
 }
 
-/// Why a ray was refused.
+/// The reason why a ray was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RayError {
-    /// A coordinate of the origin is not finite, or beyond [`COORDINATE_MAX`].
+    /// A coordinate of the origin is not finite, or exceeds [`COORDINATE_MAX`] in absolute value.
     Origin {
-        /// The origin as given.
+        /// The origin that was given.
         given: Point,
     },
-    /// The direction is zero, or not finite.
+    /// The direction is zero, or one of its coordinates is not finite.
     Direction {
-        /// The direction as given.
+        /// The direction that was given.
         given: Vector,
     },
 }
@@ -261,7 +262,7 @@ fn list(v: Vector) -> String {
 ///
 /// # Errors
 ///
-/// The first coordinate that fails the check.
+/// The first coordinate, in the order x, y, z, that fails the check.
 pub fn check_point(p: Point) -> Result<(), f64> {
     match p
         .coords
@@ -286,21 +287,21 @@ pub(crate) fn scaled(v: Vector) -> Option<Vector> {
     Some(v * power_of_two(exponent / 2) * power_of_two(exponent - exponent / 2))
 }
 
-/// The largest absolute value among the components of a vector. NaN components are ignored.
+/// Returns the largest absolute value among the components of a vector. NaN components are ignored.
 #[inline]
 #[must_use]
 pub fn max_abs(v: Vector) -> f64 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
-/// The dot product, summed in the order x, y, z.
+/// Returns the dot product of two vectors, summed in the order x, y, z.
 #[inline]
 #[must_use]
 pub fn dot(a: Vector, b: Vector) -> f64 {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
-/// The cross product.
+/// Returns the cross product `a` × `b`.
 #[inline]
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
@@ -311,8 +312,8 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
     )
 }
 
-/// The point at the fraction `t` of the way from `p` to `q`, computed as p − (p − q) t. If `p` and
-/// `q` are equal, the result is bit-equal to `p`.
+/// Returns the point at the fraction `t` of the way from `p` to `q`, computed as p − (p − q) t. If
+/// `p` and `q` are equal, the result is bit-equal to `p`.
 #[inline]
 #[must_use]
 pub fn between(p: Point, q: Point, t: f64) -> Point {
@@ -320,7 +321,7 @@ pub fn between(p: Point, q: Point, t: f64) -> Point {
     p - (p - q) * t
 }
 
-/// The length of a vector: √(x² + y² + z²), summed in that order.
+/// Returns the length of a vector: √(x² + y² + z²), summed in that order.
 #[inline]
 #[must_use]
 pub fn length(v: Vector) -> f64 {
@@ -371,14 +372,14 @@ pub(crate) fn angle(x: f64, y: f64) -> f64 {
     }
 }
 
-/// The sine and the cosine of an angle in radians, for angles of at most 8 in absolute value, which
-/// is more than a full turn.
+/// Returns the sine and the cosine of an angle in radians, in this order. The absolute value of the
+/// angle must be at most 8, which is more than a full turn.
 ///
-/// Computed in a fixed order, so that the result is the same on every machine. The nearest multiple
-/// of π/2 is taken off in three parts, of which the first two have so few bits that their multiples
-/// are exact (Cody and Waite, "Software Manual for the Elementary Functions", 1980). The remainder
-/// is at most π/4, where eight terms of the Taylor series leave out less than 1e-17 of the result.
-/// Each result is off by less than two units in its last place.
+/// Both are computed in a fixed order, so they are the same on every machine. The nearest multiple
+/// of π/2 is subtracted in three parts, of which the first two have so few bits that their
+/// multiples are exact (Cody and Waite, "Software Manual for the Elementary Functions", 1980). The
+/// remainder is at most π/4, where eight terms of the Taylor series omit less than 1e-17 of the
+/// result. The error of each result is less than two units in the last place.
 #[must_use]
 pub fn sine_and_cosine(angle: f64) -> (f64, f64) {
     debug_assert!(angle.abs() <= 8.0);

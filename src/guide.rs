@@ -5,9 +5,9 @@
 //! * [`peers`]: how it compares with other software.
 //! * [`semver`]: what a version number promises.
 //!
-//! The crate `tearmesh-cloth` has a guide to simulating and tearing cloth. The crate
-//! `tearmesh-cli` has a guide to the command: cutting files, error codes, the JSON report, scene
-//! files, batches and Blender.
+//! The crate `tearmesh-cloth` has a guide to simulating and tearing cloth. The crate `tearmesh-cli`
+//! has a guide to the command line tool: cutting files, error codes, the JSON report, scene files,
+//! batches and Blender.
 
 #[doc = include_str!("guide/link.md")]
 pub mod link {}

@@ -14,17 +14,17 @@ macro_rules! id {
         pub struct $name(u32);
 
         impl $name {
-            /// The number of ids of this kind. Indices run from 0 to `LIMIT - 1`.
+            /// The number of ids of this kind. Their indices run from 0 to `LIMIT - 1`.
             pub const LIMIT: usize = $limit as usize;
 
-            /// The id with this index, or `None` if the index is [`Self::LIMIT`] or more.
+            /// Returns the id with this index, or `None` if the index is [`Self::LIMIT`] or more.
             #[inline]
             #[must_use]
             pub const fn new(index: usize) -> Option<Self> {
                 if index < Self::LIMIT { Some(Self(index as u32)) } else { None }
             }
 
-            /// The index of this id, for use with slices.
+            /// Returns the index of this id, counted from 0.
             #[inline]
             #[must_use]
             pub const fn index(self) -> usize {
@@ -79,17 +79,16 @@ macro_rules! id {
 id!(
     /// The id of a vertex, displayed as `v7`.
     ///
-    /// A split appends a vertex and never renumbers one. A merge may give the last vertex the id
-    /// that becomes free.
+    /// A split appends a vertex and renumbers no other. A merge frees an id, which the last vertex may
+    /// take.
     VertexId,
     "v",
     "vertex",
     u32::MAX
 );
 id!(
-    /// The id of a half-edge, which is also the id of a corner of a face; displayed as `h7`.
-    ///
-    /// The half-edge `h` of a face starts at the corner `h`, so one id names both.
+    /// The id of a half-edge, displayed as `h7`. It is also the id of the corner of the face at
+    /// which the half-edge starts.
     HalfEdgeId,
     "h",
     "half-edge",
@@ -116,21 +115,21 @@ impl HalfEdgeId {
         self.0
     }
 
-    /// The face that this half-edge belongs to.
+    /// Returns the face that this half-edge belongs to.
     #[inline]
     #[must_use]
     pub const fn face(self) -> FaceId {
         FaceId(self.0 / 3)
     }
 
-    /// The corner of its face at which this half-edge starts: 0, 1 or 2.
+    /// Returns the corner of its face at which this half-edge starts: 0, 1 or 2.
     #[inline]
     #[must_use]
     pub const fn corner(self) -> usize {
         (self.0 % 3) as usize
     }
 
-    /// The next half-edge of the same face.
+    /// Returns the next half-edge of the same face, which starts where this one ends.
     #[inline]
     #[must_use]
     pub const fn next(self) -> HalfEdgeId {
@@ -141,7 +140,7 @@ impl HalfEdgeId {
         })
     }
 
-    /// The previous half-edge of the same face.
+    /// Returns the previous half-edge of the same face, which ends where this one starts.
     #[inline]
     #[must_use]
     pub const fn prev(self) -> HalfEdgeId {
@@ -154,7 +153,8 @@ impl HalfEdgeId {
 }
 
 impl FaceId {
-    /// The three half-edges of this face, in order.
+    /// Returns the three half-edges of this face, each starting where the previous one ends.
+    /// Half-edge `i` of face `f` has the index `3 f + i`.
     #[inline]
     #[must_use]
     pub const fn half_edges(self) -> [HalfEdgeId; 3] {

@@ -1,20 +1,20 @@
-//! Inserting vertices on edges and in faces.
+//! The insertion of vertices on edges and in faces.
 //!
-//! A straight cut needs vertices where there are none. All points of a cut are inserted at once
-//! ([`Plan`], [`Plan::apply`]), and each face that gets any is retriangulated once. (Inserted edge
-//! by edge, the order of insertion would decide the diagonals.) The surface keeps its shape, and
-//! every tear stays: a paired edge becomes a chain of pairs, and a torn edge a chain of ghost
-//! pairs. A point on a torn edge is inserted on *both* sides of the ghost link, as two vertices of
-//! one root; with a point on one side alone, the walk around a vertex could no longer cross the
-//! link. No link is torn or sewn here: only `split.rs` tears, and only `mend.rs` sews.
+//! A straight cut needs vertices where the mesh has none. All points of a cut are inserted at once
+//! ([`Plan`], [`Plan::apply`]), and each face that gets a point is retriangulated once. (If edges
+//! were processed one by one, their order would decide the diagonals.) The surface keeps its shape,
+//! and all tears remain: a paired edge becomes a chain of pairs, and a torn edge a chain of ghost
+//! pairs. A point on a torn edge is inserted on *both* sides of the ghost link, as two vertices with
+//! the same root. With a point on one side alone, the walk around a vertex could no longer cross the
+//! link. Insertion tears and sews no link: only `split.rs` tears, and only `mend.rs` sews.
 //!
 //! The rule of retriangulation (`insert/face.rs`) needs no coordinates: it compares areas as
-//! fractions of the divided face, which no affine map changes.
+//! fractions of the area of the divided face, which no affine map changes.
 //!
 //! New vertices get the highest ids, in the order of the plan. The first child of a divided face
 //! keeps the id of that face, and the other children get the highest face ids. The cost is linear
-//! in the number of points and of faces around the corners of divided faces, plus the sorting of
-//! the plan.
+//! in the number of points and in the number of faces around the corners of divided faces, plus the
+//! sorting of the plan.
 
 mod face;
 mod plan;
@@ -30,11 +30,10 @@ use face::{Fault, Retriangulation};
 use plan::{Chord, Point};
 
 impl Plan {
-    /// Inserts the points.
+    /// Inserts all points of this plan into a mesh, and retriangulates the faces.
     ///
     /// The new vertices are numbered in the order of the plan. A point on a torn edge becomes two
-    /// vertices: the one on the side of the half-edge that was given, then the one on the other
-    /// side.
+    /// vertices: first the one on the side of the given half-edge, then the one on the other side.
     ///
     /// ```text
     ///   on an edge                on a torn edge              in a face
@@ -53,11 +52,11 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// [`InsertRefusal`] says why nothing was changed.
+    /// [`InsertRefusal`] gives the reason for a refusal. Nothing has changed then.
     ///
     /// # Panics
     ///
-    /// If an id is not in this mesh (I2) or not in this plan.
+    /// If an id is not in this mesh (I2), or a point of a chord is not in this plan.
     pub fn apply<'e>(
         &self,
         mesh: &mut Mesh,
@@ -448,53 +447,53 @@ fn end_of(end: ChordEnd, f: FaceId, face: &Retriangulation) -> Option<usize> {
     }
 }
 
-/// Why nothing was inserted.
+/// The reason why an insertion was refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InsertRefusal {
     /// A parameter on an edge is not strictly between 0 and 1.
     Parameter {
-        /// A half-edge of the edge.
+        /// The half-edge given for the edge.
         half_edge: HalfEdgeId,
-        /// The parameter that was given.
+        /// The parameter given.
         t: f64,
     },
-    /// A weight in a face is not positive, or the sum of the weights is not finite.
+    /// A weight of a point in a face is not positive, or the sum of the weights is not finite.
     Weights {
         /// The face in which the point was to be inserted.
         face: FaceId,
-        /// The weights that were given.
+        /// The weights given, in the order of the face's corners.
         weights: [f64; 3],
     },
-    /// Two points coincide on an edge.
+    /// Two points on an edge coincide.
     Repeated {
-        /// The half-edge, as the second point has it.
+        /// The half-edge given for the second point.
         half_edge: HalfEdgeId,
-        /// The parameter, as the second point has it.
+        /// The parameter given for the second point.
         t: f64,
     },
-    /// A chord does not divide its face (its ends must be two places on the outline, with area on
-    /// both sides), it crosses another chord, or its face has points inside.
+    /// A chord does not divide its face, crosses another chord, or lies in a face with points
+    /// inside. Its ends must be two places on the outline of the face, with area on both sides.
     Chord {
-        /// The face that the chord was to cross.
+        /// The face that the chord was to divide.
         face: FaceId,
     },
     /// Two points in a face coincide up to rounding, or a point lies on the outline of its face.
     Crowded {
-        /// The face that has the points.
+        /// The face that contains the points.
         face: FaceId,
     },
-    /// A child face would be so small that its share of the parent's area rounds to zero. This
-    /// happens between points that are very near a corner.
+    /// A child face would be so small that its share of the parent's area rounds to zero. This can
+    /// happen between points that are very close to a corner.
     Share {
         /// The face that was to be divided.
         face: FaceId,
-        /// The share of the face that the child would have.
+        /// The share of the parent's area, from 0 to 1, that the child would have.
         share: f64,
     },
     /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
     Full {
-        /// The number of faces it would have.
+        /// The number of faces that the mesh would have.
         faces: usize,
     },
 }

@@ -1,13 +1,13 @@
 //! A strict, verification-first half-edge kernel for triangle meshes that tear.
 //!
 //! A [`Mesh`] is built from triangles and split at its vertices. A split that separates two faces
-//! turns the pair between them into a *ghost pair*, so that all faces of a vertex are found however
-//! torn the mesh is, also where it is no longer a 2-manifold. A [`Scissor`] that cuts along two
+//! turns the pair between them into a *ghost pair*. Ghost pairs keep all faces of a vertex
+//! reachable, even where the torn mesh is no longer a 2-manifold. A [`Scissor`] that cuts along two
 //! rays or a plane, and exact [`Masses`], are built on this. The technique is that of M. S. Souza,
 //! A. von Wangenheim and E. Comunello, "Fast Simulation of Cloth Tearing", SBC Journal on
-//! Interactive Systems 5(1), 2014. [`guide::paper`] says where this library differs, and why.
-//! [`guide`] also has an introduction, a comparison with other software, and what a version number
-//! promises.
+//! Interactive Systems 5(1), 2014. [`guide::paper`] lists the differences from the paper, with
+//! reasons. [`guide`] also has an introduction, a comparison with other software, and the version
+//! policy.
 //!
 //! # Build, split, upload
 //!
@@ -61,7 +61,7 @@
 //!
 //! # Map of the code
 //!
-//! Imports run downward only, and no file imports another in a circle:
+//! Imports run downward only, and no two files import each other, directly or indirectly:
 //!
 //! | floor | modules | lines |
 //! |---|---|---|
@@ -72,19 +72,19 @@
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,000 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 2,100 |
 //!
-//! The solver layer stands on all of this, in a crate of its own, `tearmesh-cloth` (14,900 lines).
-//! Nothing here knows of it: any simulation can follow the log.
+//! The solver layer is a separate crate, `tearmesh-cloth` (14,900 lines), which builds on this one.
+//! Nothing here depends on it: any simulation can follow the log.
 //!
-//! Architecture invariants: the library reads no file, prints nothing, knows no clock and no
-//! randomness, and has no unsafe code. `mesh` and `split` know no float. Only `split` tears a link,
-//! and only `mend` sews one. Results depend on `+ − × ÷ √` in a fixed order: the same input gives
-//! the same bytes on every machine. `src/mesh/invariants.md` numbers what holds of every mesh.
+//! Architecture invariants: the library reads no file, prints nothing, uses no clock and no random numbers,
+//! and has no unsafe code. `mesh` and `split` do no floating-point arithmetic. Only `split` tears a link,
+//! and only `mend` sews one. Results are computed with `+ − × ÷ √` in a fixed order: the same input gives
+//! the same bytes on every machine. `src/mesh/invariants.md` lists the numbered invariants of a mesh.
 //!
 //! # Errors
 //!
-//! Bad input is an error with ids, one type for each operation. "There is nothing to do" is a
-//! value: `None`, or [`SplitRefusal`]. A panic is a bug, of ours or in the caller's ids, and
-//! names the invariant.
+//! Bad input returns an error that carries ids; each operation has its own error type. An operation
+//! that has nothing to do returns `None` or a [`SplitRefusal`]. A panic means a bug in this library
+//! or in the calling code, such as an id of another mesh. Its message names the invariant.
 
 #![cfg_attr(
     test,
@@ -136,8 +136,8 @@ pub use mesh::{
     BoundaryLoop, BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fan, Fans,
     Invariant, Mesh, TornError, Violation,
 };
-/// The linear algebra crate that defines [`Point`] and [`Vector`], in the version that this crate
-/// uses.
+/// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this
+/// crate.
 pub use nalgebra;
 pub use pick::RayHit;
 pub use place::{Place, PositionError, Positions};

@@ -25,7 +25,7 @@ use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// The masses of all vertices.
+/// The masses of all vertices of a mesh, updated from its log.
 ///
 /// ```
 /// use tearmesh::{shapes, split, Edits, FaceId, Masses, VertexId};
@@ -129,19 +129,19 @@ fn added(parts: impl Iterator<Item = Part>) -> Vec<Part> {
 }
 
 impl Masses {
-    /// Computes masses by area: each face gives a third of its mass to each of its corners.
+    /// Computes masses by area: each face distributes its mass equally to its three corners.
     ///
-    /// `density` is mass per area, in the units of the model. A corner weighs at least one unit
-    /// ([`Masses::unit`]), so that a face of zero area does not leave a vertex without mass. A
-    /// vertex without faces has zero mass. Linear.
+    /// `density` is the mass per unit of area, in the units of the model. A corner has a mass of at
+    /// least one unit ([`Masses::unit`]), so that a face of zero area leaves no vertex without
+    /// mass. A vertex without faces has zero mass. Linear.
     ///
     /// # Errors
     ///
-    /// See [`MassError`].
+    /// [`MassError`] if the density, the area or a mass is out of range.
     ///
     /// # Panics
     ///
-    /// If `place` does not know a vertex.
+    /// If `place` does not store the position of a vertex.
     pub fn area(
         mesh: &Mesh,
         place: &(impl Place + ?Sized),
@@ -151,16 +151,16 @@ impl Masses {
         Ok(Masses::opened(Store::Area { corners, vertices }, unit))
     }
 
-    /// Computes masses that are halved at each split, starting from those of [`Masses::area`]. They
-    /// can follow splits and merges, and panic at an insertion.
+    /// Computes masses that are halved at each split. The initial masses are those of
+    /// [`Masses::area`]. They can follow splits and merges, and panic at an insertion.
     ///
     /// # Errors
     ///
-    /// See [`MassError`].
+    /// [`MassError`] if the density, the area or a mass is out of range.
     ///
     /// # Panics
     ///
-    /// If `place` does not know a vertex.
+    /// If `place` does not store the position of a vertex.
     pub fn half(
         mesh: &Mesh,
         place: &(impl Place + ?Sized),
@@ -207,19 +207,19 @@ impl Masses {
         masses
     }
 
-    /// Declares that these masses belong to the mesh as it was at the place `seen` in its log.
+    /// Sets the place in the log up to which these masses have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Masses {
         Masses { seen, ..self }
     }
 
-    /// The place in the mesh's log up to which edits have been replayed on these masses.
+    /// Returns the place in the log up to which these masses have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Makes room for `vertices` more vertices, so that replaying that many splits allocates
+    /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
     /// nothing.
     pub fn reserve(&mut self, vertices: usize) {
         match &mut self.store {
@@ -230,16 +230,16 @@ impl Masses {
         }
     }
 
-    /// The mass of a vertex.
+    /// Returns the mass of the vertex `v`.
     ///
     /// The mass is zero for a vertex without faces. It may become zero for a vertex with faces:
-    /// where a face of only a few units is divided, not every corner gets a unit, and a split may
-    /// leave a vertex with only such corners. Before dividing by a mass, take the larger of it and
-    /// [`Masses::unit`].
+    /// when a face of only a few units is divided, some corners get no unit, and a split may leave
+    /// a vertex with only such corners. Before dividing by a mass, replace it by [`Masses::unit`]
+    /// if it is smaller.
     ///
     /// # Panics
     ///
-    /// If there is no such vertex.
+    /// If `v` is not a vertex of the mesh.
     #[must_use]
     pub fn at(&self, v: VertexId) -> f64 {
         match &self.store {
@@ -248,21 +248,21 @@ impl Masses {
         }
     }
 
-    /// The unit that masses were rounded to when they were made, and the least that a corner then
-    /// weighed: 2^-52 of the power of two above the total.
+    /// Returns the unit to which the initial masses were rounded, and which was the smallest
+    /// initial mass of a corner: 2^-52 of the power of two above the total.
     #[must_use]
     pub fn unit(&self) -> f64 {
         self.unit
     }
 
-    /// Whether these masses can follow an insertion: true for masses by area, false for masses by
-    /// halves.
+    /// Returns whether these masses can follow an insertion: true for [`Masses::area`], false for
+    /// [`Masses::half`].
     #[must_use]
     pub fn knows_insertions(&self) -> bool {
         matches!(self.store, Store::Area { .. })
     }
 
-    /// The number of vertices.
+    /// Returns the number of vertices.
     #[must_use]
     pub fn len(&self) -> usize {
         match &self.store {
@@ -271,13 +271,13 @@ impl Masses {
         }
     }
 
-    /// Whether there are no vertices.
+    /// Returns whether there are no vertices.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The exact sum of all masses.
+    /// Returns the exact sum of all masses.
     #[must_use]
     pub fn total(&self) -> ExactSum {
         match &self.store {
@@ -289,7 +289,7 @@ impl Masses {
         }
     }
 
-    /// The total mass when the masses were made, and the total now.
+    /// Returns the initial total mass and the current one.
     #[must_use]
     pub fn ledger(&self) -> MassLedger {
         MassLedger {
@@ -460,44 +460,44 @@ fn divide(family: &[ChildFace], corners: &mut Vec<u64>, vertices: &mut [u64]) {
     }
 }
 
-/// Exact totals of the masses, before and after all edits so far.
+/// The exact total mass before all edits and after those seen so far.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MassLedger {
-    /// The total when the masses were made.
+    /// The total of the initial masses.
     pub before: ExactSum,
-    /// The total now.
+    /// The total of the current masses.
     pub after: ExactSum,
 }
 
 impl MassLedger {
-    /// Whether the two totals are equal. The comparison is exact, without a tolerance.
+    /// Returns whether the two totals are equal. The comparison is exact and has no tolerance.
     #[must_use]
     pub fn is_balanced(&self) -> bool {
         self.before == self.after
     }
 }
 
-/// Why masses were refused.
+/// The reason why masses were refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MassError {
     /// The density is not a positive finite number.
     Density {
-        /// The density as given.
+        /// The density given.
         given: f64,
     },
-    /// The total area is below 1e-140, or a position is not a number. Edges of about 1e-70 are the
-    /// shortest that can be computed with.
+    /// The total area is below 1e-140, or a position is not a number. An area of 1e-140 corresponds
+    /// to edges of about 1e-70.
     NoArea,
-    /// The total is so large or so small that its parts are not normal floating-point numbers.
+    /// The total mass is so large or so small that its parts are not normal floating-point numbers.
     OutOfRange {
-        /// The total, rounded.
+        /// The total mass, rounded to an `f64`.
         total: f64,
     },
-    /// A mass, halved as often as its vertex could be split, would fall below the normal
-    /// floating-point numbers, and halving would no longer be exact.
+    /// A vertex could be split so often that its halved mass would no longer be a normal
+    /// floating-point number, and halving would not be exact.
     TooLight {
-        /// The vertices, ascending.
+        /// All vertices for which this is the case, in ascending order.
         vertices: Vec<VertexId>,
     },
 }

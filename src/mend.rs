@@ -2,12 +2,12 @@
 //!
 //! Two vertices that were split from the same vertex become one again, and ghost pairs whose ends
 //! agree again become pairs. This is the only code that sews a link. Undoing splits in reverse
-//! order restores the mesh bit for bit. In any other order the last vertex takes the id that
-//! becomes free, and the record says so. Any two vertices of one root may be merged, so a seam may
-//! be mended in part. The result is a torn mesh like any other: the corners of a vertex still lie
-//! in one orbit (I8).
+//! order restores the mesh bit for bit. In any other order, the last vertex takes the id that
+//! becomes free, and the record reports it. Any two vertices with the same root may be merged, so a
+//! seam may be sewn in part. The result is a torn mesh like any other: the corners of a vertex
+//! still lie in one orbit (I8).
 //!
-//! Souza et al. 2014 has no merge. That a split only relabels corners makes it simple.
+//! Souza et al. 2014 has no merge. It is simple because a split only relabels corners.
 
 use std::collections::BinaryHeap;
 use std::fmt;
@@ -18,7 +18,7 @@ use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// Merges two vertices of one root: the one with the lower id gets the corners of the other.
+/// Merges two vertices that have the same root: the one with the lower id gets the corners of the other.
 ///
 /// ```text
 ///   o-----o-----o            o-----o-----o
@@ -32,16 +32,15 @@ use crate::place::Place;
 ///   o-----o-----o
 /// ```
 ///
-/// `weights` belong to `one` and `other`, and are usually their masses. Followers join positions,
-/// velocities and other values at the mean with these weights. If both weights are zero, they count
-/// as equal.
+/// `weights` are those of `one` and `other`, usually their masses. Followers set positions,
+/// velocities and other values to the weighted mean. If both weights are zero, they count as equal.
 ///
 /// The cost is linear in the number of faces that the vertex had before it was first split. Nothing
-/// is allocated if the log has room.
+/// is allocated if the log has free capacity.
 ///
 /// # Errors
 ///
-/// [`MergeRefusal`] says why nothing was changed.
+/// [`MergeRefusal`] gives the reason for a refusal. Nothing has changed then.
 ///
 /// # Panics
 ///
@@ -165,7 +164,7 @@ fn free(
     (gone != last).then_some((last, start))
 }
 
-/// A request to merge two vertices of one root.
+/// A request to merge two vertices that have the same root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Stitch {
     /// The vertex that goes: the higher id.
@@ -175,7 +174,8 @@ pub struct Stitch {
 }
 
 impl Stitch {
-    /// The stitch that joins two different vertices; `None` if both are the same vertex.
+    /// Creates the stitch that joins two different vertices, in either order. Returns `None` if
+    /// both are the same vertex.
     #[must_use]
     pub fn new(one: VertexId, other: VertexId) -> Option<Stitch> {
         (one != other).then(|| Stitch {
@@ -184,21 +184,21 @@ impl Stitch {
         })
     }
 
-    /// The vertex that disappears.
+    /// Returns the vertex that the merge removes: the one with the higher id.
     #[must_use]
     pub fn gone(&self) -> VertexId {
         self.gone
     }
 
-    /// The vertex that stays.
+    /// Returns the vertex that the merge keeps: the one with the lower id.
     #[must_use]
     pub fn kept(&self) -> VertexId {
         self.kept
     }
 }
 
-/// The stitches that sew together all `chosen` vertices of the same root, each to the lowest of
-/// them. Linear in the mesh.
+/// Returns the stitches that join all vertices for which `chosen` returns true and that have the
+/// same root. Each is joined to the lowest of them. Linear in the size of the mesh.
 ///
 /// ```
 /// use tearmesh::{mend, shapes, split, Edits};
@@ -232,20 +232,20 @@ pub fn stitches(mesh: &Mesh, chosen: impl Fn(VertexId) -> bool) -> Vec<Stitch> {
 }
 
 /// Carries out many stitches, those with the highest ids first, and returns the number of merges.
-/// If a vertex disappears in two stitches, all three vertices become one.
+/// If a vertex is removed by two stitches, all three vertices become one.
 ///
-/// `place` is read before anything is changed. `weight` gives the mass of each vertex, as for
-/// [`merge`]. If all splits of a mesh are undone, ids are what they were before. Linear in the mesh
-/// if the faces of each copy lie together.
+/// `place` is read before anything is changed. `weight` returns the weight of each vertex, usually
+/// its mass, as for [`merge`]. If all splits of a mesh are undone, all ids are the same as before
+/// the splits. Linear in the size of the mesh if the faces of each copy are contiguous.
 ///
 /// # Errors
 ///
-/// [`SewError`] lists every stitch whose vertices are not of one root, have no usable weight, or
+/// [`SewError`] lists every stitch whose vertices have different roots, have no usable weight, or
 /// are farther apart than `max_distance`. Nothing has changed then.
 ///
 /// # Panics
 ///
-/// If a vertex is not in this mesh (I2), or unknown to `place`.
+/// If a vertex is not in this mesh (I2), or its position is not stored in `place`.
 pub fn sew(
     mesh: &mut Mesh,
     place: &(impl Place + ?Sized),
@@ -362,24 +362,24 @@ impl Copies {
     }
 }
 
-/// Why a merge was refused. Nothing has changed.
+/// The reason why a merge was refused. A refused merge changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MergeRefusal {
-    /// Both ids name the same vertex.
+    /// The two vertices are the same.
     Same {
-        /// The vertex that was named twice.
+        /// The vertex given as both.
         vertex: VertexId,
     },
-    /// The vertices were not split from the same vertex.
+    /// The vertices have different roots: they were not split from the same vertex.
     Roots {
-        /// The first vertex.
+        /// The first vertex given.
         one: VertexId,
-        /// The second vertex.
+        /// The second vertex given.
         other: VertexId,
     },
-    /// A weight is negative or not finite.
+    /// A weight is negative or not finite, or the sum of both weights is not finite.
     Weights {
-        /// The weights as given.
+        /// The weights given, in the order of the vertices.
         given: [f64; 2],
     },
 }
@@ -408,29 +408,29 @@ impl fmt::Display for MergeRefusal {
 
 impl std::error::Error for MergeRefusal {}
 
-/// Why a seam was not sewn. Nothing has changed.
+/// The reasons why stitches were refused. Nothing has changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SewError {
     refused: Vec<(Stitch, StitchError)>,
 }
 
 impl SewError {
-    /// Every stitch that cannot be made, and why; never empty.
+    /// Returns each refused stitch with the reason. The list is never empty.
     #[must_use]
     pub fn refused(&self) -> &[(Stitch, StitchError)] {
         &self.refused
     }
 }
 
-/// Why a stitch cannot be made.
+/// The reason why a stitch was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StitchError {
-    /// The vertices were not split from the same vertex.
+    /// The vertices have different roots: they were not split from the same vertex.
     Roots,
-    /// A weight is negative or not finite.
+    /// A weight is negative or not finite, or the sum of both weights is not finite.
     Weights,
-    /// The vertices are too far apart.
+    /// The vertices are farther apart than the limit, or their distance is NaN.
     Distance {
         /// The distance between the vertices.
         distance: f64,

@@ -98,36 +98,36 @@ impl Link {
 }
 
 impl Mesh {
-    /// The most faces that a mesh can have. Each has three half-edges, whose ids stay below 2^31,
-    /// so that a half-edge and a torn mark fit into 32 bits.
+    /// The largest number of faces that a mesh can have. Each face has three half-edges, and their
+    /// ids stay below 2^31, so that a half-edge id and a torn mark fit into 32 bits.
     pub const MAX_FACES: usize = (1 << 31) / 3;
 
-    /// The most vertices that a mesh can be built with. Vertices with faces are never more than
-    /// there are half-edges, so the ids of all vertices, including later ones, fit the id type.
+    /// The largest number of vertices that a mesh can be built with. Later operations never create
+    /// more vertices with faces than there are half-edges, so all vertex ids fit the id type.
     pub const MAX_VERTICES: usize = 1 << 31;
 
-    /// The number of vertices, including those without faces.
+    /// Returns the number of vertices, including those without faces.
     #[inline]
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.outgoing.len()
     }
 
-    /// The number of faces. Only an insertion changes it.
+    /// Returns the number of faces. Only an insertion changes it.
     #[inline]
     #[must_use]
     pub fn face_count(&self) -> usize {
         self.origin.len() / 3
     }
 
-    /// The number of half-edges: three per face.
+    /// Returns the number of half-edges: three per face.
     #[inline]
     #[must_use]
     pub fn half_edge_count(&self) -> usize {
         self.origin.len()
     }
 
-    /// All vertices, in ascending order.
+    /// Returns all vertices, in ascending order of their ids.
     pub fn vertices(
         &self,
     ) -> impl ExactSizeIterator<Item = VertexId> + DoubleEndedIterator + FusedIterator + Clone + use<>
@@ -135,7 +135,7 @@ impl Mesh {
         (0..self.vertex_count() as u32).map(VertexId::from_u32)
     }
 
-    /// All faces, in ascending order.
+    /// Returns all faces, in ascending order of their ids.
     pub fn faces(
         &self,
     ) -> impl ExactSizeIterator<Item = FaceId> + DoubleEndedIterator + FusedIterator + Clone + use<>
@@ -143,7 +143,7 @@ impl Mesh {
         (0..self.face_count() as u32).map(FaceId::from_u32)
     }
 
-    /// All half-edges, in ascending order.
+    /// Returns all half-edges, in ascending order of their ids.
     pub fn half_edges(
         &self,
     ) -> impl ExactSizeIterator<Item = HalfEdgeId> + DoubleEndedIterator + FusedIterator + Clone + use<>
@@ -151,12 +151,13 @@ impl Mesh {
         (0..self.half_edge_count() as u32).map(HalfEdgeId::from_u32)
     }
 
-    /// The half-edge on the other side of the edge of `h`, if that edge has two faces and is not
-    /// torn.
+    /// Returns the half-edge on the other side of the edge of `h`, or `None` if the edge is torn or
+    /// has only one face.
     ///
     /// # Panics
     ///
-    /// If the id is not in this mesh, as for all queries. The message names the id and I2.
+    /// If `h` is not in this mesh. The same holds for all queries of a mesh; the message names the
+    /// id and the invariant I2.
     #[inline]
     #[must_use]
     pub fn pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
@@ -164,8 +165,8 @@ impl Mesh {
         (link < Link::TORN).then(|| HalfEdgeId::from_u32(link))
     }
 
-    /// The half-edge that was the pair of `h` before their edge was torn (Souza et al. 2014 §IV-B);
-    /// `None` if the edge is not torn.
+    /// Returns the half-edge that was the pair of `h` before their edge was torn (Souza et al. 2014
+    /// §IV-B), or `None` if the edge is not torn.
     #[inline]
     #[must_use]
     pub fn ghost_pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
@@ -177,29 +178,29 @@ impl Mesh {
         }
     }
 
-    /// The pair of `h`, or else its ghost pair. `None` only on the boundary of the mesh as it was
-    /// built.
+    /// Returns the pair of `h`, or its ghost pair if the edge is torn. Returns `None` only for an
+    /// edge on the original boundary, which has one face.
     #[inline]
     #[must_use]
     pub fn pair_or_ghost(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         h.of(&self.link).opposite()
     }
 
-    /// The vertex at which a half-edge starts.
+    /// Returns the vertex at which a half-edge starts.
     #[inline]
     #[must_use]
     pub fn origin(&self, h: HalfEdgeId) -> VertexId {
         VertexId::from_u32(*h.of(&self.origin))
     }
 
-    /// The vertex at which a half-edge ends.
+    /// Returns the vertex at which a half-edge ends.
     #[inline]
     #[must_use]
     pub fn target(&self, h: HalfEdgeId) -> VertexId {
         self.origin(h.next())
     }
 
-    /// The three vertices of a face, in order.
+    /// Returns the three vertices of a face. Vertex `i` is the origin of half-edge `i` of the face.
     #[inline]
     #[must_use]
     pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {
@@ -216,8 +217,7 @@ impl Mesh {
         f.half_edges()
     }
 
-    /// The smallest half-edge that starts at `v`; `None` for a vertex without
-    /// a face.
+    /// Returns the smallest half-edge that starts at `v`, or `None` if `v` has no face.
     #[inline]
     #[must_use]
     pub fn half_edge_of(&self, v: VertexId) -> Option<HalfEdgeId> {
@@ -227,16 +227,16 @@ impl Mesh {
         }
     }
 
-    /// The vertices of all faces, three per face. This is an index buffer, and it costs nothing to
-    /// get.
+    /// Returns the vertices of all faces, three per face, as a slice of the mesh's own storage.
+    /// This is an index buffer.
     #[inline]
     #[must_use]
     pub fn indices(&self) -> &[u32] {
         &self.origin
     }
 
-    /// Every edge once, as one of its half-edges: the smaller one of each pair, and each half-edge
-    /// that has no pair. A torn edge counts as two edges.
+    /// Returns each edge once, as one of its half-edges: the smaller one of each pair, and each half-edge
+    /// without a pair. A torn edge counts as two edges. The half-edges are in ascending order.
     #[must_use]
     pub fn edges(&self) -> impl FusedIterator<Item = HalfEdgeId> + Clone + '_ {
         self.half_edges().filter(|&h| self.is_edge(h))
@@ -249,13 +249,13 @@ impl Mesh {
         h.of(&self.link).0 > h.to_u32()
     }
 
-    /// Makes room for `vertices` more vertices, so that that many splits do not allocate.
+    /// Reserves memory for `vertices` more vertices, so that this many splits do not reallocate.
     pub fn reserve(&mut self, vertices: usize) {
         self.outgoing.reserve(vertices);
     }
 
-    /// Makes room for `faces` more faces, so that that many can be inserted without reallocating.
-    /// On a large mesh a reallocation takes longer than a cut.
+    /// Reserves memory for `faces` more faces, so that inserting this many does not reallocate. On
+    /// a large mesh a reallocation takes longer than a cut.
     pub fn reserve_faces(&mut self, faces: usize) {
         self.origin.reserve(3 * faces);
         self.link.reserve(3 * faces);

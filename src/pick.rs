@@ -1,4 +1,4 @@
-//! Finds the face that a ray meets first, such as the one under the mouse pointer.
+//! Picking: finding the face that a ray meets first, such as the one under the mouse pointer.
 //!
 //! ```text
 //!            ray
@@ -10,15 +10,15 @@
 //!           a             The determinants, as parts of their sum, are the weights of the corners.
 //! ```
 //!
-//! Differences between vertices and the origin of the ray are rounded once, and the signs computed
-//! from them are exact. So no ray slips between two faces, or through a vertex. (Woop, Benthin and
-//! Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, fall back on higher precision if
-//! a determinant is zero. Here products are computed without rounding whenever rounding could have
-//! changed the sign.) This holds as long as no product of three coordinates is below the range of
-//! `f64`, that is, for coordinates from 1e-90 units on.
+//! The differences between the vertices and the origin of the ray are rounded once. The signs
+//! computed from them are exact, so no ray slips between two faces or through a vertex. (Woop,
+//! Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, fall back on higher
+//! precision if a determinant is zero. Here products are computed without rounding whenever
+//! rounding could have changed the sign.) This holds if no product of three coordinates is below
+//! the range of `f64`, that is, for coordinates of at least 1e-90 units.
 //!
-//! All faces are tested, in the order of their ids. That is linear, and there is no search tree to
-//! keep up to date on a mesh that moves and tears.
+//! All faces are tested, in the order of their ids. The cost is linear, and no search tree must be
+//! updated while the mesh moves and tears.
 
 use crate::exact::{ExactSum, ROUNDING, product};
 use crate::geometry::{Point, Ray, Vector, cross, dot, length, scaled};
@@ -26,24 +26,24 @@ use crate::id::FaceId;
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// The place where a ray meets a face: see [`first_hit`].
+/// The point at which a ray meets a face: see [`first_hit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
     /// The face that the ray meets.
     pub face: FaceId,
-    /// The barycentric coordinates of the hit point. They sum to one up to rounding. The weight of
-    /// a corner is exactly zero if the ray goes through the opposite edge, and exactly one if it
-    /// goes through the corner.
+    /// The barycentric coordinates of the hit point, in the order of the face's corners. Their sum
+    /// is one up to rounding. The weight of a corner is exactly zero if the ray passes through the
+    /// opposite edge, and exactly one if it passes through the corner.
     pub weights: [f64; 3],
-    /// The distance from the origin of the ray, in units of the model.
+    /// The distance of the hit point from the origin of the ray, in units of the model.
     pub distance: f64,
 }
 
-/// The nearest face in front of the origin of a ray, seen from either side.
+/// Returns the nearest face that a ray meets, from either side, or `None` if it meets no face.
 ///
-/// Where several faces are equally near, as at a common edge or vertex, it is the one with the lowest
-/// id: faces with an edge or a vertex at the same place, torn or not, meet a ray through it at the same
-/// distance, to the bit. Faces that lie on one another do so up to rounding. A face along whose plane the ray runs is not met; those beside it are.
+/// If several faces are equally near, the result is the one with the lowest id. Faces whose edges or
+/// vertices coincide, torn or not, meet a ray through them at exactly the same distance. For faces that
+/// overlap, the distances agree up to rounding. A ray in the plane of a face does not meet this face.
 ///
 /// ```
 /// use tearmesh::{insert::Plan, pick, shapes, Edits, Point, Ray, Vector};
@@ -64,7 +64,7 @@ pub struct RayHit {
 ///
 /// # Panics
 ///
-/// If a vertex of the mesh is unknown to `place`.
+/// If `place` does not store the position of a vertex of the mesh.
 #[must_use]
 pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Option<RayHit> {
     let direction = scaled(ray.direction()).expect("a ray has a direction");

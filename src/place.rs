@@ -11,16 +11,16 @@ use crate::edit::{Cursor, Edit, Follower};
 use crate::geometry::{Point, check_point};
 use crate::id::VertexId;
 
-/// Read access to vertex positions, whatever their storage.
+/// Read access to vertex positions in any storage.
 ///
-/// Implemented for [`Positions`] and for slices of points and of `[f64; 3]`. Coordinates should be
-/// finite. A face with a NaN coordinate counts as lying in front of every plane.
+/// The trait is implemented for [`Positions`] and for slices of points and of `[f64; 3]`. Coordinates
+/// should be finite. A face with a NaN coordinate counts as lying in front of every plane.
 pub trait Place {
-    /// The point at which a vertex is.
+    /// Returns the position of the vertex `v`.
     ///
     /// # Panics
     ///
-    /// If the vertex is not known.
+    /// If the position of `v` is not stored.
     fn at(&self, v: VertexId) -> Point;
 }
 
@@ -36,7 +36,7 @@ impl Place for [[f64; 3]] {
     }
 }
 
-/// The positions of the vertices, finite and in step with a mesh.
+/// The positions of the vertices of a mesh, updated from its log. All coordinates are finite.
 ///
 /// ```
 /// use tearmesh::{Positions, VertexId};
@@ -55,13 +55,13 @@ pub struct Positions {
 }
 
 impl Positions {
-    /// Takes the positions of all vertices, in the order of the ids, before any edit has been
-    /// replayed.
+    /// Creates the list from the positions of all vertices, in the order of the ids. The list has
+    /// seen no edit yet.
     ///
     /// # Errors
     ///
-    /// [`PositionError`] lists every vertex with a coordinate that is not finite or is beyond
-    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX).
+    /// [`PositionError`] lists every vertex with a coordinate that is not finite or exceeds
+    /// [`COORDINATE_MAX`](crate::COORDINATE_MAX) in absolute value.
     pub fn new(
         points: impl IntoIterator<Item = impl Into<Point>>,
     ) -> Result<Positions, PositionError> {
@@ -85,8 +85,8 @@ impl Positions {
         }
     }
 
-    /// Takes the positions of all vertices as `f32`, as a game engine stores them. Every `f32` is
-    /// also an `f64`, so [`Positions::tail_f32`] gives the same bits back.
+    /// Creates the list from the positions of all vertices as `f32`, as game engines store them.
+    /// Every `f32` is also an `f64`, so [`Positions::tail_f32`] returns the same bits.
     ///
     /// # Errors
     ///
@@ -105,55 +105,55 @@ impl Positions {
         Positions::new(points.into_iter().map(|point| point.map(f64::from)))
     }
 
-    /// Declares that these positions belong to the mesh as it was at the place `seen` in its log.
+    /// Sets the place in the log up to which these positions have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Positions {
         Positions { seen, ..self }
     }
 
-    /// The place in the mesh's log up to which edits have been replayed on these positions.
+    /// Returns the place in the log up to which these positions have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {
         self.seen
     }
 
-    /// Makes room for `vertices` more vertices, so that replaying that many splits allocates
+    /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
     /// nothing.
     pub fn reserve(&mut self, vertices: usize) {
         self.points.reserve(vertices);
     }
 
-    /// The position of a vertex.
+    /// Returns the position of the vertex `v`.
     ///
     /// # Panics
     ///
-    /// If there is no such vertex.
+    /// If `v` is not a vertex of the list.
     #[inline]
     #[must_use]
     pub fn at(&self, v: VertexId) -> Point {
         *v.of(&self.points)
     }
 
-    /// The number of vertices.
+    /// Returns the number of vertices.
     #[must_use]
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// Whether there are no vertices.
+    /// Returns whether the list has no vertices.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// The positions of all vertices, by id.
+    /// Returns the positions of all vertices, indexed by vertex.
     #[must_use]
     pub fn as_slice(&self) -> &[Point] {
         &self.points
     }
 
-    /// The positions of the vertices from index `start` on, rounded to `f32`: the part that a
-    /// vertex buffer lacks after splits and insertions. `start = 0` gives all positions.
+    /// Returns the positions of the vertices from index `start` on, rounded to `f32`. These are the entries
+    /// that splits and insertions append to a vertex buffer. With `start = 0` the result has all positions.
     ///
     /// # Panics
     ///
@@ -173,8 +173,7 @@ impl Place for Positions {
     }
 }
 
-/// Weights of sum one leave a coordinate as small as those they are given, so a position stays
-/// usable.
+/// A weighted mean of accepted coordinates is not larger than they are, so positions stay valid.
 impl Follower for Positions {
     fn cursor(&mut self) -> &mut Cursor {
         &mut self.seen
@@ -187,15 +186,15 @@ impl Follower for Positions {
     }
 }
 
-/// The vertices whose coordinates were refused.
+/// The reason why positions were refused: a list of the vertices with unusable coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PositionError {
     unusable: Vec<(VertexId, Point)>,
 }
 
 impl PositionError {
-    /// Every vertex with a coordinate that is not finite or is too large, with its position; in
-    /// ascending order, never empty.
+    /// Returns every vertex with a coordinate that is not finite or is too large, with its
+    /// position. The list is in ascending order of vertices, and never empty.
     #[must_use]
     pub fn unusable(&self) -> &[(VertexId, Point)] {
         &self.unusable

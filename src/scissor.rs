@@ -38,7 +38,7 @@ use outcome::Outcome;
 use paper::Form;
 use strip::Strip;
 
-/// A description of a cut: a plane, and for a cut between two rays also the two side planes that
+/// The description of a cut: a plane and, for a cut between two rays, the two side planes that
 /// bound it.
 ///
 /// ```
@@ -57,7 +57,7 @@ use strip::Strip;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// In this example a slit follows a mouse: each cut continues from the vertex at which the previous
+/// In this example a slit follows a mouse. Each cut continues from the vertex at which the previous
 /// one ended.
 ///
 /// ```
@@ -89,34 +89,34 @@ pub struct Scissor {
     joints: [Option<CutEnd>; 2],
 }
 
-/// The method by which a cut is made. All methods take the same rays and return the same report.
+/// The method of a cut. All methods accept the same rays and return the same report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CutMethod {
-    /// Inserts vertices where the plane crosses edges, so that the seam is straight. It adds faces
-    /// and always divides the mesh. A snap ([`Scissor::snap`]) avoids thin faces, and the seam may
-    /// then deviate from the plane by as much as the snap allows.
+    /// Inserts vertices where the plane crosses edges, so that the seam is straight. It adds faces,
+    /// and always divides a mesh that the slit crosses completely. A snap ([`Scissor::snap`])
+    /// avoids thin faces; the seam may then deviate from the plane by as much as the snap allows.
     #[default]
     Exact,
     /// Labels every face by its side of the plane, smooths the labels, and gives each side its own
-    /// vertices along the seam. It adds no face and always divides the mesh. The seam runs along
-    /// edges: on irregular meshes it is 1.04 to 1.15 times as long as the straight line, and up to
-    /// 0.9 edge lengths away from it.
+    /// vertices along the seam. It adds no face, and always divides a mesh that the slit crosses
+    /// completely. The seam runs along edges: on irregular meshes it is 1.04 to 1.15 times as long
+    /// as the straight line, and up to 0.9 edge lengths away from it.
     Partition,
-    /// The paper's first form (Souza et al. 2014 §V): splits the vertices on the positive side by
-    /// the normal of the plane. Irregular meshes stay in one piece.
+    /// The first method of the paper (Souza et al. 2014 §V): splits the vertices on the positive
+    /// side of the plane by the normal of the plane. Irregular meshes stay in one piece.
     Uniform,
-    /// The paper's better form: where two vertices of a face are on the positive side, splits along
-    /// the edge between them. It usually divides the mesh, but leaves crumbs and a seam up to twice
-    /// as long as necessary.
+    /// The second, better method of the paper: where two vertices of a face are on the positive
+    /// side, splits along the edge between them. It usually divides the mesh, but leaves crumbs and
+    /// a seam up to twice as long as necessary.
     Alternating,
 }
 
 impl Scissor {
-    /// The scissor spanned by two rays.
+    /// Creates the scissor that cuts between two rays.
     ///
     /// The plane passes through both origins and contains the direction of `a`. If the rays are
-    /// skew, `b` leaves the plane; [`Scissor::skew`] says by how much.
+    /// skew, the direction of `b` is not in the plane; [`Scissor::skew`] returns the deviation.
     ///
     /// # Errors
     ///
@@ -126,7 +126,7 @@ impl Scissor {
         Ok(Scissor::along(strip, Some([a, b])))
     }
 
-    /// The scissor that cuts along the whole of a plane, with no bounds at the sides.
+    /// Creates the scissor that cuts along a whole plane, without bounds at the sides.
     ///
     /// ```
     /// use tearmesh::{shapes, CutMethod, Edits, Plane, Point, Scissor, Vector};
@@ -157,20 +157,20 @@ impl Scissor {
         }
     }
 
-    /// The default of [`Scissor::snap`].
+    /// The default value of [`Scissor::snap`], as a fraction of an edge.
     pub const SNAP: f64 = 0.05;
 
-    /// Sets how near to an end of its edge a crossing may be, as a fraction of the edge, before the
+    /// Sets how close to an end of its edge a crossing may be, as a fraction of the edge, before the
     /// method `exact` uses that end instead of a new vertex. Clamped to 0 … 0.49; NaN counts as 0.
     ///
-    /// With 0 the seam is straight to the last digits, and thin faces may result. With a snap of r,
-    /// no new face has an altitude below r (1 − r) times that of the face it was cut from. An end
-    /// of the slit that would leave a thinner face is moved, by as little as possible and by less
-    /// than the width of one face: along the slit, or away from an edge that it is too near. It is
-    /// never moved onto a boundary. On sheets of some hundred triangles, slits are on average 0.008
-    /// of an edge longer or shorter than requested, and at most 0.13. On a mesh of only two
-    /// triangles one cut in ten has an end that is 0.06 of an edge off, and the worst was 0.7.
-    /// [`CutReport::tip_overshoots`] reports the difference for each cut.
+    /// With a snap of 0 the seam is straight up to rounding, and thin faces may result. With a snap
+    /// of r, no new face has an altitude below r (1 − r) times that of the face it was cut from. An
+    /// end of the slit that would leave a thinner face is moved as little as possible, by less than
+    /// the width of one face: along the slit, or away from an edge that it is too close to. It is
+    /// never moved onto a boundary. On sheets of a few hundred triangles, slits are on average
+    /// 0.008 of an edge longer or shorter than requested, and at most 0.13. On a mesh of two
+    /// triangles, one cut in ten has an end that is off by 0.06 of an edge, and the worst was off
+    /// by 0.7. [`CutReport::tip_overshoots`] reports the difference for each cut.
     #[must_use]
     pub fn snap(mut self, snap: f64) -> Scissor {
         self.exact.snap = if snap.is_nan() {
@@ -181,25 +181,25 @@ impl Scissor {
         self
     }
 
-    /// Sets whether the method `exact` moves a vertex that stands for a crossing onto the plane,
-    /// along the edge of that crossing. The seam is then straight without thin faces, but a curved
-    /// surface changes a little.
+    /// Sets whether the method `exact` moves a vertex that replaces a crossing onto the plane,
+    /// along the edge of the crossing. The seam is then straight without thin faces, but a curved
+    /// surface changes slightly. The default is false.
     ///
     /// A vertex is not moved if a face would turn over or lose 70 % of its altitude, if the vertex
-    /// is already torn, or if it is on the boundary and the edge is not.
+    /// is already torn, or if the vertex is on the boundary but the edge is not.
     #[must_use]
     pub fn snap_move(mut self, snap_move: bool) -> Scissor {
         self.exact.snap_move = snap_move;
         self
     }
 
-    /// The scissor that continues from an end of a previous cut to another ray.
+    /// Creates the scissor that continues from an end of a previous cut to another ray.
     ///
-    /// After a cut by the method `exact`, the two cuts meet in one vertex on each sheet of the mesh
-    /// that both rays meet. The new plane passes through the actual position of that vertex. (Where
-    /// tips on several sheets were moved to avoid thin faces, the plane may miss some of them.)
-    /// After a cut by another method, or if the cut had no end at the ray, this is the scissor of
-    /// the two rays.
+    /// After a cut by the method `exact`, the two cuts share one vertex on each sheet of the mesh
+    /// that both rays meet. The new plane passes through the current position of that vertex.
+    /// (Where tips on several sheets were moved to avoid thin faces, the plane may miss some of
+    /// them.) After a cut by another method, or if the cut had no end at the ray, the result is the
+    /// scissor of the two rays.
     ///
     /// # Errors
     ///
@@ -216,16 +216,16 @@ impl Scissor {
         Scissor::joined([from.ray, to], [Some(from), None], positions)
     }
 
-    /// The scissor that continues from an end of one cut to an end of another. It makes the last
-    /// cut of a closed polyline.
+    /// Creates the scissor that continues from an end of one cut to an end of another. Use it for
+    /// the last cut of a closed polyline.
     ///
     /// The cut starts at the vertex where one cut ended, as with [`Scissor::continued`], and ends
-    /// at the vertex where the other began. Merely aiming at the same *place* would leave the slit
-    /// open wherever that first tip is not exactly on its ray.
+    /// at the vertex where the other began. A cut aimed merely at the *position* of the first tip
+    /// would leave the slit open if that tip is not exactly on its ray.
     ///
     /// # Errors
     ///
-    /// [`ScissorError::OneLine`] if both ends lie on one line with their rays, up to rounding.
+    /// [`ScissorError::OneLine`] if the rays of both ends lie on one line, up to rounding.
     ///
     /// # Panics
     ///
@@ -268,21 +268,21 @@ impl Scissor {
         Ok(scissor)
     }
 
-    /// Sets whether to ignore the side planes and cut along the whole plane. A scissor made by
-    /// [`Scissor::by_plane`] always does.
+    /// Sets whether to ignore the side planes and cut along the whole plane. The default is false.
+    /// A scissor made by [`Scissor::by_plane`] always cuts along the whole plane.
     #[must_use]
     pub fn through(mut self, through: bool) -> Scissor {
         self.strip.through = through || self.rays.is_none();
         self
     }
 
-    /// Sets where a finite cut of the method `partition` ends. The other methods ignore this.
+    /// Sets the rule for where a finite cut of the method `partition` ends. Other methods ignore it.
     #[must_use]
     pub fn tips(self, tips: CutTips) -> Scissor {
         Scissor { tips, ..self }
     }
 
-    /// Sets which layers of the mesh are cut where the plane meets several layers between the rays.
+    /// Sets which layers of the mesh are cut if the plane meets several layers between the rays.
     ///
     /// ```
     /// use tearmesh::{CutLayers, CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector};
@@ -304,35 +304,35 @@ impl Scissor {
         Scissor { layers, ..self }
     }
 
-    /// The cutting plane.
+    /// Returns the plane along which the scissor cuts.
     #[must_use]
     pub fn plane(&self) -> Plane {
         self.strip.plane
     }
 
-    /// The side planes, through the origins of the first and second ray. A point in front of both
-    /// is between the rays. `None` for a scissor made by [`Scissor::by_plane`].
+    /// Returns the side planes, which pass through the origins of the first and the second ray. A point in
+    /// front of both planes is between the rays. Returns `None` for a scissor made by [`Scissor::by_plane`].
     #[must_use]
     pub fn sides(&self) -> Option<[Plane; 2]> {
         self.strip.sides
     }
 
-    /// The sine of the angle between the second ray and the cutting plane: 0 unless the rays are
-    /// skew.
+    /// Returns the sine of the angle between the second ray and the cutting plane. It is 0 unless
+    /// the rays are skew.
     #[must_use]
     pub fn skew(&self) -> f64 {
         self.strip.skew
     }
 
-    /// Cuts a mesh.
+    /// Cuts a mesh along the plane of this scissor, between the rays if it has any.
     ///
-    /// Positions are updated at once, because later cuts read points that earlier cuts made. All
-    /// other followers replay the log. Every vertex and face is visited once to find where the
-    /// plane passes. The rest of the cost is proportional to what the cut touches.
+    /// Positions are updated at once, because later cuts read points that earlier cuts created. All
+    /// other followers must replay the log. Every vertex and face is visited once to find where the
+    /// plane passes. The remaining cost is proportional to the number of faces that the cut affects.
     ///
     /// # Errors
     ///
-    /// [`CutError`] says why the cut was refused. Nothing has changed then.
+    /// [`CutError`] gives the reason for a refusal. Nothing has changed then.
     ///
     /// # Panics
     ///
@@ -349,12 +349,12 @@ impl Scissor {
         Ok(cut)
     }
 
-    /// Cuts a mesh like [`Scissor::cut`], and writes the result into an existing [`Cut`], whose
-    /// memory is reused. This is for many cuts of one mesh.
+    /// Cuts a mesh like [`Scissor::cut`], but writes the result to an existing [`Cut`] and reuses
+    /// its memory. Use it for many cuts of one mesh.
     ///
     /// # Errors
     ///
-    /// [`CutError`] says why the cut was refused. Nothing has changed then, `cut` included.
+    /// [`CutError`] gives the reason for a refusal. Nothing has changed then, including `cut`.
     ///
     /// # Panics
     ///
@@ -372,12 +372,12 @@ impl Scissor {
         Ok(())
     }
 
-    /// Cuts a mesh like [`Scissor::cut`], and measures the result. Measuring visits the whole mesh,
-    /// and takes as long as another cut plus a walk over all components.
+    /// Cuts a mesh like [`Scissor::cut`], and also measures the result. Measuring visits the whole
+    /// mesh, and takes as long as another cut plus a walk over all components.
     ///
     /// # Errors
     ///
-    /// [`CutError`] says why the cut was refused. Nothing has changed then.
+    /// [`CutError`] gives the reason for a refusal. Nothing has changed then.
     ///
     /// # Panics
     ///
@@ -516,11 +516,11 @@ impl Scissor {
     }
 }
 
-/// Why no scissor could be made from two rays.
+/// The reason why two rays do not give a scissor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ScissorError {
-    /// Both rays lie on one line, so they span no plane.
+    /// The two rays lie on one line, so they span no plane.
     OneLine,
 }
 
@@ -532,7 +532,7 @@ impl fmt::Display for ScissorError {
 
 impl std::error::Error for ScissorError {}
 
-/// Why a cut was refused. Nothing has changed.
+/// The reason why a cut was refused. A refused cut changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CutError {
@@ -540,19 +540,19 @@ pub enum CutError {
     Positions {
         /// The number of vertices of the mesh.
         vertices: usize,
-        /// The number of positions that were given.
+        /// The number of positions given.
         positions: usize,
     },
-    /// The positions have not seen all edits.
+    /// The positions have not replayed all edits of the log.
     Unreplayed {
-        /// The place in a log up to which the positions have been replayed.
+        /// The place in the log up to which the positions have been replayed.
         seen: Cursor,
         /// The end of the log that was passed to the cut.
         made: Cursor,
     },
-    /// The end from which the cut should continue has not seen all edits.
+    /// The end from which the cut should continue has not replayed all edits of the log.
     End {
-        /// The place in a log up to which the end has been replayed.
+        /// The place in the log up to which the end has been replayed.
         seen: Cursor,
         /// The end of the log that was passed to the cut.
         made: Cursor,

@@ -1,16 +1,16 @@
-//! Scripts: a small mesh and operations on it, from bytes and from text.
+//! Scripts: a small mesh and operations on it, in the form of bytes or text.
 //!
-//! One driver for property tests, fuzzing, exhaustive runs and reproducers. Every byte string is
-//! a script of bounded size ([`Script::from_bytes`]), so a fuzzer can mutate bytes freely;
-//! every script prints as text, one operation a line, and the text can be parsed again, so a
-//! failing case can be pasted into a regression test. Nothing here is random: the bytes decide.
+//! One driver serves property tests, fuzzing, exhaustive runs and reproducers. Every byte string is
+//! a script of bounded size ([`Script::from_bytes`]), so a fuzzer can mutate bytes freely. Every
+//! script prints as text with one operation per line, and the text can be parsed, so a failing case
+//! can be pasted into a regression test. Nothing is random: the bytes alone determine the script.
 //!
-//! [`Script::run`] applies the operations to a [`World`] (a mesh and everything that can follow
-//! it) and shows an observer each step, so that it can keep a model of its own in lock
-//! step. The tests of this library compare with a naive list of triangles; a program that keeps
-//! more beside a mesh can check its own follower with the same meshes and operations.
+//! [`Script::run`] applies the operations to a [`World`] (a mesh and its followers) and shows each
+//! step to an observer, which can update its own model in step. The tests of this library compare
+//! the mesh with a plain list of triangles. A program that keeps other data beside a mesh can check
+//! its own follower with the same meshes and operations.
 //!
-//! This module is behind the feature `script`.
+//! This module requires the feature `script`.
 //!
 //! ```
 //! use tearmesh::script::{Script, Step};
@@ -41,8 +41,8 @@
 //!
 //! # Fuzz a follower of your own
 //!
-//! Write the property as a function from bytes: a follower that replays after every step must at
-//! all times hold what a plain count over the whole mesh gives.
+//! Write the property as a function of bytes. A follower that replays after every step must always
+//! hold the same values as a plain count over the whole mesh.
 //!
 //! ```
 //! use tearmesh::script::Script;
@@ -108,17 +108,17 @@
 //! }
 //! ```
 //!
-//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`.
-//! When it fails, [`Script::shrink`] leaves the few lines that matter. The message ends with the
-//! script as text, which goes into a regression test and is run there with
-//! `text.parse::<Script>()`. The folder `fuzz` of this library's repository runs its targets on the
-//! stable toolchain (`fuzz/run`), and can be copied.
+//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. If
+//! it fails, [`Script::shrink`] reduces the script to the few lines that matter. The message ends
+//! with the script as text, which a regression test can parse with `text.parse::<Script>()`. The
+//! folder `fuzz` of this library's repository runs its targets on the stable toolchain
+//! (`fuzz/run`), and can be copied.
 //!
 //! # Drive a mesh kernel of your own
 //!
-//! A script needs no follower: each [`Step`] says what was requested and what came of it, so
-//! another kernel can be given the same requests and be compared. Leave out the operations that
-//! yours does not have.
+//! A script needs no follower: each [`Step`] reports the request and its outcome, so another kernel
+//! can be given the same requests and be compared. Leave out the operations that your kernel does
+//! not support.
 //!
 //! ```
 //! use tearmesh::script::{Operation, Script, Step};
@@ -180,131 +180,131 @@ pub use world::{Asked, AskedEnd, Step, World};
 
 use crate::scissor::CutTips;
 
-/// A mesh to start with, and what is done to it.
+/// An initial mesh and the operations to apply to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Script {
     /// The mesh that the script starts with.
     pub shape: Shape,
-    /// The operations, in the order in which they are carried out.
+    /// The operations, in the order in which they are applied.
     pub operations: Vec<Operation>,
 }
 
 impl Script {
-    /// The most operations that [`Script::from_bytes`] gives.
+    /// The largest number of operations of a script that [`Script::from_bytes`] returns.
     pub const OPERATIONS_MAX: usize = 60;
 }
 
 /// An operation on a [`World`]. Numbers of vertices, faces and so on are taken modulo their counts,
-/// so that every operation fits every mesh.
+/// so every operation is valid for every mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Split a vertex by a set of its faces.
     Split {
-        /// The number of the vertex to split.
+        /// The number of the vertex to split, modulo the number of vertices.
         vertex: u16,
-        /// Which of its faces move to the new vertex: bit `i % 16` for face `i` of them in
-        /// ascending order, whatever the order of a walk. The empty and the full set are
-        /// there too, and are refused.
+        /// The faces of the vertex that move to the new vertex: bit `i % 16` is set if face `i`
+        /// moves, with the faces in ascending order. An empty set and a set of all faces are
+        /// allowed, and are refused.
         mask: u16,
-        /// A deliberate mistake in the set.
+        /// A deliberate mistake in the set of faces.
         fault: Fault,
     },
     /// Split a vertex by a plane through it.
     Plane {
-        /// The number of the vertex to split.
+        /// The number of the vertex to split, modulo the number of vertices.
         vertex: u16,
-        /// The normal of the plane. Where it is zero, nothing is done.
+        /// The normal of the plane. If it is zero, nothing is done.
         normal: [i8; 3],
     },
-    /// Cut between two rays, if they span a plane.
+    /// Cut between two rays by the method `partition`. If they span no plane, nothing is done.
     Cut {
-        /// Whether the cut goes on beyond the rays.
+        /// Whether the cut continues beyond the rays.
         through: bool,
-        /// Where the cut ends if it is not a through cut.
+        /// The rule for where the cut ends, unless it continues beyond the rays.
         tips: CutTips,
-        /// The rays: each the origin, in units of 1/32, and the direction.
+        /// The origin, in units of 1/32, and the direction of each ray.
         rays: [[[i8; 3]; 2]; 2],
     },
     /// Insert vertices, all at once.
     Insert {
-        /// The half-edge from which spots are counted, so that several fall into one face.
+        /// The number of the half-edge to which the offsets of the spots are added.
         half_edge: u16,
-        /// Where: up to [`SPOTS_MAX`]. No spot at all is an insertion too.
+        /// The places at which to insert: at most [`SPOTS_MAX`], or none.
         spots: Vec<Spot>,
-        /// An edge that is demanded across the face of the first spot (without one, of
-        /// `half_edge`): each end is, modulo how many there are, a corner of that face or one
-        /// of the spots.
+        /// The ends of a required edge, which crosses the face of the first spot, or that of
+        /// `half_edge` if there are no spots. Each end is a corner of that face or one of the spots,
+        /// counted in this order and taken modulo their number. It is `None` if no edge is required.
         chord: Option<[u8; 2]>,
     },
     /// Merge two vertices, usually copies of the same vertex.
     Merge {
-        /// The first vertex, as a number among the vertices that have copies, or among all vertices
-        /// if none has.
+        /// The first vertex, as a number among the vertices that share their root with another
+        /// vertex, or among all vertices if there are none.
         vertex: u16,
-        /// The second vertex, as a number among the copies of the first, which itself counts as one
-        /// of them.
+        /// The second vertex, as a number among the vertices that have the same root as the first,
+        /// including the first.
         other: u16,
-        /// Whether `other` counts among all vertices instead.
+        /// Whether `other` is a number among all vertices instead.
         any: bool,
-        /// The weights of both vertices. Negative weights are refused.
+        /// The weights of the first and the second vertex. Negative weights are refused.
         weights: [i8; 2],
     },
     /// Slide a vertex, usually along an edge.
     Slide {
-        /// The number of the vertex to slide.
+        /// The number of the vertex to slide, modulo the number of vertices.
         vertex: u16,
-        /// The vertex to slide towards, as a number among the neighbours in ascending order, or
-        /// among all vertices where it has none.
+        /// The vertex to slide toward, as a number among the neighbours in ascending order, or
+        /// among all vertices if the vertex has no neighbour.
         toward: u16,
-        /// Whether the target counts among all vertices instead.
+        /// Whether `toward` is a number among all vertices instead.
         any: bool,
-        /// The distance along the edge, from 0 to 64 in units of 1/64. Both ends are refused.
+        /// The fraction of the edge, in units of 1/64 from 0 to 64. Both ends are refused.
         part: u8,
     },
-    /// Sew together all chosen copies, weighted by their masses.
+    /// Sew together all chosen vertices that have the same root, weighted by their masses.
     Sew {
-        /// Which vertices are chosen: bit `i % 16` for vertex `i`.
+        /// The vertices that are chosen: bit `i % 16` is set if vertex `i` is chosen.
         mask: u16,
     },
-    /// Tear the mesh to pieces: split each vertex until every face has its own.
+    /// Tear the mesh apart completely, so that every face has its own vertices.
     Tear,
-    /// Let all followers replay the log, and clear it.
+    /// Let all followers replay the log, and then clear it.
     Clear,
 }
 
-/// The most spots that one insertion has.
+/// The largest number of spots of an insertion that scripts from bytes or text may have.
 pub const SPOTS_MAX: usize = 4;
 
 /// The offsets of spots are below this: the half-edges of four faces.
 const OFFSETS: u8 = 12;
 
-/// A place at which to insert a vertex. If one spot is invalid, its whole insertion is refused.
+/// A place at which to insert a vertex. One invalid spot causes the whole insertion to be refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spot {
     /// A spot on an edge.
     Edge {
-        /// The half-edge, counted from that of the insertion: 0 to 11.
+        /// The offset of the half-edge from that of the insertion: 0 to 11.
         offset: u8,
-        /// The distance along the edge, from 0 to 64 in units of 1/64. Both ends are refused.
+        /// The fraction of the edge, in units of 1/64 from 0 to 64. Both ends are refused.
         part: u8,
     },
     /// A spot in a face.
     Face {
-        /// A half-edge of the face, counted from that of the insertion: 0 to 11.
+        /// The offset of a half-edge of the face from the half-edge of the insertion: 0 to 11.
         offset: u8,
-        /// The weights of the corners. Zero is refused.
+        /// The weights of the face's corners, in their order. Zero is refused.
         weights: [u8; 3],
     },
 }
 
-/// A deliberate mistake in a set of faces.
+/// A deliberate mistake in the set of faces that a split moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The set has no mistake.
     None,
-    /// The set names the face at this place in it a second time.
+    /// The set contains one of its faces twice. The number selects the face, modulo the size of the set.
     Repeated(u8),
-    /// The set also names this face of the mesh, after the others. It may happen to be a face of
-    /// the vertex.
+    /// The set also contains this face of the mesh, as its last entry. The face may happen to
+    /// belong to the vertex.
     Foreign(u16),
 }

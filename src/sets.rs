@@ -1,6 +1,6 @@
 //! Disjoint sets of numbers.
 
-/// A union–find forest over the numbers 0, 1, 2, …: disjoint sets that can be joined.
+/// A union–find forest over the numbers 0, 1, 2, …, which represents disjoint sets that can be joined.
 ///
 /// The leader of a set is its smallest number, so results do not depend on the order of joins. A
 /// look-up halves the path that it walks; n operations take O(n log n).
@@ -20,7 +20,7 @@ pub struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// Puts each of the numbers below `count` into a set of its own.
+    /// Creates a forest in which each number below `count` is in a set of its own.
     #[must_use]
     pub fn new(count: u32) -> DisjointSets {
         DisjointSets {
@@ -28,37 +28,37 @@ impl DisjointSets {
         }
     }
 
-    /// Starts again with each of the numbers below `count` in a set of its own, and keeps the
+    /// Resets the forest so that each number below `count` is in a set of its own. Keeps the
     /// allocated memory.
     pub fn reset(&mut self, count: u32) {
         self.above.clear();
         self.above.extend(0..count);
     }
 
-    /// Adds the next number, in a set of its own, and returns it.
+    /// Adds the next number in a set of its own, and returns the number.
     pub fn push(&mut self) -> u32 {
         let next = self.above.len() as u32;
         self.above.push(next);
         next
     }
 
-    /// The number of numbers in the forest.
+    /// Returns how many numbers are in the forest.
     #[must_use]
     pub fn len(&self) -> usize {
         self.above.len()
     }
 
-    /// Whether there are no numbers.
+    /// Returns whether the forest is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.above.is_empty()
     }
 
-    /// The smallest number of the set that a number belongs to.
+    /// Returns the leader of a number: the smallest number in its set.
     ///
     /// # Panics
     ///
-    /// If there is no such number.
+    /// If `number` is not in the forest.
     pub fn leader(&mut self, mut number: u32) -> u32 {
         while self.above[number as usize] != number {
             let above = self.above[self.above[number as usize] as usize];
@@ -72,21 +72,21 @@ impl DisjointSets {
     ///
     /// # Panics
     ///
-    /// If there is no such number.
+    /// If `a` or `b` is not in the forest.
     pub fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.leader(a), self.leader(b));
         self.above[a.max(b) as usize] = a.min(b);
     }
 
-    /// The number of disjoint sets. Linear.
+    /// Returns the number of disjoint sets. Linear.
     #[must_use]
     pub fn count(&self) -> usize {
         let numbers = self.above.iter().zip(0..);
         numbers.filter(|&(&above, number)| above == number).count()
     }
 
-    /// The leader of each number. Linear: a leader is smaller than the other numbers of its set, so
-    /// one pass shortens every path to one step.
+    /// Returns the leader of each number, indexed by number. Linear: a leader is smaller than the
+    /// other numbers of its set, so one pass shortens every path to one step.
     pub fn leaders(&mut self) -> &[u32] {
         for number in 0..self.above.len() {
             self.above[number] = self.above[self.above[number] as usize];

@@ -1,7 +1,7 @@
 //! Small named meshes for documentation, tests and benchmarks.
 //!
-//! Each function gives a mesh and the positions of its vertices. Faces are oriented
-//! counter-clockwise seen from +z, or from outside.
+//! Each function returns a mesh and the positions of its vertices. Faces are oriented
+//! counter-clockwise, seen from +z or from outside.
 
 use crate::geometry::{Point, sine_and_cosine};
 use crate::mesh::Mesh;
@@ -15,7 +15,7 @@ fn made(points: Vec<[f64; 3]>, triangles: &[[u32; 3]]) -> (Mesh, Positions) {
     )
 }
 
-/// One triangle in the plane z = 0.
+/// Creates one triangle in the plane z = 0.
 #[must_use]
 pub fn triangle() -> (Mesh, Positions) {
     made(
@@ -24,24 +24,24 @@ pub fn triangle() -> (Mesh, Positions) {
     )
 }
 
-/// The unit square in `columns` × `rows` cells of two triangles; vertex `(column, row)` has
-/// the number `row * (columns + 1) + column`. Each diagonal goes from the lower left
-/// corner of its cell to the upper right one.
+/// Creates the unit square in the plane z = 0, divided into `columns` × `rows` cells of two
+/// triangles. Vertex `(column, row)` has the index `row * (columns + 1) + column`. Each diagonal
+/// goes from the lower left corner of its cell to the upper right one.
 ///
 /// # Panics
 ///
-/// If there are no cells, or more than a mesh can have.
+/// If `columns` or `rows` is zero, or there are more cells than a mesh can have.
 #[must_use]
 pub fn grid(columns: u32, rows: u32) -> (Mesh, Positions) {
     grid_with_diagonals(columns, rows, |_, _| true)
 }
 
-/// A unit square in `columns` × `rows` cells of two triangles, numbered as in [`grid`].
-/// `rising(column, row)` says whether the diagonal of a cell rises from left to right.
+/// Creates a unit square in `columns` × `rows` cells of two triangles, numbered as in [`grid`].
+/// `rising(column, row)` returns whether the diagonal of a cell rises from left to right.
 ///
 /// # Panics
 ///
-/// If there are no cells, or more than a mesh can have.
+/// If `columns` or `rows` is zero, or there are more cells than a mesh can have.
 #[must_use]
 pub fn grid_with_diagonals(
     columns: u32,
@@ -72,12 +72,13 @@ pub fn grid_with_diagonals(
     made(points, &triangles)
 }
 
-/// `faces` triangles round the vertex 0: a closed fan, or an open one. The other
-/// vertices are 1, 2, … in order, on the unit circle or half circle in the plane z = 0.
+/// Creates a fan of `faces` triangles around the vertex 0: a full disc if `closed` is true, and
+/// otherwise a half disc. The other vertices are 1, 2, … in counter-clockwise order, on the unit
+/// circle in the plane z = 0.
 ///
 /// # Panics
 ///
-/// If a closed fan has fewer than three faces, or an open one none.
+/// If `faces` is zero, or less than three for a closed fan.
 #[must_use]
 pub fn fan(faces: u32, closed: bool) -> (Mesh, Positions) {
     assert!(faces >= if closed { 3 } else { 1 }, "a fan has faces");
@@ -95,7 +96,7 @@ pub fn fan(faces: u32, closed: bool) -> (Mesh, Positions) {
     made(points, &spokes(faces, rim))
 }
 
-/// The surface of a regular tetrahedron.
+/// Creates the surface of a regular tetrahedron, with vertices at (±1, ±1, ±1).
 #[must_use]
 pub fn tetrahedron() -> (Mesh, Positions) {
     let points = vec![
@@ -107,7 +108,7 @@ pub fn tetrahedron() -> (Mesh, Positions) {
     made(points, &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
 }
 
-/// The surface of a regular octahedron.
+/// Creates the surface of a regular octahedron, with vertices at distance 1 on the axes.
 #[must_use]
 pub fn octahedron() -> (Mesh, Positions) {
     let points = vec![
@@ -131,12 +132,12 @@ pub fn octahedron() -> (Mesh, Positions) {
     made(points, &triangles)
 }
 
-/// A tube around the z-axis that is open at both ends, like a sleeve. It has `along` rings of
-/// `around` cells each.
+/// Creates a tube around the z-axis that is open at both ends, like a sleeve. It has `along` rings
+/// of `around` cells each.
 ///
 /// # Panics
 ///
-/// If there are fewer than three cells around or none along.
+/// If `around` is less than three, or `along` is zero.
 #[must_use]
 pub fn tube(around: u32, along: u32) -> (Mesh, Positions) {
     assert!(around >= 3 && along > 0, "a tube goes round and along");
@@ -150,11 +151,12 @@ pub fn tube(around: u32, along: u32) -> (Mesh, Positions) {
     made(points, &ring_cells(around, along, along + 1))
 }
 
-/// A torus round the z-axis: `around` cells the long way, `across` the short way.
+/// Creates a torus around the z-axis, with `around` cells along the large circle and `across` cells
+/// along the small one.
 ///
 /// # Panics
 ///
-/// If there are fewer than three cells either way.
+/// If `around` or `across` is less than three.
 #[must_use]
 pub fn torus(around: u32, across: u32) -> (Mesh, Positions) {
     assert!(around >= 3 && across >= 3, "a torus goes round both ways");
@@ -186,9 +188,9 @@ fn ring_cells(around: u32, rows: u32, rings: u32) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// A saddle of eight faces that one plane cuts into four arcs. The ring vertex at the angle 45° k
-/// has the height ½ cos(2 · 45° k), and the plane is z = 0. Splitting the centre by that plane
-/// leaves two bow-ties at once.
+/// Creates a saddle of eight faces around the vertex 0, which the plane z = 0 cuts into four arcs.
+/// The ring vertex at the angle 45° k has the height ½ cos(2 · 45° k). Splitting the centre by that
+/// plane leaves two bow-ties.
 #[must_use]
 pub fn saddle() -> (Mesh, Positions) {
     let heights = [0.0, 0.5, 0.0, -0.5, 0.0, 0.5, 0.0, -0.5, 0.0];

@@ -1,9 +1,9 @@
-//! Sliding a vertex along an edge.
+//! The sliding of a vertex along an edge.
 //!
-//! A straight cut may move a vertex that is nearly on its plane onto it ([`Scissor::snap_move`]).
+//! A straight cut may move a vertex that is almost on its plane onto it ([`Scissor::snap_move`]).
 //! The mesh does not change, but its positions and other values do. Values at the vertex are
-//! interpolated along the edge, so a picture on the surface stays where it was, and the rest state
-//! of a cloth still describes the same cloth. Masses do not change: cloth is neither made nor lost.
+//! interpolated along the edge, so a texture on the surface stays in place, and the rest state of a
+//! cloth still describes the same cloth. Masses do not change.
 //!
 //! [`Scissor::snap_move`]: crate::Scissor::snap_move
 
@@ -13,7 +13,8 @@ use crate::edit::{Edits, Slide};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
 
-/// Slides a vertex towards a neighbour, by the fraction `t` of the distance.
+/// Slides a vertex toward a neighbour by the fraction `t` of the distance between them, where `t`
+/// is strictly between 0 and 1.
 ///
 /// ```text
 ///   o-----o-----o            o-----o-----o
@@ -27,7 +28,7 @@ use crate::mesh::Mesh;
 ///
 /// # Errors
 ///
-/// [`SlideRefusal`] says why nothing was changed.
+/// [`SlideRefusal`] gives the reason for a refusal. Nothing has changed then.
 ///
 /// # Panics
 ///
@@ -73,20 +74,20 @@ pub fn toward<'e>(
     Ok(edits.finish_slide(vertex, toward, t, along))
 }
 
-/// Why a vertex was not slid. Nothing has changed.
+/// The reason why a slide was refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SlideRefusal {
     /// The parameter is not strictly between 0 and 1.
     Parameter {
-        /// The parameter that was given.
+        /// The parameter given.
         t: f64,
     },
-    /// No edge joins the vertices.
+    /// No edge joins the two vertices.
     Apart {
         /// The vertex that was to slide.
         vertex: VertexId,
-        /// The vertex towards which it was to slide.
+        /// The vertex toward which it was to slide.
         toward: VertexId,
     },
 }

@@ -1,17 +1,15 @@
-//! The vertex split: the primitive on which cutting and tearing stand.
+//! The vertex split, the primitive of cutting and tearing.
 //!
-//! A vertex is replaced by two at the same place, and each of its faces goes to one of
-//! them (Souza et al. 2014 §IV, Fig. 1). The pairs between the two sets of faces become ghost
-//! pairs (§IV-B, Fig. 3). This is the only code that tears a link.
+//! A vertex is replaced by two at the same place, and each of its faces goes to one of them (Souza
+//! et al. 2014 §IV, Fig. 1). The pairs between the two sets of faces become ghost pairs (§IV-B,
+//! Fig. 3). This is the only code that tears a link.
 //!
-//! "There must be at least one face on each side of the splitting plane. If this
-//! is not the case, the routine of vertex splitting simply does nothing" (§IV-A): a
-//! refused split leaves mesh and log bit-identical, and is a value rather than an error.
+//! "There must be at least one face on each side of the splitting plane. If this is not the case,
+//! the routine of vertex splitting simply does nothing" (§IV-A): a refused split leaves the mesh
+//! and the log bit-identical, and returns a [`SplitRefusal`] or `None`.
 //!
 //! The cost is at most linear in the number of faces that the vertex had when the mesh was built.
-//! Nothing is allocated if [`Mesh::reserve`] and [`Edits::reserve`] made room. The two sets of
-//! faces are told apart without a table: a corner that moves is relabelled at once, and relabelled
-//! back if the split is refused.
+//! Nothing is allocated if [`Mesh::reserve`] and [`Edits::reserve`] reserved the memory.
 
 use std::fmt;
 
@@ -22,7 +20,7 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// Splits a vertex: the given faces move to a new vertex at the same place.
+/// Splits the vertex `v`: the faces in `moving` move to a new vertex at the same place.
 ///
 /// The new vertex gets the highest id, and the old one keeps the other faces. In this example the
 /// upper faces move:
@@ -41,11 +39,11 @@ use crate::place::Place;
 ///
 /// # Errors
 ///
-/// [`SplitRefusal`] says why nothing was changed.
+/// [`SplitRefusal`] gives the reason for a refusal. Nothing has changed then.
 ///
 /// # Panics
 ///
-/// If the vertex or a face is not in this mesh (I2).
+/// If `v` or a face is not in this mesh (I2).
 ///
 /// ```
 /// use tearmesh::{split, Edits, FaceId, Mesh, VertexId};
@@ -114,7 +112,7 @@ pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &m
     commit(mesh, v, stays, edits);
 }
 
-/// Splits a vertex by a plane: its faces whose centres are strictly behind the plane move to a new
+/// Splits a vertex by a plane: the faces whose centres are strictly behind the plane move to a new
 /// vertex (Souza et al. 2014 §IV). Returns `None`, and changes nothing, if all faces are on one
 /// side.
 ///
@@ -132,12 +130,12 @@ pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &m
 ///                                back
 /// ```
 ///
-/// In the paper the plane passes through the vertex; any plane will do. A centre
-/// on the plane is in front of it (see [`classify::face`]).
+/// In the paper the plane passes through the vertex, but any plane is allowed. A centre on the
+/// plane counts as in front of it (see [`classify::face`]).
 ///
 /// # Panics
 ///
-/// If the vertex is not in this mesh (I2), or `place` does not know one of its neighbours.
+/// If `v` is not in this mesh (I2), or `place` does not store the position of one of its neighbours.
 pub fn by_plane<'e>(
     mesh: &mut Mesh,
     v: VertexId,
@@ -236,31 +234,31 @@ fn corner_at(mesh: &Mesh, face: FaceId, v: VertexId) -> Option<HalfEdgeId> {
     face.half_edges().into_iter().find(|&h| mesh.origin(h) == v)
 }
 
-/// Why a split was refused. Nothing has changed.
+/// The reason why a split was refused. A refused split changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SplitRefusal {
-    /// The set of faces to move is empty.
+    /// The set of faces to move was empty.
     Empty {
         /// The vertex that was not split.
         vertex: VertexId,
     },
-    /// The set holds all faces of the vertex, which would leave none behind.
+    /// The set contained all faces of the vertex, which would leave it without a face.
     Everything {
         /// The vertex that was not split.
         vertex: VertexId,
     },
-    /// A face of the set does not have the vertex.
+    /// A face of the set was not a face of the vertex.
     Foreign {
         /// The vertex that was not split.
         vertex: VertexId,
-        /// The face that does not have the vertex.
+        /// The face that is not a face of the vertex.
         face: FaceId,
     },
-    /// The set names a face twice.
+    /// The set contained a face twice.
     Repeated {
         /// The vertex that was not split.
         vertex: VertexId,
-        /// The face that was named twice.
+        /// The face that the set contained twice.
         face: FaceId,
     },
 }

@@ -1,15 +1,15 @@
-//! The tearing rule: which vertex of an overstretched edge is split, and how.
+//! The tearing rule, which selects the vertex of an overstretched edge to split and the plane to split it by.
 //!
 //! "Whenever the stretching of an edge reaches a specified threshold value, we select one of the
 //! edge's adjacent vertices to be split. If both vertices can be split, we choose the one with the
 //! highest mass value. If the overstretched edge is formed by the vertices A and B and A is the
 //! vertex chosen to be split, the splitting plane is given by the vertex A and its normal is the
-//! vector B − A" (Souza et al. 2014 §III-A). Where both masses are equal, the lower id is
-//! chosen, so the result does not depend on which way an edge is named.
+//! vector B − A" (Souza et al. 2014 §III-A). If both masses are equal, the lower id is chosen, so
+//! the result does not depend on which half-edge is given.
 //!
-//! The rule knows no cloth. It asks where vertices are ([`Place`]), how heavy they are, and writes
-//! what it did to the log; The simulation decides which edge is stretched too far, and what a split
-//! means for its particles and constraints. Here is a complete simulation that uses it:
+//! The rule is independent of any cloth model. It reads the positions ([`Place`]) and masses of
+//! vertices, and writes each split to the log. The simulation decides which edge is overstretched, and
+//! applies a split to its particles and constraints. This is a complete simulation that uses the rule:
 //!
 //! ```
 //! use tearmesh::{shapes, tear, Blend, Cursor, Edits, Masses, Vector, VertexId};
@@ -54,18 +54,18 @@ use crate::place::Place;
 use crate::split;
 
 /// Tears an overstretched edge, given as either of its half-edges. One end of the edge is split by
-/// the plane through it whose normal points to the other end.
+/// the plane through it whose normal points toward the other end.
 ///
-/// `mass` gives the mass of a vertex, or `None` for a vertex that must not be split, such as a
-/// pinned one. Faces whose centres are behind the plane, away from the other end, go to the new
-/// vertex. Returns `None` if neither end can be split: there must be a face on each side of the
-/// plane.
+/// `mass` returns the mass of a vertex, or `None` for a vertex that must not be split, such as a
+/// pinned one. The heavier end that can be split is split. Faces whose centres are behind the
+/// plane, away from the other end, go to the new vertex. Returns `None` if neither end can be
+/// split: there must be a face on each side of the plane.
 ///
-/// The cost is a walk around both ends. Nothing is allocated if the mesh and the log have room.
+/// The cost is a walk around both ends. Nothing is allocated if the mesh and the log have free capacity.
 ///
 /// # Panics
 ///
-/// If the half-edge is not in this mesh (I2), or `place` does not know its surroundings.
+/// If `edge` is not in this mesh (I2), or `place` does not store the position of a vertex near it.
 pub fn edge<'e>(
     mesh: &mut Mesh,
     edge: HalfEdgeId,
@@ -77,11 +77,12 @@ pub fn edge<'e>(
     split::by_plane(mesh, vertex, &plane, place, edits)
 }
 
-/// The vertex that [`edge`] would split, and the plane by which it would. Changes nothing.
+/// Returns the vertex that [`edge`] would split and the plane by which it would split it. Returns
+/// `None` if it would split neither end. Changes nothing.
 ///
 /// # Panics
 ///
-/// As [`edge`].
+/// For the same reasons as [`edge`].
 #[must_use]
 pub fn candidate(
     mesh: &Mesh,

@@ -26,7 +26,7 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::{DerivedMesh, Mesh};
 use crate::sets::DisjointSets;
 
-/// A [`Follower`] that remembers the insertions of a log, so that they can be undone.
+/// A [`Follower`] that records the insertions of a log so that they can be undone.
 ///
 /// ```
 /// use tearmesh::{mend, shapes, CutMethod, Edits, Insertions, Plane, Point, Scissor, Vector};
@@ -79,7 +79,8 @@ struct Child {
 const NONE: u32 = u32::MAX;
 
 impl Insertions {
-    /// Starts with a mesh in which nothing was inserted yet. Linear in the mesh.
+    /// Creates the record for a mesh in which no vertex has been inserted yet. Linear in the size
+    /// of the mesh.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Insertions {
         Insertions {
@@ -91,29 +92,28 @@ impl Insertions {
         }
     }
 
-    /// Declares that the mesh is at the place `seen` in its log.
+    /// Sets the place in the log that the mesh was at when this record was created.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Insertions {
         Insertions { seen, ..self }
     }
 
-    /// The mesh without the inserted vertices that no longer separate anything, in which the faces
-    /// that they divided are whole again; `None` if there are no such vertices. A restored face
-    /// takes the place of the divided one. Once all tears are sewn, this is the mesh from before
-    /// the cuts.
+    /// Returns the mesh without the inserted vertices that no longer separate anything, or `None`
+    /// if there are no such vertices. The faces that they divided are restored, each in place of
+    /// the divided face. Once all tears are sewn, the result is the mesh from before the cuts.
     ///
-    /// * `may_go`: whether an inserted vertex may be taken out. One that was moved since may hold a
-    ///   shape.
-    /// * `agree`: whether two corners, which are of one vertex, have the same values: of a restored face
-    ///   each corner has those of one of several.
+    /// * `may_go` returns whether an inserted vertex may be removed. Return false for a vertex that
+    ///   has been moved and so carries shape.
+    /// * `agree` returns whether two corners of one vertex have the same values. Each corner of a
+    ///   restored face takes its values from one of several corners.
     ///
-    /// A vertex that slid ([`slide`](crate::slide)) is where it is: nothing is put back. What stays is
-    /// no longer on record for the new mesh: whoever wants to take out more later keeps the old one.
-    /// Linear, but for the hubs.
+    /// A vertex that slid ([`slide`](crate::slide)) keeps its position. The vertices that remain
+    /// are not recorded for the new mesh, so keep the old mesh if you want to remove more of them
+    /// later. Linear, except around vertices with very many faces.
     ///
     /// # Panics
     ///
-    /// If the mesh is not the one whose log was followed, to its end.
+    /// If `mesh` is not the mesh of the log that was followed, or the log has not been replayed to its end.
     #[must_use]
     pub fn undone(
         &self,

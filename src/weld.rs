@@ -1,10 +1,10 @@
-//! Builds meshes from an engine's buffers, in which a vertex is repeated along texture seams and
-//! hard edges.
+//! The construction of meshes from an engine's buffers, in which vertices are repeated along
+//! texture seams and hard edges.
 //!
 //! An engine's vertex combines a position, a texture coordinate and a normal. Where one of these
-//! differs from face to face, there are several vertices at one place. Taken literally, such a mesh
-//! is cut along every seam. Here vertices at one place are welded. The values that differed belong
-//! to the corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
+//! differs from face to face, the buffer has several vertices at one place. A mesh with these vertices
+//! would be cut along every seam. Here vertices at one place are welded. The values that differed
+//! belong to the corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
 
 use std::fmt;
 
@@ -12,22 +12,22 @@ use crate::id::VertexId;
 use crate::mesh::{BuildError, Mesh};
 use crate::place::{PositionError, Positions};
 
-/// A mesh that was built from an engine's buffers: see [`by_place`].
+/// The result of welding an engine's buffers: see [`by_place`].
 #[derive(Clone, Debug)]
 pub struct Welded {
     /// The mesh. Its faces are those of the index buffer, in the same order.
     pub mesh: Mesh,
     /// The positions of the vertices of the mesh.
     pub positions: Positions,
-    /// For each vertex of the buffer, the vertex of the mesh that it became.
+    /// The vertex of the mesh that each vertex of the buffer became, indexed by vertex of the buffer.
     pub vertices: Vec<VertexId>,
 }
 
-/// Builds the mesh of an engine's vertex and index buffer, in which vertices at one place are one.
+/// Builds a mesh from an engine's vertex and index buffers, and merges vertices at the same place.
 ///
-/// Two places count as one if all coordinates are equal as numbers. There is no tolerance, since
-/// engines copy the vertices that they repeat. Vertices of the mesh are numbered as places first
-/// appear in the buffer.
+/// Two places are the same if all coordinates are equal as numbers. There is no tolerance, because
+/// engines copy the vertices that they repeat. The vertices of the mesh are numbered in the order
+/// in which their places first appear in the buffer.
 ///
 /// ```
 /// use tearmesh::{weld, DrawBuffers, PerCorner};
@@ -47,8 +47,8 @@ pub struct Welded {
 ///
 /// # Errors
 ///
-/// [`WeldError`]. Where a surface touches itself at a vertex, the welded mesh is not a manifold,
-/// and is refused with a list of the defects. Give such vertices different places.
+/// [`WeldError`] if the buffers are invalid. If a surface touches itself at a vertex, the welded mesh
+/// is not a manifold, and is refused with a list of the defects. Give such vertices different places.
 pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, WeldError> {
     let known = places.len();
     let indices = triangles.as_flattened();
@@ -85,18 +85,18 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
     })
 }
 
-/// Why buffers were refused.
+/// The reason why buffers were refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum WeldError {
-    /// A triangle names a vertex that the buffer does not have.
+    /// A triangle refers to a vertex that the buffer does not have.
     Index {
-        /// The index that was given.
+        /// The vertex index in the triangle.
         index: u32,
-        /// The number of vertices of the buffer.
+        /// The number of vertices in the buffer.
         known: usize,
     },
-    /// These vertices of the buffer have coordinates that are not finite.
+    /// Some vertices of the buffer have coordinates that are not finite. The error lists them.
     Place(PositionError),
     /// After welding, the triangles do not form an oriented 2-manifold. The error names faces of
     /// the index buffer and vertices of the welded mesh.

@@ -1,15 +1,14 @@
 //! The place of a follower in a log.
 
-/// A place in a log. It knows how many records come before it, and a hash of what they say.
+/// A place in a log: the number of records before it, and a hash of their contents.
 ///
 /// A follower starts at [`Cursor::START`], the beginning of every log, and
-/// [`Edits::replay`](crate::Edits::replay) moves its cursor on. Beside the number of records, a
-/// cursor holds a running hash of what they say. So a follower of another log cannot be replayed by
-/// mistake, which would silently skip edits.
+/// [`Edits::replay`](crate::Edits::replay) advances its cursor. The hash detects a follower of
+/// another log, whose replay would silently skip edits.
 ///
-/// The hash depends on the records alone. It is the same on every machine and in every run, so a
-/// cursor may be saved ([`Cursor::to_bytes`]) together with the values that have been brought up to
-/// it, and a log can go on from it ([`Edits::starting_at`](crate::Edits::starting_at)).
+/// The hash depends on the records alone, and is the same on every machine and in every run. So a
+/// cursor may be saved ([`Cursor::to_bytes`]) together with the values that were replayed up to it,
+/// and a new log can continue from it ([`Edits::starting_at`](crate::Edits::starting_at)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cursor {
     number: u64,
@@ -17,7 +16,7 @@ pub struct Cursor {
 }
 
 impl Cursor {
-    /// The beginning of every log: nothing has been seen.
+    /// The beginning of every log, before its first record.
     pub const START: Cursor = Cursor {
         number: 0,
         hash: 0x243f_6a88_85a3_08d3,
@@ -27,8 +26,8 @@ impl Cursor {
         Cursor { number, hash }
     }
 
-    /// How many records lie before this place: the number of the next one, since they are numbered
-    /// from 0.
+    /// Returns the number of records before this place. It is also the number of the next record,
+    /// since records are numbered from 0.
     #[must_use]
     pub const fn number(self) -> u64 {
         self.number
@@ -38,14 +37,14 @@ impl Cursor {
         self.hash
     }
 
-    /// This cursor as sixteen bytes, from which [`Cursor::from_bytes`] makes it again.
+    /// Returns this cursor as sixteen bytes. [`Cursor::from_bytes`] restores it.
     #[must_use]
     pub fn to_bytes(self) -> [u8; 16] {
         let both = u128::from(self.number) << 64 | u128::from(self.hash);
         both.to_be_bytes()
     }
 
-    /// The cursor that [`Cursor::to_bytes`] turned into these bytes.
+    /// Restores a cursor from the bytes that [`Cursor::to_bytes`] returned.
     #[must_use]
     pub fn from_bytes(bytes: [u8; 16]) -> Cursor {
         let both = u128::from_be_bytes(bytes);
@@ -56,7 +55,7 @@ impl Cursor {
     }
 }
 
-/// The default is [`Cursor::START`].
+/// Returns [`Cursor::START`].
 impl Default for Cursor {
     fn default() -> Cursor {
         Cursor::START

@@ -22,30 +22,32 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// The one, two or three values that a new value derives from.
 ///
-/// These are three cases and not one with three weights, because a copy must be exact to the bit,
-/// and a value between two equal ones must be that value.
+/// A copy has its own case because it must be exact to the bit, and interpolation because a value
+/// between two equal values must equal them. A general weighted sum guarantees neither.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mix<I> {
-    /// A copy of this value.
+    /// A copy of one value.
     Copy(I),
     /// The interpolated value `ends[0] + t (ends[1] − ends[0])`.
     Between {
-        /// The two that it lies between.
+        /// The two values to interpolate between.
         ends: [I; 2],
-        /// The parameter, from 0 to 1.
+        /// The fraction of the way from `ends[0]` to `ends[1]`, from 0 to 1.
         t: f64,
     },
     /// The weighted sum of three values.
     Weighted {
-        /// The three sources.
+        /// The three values to be added.
         of: [I; 3],
-        /// The weights of the sources: positive, and of sum one up to rounding.
+        /// The weights of the values, in the same order. They are positive, and their sum is one up
+        /// to rounding.
         weights: [f64; 3],
     },
 }
 
 impl<I> Mix<I> {
-    /// This mix with each source replaced by `f` of it: for example, ids replaced by their values.
+    /// Returns this mix with each source replaced by the result of `f`. It can, for example,
+    /// replace ids by their values.
     #[must_use]
     pub fn map<J>(self, f: impl FnMut(I) -> J) -> Mix<J> {
         let mut f = f;
@@ -62,8 +64,8 @@ impl<I> Mix<I> {
         }
     }
 
-    /// The source with the largest weight; of equal ones, the first. For values that cannot be
-    /// interpolated, such as the index of a bone or a material.
+    /// Returns the source with the largest weight, or the first of several with equal weights. Use
+    /// it for values that cannot be interpolated, such as the index of a bone or a material.
     ///
     /// ```
     /// use tearmesh::Mix;
@@ -111,37 +113,37 @@ impl From<InsertLocation> for Mix<VertexId> {
 }
 
 /// A change to a list that has one value for each vertex. The operations of one edit must be
-/// carried out in the order in which they come.
+/// applied in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VertexOp {
-    /// A value is pushed.
+    /// Appends a value to the list.
     Push {
-        /// The vertex that it is for: the next one.
+        /// The vertex that gets the value. Its index is the length of the list before the change.
         new: VertexId,
-        /// The vertices that the new value derives from.
+        /// The vertices whose values the new value derives from.
         from: Mix<VertexId>,
     },
-    /// A value is replaced.
+    /// Replaces a value of the list.
     Set {
-        /// The vertex that it is for.
+        /// The vertex whose value is replaced.
         at: VertexId,
-        /// Where the new value comes from, perhaps from the old one too.
+        /// The vertices whose values the new value derives from. They may include `at`.
         from: Mix<VertexId>,
     },
-    /// A value is removed, and the last one takes its place, as in [`Vec::swap_remove`].
+    /// Removes a value; the last value of the list takes its place, as in [`Vec::swap_remove`].
     SwapRemove {
-        /// The vertex that disappears.
+        /// The vertex whose value is removed.
         gone: VertexId,
     },
 }
 
 impl VertexOp {
-    /// Carries out this operation on a list of values. `mix` makes a new value from the ones that
+    /// Applies this operation to a list of values. `mix` computes a new value from the values that
     /// it derives from.
     ///
     /// # Panics
     ///
-    /// If there is not one value for each vertex.
+    /// If the list does not have one value for each vertex.
     #[inline]
     pub fn apply<T>(self, values: &mut Vec<T>, mut mix: impl FnMut(Mix<&T>) -> T) {
         match self {
@@ -165,33 +167,33 @@ impl VertexOp {
     }
 }
 
-/// A face that was divided, and its children.
+/// A divided face and the faces that replaced it, its *children*.
 ///
-/// The first child keeps the id of its parent. The others are new faces, in the order in which they
-/// must be pushed. So read the parent's values before writing anything.
+/// The first child keeps the id of the divided face. The other children are new faces, in ascending
+/// order of their ids. So read the values of the divided face before writing any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceFamily<'e> {
     children: &'e [ChildFace],
 }
 
 impl<'e> FaceFamily<'e> {
-    /// The face that was divided.
+    /// Returns the face that was divided. Its id is now that of the first child.
     #[must_use]
     pub fn parent(&self) -> FaceId {
         self.children[0].parent
     }
 
-    /// The faces that replaced the parent: at least two.
+    /// Returns the children, of which there are at least two.
     #[must_use]
     pub fn children(&self) -> &'e [ChildFace] {
         self.children
     }
 
-    /// Gives each child a copy of the value of the parent.
+    /// Updates a list of face values: each child gets a copy of the value of the divided face.
     ///
     /// # Panics
     ///
-    /// If there is not one value for each face.
+    /// If the list does not have one value for each face.
     pub fn apply_to_faces<T: Clone>(&self, values: &mut Vec<T>) {
         for child in self.children {
             if child.face != child.parent {
@@ -238,8 +240,8 @@ impl CornerSource {
 }
 
 impl ChildFace {
-    /// For each corner of this child, the corners of the parent that it lies between, as they were
-    /// before the insertion.
+    /// Returns, for each corner of this child, the corners of the parent that it lies between,
+    /// with their weights. The ids are those from before the insertion.
     #[must_use]
     pub fn corner_mixes(&self) -> [Mix<HalfEdgeId>; 3] {
         let parent = self.parent.half_edges();
@@ -247,39 +249,40 @@ impl ChildFace {
     }
 }
 
-/// A change to the corners: to the vertex that each belongs to, and to a list that has one value
-/// for each corner. The operations of one edit must be carried out in the order in which they come.
+/// A change to the vertices of corners and to a list that has one value for each corner. The
+/// operations of one edit must be applied in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CornerOp<'e> {
-    /// Corners now belong to another vertex. Their values stay.
+    /// Assigns corners to another vertex. Their values do not change.
     Relabel {
-        /// The corners that go to the other vertex.
+        /// The corners that are assigned to the other vertex.
         corners: &'e [HalfEdgeId],
-        /// The vertex that they are of now.
+        /// The vertex that the corners belong to after the edit.
         to: VertexId,
     },
-    /// A face is divided. See [`ChildFace::corner_mixes`].
+    /// Divides a face. See [`ChildFace::corner_mixes`] for the values of the new corners.
     Divide(FaceFamily<'e>),
-    /// A vertex slides along an edge, and the values of its corners change with it.
+    /// Slides a vertex along an edge, which changes the values of its corners.
     Carry {
         /// For each of the up to two faces of the edge, its corner at the vertex and its corner at
-        /// the other end. The first gets the value at the fraction `t` of the way to the second.
+        /// the other end. The corner at the vertex gets the value at the fraction `t` of the way to
+        /// that of the other corner. `None` stands for a face that does not exist.
         along: [Option<[HalfEdgeId; 2]>; 2],
-        /// How far: strictly between 0 and 1.
+        /// The fraction of the way to the other end: strictly between 0 and 1.
         t: f64,
-        /// All corners of the vertex. Corners with equal values share one value, so a corner that
-        /// had the same value as one along the edge changes with it.
+        /// All corners of the vertex. A corner that is not in `along`, but has the same value as a
+        /// corner in it, gets the same new value.
         corners: &'e [HalfEdgeId],
     },
 }
 
 impl CornerOp<'_> {
-    /// Carries out this operation on a list of values. `mix` makes a new value from the ones that
-    /// it derives from.
+    /// Applies this operation to a list of corner values. `mix` computes a new value from the
+    /// values that it derives from.
     ///
     /// # Panics
     ///
-    /// If there are not three values for each face.
+    /// If the list does not have three values for each face.
     pub fn apply<T: PartialEq>(self, values: &mut Vec<T>, mut mix: impl FnMut(Mix<&T>) -> T) {
         match self {
             CornerOp::Relabel { .. } => {}
@@ -288,11 +291,11 @@ impl CornerOp<'_> {
         }
     }
 
-    /// Carries out this operation on an index buffer, which holds the vertex of each corner.
+    /// Applies this operation to an index buffer, which holds the vertex of each corner.
     ///
     /// # Panics
     ///
-    /// If there are not three indices for each face.
+    /// If the buffer does not have three indices for each face.
     pub fn apply_to_indices(self, indices: &mut Vec<u32>) {
         match self {
             CornerOp::Relabel { corners, to } => {
@@ -345,7 +348,7 @@ fn carry<T: PartialEq>(
 }
 
 impl<'e> Edit<'e> {
-    /// The operations by which this edit changes vertex values, in order.
+    /// Returns the operations that apply this edit to vertex values, in order.
     pub fn vertex_ops(&self) -> impl Iterator<Item = VertexOp> + use<'e> {
         let (mut points, mut changes) = (&[][..], [None; 2]);
         match self {
@@ -377,7 +380,7 @@ impl<'e> Edit<'e> {
         pushes.chain(changes.into_iter().flatten())
     }
 
-    /// The operations by which this edit changes corners, in order.
+    /// Returns the operations that apply this edit to corners, in order.
     pub fn corner_ops(&self) -> impl Iterator<Item = CornerOp<'e>> + use<'e> {
         let mut changes = [None; 2];
         match *self {
@@ -403,7 +406,8 @@ impl<'e> Edit<'e> {
         divisions.chain(changes.into_iter().flatten())
     }
 
-    /// The faces that this edit divides, with their children. Only an insertion divides faces.
+    /// Returns the faces that this edit divides, each with its children. The result is empty unless
+    /// the edit is an insertion.
     pub fn families(&self) -> impl Iterator<Item = FaceFamily<'e>> + use<'e> {
         families(match self {
             Edit::Insert(insert) => insert.children,
@@ -413,7 +417,7 @@ impl<'e> Edit<'e> {
 }
 
 impl<'e> Insert<'e> {
-    /// The faces that this insertion divided, with their children.
+    /// Returns the faces that this insertion divided, each with its children.
     pub fn families(&self) -> impl Iterator<Item = FaceFamily<'e>> + use<'e> {
         families(self.children)
     }

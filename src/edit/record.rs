@@ -3,27 +3,27 @@
 use super::cursor::{Cursor, RunningHash};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
-/// One change of a mesh.
+/// A record of one change of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Edit<'e> {
-    /// A vertex was split.
+    /// A vertex was split into two.
     Split(Split<'e>),
     /// Vertices were inserted on edges and in faces.
     Insert(Insert<'e>),
-    /// Two vertices were merged.
+    /// Two vertices were merged into one.
     Merge(Merge<'e>),
-    /// A vertex slid along an edge.
+    /// A vertex was moved along an edge.
     Slide(Slide<'e>),
 }
 
 impl Edit<'_> {
-    /// The number of this record. Records are numbered from 0.
+    /// Returns the number of this record. Records are numbered from 0.
     #[must_use]
     pub fn number(&self) -> u64 {
         self.before().number()
     }
 
-    /// The place in the log before this record.
+    /// Returns the place in the log before this record.
     #[must_use]
     pub fn before(&self) -> Cursor {
         match self {
@@ -34,7 +34,7 @@ impl Edit<'_> {
         }
     }
 
-    /// The place in the log after this record. Linear in the record.
+    /// Returns the place in the log after this record. Linear in the size of the record.
     #[must_use]
     pub fn after(&self) -> Cursor {
         let before = self.before();
@@ -110,138 +110,138 @@ pub struct Split<'e> {
     pub before: Cursor,
     /// The vertex that was split. It keeps at least one face.
     pub old: VertexId,
-    /// The new vertex, which has the highest id of the mesh.
+    /// The new vertex. It has the highest id of the mesh.
     pub new: VertexId,
     /// The corners that moved to the new vertex: at least one, in the order of a walk around the
     /// old vertex.
     pub corners: &'e [HalfEdgeId],
-    /// The links that this split tore.
+    /// The links that this split tore, if any.
     pub torn: &'e [TornLink],
 }
 
-/// A link between a face that stayed with a vertex and a face that went to its copy.
+/// A link between a face that stayed with a vertex and a face that moved to the copy of this vertex.
 ///
-/// A split makes it a ghost pair, and a merge makes it a pair again.
+/// A split turns the link into a ghost pair, and a merge turns it back into a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TornLink {
-    /// The half-edge in the face that stayed.
+    /// The half-edge of the face that stayed.
     pub stayed: HalfEdgeId,
-    /// The opposite half-edge, in the face that moved.
+    /// The opposite half-edge, which belongs to the face that moved.
     pub moved: HalfEdgeId,
 }
 
-/// The record of an insertion: vertices were inserted, and each face that got any was divided into
-/// *children*.
+/// The record of an insertion. Each face that got a new vertex was divided into *children*.
 ///
-/// The record is complete: from it alone a follower can compute what a new vertex or corner
-/// should have. Weights refer to what was there before the insertion.
+/// A follower can compute the values of all new vertices and corners from this record alone.
+/// Weights refer to the vertices and corners from before the insertion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Insert<'e> {
     /// The place in the log before this record.
     pub before: Cursor,
-    /// The new vertices, ascending. They have the highest ids of the mesh, without a gap. A point
-    /// on a torn edge has two vertices, one after the other.
+    /// The new vertices, in ascending order. Their ids are the highest of the mesh, without a gap.
+    /// A point on a torn edge has two vertices, one after the other.
     pub points: &'e [InsertedPoint],
-    /// The faces that replaced divided ones. Children of the same parent are neighbours in this
-    /// list.
+    /// The children of all divided faces. Those of the same face are listed one after another.
     pub children: &'e [ChildFace],
 }
 
-/// A new vertex and where it is.
+/// A new vertex and its location.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InsertedPoint {
     /// The new vertex.
     pub vertex: VertexId,
-    /// Where the new vertex is, relative to vertices that existed before.
+    /// The location of the new vertex, relative to vertices that existed before the insertion.
     pub at: InsertLocation,
 }
 
-/// A place on an edge or in a face.
+/// A location on an edge or in a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InsertLocation {
-    /// At `ends[0] + t (ends[1] − ends[0])`.
+    /// The point `ends[0] + t (ends[1] − ends[0])` of an edge.
     Edge {
-        /// The ends of the edge.
+        /// The vertices at the ends of the edge.
         ends: [VertexId; 2],
-        /// The parameter, strictly between 0 and 1.
+        /// The fraction of the way from `ends[0]` to `ends[1]`, strictly between 0 and 1.
         t: f64,
     },
-    /// At the weighted mean of the corners of a face.
+    /// The weighted mean of the corners of a face.
     Face {
-        /// The corners of the face.
+        /// The vertices of the face.
         vertices: [VertexId; 3],
-        /// The weights of the corners: positive, and of sum one up to rounding.
+        /// The weights of the vertices, in the same order. They are positive, and their sum is one
+        /// up to rounding.
         weights: [f64; 3],
     },
 }
 
-/// A face that replaced part of a divided face.
+/// A face that replaced part of a divided face, its *parent*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChildFace {
     /// The face that was divided.
     pub parent: FaceId,
-    /// The id of this child. The first child of a family has the id of the parent.
+    /// The id of this child. The first child of each parent has the parent's id.
     pub face: FaceId,
-    /// The vertices of the child.
+    /// The vertices of the child, in the order of its half-edges.
     pub vertices: [VertexId; 3],
-    /// Where each corner of the child lies in the parent.
+    /// The locations of the child's corners in the parent, in the order of `vertices`.
     pub sources: [CornerSource; 3],
     /// The fraction of the parent's area that the child covers. The shares of all children of a
     /// parent add up to one, up to rounding.
     pub share: f64,
 }
 
-/// Where a corner of a child lies in its parent. The half-edges are corners of the parent, as they
-/// were before the insertion.
+/// The location of a child's corner in its parent. Half-edges stand for the corners of the parent,
+/// with their ids from before the insertion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CornerSource {
-    /// At a corner of the parent.
+    /// The corner coincides with this corner of the parent.
     Corner(HalfEdgeId),
-    /// On an edge of the parent, at `ends[0] + t (ends[1] − ends[0])`. Both faces of the edge have
-    /// the same `t` and the same direction.
+    /// The corner lies on an edge of the parent, at `ends[0] + t (ends[1] − ends[0])`. Both faces
+    /// of the edge use the same `t` and the same direction.
     Edge {
-        /// The corners at the ends of the edge.
+        /// The corners of the parent at the ends of the edge.
         ends: [HalfEdgeId; 2],
-        /// The parameter, strictly between 0 and 1.
+        /// The fraction of the way from `ends[0]` to `ends[1]`, strictly between 0 and 1.
         t: f64,
     },
-    /// Inside the parent.
+    /// The corner lies inside the parent.
     Face {
-        /// The weights of the corners of the parent, in their order.
+        /// The weights of the parent's corners, in the order of its half-edges. They are positive,
+        /// and their sum is one up to rounding.
         weights: [f64; 3],
     },
 }
 
-/// The record of a merge: two vertices of one root became one.
+/// The record of a merge: two vertices that were split from the same one became one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Merge<'e> {
     /// The place in the log before this record.
     pub before: Cursor,
-    /// The vertex that now has all corners: the one with the lower id.
+    /// The vertex that has the corners of both. It is the one with the lower id.
     pub kept: VertexId,
-    /// The vertex that disappeared.
+    /// The vertex that was removed.
     pub gone: VertexId,
-    /// The weight of `kept` in the merged value, which is `kept + (1 − share) (gone − kept)`. Equal
-    /// values stay as they are.
+    /// The weight of `kept`, from 0 to 1, in the merged value, which is `kept + (1 − share) (gone −
+    /// kept)`. Equal values stay as they are.
     pub share: f64,
-    /// The corners that went from `gone` to `kept`: at least one, in the order of a walk around
-    /// `gone`.
+    /// The corners that moved from `gone` to `kept`, in the order of a walk around `gone`. There is
+    /// at least one.
     pub corners: &'e [HalfEdgeId],
-    /// The vertex that took the freed id, unless `gone` was the last one.
+    /// The last vertex, which took the id of `gone`, or `None` if `gone` was the last vertex.
     pub renumbered: Option<Renumbered<'e>>,
-    /// The links that became pairs again. `stayed` is in a face of `kept`, and `moved` in a face
-    /// that came from `gone`.
+    /// The links that became pairs again. In each of them, `stayed` belongs to a face of `kept`,
+    /// and `moved` to a face that came from `gone`.
     pub sewn: &'e [TornLink],
 }
 
-/// The last vertex of a mesh took the id of a vertex that disappeared in a merge.
+/// The last vertex of a mesh, which took the id of a vertex that was removed by a merge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Renumbered<'e> {
-    /// The id that the vertex had before.
+    /// The id of the vertex before the merge.
     pub from: VertexId,
-    /// The id that the vertex has now.
+    /// The id of the vertex after the merge.
     pub to: VertexId,
-    /// The corners of the renumbered vertex.
+    /// All corners of the renumbered vertex.
     pub corners: &'e [HalfEdgeId],
 }
 
@@ -253,13 +253,13 @@ pub struct Slide<'e> {
     pub before: Cursor,
     /// The vertex that slid.
     pub vertex: VertexId,
-    /// The vertex towards which it slid, which did not move.
+    /// The vertex toward which it slid. This vertex did not move.
     pub toward: VertexId,
-    /// The fraction of the way: the vertex is now at `vertex + t (toward − vertex)`, with t
-    /// strictly between 0 and 1.
+    /// The fraction of the way to `toward`, strictly between 0 and 1. The vertex is now at
+    /// `vertex + t (toward − vertex)`.
     pub t: f64,
     /// For each of the up to two faces of the edge, its corner at `vertex` and its corner at
-    /// `toward`.
+    /// `toward`. `None` stands for a face that does not exist.
     pub along: [Option<[HalfEdgeId; 2]>; 2],
     /// All corners of `vertex`, in the order of a walk around it.
     pub corners: &'e [HalfEdgeId],

@@ -2,7 +2,7 @@
 
 use crate::id::{FaceId, HalfEdgeId};
 
-/// A set of points, on edges and in faces, that are inserted all at once.
+/// A set of points on edges and in faces that are inserted at once.
 ///
 /// ```
 /// use tearmesh::{shapes, insert::Plan, Edits, FaceId, HalfEdgeId};
@@ -27,32 +27,32 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// An empty plan.
+    /// Creates an empty plan.
     #[must_use]
     pub fn new() -> Plan {
         Plan::default()
     }
 
-    /// Forgets all points and keeps the memory.
+    /// Removes all points and chords, and keeps the allocated memory.
     pub fn clear(&mut self) {
         self.points.clear();
         self.chords.clear();
     }
 
-    /// The number of points.
+    /// Returns the number of points. A point on a torn edge counts once.
     #[must_use]
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// Whether the plan has no points.
+    /// Returns whether the plan has no points.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// Adds a point on an edge, at the fraction `t` of the way from the origin of `h` to its
-    /// target. On a torn edge a point is also added on the other side, at the same `t`.
+    /// Adds a point on an edge, at the fraction `t` of the way from the origin of `h` to its target. It
+    /// must be strictly between 0 and 1. On a torn edge, the same point is also added on the other side.
     pub fn on_edge(&mut self, h: HalfEdgeId, t: f64) -> PointId {
         self.push(Point::Edge {
             h,
@@ -62,8 +62,8 @@ impl Plan {
     }
 
     /// Adds a point on an edge, at the fraction `t` of the way from the target of `h` to its
-    /// origin. On a torn edge a point is also added on the other side. [`Plan::on_edge`] with `1 −
-    /// t` may differ in the last bit.
+    /// origin. On a torn edge, the same point is also added on the other side. The result may
+    /// differ in the last bit from [`Plan::on_edge`] with `1 − t`.
     pub fn on_edge_backward(&mut self, h: HalfEdgeId, t: f64) -> PointId {
         self.push(Point::Edge {
             h,
@@ -72,11 +72,11 @@ impl Plan {
         })
     }
 
-    /// Adds a point in a face, at the weighted mean of its corners in their order. The
-    /// weights are divided by their sum.
+    /// Adds a point in a face, at the weighted mean of its corners. The weights are given in the
+    /// order of the face's corners, must be positive, and are divided by their sum.
     ///
-    /// The first point of a face is joined to all corners of the face and all points on its edges.
-    /// Each further point is joined to the corners of the triangle in which it then lies.
+    /// The first point of a face is joined to all corners of the face and to all points on its
+    /// edges. Each further point is joined to the corners of the triangle that then contains it.
     pub fn in_face(&mut self, f: FaceId, weights: [f64; 3]) -> PointId {
         self.push(Point::Face { f, weights })
     }
@@ -86,32 +86,32 @@ impl Plan {
         PointId(self.points.len() as u32 - 1)
     }
 
-    /// Requires that an edge of the result run straight across a face, which must not have points
-    /// inside. This is needed only if the face has more than two points on its edges: two points on
-    /// different edges are joined anyway, and a single point is joined to the opposite corner.
+    /// Requires an edge of the result that crosses a face along a straight line. The face must not have
+    /// points inside. A chord is needed only if the face has more than two points on its edges: two
+    /// points on different edges are always joined, and a single point is joined to the opposite corner.
     pub fn chord(&mut self, f: FaceId, ends: [ChordEnd; 2]) {
         self.chords.push(Chord { f, ends });
     }
 }
 
-/// The number of a point in its plan, from 0.
+/// The number of a point in its plan, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PointId(pub(super) u32);
 
 impl PointId {
-    /// The index of the point in its plan, for use with slices.
+    /// Returns the index of the point in its plan, counted from 0.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// An end of a chord: a corner of the face, or a point on one of its edges.
+/// An end of a chord: a corner of its face, or a point on an edge of the face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChordEnd {
-    /// A corner of the face.
+    /// The corner at which this half-edge starts. It must be a corner of the chord's face.
     Corner(HalfEdgeId),
-    /// A point of the plan.
+    /// A point of the plan on an edge of the chord's face.
     Point(PointId),
 }
 

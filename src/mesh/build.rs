@@ -15,7 +15,7 @@ use super::{Link, Mesh, NO_HALF_EDGE};
 use crate::id::HalfEdgeId;
 
 impl Mesh {
-    /// Builds the mesh of these triangles over `vertices` vertices.
+    /// Builds a mesh of `vertices` vertices from triangles, each given by the indices of its vertices.
     ///
     /// The triangles must form an oriented 2-manifold, with or without boundary, in
     /// any number of components (Souza et al. 2014 §IV-B: "we assume that our
@@ -24,8 +24,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`BuildError`] lists every [`Defect`](super::Defect), each with the ids concerned. To
-    /// name them takes O(n log n), and up to twelve bytes a face beside the error itself.
+    /// [`BuildError`] lists every [`Defect`](super::Defect), each with the ids concerned. Listing the
+    /// defects takes O(n log n) time and up to twelve bytes per face in addition to the error itself.
     ///
     /// ```
     /// use tearmesh::{Defect, Mesh};

@@ -17,45 +17,47 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Invariant {
-    /// I1: the sizes of the tables agree and fit the id types.
+    /// I1: each face has three origins and three links, and the number of faces and vertices fits
+    /// the id types.
     Sizes = 1,
-    /// I2: every id is in range.
+    /// I2: every stored id is smaller than the number of elements of its kind.
     Range = 2,
-    /// I3: a face has three distinct vertices.
+    /// I3: the three vertices of a face are distinct.
     DistinctVertices = 3,
-    /// I4: the link of half-edges is an involution between different faces.
+    /// I4: if half-edge a is linked to b, then b is linked to a, and the two belong to different faces.
     Involution = 4,
-    /// I5: the torn mark is symmetric.
+    /// I5: if the link from half-edge a to b is torn, then the link from b to a is torn.
     TornSymmetric = 5,
-    /// I6: both ends of a pair agree.
+    /// I6: if half-edges a and b are paired, then a starts where b ends, and b starts where a ends.
     PairAgrees = 6,
-    /// I7: at least one end of a torn link differs.
+    /// I7: if half-edges a and b are a ghost pair, they have different vertices at one end or both.
     TornDiffers = 7,
     /// I8: all corners of a vertex lie in one orbit of the rotation through pairs and ghost pairs,
     /// so they were once the corners of one vertex.
     OneRoot = 8,
-    /// I9: the half-edge of a vertex is the smallest one that starts there.
+    /// I9: [`Mesh::half_edge_of`] returns the smallest half-edge that starts at the vertex.
     Outgoing = 9,
-    /// I10: the walk round a vertex lists exactly its corners, each once.
+    /// I10: [`Mesh::corners_of`] lists exactly the corners of the vertex, each once.
     Walk = 10,
-    /// I11: a directed edge occurs once.
+    /// I11: at most one half-edge runs from a vertex a to a vertex b.
     DirectedEdgeOnce = 11,
-    /// I12: opposite directed edges are paired.
+    /// I12: if one half-edge runs from a to b and another from b to a, the two are paired.
     OppositesPaired = 12,
     /// I13: no two faces have the same three vertices.
     FacesDiffer = 13,
-    /// I18: the boundary loops visit each boundary half-edge once, end to end.
+    /// I18: the boundary loops visit each half-edge without a pair exactly once, and each half-edge
+    /// of a loop starts where the previous one ends.
     BoundaryLoops = 18,
-    /// I19: the fans of a vertex are those that union-find sees.
+    /// I19: [`Mesh::fans`] lists one corner of each set of corners of a vertex that pairs join.
     Fans = 19,
 }
 
-/// A broken invariant, and where it is broken.
+/// A broken invariant, and the place in the mesh where it is broken.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// Which invariant is broken.
+    /// The invariant that is broken.
     pub invariant: Invariant,
-    /// What was found instead, with ids.
+    /// A description of the state that violates the invariant, with ids.
     pub found: String,
 }
 
@@ -70,10 +72,12 @@ impl fmt::Display for Violation {
 }
 
 impl Mesh {
-    /// Checks every invariant and lists all violations. The list is empty for every mesh that can
-    /// be made with this library.
+    /// Checks every invariant and returns all violations. The result is empty for every mesh that
+    /// this library can create.
     ///
-    /// If table sizes or id ranges are wrong, nothing else is checked. O(n log n).
+    /// If table sizes or id ranges are wrong, nothing else is checked. If faces or links are wrong,
+    /// the vertices and boundary loops are not checked. The walks around a vertex are checked for
+    /// at most 32 of the vertices that were split from the same one. O(n log n).
     #[must_use]
     pub fn check(&self) -> Vec<Violation> {
         let mut report = Report {

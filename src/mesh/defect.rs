@@ -15,8 +15,8 @@ use std::fmt;
 use super::Mesh;
 use crate::id::{FaceId, VertexId};
 
-/// Why triangles were refused: a list of every defect, in the order of [`Defect`]'s variants and
-/// then by ids.
+/// The reason why triangles were refused: a list of every defect, ordered by the variants of
+/// [`Defect`] and then by ids.
 #[derive(Clone)]
 pub struct BuildError {
     /// Ascending.
@@ -27,8 +27,8 @@ pub struct BuildError {
 }
 
 impl BuildError {
-    /// All defects; there is always at least one. Reading a defect takes time proportional to its
-    /// lists.
+    /// Returns all defects. There is always at least one. Reading a defect takes time proportional
+    /// to the lists in it.
     ///
     /// ```
     /// use tearmesh::{Defect, Mesh};
@@ -91,62 +91,61 @@ impl BuildError {
     }
 }
 
-/// One reason why triangles were refused, with all ids concerned. It is a view into a
-/// [`BuildError`].
+/// One defect of the given triangles, with all ids concerned. It is a view into a [`BuildError`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Defect<'e> {
-    /// There are more vertices than ids.
+    /// More vertices were given than a mesh can have.
     TooManyVertices {
         /// The number of vertices given.
         given: usize,
         /// The limit, [`Mesh::MAX_VERTICES`].
         limit: usize,
     },
-    /// There are more faces than ids.
+    /// More faces were given than a mesh can have.
     TooManyFaces {
         /// The number of faces given.
         given: usize,
         /// The limit, [`Mesh::MAX_FACES`].
         limit: usize,
     },
-    /// A face names a vertex that does not exist.
+    /// A face refers to a vertex that does not exist.
     IndexOutOfRange {
-        /// The face that names the vertex.
+        /// The face that refers to the vertex.
         face: FaceId,
-        /// The corner of the face, 0 to 2.
+        /// The corner of the face that refers to it: 0, 1 or 2.
         corner: usize,
-        /// The vertex index given there.
+        /// The vertex index at that corner.
         index: u32,
-        /// The number of vertices.
+        /// The number of vertices given. Valid indices are smaller.
         vertices: usize,
     },
-    /// A face names the same vertex twice.
+    /// A face lists the same vertex twice.
     RepeatedVertex {
-        /// The face that names a vertex twice.
+        /// The face that lists a vertex twice.
         face: FaceId,
-        /// The vertex that is named twice.
+        /// The vertex that is listed twice.
         vertex: VertexId,
     },
-    /// Several faces have the same three vertices, and at least two of them face the same way.
+    /// Several faces have the same three vertices, and at least two of them have the same orientation.
     DuplicateFaces {
-        /// The vertices, ascending.
+        /// The three vertices of the faces, in ascending order.
         vertices: [VertexId; 3],
-        /// All faces on them.
+        /// All faces with these three vertices, in ascending order.
         faces: Faces<'e>,
     },
-    /// Two faces have the same three vertices and lie back to back.
+    /// Two faces have the same three vertices and opposite orientations.
     Pillow {
-        /// The vertices, ascending.
+        /// The three vertices of the two faces, in ascending order.
         vertices: [VertexId; 3],
-        /// The two faces, ascending.
+        /// The two faces, in ascending order.
         faces: [FaceId; 2],
     },
     /// Three or more faces share an edge.
     CrowdedEdge {
-        /// The ends, ascending.
+        /// The two vertices of the edge, in ascending order.
         ends: [VertexId; 2],
-        /// All faces on the edge.
+        /// All faces on the edge, in ascending order.
         faces: Faces<'e>,
     },
     /// Two faces traverse an edge in the same direction, so one of them is flipped.
@@ -155,14 +154,14 @@ pub enum Defect<'e> {
         from: VertexId,
         /// The vertex at which both half-edges end.
         to: VertexId,
-        /// The two faces, ascending.
+        /// The two faces, in ascending order.
         faces: [FaceId; 2],
     },
     /// A vertex has several fans of faces that share no edge (Souza et al. 2014, Fig. 2).
     BowTie {
         /// The vertex that has several fans.
         vertex: VertexId,
-        /// The faces of each fan; the fan with the smallest face comes first.
+        /// The faces of each fan. The fan that contains the smallest face comes first.
         fans: Fans<'e>,
     },
 }
@@ -180,7 +179,7 @@ impl<'e> Faces<'e> {
         Faces { count, bytes }
     }
 
-    /// How many there are.
+    /// Returns the number of faces.
     #[expect(
         clippy::len_without_is_empty,
         reason = "a list of faces is never empty"
@@ -190,7 +189,7 @@ impl<'e> Faces<'e> {
         self.count
     }
 
-    /// Iterates over the faces.
+    /// Returns an iterator over the faces, in ascending order.
     #[must_use]
     pub fn iter(self) -> impl ExactSizeIterator<Item = FaceId> + Clone + use<'e> {
         let Faces { count, mut bytes } = self;
@@ -201,7 +200,7 @@ impl<'e> Faces<'e> {
         })
     }
 
-    /// The smallest.
+    /// Returns the smallest face.
     #[expect(
         clippy::missing_panics_doc,
         reason = "only a bug of ours can trip the expectation"
@@ -212,7 +211,7 @@ impl<'e> Faces<'e> {
     }
 }
 
-/// The fans that a [`Defect::BowTie`] lists: two or more.
+/// The fans that a [`Defect::BowTie`] lists. There are always at least two.
 #[derive(Clone, Copy)]
 pub struct Fans<'e> {
     count: usize,
@@ -225,7 +224,7 @@ impl<'e> Fans<'e> {
         Fans { count, bytes }
     }
 
-    /// How many there are.
+    /// Returns the number of fans.
     #[expect(
         clippy::len_without_is_empty,
         reason = "a bow-tie has two fans or more"
@@ -235,7 +234,8 @@ impl<'e> Fans<'e> {
         self.count
     }
 
-    /// Iterates over the fans, each as its faces.
+    /// Returns an iterator over the fans, each given as its faces. The fan that contains the
+    /// smallest face comes first.
     #[must_use]
     pub fn iter(self) -> impl ExactSizeIterator<Item = Faces<'e>> + Clone {
         let Fans { count, mut bytes } = self;

@@ -3,12 +3,12 @@
 use super::Mesh;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
-/// A mesh that was derived from another one, its *source*. It knows from which vertex, face and
-/// corner of the source each of its own comes. [`Mesh::pieces`] and
-/// [`Insertions::undone`](crate::Insertions::undone) make such meshes.
+/// A mesh that was derived from another one, its *source*. Each of its vertices, faces and corners
+/// is mapped to the one in the source that it comes from. [`Mesh::pieces`] and
+/// [`Insertions::undone`](crate::Insertions::undone) return such meshes.
 ///
-/// The log of a new mesh starts anew: its followers begin at [`Cursor::START`](crate::Cursor::START),
-/// with values that are taken over from those of the source.
+/// The derived mesh needs a new log. Its followers start at
+/// [`Cursor::START`](crate::Cursor::START), with values that are copied from those of the source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DerivedMesh {
     mesh: Mesh,
@@ -42,53 +42,57 @@ impl DerivedMesh {
         }
     }
 
-    /// The derived mesh.
+    /// Returns the derived mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The derived mesh, without its maps.
+    /// Returns the derived mesh and discards the maps.
     #[must_use]
     pub fn into_mesh(self) -> Mesh {
         self.mesh
     }
 
-    /// For each vertex, the vertex of the source that it comes from. Ascending; two vertices may
-    /// come from the same one.
+    /// Returns the vertex of the source that each vertex of the derived mesh comes from. The list is
+    /// indexed by derived vertex and ascending; it may contain a vertex of the source more than once.
     #[must_use]
     pub fn vertices(&self) -> &[VertexId] {
         &self.vertices
     }
 
-    /// For each face, the face of the source that it comes from. Ascending.
+    /// Returns the face of the source that each face of the derived mesh comes from. The list is
+    /// indexed by derived face and ascending.
     #[must_use]
     pub fn faces(&self) -> &[FaceId] {
         &self.faces
     }
 
-    /// For each corner, which is also a half-edge, the corner of the source that it comes from.
+    /// Returns the corner of the source that each corner of the derived mesh comes from. The list
+    /// is indexed by derived half-edge.
     #[must_use]
     pub fn corners(&self) -> &[HalfEdgeId] {
         &self.corners
     }
 
-    /// The vertices that come from a vertex of the source; empty if it is not in this mesh.
-    /// Logarithmic.
+    /// Returns the vertices of the derived mesh that come from the vertex `source` of the source
+    /// mesh. The result is empty if there are none. Logarithmic.
     pub fn vertices_of(&self, source: VertexId) -> impl ExactSizeIterator<Item = VertexId> + use<> {
         let start = self.vertices.partition_point(|&v| v < source);
         let end = self.vertices.partition_point(|&v| v <= source);
         (start as u32..end as u32).map(VertexId::from_u32)
     }
 
-    /// The face that comes from a face of the source, if it is in this mesh. Logarithmic.
+    /// Returns the face of the derived mesh that comes from the given face of the source, or `None`
+    /// if there is none. Logarithmic.
     #[must_use]
     pub fn face_of(&self, source: FaceId) -> Option<FaceId> {
         let at = self.faces.binary_search(&source).ok()?;
         Some(FaceId::from_u32(at as u32))
     }
 
-    /// The corner that comes from a corner of the source, if it is in this mesh. Logarithmic.
+    /// Returns the corner of the derived mesh that comes from the given corner of the source, or
+    /// `None` if there is none. Logarithmic.
     #[must_use]
     pub fn corner_of(&self, source: HalfEdgeId) -> Option<HalfEdgeId> {
         if self.corners_by_source.is_empty() {
@@ -100,32 +104,35 @@ impl DerivedMesh {
         at.ok().map(|at| self.corners_by_source[at])
     }
 
-    /// Selects the values of this mesh's vertices from those of the source.
+    /// Returns the values of the derived mesh's vertices, copied from `of_source`, which has one
+    /// value for each vertex of the source.
     ///
     /// # Panics
     ///
-    /// If there is not a value for each vertex of the source.
+    /// If `of_source` does not have a value for each vertex of the source.
     #[must_use]
     pub fn vertex_values<T: Clone>(&self, of_source: &[T]) -> Vec<T> {
         let values = self.vertices.iter().map(|v| v.of(of_source).clone());
         values.collect()
     }
 
-    /// Selects the values of this mesh's faces from those of the source.
+    /// Returns the values of the derived mesh's faces, copied from `of_source`, which has one value
+    /// for each face of the source.
     ///
     /// # Panics
     ///
-    /// If there is not a value for each face of the source.
+    /// If `of_source` does not have a value for each face of the source.
     #[must_use]
     pub fn face_values<T: Clone>(&self, of_source: &[T]) -> Vec<T> {
         self.faces.iter().map(|f| f.of(of_source).clone()).collect()
     }
 
-    /// Selects the values of this mesh's corners from those of the source.
+    /// Returns the values of the derived mesh's corners, copied from `of_source`, which has three
+    /// values for each face of the source.
     ///
     /// # Panics
     ///
-    /// If there are not three values for each face of the source.
+    /// If `of_source` does not have three values for each face of the source.
     #[must_use]
     pub fn corner_values<T: Clone>(&self, of_source: &[T]) -> Vec<T> {
         let values = self.corners.iter().map(|h| h.of(of_source).clone());

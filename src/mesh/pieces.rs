@@ -21,13 +21,13 @@ use super::{Link, Mesh, NO_HALF_EDGE};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 impl Mesh {
-    /// Makes a mesh of each component, with maps back to this mesh. Piece `i` has the faces of
-    /// component `i`, in the same order.
+    /// Builds a separate mesh from each component, with maps back to this mesh. Piece `i` has the
+    /// faces of component `i`, in the same order.
     ///
-    /// A tear inside a piece can be sewn there. A tear between two pieces cannot: a ghost link to
-    /// another piece becomes boundary, so keep the whole mesh if you want to sew it. A vertex of
-    /// two pieces becomes a vertex of each. A vertex whose fans in a piece were joined only through
-    /// other pieces becomes one vertex for each fan. Vertices without faces are in no piece.
+    /// A tear inside a piece can be sewn in that piece. A tear between two pieces cannot: its ghost
+    /// links become boundary, so keep the whole mesh if you want to sew it. A vertex that two
+    /// pieces share is copied to each of them. If the fans of a vertex in a piece were joined only
+    /// through other pieces, each fan gets its own vertex. Vertices without faces are in no piece.
     ///
     /// O(n log n).
     ///
@@ -54,7 +54,7 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If the components belong to another mesh (I2).
+    /// If `components` belong to another mesh (I2).
     #[must_use]
     pub fn pieces(&self, components: &Components) -> Vec<DerivedMesh> {
         let mut faces: Vec<Vec<FaceId>> = vec![Vec::new(); components.count()];

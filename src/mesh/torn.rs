@@ -11,16 +11,16 @@ use super::{BuildError, Link, Mesh, NO_HALF_EDGE};
 use crate::id::{HalfEdgeId, VertexId};
 
 impl Mesh {
-    /// Builds a torn mesh from its triangles and the root of each vertex. `roots[v]` is what
-    /// [`Mesh::root`] must give for vertex `v`: the smallest of the vertices that were split from
-    /// the same one, which is `v` itself if it was never split.
+    /// Builds a torn mesh from its triangles and the root of each vertex. `roots[v]` is the
+    /// smallest of the vertices that were split from the same one as `v`, as [`Mesh::root`] returns
+    /// it. It is `v` itself if `v` was never split.
     ///
-    /// If each vertex is its own root, this is [`Mesh::build`].
+    /// If each vertex is its own root, the result is that of [`Mesh::build`].
     ///
     /// # Errors
     ///
-    /// [`TornError`] if the roots contradict each other, or if the triangles with each vertex
-    /// replaced by its root are not an oriented 2-manifold.
+    /// [`TornError`] if the roots contradict each other, or if replacing each vertex by its root
+    /// does not turn the triangles into an oriented 2-manifold.
     ///
     /// ```
     /// use tearmesh::{Mesh, VertexId};
@@ -82,33 +82,34 @@ impl Mesh {
         }
     }
 
-    /// The root of every vertex, as [`Mesh::build_torn`] takes them. Linear.
+    /// Returns the root of every vertex, indexed by vertex, in the form that [`Mesh::build_torn`]
+    /// expects. Linear.
     #[must_use]
     pub fn roots(&self) -> Vec<u32> {
         self.all_roots().into_iter().map(VertexId::to_u32).collect()
     }
 }
 
-/// Why triangles and roots were refused.
+/// The reason why triangles and roots were refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TornError {
-    /// A triangle names a vertex that does not exist.
+    /// A triangle refers to a vertex that does not exist.
     Index {
-        /// The vertex index given.
+        /// The vertex index in the triangle.
         index: u32,
-        /// The number of vertices.
+        /// The number of roots given, which is the number of vertices.
         vertices: usize,
     },
-    /// A root is not the smallest of the vertices that have it, or a vertex without faces has
-    /// another vertex as its root or is the root of another one.
+    /// A root is not the smallest of the vertices that have this root, or a vertex without faces
+    /// shares its root with another vertex.
     Root {
         /// The vertex with the wrong root.
         vertex: VertexId,
         /// The root that was given for the vertex.
         root: u32,
     },
-    /// The triangles, with each vertex replaced by its root, are not an oriented 2-manifold.
+    /// The triangles do not form an oriented 2-manifold after each vertex is replaced by its root.
     Build(BuildError),
 }
 

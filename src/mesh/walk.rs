@@ -19,8 +19,12 @@ use super::Mesh;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 impl Mesh {
-    /// All corners of a vertex, as the half-edges that start there. There is one for each face that
-    /// has the vertex, however torn the mesh is around it.
+    /// Returns all corners of a vertex, as the half-edges that start there: one for each face that
+    /// has the vertex, however torn the mesh is.
+    ///
+    /// The walk starts at [`Mesh::half_edge_of`] and turns counter-clockwise, seen from the side
+    /// from which faces are counter-clockwise. Where it reaches the original boundary, it continues
+    /// clockwise from the start.
     ///
     /// ```
     /// use tearmesh::{Mesh, VertexId};
@@ -38,13 +42,13 @@ impl Mesh {
         }
     }
 
-    /// The faces of a vertex, in the order of [`Mesh::corners_of`].
+    /// Returns the faces of a vertex, in the order of [`Mesh::corners_of`].
     pub fn faces_of(&self, v: VertexId) -> impl FusedIterator<Item = FaceId> + '_ {
         self.corners_of(v).map(HalfEdgeId::face)
     }
 
-    /// The fan of the corner `h`: the corners of its vertex that are joined to it through pairs,
-    /// `h` first.
+    /// Returns the fan of the corner `h`: the corners that are joined to `h` through pairs around
+    /// its vertex. The first one is `h` itself.
     #[must_use]
     pub fn fan(&self, h: HalfEdgeId) -> Fan<'_> {
         h.of(&self.link); // The first step asks for the one before, and would name that.
@@ -56,7 +60,8 @@ impl Mesh {
         }
     }
 
-    /// One corner of each fan of a vertex.
+    /// Returns one corner of each fan of a vertex. It is the clockwise end of an open fan, and the
+    /// smallest half-edge of a closed one.
     ///
     /// A vertex inside an untorn surface, or on its boundary, has one fan. A vertex with two or
     /// more fans is a bow-tie (Souza et al. 2014, Fig. 2).
@@ -73,8 +78,8 @@ impl Mesh {
         first_corners().chain(closed)
     }
 
-    /// The vertex that `v` was before any split. It is the smallest of the vertices that were split
-    /// from the same one.
+    /// Returns the vertex that `v` was before any split: the smallest of the vertices that were
+    /// split from the same one.
     #[must_use]
     pub fn root(&self, v: VertexId) -> VertexId {
         Orbit::new(self, self.half_edge_of(v))
@@ -119,8 +124,8 @@ impl Mesh {
         self.pair_or_ghost(h).map(HalfEdgeId::next)
     }
 
-    /// The half-edges of the boundary loop on which `h` lies, `h` first. The sides of a tear count
-    /// as boundary. Empty if `h` has a pair.
+    /// Returns the half-edges of the boundary loop that contains `h`, end to end, starting with
+    /// `h`. The sides of a tear count as boundary. The result is empty if `h` has a pair.
     ///
     /// ```
     /// use tearmesh::Mesh;
@@ -144,9 +149,9 @@ impl Mesh {
         }
     }
 
-    /// The smallest half-edge of each boundary loop, ascending.
+    /// Returns the smallest half-edge of each boundary loop, in ascending order.
     ///
-    /// Allocates a mark for each half-edge; linear.
+    /// Allocates one mark per half-edge; linear.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<HalfEdgeId> {
         let mut seen = vec![false; self.half_edge_count()];
@@ -162,9 +167,9 @@ impl Mesh {
         loops
     }
 
-    /// The components of the mesh. A component is a set of faces joined by shared edges.
+    /// Returns the components of the mesh. A component is a maximal set of faces joined by shared edges.
     ///
-    /// Allocates a number for each face; linear.
+    /// Allocates one number per face; linear.
     #[must_use]
     pub fn components(&self) -> Components {
         let mut of_face = vec![u32::MAX; self.face_count()];
@@ -192,7 +197,7 @@ impl Mesh {
         }
     }
 
-    /// The faces that share an edge with a face, up to three.
+    /// Returns the faces that share an untorn edge with a face: at most three.
     pub fn neighbours(&self, f: FaceId) -> impl FusedIterator<Item = FaceId> + '_ {
         self.half_edges_of(f)
             .into_iter()
@@ -201,7 +206,7 @@ impl Mesh {
     }
 }
 
-/// The corners of a vertex: see [`Mesh::corners_of`].
+/// An iterator over the corners of a vertex: see [`Mesh::corners_of`].
 #[derive(Clone, Debug)]
 pub struct Corners<'m> {
     vertex: VertexId,
@@ -266,7 +271,7 @@ impl Iterator for Orbit<'_> {
 
 impl FusedIterator for Orbit<'_> {}
 
-/// The corners of a fan: see [`Mesh::fan`].
+/// An iterator over the corners of a fan: see [`Mesh::fan`].
 #[derive(Clone, Debug)]
 pub struct Fan<'m> {
     mesh: &'m Mesh,
@@ -299,7 +304,7 @@ impl Iterator for Fan<'_> {
 
 impl FusedIterator for Fan<'_> {}
 
-/// The half-edges of a boundary loop: see [`Mesh::boundary_loop`].
+/// An iterator over the half-edges of a boundary loop: see [`Mesh::boundary_loop`].
 #[derive(Clone, Debug)]
 pub struct BoundaryLoop<'m> {
     mesh: &'m Mesh,
@@ -332,14 +337,14 @@ pub struct Components {
 }
 
 impl Components {
-    /// The number of components.
+    /// Returns the number of components.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The number of the component that a face belongs to. Components are numbered from 0, in the
-    /// order of their smallest faces.
+    /// Returns the number of the component that contains a face. Components are numbered from 0, in
+    /// the order of their smallest faces.
     #[must_use]
     pub fn of(&self, f: FaceId) -> usize {
         *f.of(&self.of_face) as usize

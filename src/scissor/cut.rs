@@ -10,7 +10,7 @@ use crate::geometry::{Ray, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::{Components, Mesh};
 
-/// The result of a cut. The log says which faces were divided and which vertices are new.
+/// The result of a cut. The divided faces and new vertices are in the log.
 ///
 /// ```
 /// use tearmesh::{shapes, Cut, CutMethod, Edits, Plane, Point, Scissor, Side, Vector};
@@ -45,35 +45,35 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// The faces that have a vertex on the seam, in ascending order, each with its side. The side
-    /// is `None` for a face that extends to both sides, beyond an end of the slit or where nothing
-    /// was cut. A face that lies entirely on the plane has the side of the faces around it.
+    /// Returns the faces that have a vertex on the seam, in ascending order, each with its side.
+    /// The side is `None` for a face that extends to both sides, beyond an end of the slit or where
+    /// nothing was cut. A face that lies in the plane has the side of the faces around it.
     #[must_use]
     pub fn sides(&self) -> &[(FaceId, Option<Side>)] {
         &self.touched
     }
 
-    /// The side of a face with a vertex on the seam: see [`Cut::sides`].
+    /// Returns the side of a face, or `None` if [`Cut::sides`] lists the face without a side or not at all.
     #[must_use]
     pub fn side(&self, f: FaceId) -> Option<Side> {
         side_of(&self.touched, f)
     }
 
-    /// The lines of the seam, which consist of the edges that the cut tore. A line ends where the
-    /// seam ends or branches. Closed lines come last.
+    /// Returns the lines of the seam. A line consists of edges that the cut tore, and ends where
+    /// the seam ends or branches. Closed lines come last.
     #[must_use]
     pub fn seam(&self) -> impl ExactSizeIterator<Item = SeamLine<'_>> {
         let lines = self.lines.spans().zip(&self.tips);
         lines.map(|(lips, &tips)| SeamLine { lips, tips })
     }
 
-    /// The vertices at which the seam ends inside the mesh, line by line.
+    /// Returns the vertices at which the seam ends inside the mesh, in the order of the lines.
     pub fn tips(&self) -> impl Iterator<Item = VertexId> {
         self.tips.iter().flatten().flatten().copied()
     }
 
-    /// Where each ray met the layer that was cut, for a cut with [`CutLayers::First`]. If the two
-    /// hits name different chains, both chains were cut.
+    /// Returns where each ray met a layer that was cut, or `None` for a ray that found no layer or a cut
+    /// without [`CutLayers::First`]. If the two hits have different chains, both chains were cut.
     ///
     /// [`CutLayers::First`]: super::CutLayers::First
     #[must_use]
@@ -81,14 +81,14 @@ impl Cut {
         self.hits
     }
 
-    /// The two ends of a cut between rays, from which another cut can continue; `None` for a cut by
-    /// a plane.
+    /// Returns the two ends of a cut between rays, in the order of the rays, or `None` for a cut by
+    /// a plane. Another cut can continue from an end.
     #[must_use]
     pub fn ends(&self) -> Option<&[CutEnd; 2]> {
         self.ends.as_ref()
     }
 
-    /// The pieces of the mesh after the cut. Linear in the mesh.
+    /// Returns the pieces of the mesh, which must not have been edited since the cut. Linear.
     #[must_use]
     pub fn pieces(&self, mesh: &Mesh) -> CutPieces {
         let components = mesh.components();
@@ -109,32 +109,32 @@ impl Cut {
     }
 }
 
-/// A line of the seam.
+/// A line of the seam: a chain of edges that the cut tore.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SeamLine<'c> {
-    /// The edges of the line in order. Each is given as the half-edge on the front lip, which runs
-    /// along the line, and its ghost pair on the back lip, which runs against it. Where the paper's
-    /// methods tear an edge on one side of the plane, either lip may come first.
+    /// The edges of the line, in order. Each is given as the half-edge on the front lip, which runs along
+    /// the line, and its ghost pair on the back lip, which runs against the line. For the two methods of
+    /// the paper, either lip may come first in an edge that was torn on one side of the plane.
     pub lips: &'c [[HalfEdgeId; 2]],
-    /// The vertices at which the line begins and ends, each if the lips are still joined there.
+    /// The vertices at the start and the end of the line. Each is `None` if the two lips are separate there.
     pub tips: [Option<VertexId>; 2],
 }
 
-/// The pieces of a mesh after a cut.
+/// The pieces of a mesh after a cut. Piece `i` is component `i`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CutPieces {
-    /// The component of each face. A component is a piece.
+    /// The component of each face.
     pub components: Components,
-    /// For each piece, the side of the seam on which it lies; `None` if it has both lips, or no
-    /// part of the seam.
+    /// The side of the seam on which each piece lies, indexed by piece. It is `None` if the
+    /// piece has both lips of the seam, or no part of it.
     pub sides: Vec<Option<Side>>,
 }
 
 /// An end of a cut, from which another cut can continue: see
 /// [`Scissor::continued`](super::Scissor::continued).
 ///
-/// It holds vertex ids, so it is a follower: if the mesh was edited since, replay the log on this
-/// end before using it.
+/// It stores vertex ids and is therefore a follower. If the mesh was edited since the cut, replay
+/// the log on this end before using it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutEnd {
     pub(super) ray: Ray,
@@ -144,14 +144,14 @@ pub struct CutEnd {
 }
 
 impl CutEnd {
-    /// The ray at which the cut ended.
+    /// Returns the ray at which the cut ended.
     #[must_use]
     pub fn ray(&self) -> Ray {
         self.ray
     }
 
-    /// The vertices at which a cut that continues from here begins; empty unless a cut by the
-    /// method `exact` ended at the ray.
+    /// Returns the vertices at which a continuing cut begins. The result is empty unless a cut by
+    /// the method `exact` ended at the ray.
     #[must_use]
     pub fn vertices(&self) -> &[VertexId] {
         &self.vertices

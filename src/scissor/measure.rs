@@ -17,18 +17,18 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
-/// Measurements of a cut.
+/// The measurements of a cut.
 ///
-/// A *component* is a set of faces joined by shared edges. The *seam* is the set of edges
-/// that this cut tore. Lengths are in the units of the model.
+/// A *component* is a set of faces joined by shared edges. The *seam* is the set of edges that this cut
+/// tore. The *slit* is the part of the plane between the side planes. Lengths are in units of the model.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CutReport {
     /// The number of faces that the slit crosses.
     pub faces_crossed: usize,
-    /// The number of splits. A vertex that was split twice counts twice.
+    /// The number of vertex splits. A vertex that was split twice counts twice.
     pub splits: usize,
-    /// The number of splits that were refused because all faces were on one side.
+    /// The number of splits that were refused because all faces of the vertex were on one side.
     pub refused: usize,
     /// The number of half-edges whose pair became a ghost pair: two for each edge of the seam.
     pub ghost_pairs: usize,
@@ -36,41 +36,41 @@ pub struct CutReport {
     pub pieces_before: usize,
     /// The number of components after the cut.
     pub pieces: usize,
-    /// The number of components that a cut exactly along the slit would leave. It is more if the
-    /// method `exact` snaps an end of the slit to the boundary. A face on the plane counts as
-    /// front, except for the method `exact`, which does not cut what the plane merely touches.
+    /// The number of components that a cut exactly along the slit would leave. It may be larger if
+    /// the method `exact` snaps an end of the slit to the boundary. A face on the plane counts as
+    /// front, except for the method `exact`, which does not cut faces that the plane merely touches.
     pub pieces_expected: usize,
-    /// How many more pieces there are than expected.
+    /// The number of pieces in excess of `pieces_expected`, which is 0 for a perfect cut.
     pub crumbs: usize,
-    /// How many fewer pieces there are than expected.
+    /// The number of pieces missing from `pieces_expected`, which is 0 for a perfect cut.
     pub lost: usize,
-    /// Whether the sides are separated where the slit meets the mesh: no vertex strictly between
-    /// the side planes belongs to faces of both sides, and no edge there joins both.
+    /// Whether the two sides are separate where the slit meets the mesh. If true, no vertex strictly
+    /// between the side planes belongs to faces of both sides, and no edge there joins both.
     pub separated: bool,
-    /// The length of the seam.
+    /// The sum of the lengths of all edges of the seam, each counted once.
     pub seam_length: f64,
-    /// The length of the seam divided by the length of the slit on the mesh; 0 if there is no slit,
-    /// or if it is too short to divide by.
+    /// The length of the seam divided by the length of the slit on the mesh. It is 0 if there is no
+    /// slit, or if the slit is too short to divide by.
     pub seam_length_ratio: f64,
-    /// The largest distance of a seam vertex from the plane.
+    /// The largest distance of a vertex of the seam from the plane.
     pub seam_deviation_max: f64,
-    /// The largest distance of a seam vertex from the plane, divided by the mean edge length of the
-    /// mesh before the cut.
+    /// The largest distance of a vertex of the seam from the plane, divided by the mean edge length
+    /// of the mesh before the cut.
     pub seam_deviation_max_edges: f64,
     /// The number of vertices inserted on edges and in faces.
     pub vertices_inserted: usize,
-    /// The smallest angle of any face after the cut, in degrees.
+    /// The smallest angle of any face after the cut, in degrees, or 0 for a mesh without faces.
     pub angle_min_deg: f64,
-    /// The smallest altitude of any face after the cut.
+    /// The smallest altitude of any face after the cut, or 0 for a mesh without faces.
     pub altitude_min: f64,
-    /// Whether the slit meets no face at all.
+    /// Whether the slit meets no face.
     pub missed: bool,
-    /// The distance of the nearest vertex from the slit: the root of the summed squares of its
-    /// distance from the plane and the distance by which it lies outside the side planes.
+    /// The distance of the vertex closest to the slit before the cut: √(p² + s²), where p is the
+    /// distance from the plane and s is the distance by which the vertex lies outside the side planes.
     pub nearest_vertex: f64,
-    /// How far each tip of the seam lies beyond the nearer side plane; negative for a tip that
-    /// falls short. In ascending order of the tips' vertices. A tip is an end of the seam inside
-    /// the mesh.
+    /// The distance of each tip of the seam beyond the nearer side plane. It is negative for a tip
+    /// that stops short of that plane. A tip is an end of the seam inside the mesh. The list is in
+    /// ascending order of the tips' vertices, and empty for a cut along the whole plane.
     pub tip_overshoots: Vec<f64>,
 }
 

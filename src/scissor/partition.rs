@@ -24,15 +24,15 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
-/// Where a finite cut by the method `partition` ends.
+/// The rule for where a finite cut by the method `partition` ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CutTips {
-    /// The paper's rule: a vertex is split if it lies between the side planes. This separates
-    /// everything strictly between them, and overshoots each tip by half an edge on average.
+    /// A vertex is split if it lies between the side planes. This is the rule of the paper. It separates
+    /// everything strictly between the planes, and each tip overshoots by half an edge on average.
     #[default]
     Vertex,
-    /// An edge is cut if its midpoint lies between the side planes. The length is unbiased, but
-    /// about one vertex between the planes may stay shared.
+    /// An edge is cut if its midpoint lies between the side planes. The length of the cut is
+    /// unbiased, but about one vertex between the planes may stay shared.
     Midpoint,
 }
 

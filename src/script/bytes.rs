@@ -4,8 +4,8 @@ use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot
 use crate::scissor::CutTips;
 
 impl Script {
-    /// The script that these bytes stand for: at most [`Script::OPERATIONS_MAX`] operations on
-    /// a mesh of at most a few hundred faces. Where bytes are missing they count as zero.
+    /// Decodes bytes as a script of at most [`Script::OPERATIONS_MAX`] operations on a mesh of at
+    /// most a few hundred faces. Missing bytes count as zero.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Script {
         let mut bytes = Bytes(bytes);
@@ -17,8 +17,8 @@ impl Script {
         Script { shape, operations }
     }
 
-    /// Bytes that stand for this script: what [`Script::from_bytes`] gave, and what was parsed
-    /// from text, comes back. Numbers beyond the limits of a [`Shape`] do not.
+    /// Encodes this script as bytes from which [`Script::from_bytes`] restores it, if it came from
+    /// bytes or text. Numbers that exceed the limits of a [`Shape`] are not restored.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();

@@ -5,30 +5,30 @@ use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::shapes;
 
-/// A small mesh with positions, given by a few numbers.
+/// A small mesh with positions, defined by a few numbers.
 ///
-/// The limits on the numbers hold for shapes made from bytes and text. [`Shape::make`] does not
-/// enforce them.
+/// Scripts from bytes and text respect the limits on the numbers. [`Shape::make`] does not enforce
+/// the upper limits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// A grid of cells, with a bit for each diagonal (modulo 64): see
+    /// A grid of cells, with one bit for the direction of each diagonal: see
     /// [`shapes::grid_with_diagonals`].
     Grid {
         /// The number of columns, 1 to 5.
         columns: u8,
         /// The number of rows, 1 to 5.
         rows: u8,
-        /// Bit `row * columns + column`: the diagonal of that cell rises.
+        /// The diagonals: bit `(row * columns + column) % 64` is set if the diagonal of that cell rises.
         rising: u64,
     },
     /// A fan of triangles around a vertex: see [`shapes::fan`].
     Fan {
         /// The number of faces, 3 to 16.
         faces: u8,
-        /// Whether the fan goes all the way round.
+        /// Whether the fan is a full disc.
         closed: bool,
     },
-    /// The saddle that one plane cuts into four arcs: see [`shapes::saddle`].
+    /// A saddle that one plane cuts into four arcs: see [`shapes::saddle`].
     Saddle,
     /// A tube that is open at both ends: see [`shapes::tube`].
     Tube {
@@ -44,44 +44,44 @@ pub enum Shape {
         /// The number of cells the short way around, 3 to 5.
         across: u8,
     },
-    /// A tetrahedron, each face of which is divided into four this many times.
+    /// A tetrahedron whose faces are subdivided into four, repeatedly.
     Tetrahedron {
-        /// The number of subdivisions, 0 or 1.
+        /// The number of repetitions, 0 or 1.
         subdivisions: u8,
     },
-    /// An octahedron, each face of which is divided into four this many times.
+    /// An octahedron whose faces are subdivided into four, repeatedly.
     Octahedron {
-        /// The number of subdivisions, 0 or 1.
+        /// The number of repetitions, 0 or 1.
         subdivisions: u8,
     },
-    /// A triangulation of a disc, a sphere or something with holes, grown from one triangle by
-    /// up to [`GROWN_MAX`] moves: modulo 4, each byte puts a vertex in a face, puts an
-    /// ear on a boundary edge, flips an edge, or closes the gap between two boundary edges; the
-    /// rest of the byte says where. What would not be a manifold is left undone.
+    /// A triangulation of a disc, a sphere or a surface with holes, grown from one triangle by up
+    /// to [`GROWN_MAX`] moves. Modulo 4, each byte inserts a vertex in a face, adds a triangle to a
+    /// boundary edge, flips an edge, or closes the gap between two boundary edges. The rest of the
+    /// byte selects the place. A move that would not leave a manifold is skipped.
     Grown(
-        /// The moves.
+        /// The moves, in order.
         Vec<u8>,
     ),
-    /// Loose triangles whose sides are glued in pairs, in any genus and any number of
-    /// components, and one vertex without a face. What would not be a manifold
-    /// is left unglued.
+    /// Separate triangles whose sides are glued in pairs, with any genus and any number of
+    /// components, and one vertex without a face. A gluing that would not leave a manifold is
+    /// skipped.
     Glued {
         /// The number of triangles, 1 to 24.
         faces: u8,
-        /// Pairs of sides, up to [`GROWN_MAX`], modulo three times the faces.
+        /// The pairs of sides, up to [`GROWN_MAX`], each number modulo three times `faces`.
         sides: Vec<[u8; 2]>,
     },
 }
 
-/// The most moves of a grown mesh, and the most gluings of a glued one.
+/// The largest number of moves of a grown mesh, and of gluings of a glued one.
 pub const GROWN_MAX: usize = 48;
 
 impl Shape {
-    /// Makes the mesh of this shape and the positions of its vertices.
+    /// Creates the mesh of this shape and the positions of its vertices.
     ///
     /// # Panics
     ///
-    /// If a number is below the limit given with its shape.
+    /// If a number is below the lower limit given for its shape.
     #[must_use]
     pub fn make(&self) -> (Mesh, Positions) {
         match *self {

@@ -3,15 +3,15 @@
 use super::{Fault, Operation, Script, Shape, Spot};
 
 impl Script {
-    /// A small script that still fails: operations are left out, first many at once, then what stays
-    /// and the mesh are made simpler, for as long as the result fails. So everything that is
-    /// left is needed: without any one operation, spot or row of the mesh it would not fail.
+    /// Reduces a failing script to a small script that still fails. Operations are removed, first many at
+    /// once, and then the remaining ones and the mesh are simplified while the result still fails. Every part
+    /// that remains is needed: without any one operation, spot or row of the mesh, the script would not fail.
     ///
-    /// `fails` says whether a script fails, by whatever property. One that panics can be caught, as
-    /// below. A script that does not fail comes back as it is.
+    /// `fails` returns whether a script fails, by any criterion. It may catch panics, as in this
+    /// example. A script that does not fail is returned unchanged.
     ///
-    /// Runs `fails` some thousand times: about n log n times for n operations, and up to 64 times for
-    /// each number that stays.
+    /// Calls `fails` some thousand times: about n log n times for n operations, and up to 64 times
+    /// for each number that remains.
     ///
     /// ```
     /// use std::panic::{AssertUnwindSafe, catch_unwind};

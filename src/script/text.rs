@@ -150,14 +150,14 @@ impl fmt::Display for Operation {
     }
 }
 
-/// A line of a script that cannot be read.
+/// A word in the text of a script that could not be parsed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScriptError {
-    /// The number of the line, from 1.
+    /// The number of the line, counted from 1.
     pub line: usize,
-    /// The word that was not understood; empty at the end of the line.
+    /// The word that could not be parsed, or an empty string at the end of the line.
     pub word: String,
-    /// What was expected in place of the word.
+    /// A description of the expected word.
     pub expected: String,
 }
 

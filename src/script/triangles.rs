@@ -3,7 +3,7 @@
 use crate::edit::{Cursor, Edit, Follower};
 use crate::mesh::Mesh;
 
-/// The triangles of a mesh, kept up to date by the records alone.
+/// The triangles of a mesh, updated from the records of its log alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Triangles {
     indices: Vec<u32>,
@@ -18,7 +18,7 @@ impl Triangles {
         }
     }
 
-    /// The vertices of each face, by id.
+    /// Returns the three vertices of each face, indexed by face.
     #[must_use]
     pub fn as_slice(&self) -> &[[u32; 3]] {
         self.indices.as_chunks().0

@@ -17,138 +17,139 @@ use crate::split::{self, SplitRefusal};
 /// A mesh together with one follower of each kind.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// The mesh.
+    /// The mesh that the operations change.
     pub mesh: Mesh,
     /// The log of edits since it was last cleared.
     pub edits: Edits,
-    /// Positions, which have seen every edit.
+    /// The positions of the vertices, which have seen every edit.
     pub positions: Positions,
-    /// Masses by area with density 1, which have seen every edit.
+    /// The masses by area with density 1, which have seen every edit.
     pub area: Masses,
-    /// Masses by halves with density 1, which have seen every edit; `None` from the first
+    /// The masses by halves with density 1, which have seen every edit. `None` from the first
     /// insertion on, which they cannot follow.
     pub half: Option<Masses>,
-    /// The triangles, which have seen every edit.
+    /// The triangles of the mesh, which have seen every edit.
     pub triangles: Triangles,
-    /// The triangles once more, replayed only just before the log is cleared, so that they see many
-    /// edits at once.
+    /// A second copy of the triangles, replayed only just before the log is cleared, so that it
+    /// replays many edits at once.
     pub late_triangles: Triangles,
     /// The position of each corner, which has seen every edit. It equals the position of the
-    /// corner's vertex up to rounding, until copies that slid apart are merged: the merged vertex
-    /// then lies between them, and its corner values stay.
+    /// corner's vertex up to rounding, until copies that slid apart are merged. The merged vertex
+    /// then lies between them, and its corner values do not change.
     pub corners: PerCorner<[f64; 3]>,
 }
 
-/// A vertex whose insertion was requested.
+/// A vertex that a script requested to insert.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
-    /// On an edge: see [`Plan::on_edge`].
+    /// A vertex on an edge: see [`Plan::on_edge`].
     Edge {
-        /// A half-edge of the edge.
+        /// The half-edge along which `t` is measured.
         half_edge: HalfEdgeId,
-        /// How far along.
+        /// The fraction of the way from the origin of the half-edge to its target.
         t: f64,
     },
-    /// In a face: see [`Plan::in_face`].
+    /// A vertex in a face: see [`Plan::in_face`].
     Face {
-        /// The face in which to insert.
+        /// The face that gets the vertex.
         face: FaceId,
-        /// The weights of its corners.
+        /// The weights of the face's corners, in their order.
         weights: [f64; 3],
     },
 }
 
-/// An end of a chord that was requested.
+/// An end of a chord that a script requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AskedEnd {
-    /// A corner of the face.
+    /// The corner at which this half-edge starts.
     Corner(HalfEdgeId),
-    /// A point, by its number among the requested insertions.
+    /// A requested vertex, as its index among the requested insertions, from 0.
     Point(usize),
 }
 
-/// What was done to a [`World`]. An edit is given as the place in the log before its record.
+/// A step of a [`World`]: an attempted operation with its outcome. An edit is given as the place in
+/// the log before its record.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Step<'s> {
-    /// The mesh was built. Comes first, once.
+    /// The mesh was built. This is the first step of a script, and occurs once.
     Built,
-    /// A split by a set of faces was tried.
+    /// A split by a set of faces was attempted.
     Split {
-        /// The vertex to split.
+        /// The vertex that was to be split.
         vertex: VertexId,
-        /// The faces that were to move.
+        /// The faces that were to move to the new vertex.
         faces: &'s [FaceId],
-        /// The edit, or why there was none.
+        /// The edit, or the reason for its refusal.
         outcome: Result<Cursor, SplitRefusal>,
     },
-    /// A split by a plane through the vertex was tried.
+    /// A split by a plane through the vertex was attempted.
     Plane {
-        /// The vertex to split.
+        /// The vertex that was to be split.
         vertex: VertexId,
-        /// The normal of the plane.
+        /// The normal of the plane, which need not be a unit vector.
         normal: [f64; 3],
-        /// The edit, if there was one.
+        /// The edit, or `None` if all faces were on one side of the plane.
         outcome: Option<Cursor>,
     },
-    /// A cut was made.
+    /// A cut was carried out by the method `partition`.
     Cut {
-        /// The first edit of the cut; those from there on are the cut's.
+        /// The place in the log before the first edit of the cut. All later edits belong to the cut.
         first: Cursor,
-        /// What the cut reported.
+        /// The measurements of the cut.
         report: &'s CutReport,
     },
-    /// An insertion was tried.
+    /// An insertion was attempted.
     Insert {
-        /// The points.
+        /// The vertices that were to be inserted.
         asked: &'s [Asked],
-        /// The chord that was demanded, and across which face.
+        /// The face and the ends of the required chord, or `None` if no chord was required.
         chord: Option<(FaceId, [AskedEnd; 2])>,
-        /// The edit, or why there was none.
+        /// The edit, or the reason for its refusal.
         outcome: Result<Cursor, insert::InsertRefusal>,
     },
-    /// A merge was tried.
+    /// A merge was attempted.
     Merge {
-        /// One of the two vertices.
+        /// The first of the two vertices.
         one: VertexId,
-        /// The other one of the two vertices.
+        /// The second of the two vertices.
         other: VertexId,
-        /// The weights of both.
+        /// The weights of the first and the second vertex.
         weights: [f64; 2],
-        /// The edit, or why there was none.
+        /// The edit, or the reason for its refusal.
         outcome: Result<Cursor, mend::MergeRefusal>,
     },
-    /// A slide was tried.
+    /// A slide was attempted.
     Slide {
-        /// The vertex to slide.
+        /// The vertex that was to slide.
         vertex: VertexId,
-        /// The vertex towards which it was to slide.
+        /// The vertex toward which it was to slide.
         toward: VertexId,
-        /// The fraction of the way to slide.
+        /// The fraction of the way to slide, strictly between 0 and 1 unless refused.
         t: f64,
-        /// The edit, or why there was none.
+        /// The edit, or the reason for its refusal.
         outcome: Result<Cursor, slide::SlideRefusal>,
     },
-    /// Copies were sewn together.
+    /// Chosen vertices with the same root were sewn together.
     Sewn {
-        /// The first edit; those from there on are merges.
+        /// The place in the log before the first edit. All later edits are merges of this step.
         first: Cursor,
         /// The stitches that were requested.
         stitches: &'s [Stitch],
-        /// The number of merges.
+        /// The number of merges, which is the number of edits.
         merges: usize,
     },
-    /// All followers replayed the log, and it was cleared.
+    /// All followers replayed the log, and the log was cleared.
     Cleared,
-    /// The operation did nothing: its normal was zero, or its rays spanned no plane.
+    /// Nothing was done, because the normal was zero or the rays spanned no plane.
     Nothing,
 }
 
 impl Script {
-    /// Makes the mesh, applies the operations, and shows the observer the world after
-    /// each step. All followers but [`World::late_triangles`] have replayed by then.
+    /// Builds the mesh, applies the operations in order, and calls `observe` with the world after
+    /// each step. All followers except [`World::late_triangles`] have then replayed the log.
     ///
-    /// Tearing to pieces is many steps, each a split. A cut is one.
+    /// [`Operation::Tear`] consists of many steps, one for each split. A cut is one step.
     pub fn run(&self, mut observe: impl FnMut(&World, &Step<'_>)) -> World {
         let mut world = World::new(&self.shape);
         observe(&world, &Step::Built);
@@ -160,23 +161,23 @@ impl Script {
 }
 
 impl World {
-    /// A world of the mesh of this shape, with nothing done to it yet.
+    /// Creates a world from the mesh of a shape, before any operation.
     ///
     /// # Panics
     ///
-    /// If a number of the shape is below its limit.
+    /// If a number of the shape is below its lower limit.
     #[must_use]
     pub fn new(shape: &Shape) -> World {
         let (mesh, positions) = shape.make();
         World::of(mesh, positions)
     }
 
-    /// A world of this mesh, with nothing done to it yet.
+    /// Creates a world from a mesh, before any operation.
     ///
     /// # Panics
     ///
-    /// If the mesh has no area, or one that is too large or too small for exact masses, or
-    /// positions for fewer vertices than it has.
+    /// If the mesh has no area, if its area is too large or too small for exact masses, or if there
+    /// are fewer positions than vertices.
     #[must_use]
     pub fn of(mesh: Mesh, positions: Positions) -> World {
         let masses = "a mesh with an area has masses";
@@ -194,7 +195,7 @@ impl World {
         }
     }
 
-    /// Applies an operation, and shows the observer each step of it.
+    /// Applies an operation, and calls `observe` after each of its steps.
     pub fn apply(&mut self, operation: &Operation, mut observe: impl FnMut(&World, &Step<'_>)) {
         match *operation {
             Operation::Split {
@@ -301,7 +302,7 @@ impl World {
         neighbours
     }
 
-    /// Splits a vertex by a set of faces, and shows the observer that step.
+    /// Splits a vertex by a set of faces, and calls `observe` after this step.
     pub fn split(
         &mut self,
         vertex: VertexId,
@@ -430,8 +431,8 @@ impl World {
         self.insert(&asked, chord, observe);
     }
 
-    /// Inserts vertices, and shows the observer that step. `chord` is an edge that is required
-    /// across a face.
+    /// Inserts vertices, and calls `observe` after this step. `chord` is a face and the ends of an
+    /// edge that must cross it, or `None`.
     pub fn insert(
         &mut self,
         asked: &[Asked],
@@ -467,7 +468,7 @@ impl World {
         observe(self, &step);
     }
 
-    /// Merges two vertices, and shows the observer that step.
+    /// Merges two vertices, and calls `observe` after this step.
     pub fn merge(
         &mut self,
         one: VertexId,
@@ -487,7 +488,7 @@ impl World {
         observe(self, &step);
     }
 
-    /// Slides a vertex towards another, and shows the observer that step.
+    /// Slides a vertex toward another, and calls `observe` after this step.
     pub fn slide(
         &mut self,
         vertex: VertexId,

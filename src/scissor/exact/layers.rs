@@ -13,31 +13,30 @@ use crate::place::Positions;
 use crate::scissor::offsets::Offsets;
 use crate::sets::DisjointSets;
 
-/// Which layers of the mesh a cut goes through.
+/// The layers of the mesh that a cut passes through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CutLayers {
     /// All layers that the plane meets between the rays.
     #[default]
     All,
-    /// The layers that the rays meet first: the chain of crossed faces that the first ray hits
-    /// first, and the chain that the second ray hits first. A ray that misses the mesh is moved and
-    /// turned toward the other until it hits. If the rays hit different chains, both are cut. A cut
-    /// by a plane has no rays, and goes through all layers.
+    /// The layers that the rays meet first. These are the chain of crossed faces that the first ray
+    /// hits first, and the chain that the second ray hits first. If the two differ, both are cut. A
+    /// ray that misses the mesh is moved and turned toward the other until it hits. A cut by a
+    /// plane has no rays and passes through all layers.
     ///
     /// Methods that tear along edges tear along the faces of these chains and, at the ends of a
-    /// chain, along the faces in which the plane continues beyond the rays. So a layer is cut as if
-    /// the others were not there, except that a vertex is never split if it belongs only to other
-    /// chains.
+    /// chain, along the faces in which the plane continues beyond the rays. A layer is cut as if
+    /// the others were absent, but a vertex that belongs only to other chains is never split.
     First,
 }
 
-/// Where a ray met a layer that was cut: see [`CutLayers::First`].
+/// The place where a ray met a layer that was cut: see [`CutLayers::First`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerHit {
     /// The point at which the ray meets the layer.
     pub at: Point,
-    /// The face with the smallest id of the chain, before the cut. If both rays hit the same chain,
-    /// both hits have the same face here.
+    /// The smallest face id of the chain before the cut, which identifies the chain. If both rays
+    /// hit the same chain, both hits have the same value here.
     pub chain: FaceId,
 }
 
