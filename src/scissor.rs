@@ -333,10 +333,6 @@ impl Scissor {
     /// # Errors
     ///
     /// [`CutError`] gives the reason for a refusal. Nothing has changed then.
-    ///
-    /// # Panics
-    ///
-    /// If `edits` was cleared before `positions` replayed it.
     pub fn cut(
         &self,
         method: CutMethod,
@@ -355,10 +351,6 @@ impl Scissor {
     /// # Errors
     ///
     /// [`CutError`] gives the reason for a refusal. Nothing has changed then, including `cut`.
-    ///
-    /// # Panics
-    ///
-    /// If `edits` was cleared before `positions` replayed it.
     pub fn cut_into(
         &self,
         method: CutMethod,
@@ -378,10 +370,6 @@ impl Scissor {
     /// # Errors
     ///
     /// [`CutError`] gives the reason for a refusal. Nothing has changed then.
-    ///
-    /// # Panics
-    ///
-    /// If `edits` was cleared before `positions` replayed it.
     pub fn cut_measured(
         &self,
         method: CutMethod,
