@@ -67,8 +67,8 @@ pub enum AskedEnd {
     Point(usize),
 }
 
-/// A step of a [`World`]: an attempted operation with its outcome. An edit is given as the place in
-/// the log before its record.
+/// A step of a [`World`]: an attempted operation with its outcome. An edit is identified by the place
+/// in the log just before its record.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Step<'s> {

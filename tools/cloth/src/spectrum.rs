@@ -33,7 +33,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 use crate::element::{Busiest, Slope};
 use crate::system::{Counters, Model};
 
-/// The largest frequency of a system.
+/// An estimate of the largest natural frequency of a system, in rad/s, and how good it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequency {
     /// The angular frequency ω, in rad/s.

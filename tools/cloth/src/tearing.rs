@@ -76,10 +76,9 @@ use tearmesh::geometry::{Vector, check_point};
 #[non_exhaustive]
 pub enum Threshold {
     /// An edge tears when it is this many times as long as at rest, a number above 1. This is the
-    /// rule of the paper (Souza et al. 2014 §III-A). With Provot's limiter the length before
-    /// limiting counts. With [`Xpbd`](crate::Xpbd) the length counts that a spring would have under
-    /// the force of the multiplier, since the actual lengths depend on the number and order of
-    /// sweeps.
+    /// rule of the paper (Souza et al. 2014 §III-A). With Provot's limiter, the length is taken
+    /// before limiting. With [`Xpbd`](crate::Xpbd), it is the length at which a spring would exert
+    /// the force of the multiplier. Actual lengths depend on the number and order of sweeps there.
     Stretch(f64),
     /// An edge tears when its length, as a multiple of the rest length, reaches one ratio for edges
     /// along the warp, which is the direction of `axis` at rest, and another for edges along the

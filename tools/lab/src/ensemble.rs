@@ -24,7 +24,8 @@ use tearmesh_cloth::scene::{Chronicle, Frame, Run, RunError, Scene};
 use crate::pool::side_by_side;
 use crate::random::Random;
 
-/// The largest disturbance of a vertex along each axis, in metres. Larger noise gives the same spread.
+/// The largest random displacement of a free vertex from its starting position along each axis, in metres.
+/// Larger displacements spread the results of an ensemble no further.
 pub const NOISE_M: f64 = 1e-9;
 
 /// The cloth and the scene that an ensemble plays.

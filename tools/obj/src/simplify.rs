@@ -7,7 +7,7 @@ use crate::document::Document;
 use crate::torn::TornDocument;
 use crate::write::{Prepared, write};
 
-/// The simplified document, and the counts of the vertices concerned. Returned by
+/// A simplified document, and counts of the vertices that had to stay or were put back. Returned by
 /// [`TornDocument::simplified`].
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]

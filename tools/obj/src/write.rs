@@ -99,8 +99,8 @@ impl Document {
 
 impl TornDocument<'_> {
     /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
-    /// torn or has divided faces, a record of that is added at the end. Points set by
-    /// [`TornDocument::set_apart`] are used only if no vertex was moved other than by the log.
+    /// torn or has divided faces, a record of it is added at the end. Points set by
+    /// [`TornDocument::set_apart`] are used only if every vertex is still where the log put it.
     ///
     /// # Errors
     ///

@@ -38,7 +38,7 @@ pub(crate) enum Kind {
     Pair,
     /// Three numbers.
     Vector,
-    /// A number from zero up, or three.
+    /// A number from zero up, or a vector of three numbers.
     NumberOrVector,
     /// Two rays as in --rays.
     Rays,

@@ -64,7 +64,7 @@ pub struct Floor {
 /// The multiple of the floor below which errors are not distinguished.
 pub const FLOORS: f64 = 10.0;
 
-/// A run of the budget or at default settings.
+/// The result of one run: at a step of the planned range, or at default settings.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// The name of the run: case, method with settings, and the fraction of the base step or `default`.

@@ -155,8 +155,8 @@ pub struct Number {
     pub halvings: Vec<Option<Comparison>>,
     /// The names of the two methods whose finest ensembles are the reference; empty if no two methods agree.
     pub reference: Vec<&'static str>,
-    /// The comparison of the reference with the ensemble at the step, whose median is the numerator of the
-    /// ratio. `None` if there is no reference or no value.
+    /// The comparison of the reference with the ensemble at the step. In its ratio, the median of the
+    /// ensemble is the numerator. `None` if there is no reference or no value.
     pub against_reference: Option<Comparison>,
 }
 
