@@ -4,6 +4,7 @@ mod chart;
 mod check;
 mod cut;
 mod files;
+mod look;
 mod mend;
 mod read;
 mod render;

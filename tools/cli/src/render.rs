@@ -18,10 +18,10 @@ use crate::{files, output, picture, rays, report};
 pub(crate) fn run(args: &RenderArgs, streams: &mut Streams<'_>) -> Exit {
     let mut faults = Vec::new();
     let mut worked = work(args, &mut faults, streams);
-    if args.quiet || args.output == Path::new("-") {
+    if args.look.quiet || args.output == Path::new("-") {
         worked = worked.map(|_| String::new());
     }
-    streams.conclude(worked, faults, args.color)
+    streams.conclude(worked, faults, args.look.color)
 }
 
 /// Gives the summary.
@@ -49,7 +49,7 @@ fn work(
     let input = Input::find(&args.input, streams.input);
     let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
     let mut timing = report::Timing::default();
-    let repair = session::repair(args.repair, args.separate_fans);
+    let repair = session::repair(args.look.repair, args.look.separate_fans);
     let Opened {
         mesh, positions, ..
     } = session::open(&input, repair, faults, &mut timing)?;

@@ -19,10 +19,10 @@ use crate::{files, output, page, report};
 pub(crate) fn run(args: &ViewArgs, streams: &mut Streams<'_>) -> Exit {
     let mut faults = Vec::new();
     let mut worked = work(args, &mut faults, streams);
-    if args.quiet {
+    if args.look.quiet {
         worked = worked.map(|_| String::new());
     }
-    streams.conclude(worked, faults, args.color)
+    streams.conclude(worked, faults, args.look.color)
 }
 
 /// Gives the summary; none if the page is on standard output.
@@ -34,8 +34,8 @@ fn work(
     // What was typed is refused before large files are read.
     let inputs = inputs(args)?;
     let output = place(args, &inputs)?;
-    let repair = session::repair(args.repair, args.separate_fans);
-    let options = match (args.repair, args.separate_fans) {
+    let repair = session::repair(args.look.repair, args.look.separate_fans);
+    let options = match (args.look.repair, args.look.separate_fans) {
         (true, _) => " --repair",
         (false, true) => " --separate-fans",
         (false, false) => "",

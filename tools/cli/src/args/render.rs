@@ -6,7 +6,7 @@ use clap::Parser;
 use tearmesh::Point;
 use tearmesh_view::PictureSize;
 
-use crate::say::Color;
+use super::look::LookArgs;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -69,19 +69,6 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     pub(crate) edges: bool,
 
-    /// Repair the input, as `cut` does.
-    #[arg(long)]
-    pub(crate) repair: bool,
-
-    /// Give each fan of an input vertex a vertex of its own, as `cut` does.
-    #[arg(long, hide_short_help = true)]
-    pub(crate) separate_fans: bool,
-
-    /// When to use colours on the screen.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) color: Color,
-
-    /// Print no summary.
-    #[arg(short, long)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
 }

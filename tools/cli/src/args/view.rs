@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Parser;
 use tearmesh::Point;
 
-use crate::say::Color;
+use super::look::LookArgs;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,19 +40,6 @@ pub(crate) struct ViewArgs {
         default_value = "0,1,0")]
     pub(crate) up: Point,
 
-    /// Repair the input, as `cut` does.
-    #[arg(long)]
-    pub(crate) repair: bool,
-
-    /// Give each fan of an input vertex a vertex of its own, as `cut` does.
-    #[arg(long, hide_short_help = true)]
-    pub(crate) separate_fans: bool,
-
-    /// When to use colours on the screen.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) color: Color,
-
-    /// Print no summary.
-    #[arg(short, long)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
 }
