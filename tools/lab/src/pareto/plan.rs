@@ -1,7 +1,7 @@
 //! The runs of a case: references, the gate, and the budget, each with a name and a guess at its cost.
 
 use tearmesh_cloth::implicit::{self, Tolerance};
-use tearmesh_cloth::{Implicit, Solver, Unstable, Verlet};
+use tearmesh_cloth::{Implicit, Solver, Unstable};
 
 use super::method::{METHODS, Method, Named, PARTS, Store};
 use super::observable::Observable;
@@ -63,6 +63,20 @@ const NEWTON_STEPS: f64 = 20_000.0;
 /// The step of references at rest by Newton's method, in seconds.
 const REST_STEP_S: f64 = 0.02;
 
+/// The lightest middle particle, as a part of its mass, with which references divide the steps of all. They
+/// are a tenth as long then. Where it is lighter, they divide the steps around it alone.
+const LIGHT: f64 = 0.01;
+
+/// The method of references by Verlet's method, of the gate, and of what comes to rest beside them.
+fn reference(case: &Case) -> &'static Method {
+    let wanted = match case.scene.middle_mass_ratio < LIGHT {
+        true => "verlet",
+        false => "verlet-plain",
+    };
+    let found = METHODS.iter().find(|method| method.name == wanted);
+    found.expect("the methods of references are of the list")
+}
+
 /// Returns all runs of a case: the references, the gate, the budget by method and step, and the runs at
 /// default settings.
 ///
@@ -93,9 +107,7 @@ pub fn plan(case: &Case) -> Vec<Planned> {
         let reach = dt_s / case.edge_s();
         8.0 + 6.0 * reach.min(2.0 * f64::from(case.cells))
     };
-    let of = |name: &str| METHODS.iter().find(|method| method.name == name);
-    let plain = of("verlet-plain").expect("the plain method is one of the list");
-    let plain_s = plain.base_s(case);
+    let plain_s = reference(case).base_s(case);
     let mut runs = Vec::new();
     let is_compared = !case.scene.observables.contains(&Observable::EnergyMade);
     if is_compared {
@@ -181,7 +193,7 @@ impl Planned {
                 rest_m_per_s *= REST_OF_REFERENCES;
                 bounds.visits_max = u64::MAX;
                 match self.role {
-                    Role::Verlet => Box::new(Verlet::plain()),
+                    Role::Verlet => reference(case).solver(),
                     _ => Box::new(Implicit::new(newton(case.scene.until))),
                 }
             }
@@ -189,9 +201,9 @@ impl Planned {
                 if *is_disturbed {
                     system = case.disturbed(NOISE_M);
                 }
-                Box::new(Verlet::plain())
+                reference(case).solver()
             }
-            Role::Rest => Box::new(Verlet::plain()),
+            Role::Rest => reference(case).solver(),
             Role::Budget { method, .. } => METHODS[*method].solver(),
             Role::Named(named) => {
                 // A step of the program's own choice is not refused on the way, but divided.

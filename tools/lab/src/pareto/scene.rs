@@ -27,6 +27,9 @@ pub struct Scene {
     pub drag_per_s: f64,
     /// The shape in which the sheet starts.
     pub start: Start,
+    /// The factor by which the mass of the particle nearest to the centre is multiplied, as for the slivers
+    /// that cuts leave; 1 for none.
+    pub middle_mass_ratio: f64,
     /// The particles that are held.
     pub held: Held,
     /// The condition under which the scene ends.
@@ -52,8 +55,6 @@ pub enum Start {
     Taut(f64),
     /// The flat sheet, turned out of its plane by 30° about its upper edge.
     Turned,
-    /// The sheet of [`Turned`](Start::Turned), with the mass of the middle particle divided by 100.
-    TurnedSliver,
     /// The flat sheet, scaled by this factor.
     Crushed(f64),
 }
@@ -138,6 +139,7 @@ const SWING: Scene = Scene {
     gravity_m_per_s2: [0.0, -G, 0.0],
     drag_per_s: 10.0,
     start: Start::Turned,
+    middle_mass_ratio: 1.0,
     held: Held::Top,
     until: Until::Time(1.0),
     observables: MOTION,
@@ -178,7 +180,7 @@ pub const SCENES: [Scene; 11] = [
     Scene {
         name: "sliver",
         about: "S4: the swing with one vertex of mass/100",
-        start: Start::TurnedSliver,
+        middle_mass_ratio: 0.01,
         ..SWING
     },
     Scene {
@@ -271,9 +273,9 @@ impl Case {
     #[must_use]
     pub fn new(scene: &Scene, mesh: MeshKind, cells: u32) -> Case {
         let mut sheet = Sheet::new(mesh, cells, scene.side_m);
-        if scene.start == Start::TurnedSliver {
+        if scene.middle_mass_ratio != 1.0 {
             let middle = middle(&sheet);
-            sheet.masses[middle] /= 100.0;
+            sheet.masses[middle] *= scene.middle_mass_ratio;
         }
         let mut edges = sheet.edges.clone();
         if scene.start == Start::Shuffled {
@@ -400,7 +402,7 @@ impl Case {
 fn placed(p: &Point, scene: &Scene) -> Point {
     let side = scene.side_m;
     match scene.start {
-        Start::Turned | Start::TurnedSliver => {
+        Start::Turned => {
             let (sin, cos) = (0.5, 0.75_f64.sqrt());
             let below = p.y - side;
             Point::new(p.x, side + below * cos, below * sin)

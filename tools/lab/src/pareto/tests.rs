@@ -17,6 +17,7 @@ fn oscillator() -> Case {
         side_m: 1.0,
         gravity_m_per_s2: [0.0; 3],
         drag_per_s: 0.0,
+        middle_mass_ratio: 1.0,
         start: Start::Flat,
         held: Held::Top,
         until: Until::Time(SECONDS),
