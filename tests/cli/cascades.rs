@@ -22,7 +22,7 @@ fn a_small_chart_has_medians_verdicts_and_each_run_and_each_time_the_same() {
     assert!(said.contains("wrote t.svg, t.csv, t.json, r.csv"), "{said}");
 
     let report: serde_json::Value = serde_json::from_str(&folder.read("t.json")).expect("JSON");
-    assert_eq!(report["schema"], "tearmesh.chart.tear/2");
+    assert_eq!(report["schema"], "tearmesh.chart.tear/3");
     let command = report["provenance"]["command"].as_str().expect("a command");
     assert_eq!(
         command,

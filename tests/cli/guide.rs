@@ -382,8 +382,8 @@ fn batches_by_gnu_parallel() {
         fs::copy(folder.path(&format!("{name}.obj")), copy).expect("a copy");
     }
     let page = page("batches.md");
-    let [all, reported, places, resumed] = &blocks(&page, "sh")[..] else {
-        panic!("four batches");
+    let [all, reported, places, resumed, charts] = &blocks(&page, "sh")[..] else {
+        panic!("five batches");
     };
     let play = |batch: &str, expected: i32| {
         let output = shell(&folder, batch);
@@ -401,6 +401,14 @@ fn batches_by_gnu_parallel() {
             assert_eq!(cut, alone(&format!("{name}.obj {plane}")), "{name}");
         }
     };
+
+    play(charts, 0);
+    let whole = "tearmesh chart pareto --scene swing,hang --size 4 -o whole.svg --csv whole.csv";
+    assert!(folder.run(whole).status.success());
+    for ending in ["svg", "csv"] {
+        let of = |name: &str| folder.read(&format!("{name}.{ending}"));
+        assert_eq!(of("p"), of("whole"));
+    }
 
     play(all, 0);
     check();

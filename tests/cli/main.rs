@@ -27,6 +27,7 @@ mod numbers;
 mod odd;
 mod pages;
 mod pareto;
+mod parts;
 mod pictures;
 mod pieces;
 mod places;

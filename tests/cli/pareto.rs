@@ -44,7 +44,7 @@ fn a_small_chart_is_told_drawn_and_tabled_and_each_time_the_same() {
         assert!(table.lines().any(named), "no {run}");
     }
     let report: serde_json::Value = serde_json::from_str(&folder.read("p.json")).expect("JSON");
-    assert_eq!(report["schema"], "tearmesh.chart.pareto/1");
+    assert_eq!(report["schema"], "tearmesh.chart.pareto/2");
     assert_eq!(report["cases"].as_array().map(Vec::len), Some(2));
     assert_eq!(report["is_interrupted"], false);
 

@@ -5,6 +5,7 @@ mod cut;
 mod fig7;
 mod files;
 mod pareto;
+mod parts;
 mod progress;
 mod provenance;
 mod stability;

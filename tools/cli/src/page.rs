@@ -7,6 +7,7 @@ use tearmesh_view::{CutLine, Moment, Page, PageError};
 
 use crate::exit::{Exit, Stop};
 use crate::say::Fault;
+use crate::say::quoted;
 use crate::{files, picture};
 
 /// Adds a mesh to a page.
@@ -73,16 +74,6 @@ pub(crate) fn cut_line(name: &str, options: &str) -> CutLine {
         options: options.to_owned(),
         output: quoted(&output.display().to_string()),
     }
-}
-
-/// A name as a shell reads it, and no option.
-fn quoted(name: &str) -> String {
-    let name = match name.starts_with('-') {
-        true => format!("./{name}"),
-        false => name.to_owned(),
-    };
-    // No file has a name that no shell can be told.
-    shlex::try_quote(&name).map_or_else(|_| name.clone(), Into::into)
 }
 
 /// Writes a page into a file.

@@ -221,6 +221,16 @@ pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
+/// The name of a file as a shell reads it, and no option.
+pub(crate) fn quoted(name: &str) -> String {
+    let name = match name.starts_with('-') {
+        true => format!("./{name}"),
+        false => name.to_owned(),
+    };
+    // No file has a name that no shell can be told.
+    shlex::try_quote(&name).map_or_else(|_| name.clone(), Into::into)
+}
+
 /// A point for people, as it can be typed.
 pub(crate) fn place(at: [f64; 3]) -> String {
     at.map(short).join(",")

@@ -17,7 +17,7 @@ pub use self::compare::{Comparison, Verdict, compare, spread};
 use std::num::NonZero;
 use std::ops::RangeInclusive;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Positions, Vector};
 use tearmesh_cloth::scene::{Chronicle, Frame, Run, RunError, Scene};
 
@@ -44,7 +44,7 @@ pub struct Subject<'a> {
 }
 
 /// All runs of a subject with one step.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Ensemble {
     /// The number by which the step of the scene was divided.
     pub parts: u32,
@@ -55,20 +55,44 @@ pub struct Ensemble {
 }
 
 /// One run of an ensemble.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Member {
     /// The seed of the disturbance.
     pub seed: u64,
-    /// The status of the run: `done`, `failed` or `interrupted`.
-    pub status: &'static str,
+    /// The way in which the run ended.
+    pub status: MemberStatus,
     /// The reason for a failure; empty if the run did not fail.
     pub why: String,
     /// The measured quantities; `None` if the run did not reach its end.
     pub observed: Option<Observed>,
 }
 
+/// The ways in which a run of an ensemble ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MemberStatus {
+    /// The run reached its end.
+    Done,
+    /// The run could not be begun, or a step failed.
+    Failed,
+    /// The run was interrupted.
+    Interrupted,
+}
+
+impl MemberStatus {
+    /// Returns the name of the status in tables and reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            MemberStatus::Done => "done",
+            MemberStatus::Failed => "failed",
+            MemberStatus::Interrupted => "interrupted",
+        }
+    }
+}
+
 /// The measured quantities of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Observed {
     /// The time of the first tear, in seconds; `None` if nothing tore.
     pub first_tear_s: Option<f64>,
@@ -236,17 +260,17 @@ fn member(subject: Subject<'_>, parts: NonZero<u32>, seed: u64, stop: &dyn Fn() 
     });
     let mut run = match run {
         Ok(run) => run,
-        Err(why) => return ended("failed", why, None),
+        Err(why) => return ended(MemberStatus::Failed, why, None),
     };
     let before_m = run.torn_length_m();
     let mut chronicle = Chronicle::new(&run);
     while !run.is_over() {
         if stop() {
-            return ended("interrupted", String::new(), None);
+            return ended(MemberStatus::Interrupted, String::new(), None);
         }
         match run.step() {
             Ok(step) => chronicle.note(&run, &step),
-            Err(error) => return ended("failed", error.to_string(), None),
+            Err(error) => return ended(MemberStatus::Failed, error.to_string(), None),
         }
     }
     let first = chronicle.first_tear();
@@ -259,7 +283,7 @@ fn member(subject: Subject<'_>, parts: NonZero<u32>, seed: u64, stop: &dyn Fn() 
         largest_force_n,
         work_j: largest_force_n.map(|_| run.energy_balance().held_j),
     };
-    ended("done", String::new(), Some(seen))
+    ended(MemberStatus::Done, String::new(), Some(seen))
 }
 
 /// A run with the step that the scene has, divided.

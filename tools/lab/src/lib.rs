@@ -4,6 +4,8 @@
 //! [`stability`] measures where methods fail, and whether users are told. [`cut`] measures the time and the
 //! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
 //!
+//! [`parts`] puts together what was run apart.
+//!
 //! Each experiment returns its figures as plain data, which can be drawn as SVG and written as CSV. Nothing
 //! here reads a file or a clock: a clock is an argument. So the same experiment gives the same bytes.
 
@@ -12,6 +14,7 @@ mod draw;
 pub mod ensemble;
 pub mod fig7;
 pub mod pareto;
+pub mod parts;
 pub mod pool;
 mod provenance;
 mod random;

@@ -56,8 +56,9 @@ pub use self::words::summary;
 use std::num::NonZero;
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::parts::{Divided, Missing};
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
@@ -83,10 +84,10 @@ pub struct Options {
 pub const VISITS_MAX: u64 = 200_000_000;
 
 /// The results of the experiment on work against precision.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Study {
     /// The name and version of the file format.
-    pub schema: &'static str,
+    pub schema: String,
     /// The origin of the results.
     pub provenance: Provenance,
     /// The seed of all random numbers.
@@ -99,6 +100,29 @@ pub struct Study {
     pub is_interrupted: bool,
     /// The results of each case, ordered by scene, then by kind of mesh, then by size.
     pub cases: Vec<CaseStudy>,
+    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    pub missing: Vec<Missing>,
+}
+
+impl Divided for Study {
+    const SCHEMA: &'static str = "tearmesh.chart.pareto/2";
+
+    fn provenance(&self) -> &Provenance {
+        &self.provenance
+    }
+
+    fn merged(parts: Vec<Study>, provenance: Provenance, missing: Vec<Missing>) -> Option<Study> {
+        let is_interrupted = parts.iter().any(|part| part.is_interrupted);
+        let mut parts = parts.into_iter();
+        let mut whole = parts.next()?;
+        whole.cases.extend(parts.flat_map(|part| part.cases));
+        Some(Study {
+            provenance,
+            is_interrupted,
+            missing,
+            ..whole
+        })
+    }
 }
 
 /// Returns the cases of the experiment, ordered by scene, then by kind of mesh, then by size.
@@ -196,13 +220,14 @@ pub fn study(
         });
     }
     Study {
-        schema: "tearmesh.chart.pareto/1",
+        schema: Study::SCHEMA.to_owned(),
         provenance,
         seed: SEED,
         visits_max: options.visits_max,
         repeats: options.repeats,
         is_interrupted: stop(),
         cases: studies,
+        missing: Vec::new(),
     }
 }
 

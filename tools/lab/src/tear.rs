@@ -25,13 +25,14 @@ pub use self::svg::svg;
 
 use std::num::NonZero;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
 use self::cascade::Cascade;
 use self::pulled::{Pulled, mean};
 use self::strip::strip;
+use crate::parts::{Divided, Missing};
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
@@ -45,10 +46,10 @@ pub const RATIO: f64 = 1.5;
 const SAMPLES: u64 = 240;
 
 /// The results of both experiments on tearing.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Chart {
     /// The name and version of the file format.
-    pub schema: &'static str,
+    pub schema: String,
     /// The origin of the results.
     pub provenance: Provenance,
     /// The results of the trouser tests.
@@ -56,6 +57,8 @@ pub struct Chart {
     pub study: Study,
     /// The results of many seeds, one entry per scene and method; empty if none were played.
     pub cascades: Vec<Cascade>,
+    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    pub missing: Vec<Missing>,
 }
 
 impl Chart {
@@ -63,23 +66,51 @@ impl Chart {
     #[must_use]
     pub fn new(provenance: Provenance, study: Study, cascades: Vec<Cascade>) -> Chart {
         Chart {
-            schema: "tearmesh.chart.tear/2",
+            schema: Chart::SCHEMA.to_owned(),
             provenance,
             study,
             cascades,
+            missing: Vec::new(),
         }
     }
 }
 
-/// The results of the trouser tests.
-#[derive(Clone, Debug, Serialize)]
+/// A part is all strips, or the ensembles of one scene by one method.
+impl Divided for Chart {
+    const SCHEMA: &'static str = "tearmesh.chart.tear/3";
+
+    fn provenance(&self) -> &Provenance {
+        &self.provenance
+    }
+
+    fn merged(parts: Vec<Chart>, provenance: Provenance, missing: Vec<Missing>) -> Option<Chart> {
+        if parts.is_empty() {
+            return None;
+        }
+        let (mut study, mut cascades) = (Study::default(), Vec::new());
+        for part in parts {
+            if !part.study.tests.is_empty() {
+                study = part.study;
+            }
+            cascades.extend(part.cascades);
+        }
+        cascade::conclude(&mut cascades);
+        Some(Chart {
+            missing,
+            ..Chart::new(provenance, study, cascades)
+        })
+    }
+}
+
+/// The results of the trouser tests. By default there are none.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Study {
     /// The stiffness of the edges, in N/m.
     pub stretch_n_per_m: f64,
     /// The tests, first all by stretch ratio and then all by toughness, each in the order of `cells`.
     pub tests: Vec<Test>,
     /// The slope of the largest force against the edge length, both as logarithms, by stretch ratio and by
-    /// toughness. A slope of 1 means proportional, and 0 means independent.
+    /// toughness. A slope of 1 means proportional, and 0 means independent. Both are 0 if there are no tests.
     pub slopes_largest: [f64; 2],
     /// The slopes of the mean force, by stretch ratio and by toughness, as in `slopes_largest`.
     pub slopes_mean: [f64; 2],
@@ -88,10 +119,10 @@ pub struct Study {
 }
 
 /// The results of one strip.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Test {
     /// The tearing rule: `stretch` or `toughness`.
-    pub rule: &'static str,
+    pub rule: String,
     /// The threshold of the rule: a stretch ratio, or a toughness in J/m.
     pub threshold: f64,
     /// The length of the edges along the strip, in metres.
@@ -267,8 +298,8 @@ fn test(
     let tearing = torn.map_or(&forces[..0], |[first, last]| &forces[first..last]);
     Ok(Test {
         rule: match threshold {
-            Threshold::Stretch(_) => "stretch",
-            _ => "toughness",
+            Threshold::Stretch(_) => "stretch".to_owned(),
+            _ => "toughness".to_owned(),
         },
         threshold: match threshold {
             Threshold::Stretch(x) | Threshold::Toughness(x) => x,
@@ -298,12 +329,12 @@ mod tests {
         made(cells, false)
     }
 
+    fn charted(study: &Study) -> Chart {
+        Chart::new(Provenance::default(), study.clone(), Vec::new())
+    }
+
     fn drawn(study: &Study) -> Option<String> {
-        svg(&Chart::new(
-            Provenance::default(),
-            study.clone(),
-            Vec::new(),
-        ))
+        svg(&charted(study))
     }
 
     #[test]
@@ -329,10 +360,10 @@ mod tests {
     #[test]
     fn the_chart_and_the_table_say_what_the_study_says_and_always_the_same() {
         let study = whole(&[4, 8]);
-        let (chart, table) = (drawn(&study).expect("a chart"), csv(&study));
+        let (chart, table) = (drawn(&study).expect("a chart"), csv(&charted(&study)));
         let again = whole(&[4, 8]);
         assert_eq!(Some(&chart), drawn(&again).as_ref());
-        assert_eq!(table, csv(&again));
+        assert_eq!(table, csv(&charted(&again)));
         assert!(chart.starts_with("<svg ") && chart.contains("slope"));
         let points: usize = study.tests.iter().map(|test| test.curve.len() + 2).sum();
         assert_eq!(table.lines().count(), 1 + points);
@@ -349,11 +380,11 @@ mod tests {
     fn strips_tear_first_at_the_same_force_by_methods_that_share_no_force() {
         let study = made(&[8, 12], true);
         for test in &study.tests {
-            let [verlet, half, xpbd, fine] = test.first[..] else {
+            let [verlet, half, xpbd, fine] = &test.first[..] else {
                 panic!("{:?}", test.first);
             };
-            let by = [verlet, half, xpbd, fine].map(|tear| (tear.method, tear.force_n));
-            assert_eq!([verlet.method, xpbd.method], ["verlet", "xpbd"]);
+            let by = [verlet, half, xpbd, fine].map(|tear| (&tear.method, tear.force_n));
+            assert_eq!([&verlet.method, &xpbd.method], ["verlet", "xpbd"]);
             assert_eq!([half.dt_s, fine.dt_s], [verlet.dt_s / 2.0; 2]);
             assert!(spread(&test.first) < AGREEMENT, "{:?}", test.first);
             assert!(verlet.force_n > 0.5 * test.force_mean_n, "{by:?}");
@@ -363,7 +394,7 @@ mod tests {
             "{}",
             study.conclusion
         );
-        assert!(csv(&study).contains(",first xpbd @"));
+        assert!(csv(&charted(&study)).contains(",first xpbd @"));
     }
 
     #[test]

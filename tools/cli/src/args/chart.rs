@@ -69,11 +69,27 @@ pub(crate) struct DrawArgs {
     pub(crate) quiet: bool,
 }
 
+/// What charts take that can be made in parts.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PartsArgs {
+    /// Make the folder X.parts alone, and print the commands that make the chart in parts, one a line, as for
+    /// GNU parallel.
+    #[arg(long, conflicts_with = "gather")]
+    pub(crate) plan: bool,
+
+    /// Draw what the commands of --plan have left in this folder, and name what is missing.
+    #[arg(long, value_name = "X.parts")]
+    pub(crate) gather: Option<PathBuf>,
+}
+
 /// What `chart pareto` takes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ParetoArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
+
+    #[command(flatten)]
+    pub(crate) parts: PartsArgs,
 
     /// The scenes (default: all).
     #[arg(long, value_name = "NAME", value_delimiter = ',',
@@ -112,6 +128,9 @@ pub(crate) struct TearChartArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
 
+    #[command(flatten)]
+    pub(crate) parts: PartsArgs,
+
     /// Write each run of the ensembles as a table.
     #[arg(long, value_name = "FILE")]
     pub(crate) runs: Option<PathBuf>,
@@ -120,6 +139,10 @@ pub(crate) struct TearChartArgs {
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = tear::CELLS,
         value_parser = even)]
     pub(crate) strips: Vec<u32>,
+
+    /// Tear no strips.
+    #[arg(long, conflicts_with = "strips")]
+    pub(crate) no_strips: bool,
 
     /// The scenes that are played with many seeds.
     #[arg(long, value_name = "NAME", value_delimiter = ',',
@@ -205,9 +228,14 @@ pub(crate) struct AllArgs {
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
 
-    /// Make nothing, and print the commands, one a line, as for GNU parallel.
-    #[arg(long)]
+    /// Make folders alone, and print the commands that make the charts, one a line, as for GNU parallel: of
+    /// those that can be made in parts, the parts.
+    #[arg(long, conflicts_with = "gather")]
     pub(crate) plan: bool,
+
+    /// Draw what the commands of --plan have left in the folder, and name what is missing.
+    #[arg(long)]
+    pub(crate) gather: bool,
 
     /// Small meshes and few seeds, for a look in half a minute.
     #[arg(long)]

@@ -4,10 +4,11 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use indicatif::ProgressDrawTarget;
-use tearmesh_lab::pareto::{self, By, Options, SCENES, Study, VISITS_MAX};
-use tearmesh_lab::{Provenance, pool};
+use tearmesh_lab::pareto::{self, By, Case, Options, SCENES, Study, VISITS_MAX};
+use tearmesh_lab::pool;
 
 use super::files::{Ended, bug, check, some_time, tell, write, write_all};
+use super::parts::{self, Part};
 use super::progress::{self, PARTS, PERCENT};
 use super::provenance;
 use crate::args::ParetoArgs;
@@ -19,7 +20,8 @@ use crate::streams::Streams;
 /// A visit of an edge took some 9 ns on the machine that charts were first made on.
 const VISIT_S: f64 = 9e-9;
 
-/// Runs the experiment, and draws its charts. What is done when it is interrupted is drawn as well.
+/// Runs the experiment, or puts it together of its parts, and draws its charts. What is done when it is
+/// interrupted is drawn as well.
 pub(super) fn work(
     args: &ParetoArgs,
     target: ProgressDrawTarget,
@@ -28,10 +30,18 @@ pub(super) fn work(
     let draw = &args.draw;
     let files = check(draw, args.time_chart.as_ref())?;
     let options = options(args);
-    let guard = Guard::new();
-    progress::announce(&expected(&options), draw, streams);
-    let study = made(args, &options, target, &guard);
-    drop(guard);
+    let is_timed = args.time_chart.is_some();
+    let parts = || parts(&options, is_timed);
+    if parts::plan(&args.parts, draw, parts, streams)? {
+        return Ok(Exit::Done);
+    }
+    let study: Study = match &args.parts.gather {
+        Some(folder) => parts::gather(&parts(), folder, command(&options, is_timed))?,
+        None => {
+            progress::announce(&expected(&options), draw, streams);
+            made(&options, is_timed, target)
+        }
+    };
     let drawn = |by| {
         let svg = pareto::svg(&study, by);
         svg.ok_or_else(|| bug("the chart cannot be drawn".to_owned()))
@@ -48,7 +58,7 @@ pub(super) fn work(
         streams,
     )?;
     if !study.is_interrupted {
-        return Ok(Exit::Done);
+        return Ok(parts::warn(&study.missing, draw, streams));
     }
     let message = "interrupted; runs that were not done stand as failed";
     let fault = Fault::warning("W-CHART-INTERRUPTED", message.to_owned());
@@ -56,9 +66,27 @@ pub(super) fn work(
         colored: is_colored(draw.color, streams.error_is_terminal),
         error: streams.error,
     };
-    // As above.
+    // Nowhere is left to say it if standard error is closed.
     let _ = screen.show(&fault);
     Ok(Exit::Interrupted)
+}
+
+/// A part is a case: a scene on a mesh.
+fn parts(options: &Options, is_timed: bool) -> Vec<Part> {
+    let cases = pareto::cases(options);
+    let part = |case: &Case| {
+        let alone = Options {
+            scenes: vec![case.scene],
+            meshes: vec![case.mesh],
+            cells: vec![case.cells],
+            ..options.clone()
+        };
+        Part {
+            name: case.name().replace('/', "-"),
+            command: command(&alone, is_timed),
+        }
+    };
+    cases.iter().map(part).collect()
 }
 
 fn options(args: &ParetoArgs) -> Options {
@@ -95,13 +123,13 @@ fn expected(options: &Options) -> String {
     format!("{runs} runs on {threads}, some {about}; Ctrl-C ends it with what is done")
 }
 
-fn made(args: &ParetoArgs, options: &Options, target: ProgressDrawTarget, guard: &Guard) -> Study {
+fn made(options: &Options, is_timed: bool, target: ProgressDrawTarget) -> Study {
+    let guard = Guard::new();
     let bar = progress::bar(PARTS, PERCENT, target);
     let clock: &(dyn Fn() -> Duration + Sync) = &|| ThreadTime::now().as_duration();
-    let is_timed = args.time_chart.is_some();
     let study = pareto::study(
         options,
-        told(options, is_timed),
+        provenance::of(command(options, is_timed), is_timed),
         is_timed.then_some(clock),
         &|| guard.is_interrupted(),
         |name, part| {
@@ -113,21 +141,21 @@ fn made(args: &ParetoArgs, options: &Options, target: ProgressDrawTarget, guard:
     study
 }
 
-/// What charts say of where they come from: the command with all that decides their figures.
-fn told(options: &Options, is_timed: bool) -> Provenance {
+/// The command with all that decides the figures.
+fn command(options: &Options, is_timed: bool) -> String {
     let list = |names: Vec<String>| names.join(",");
     let scenes = options.scenes.iter().map(|scene| scene.name.to_owned());
     let meshes = options.meshes.iter().map(|mesh| mesh.name().to_owned());
     let sizes = options.cells.iter().map(u32::to_string);
-    let mut command = format!(
-        "tearmesh chart pareto --scene {} --mesh {} --size {} --visits-max {}",
+    let times = match is_timed {
+        true => format!(" --time-chart … --repeats {}", options.repeats),
+        false => String::new(),
+    };
+    format!(
+        "tearmesh chart pareto --scene {} --mesh {} --size {} --visits-max {}{times}",
         list(scenes.collect()),
         list(meshes.collect()),
         list(sizes.collect()),
         options.visits_max,
-    );
-    if is_timed {
-        command += &format!(" --time-chart … --repeats {}", options.repeats);
-    }
-    provenance::of(command, is_timed)
+    )
 }

@@ -2,10 +2,11 @@
 
 use indicatif::ProgressDrawTarget;
 use tearmesh_lab::pool;
-use tearmesh_lab::tear::cascade::{self, CascadeScene, Options};
+use tearmesh_lab::tear::cascade::{self, CascadeScene, METHODS, Options};
 use tearmesh_lab::tear::{self, Chart};
 
 use super::files::{Ended, bug, check, interrupted, some_time, tell, write, write_all};
+use super::parts::{self, Part};
 use super::progress::{self, PARTS, PERCENT};
 use super::provenance;
 use crate::args::TearChartArgs;
@@ -18,7 +19,7 @@ use crate::streams::Streams;
 /// on; one of n cells has n times n of them, and steps n times as short.
 const STRIP_S: f64 = 4e-3;
 
-/// Tears strips and plays cascades, and draws the chart.
+/// Tears strips and plays cascades, or puts them together of parts, and draws the chart.
 pub(super) fn work(
     args: &TearChartArgs,
     target: ProgressDrawTarget,
@@ -26,55 +27,104 @@ pub(super) fn work(
 ) -> Ended<Exit> {
     let draw = &args.draw;
     let files = check(draw, args.runs.as_ref())?;
-    if args.strips.len() < 2 {
-        let message = "`--strips` takes two numbers or more: forces are compared".to_owned();
-        let fault = Fault::error("E-USAGE", message).help("as in --strips 8,16");
-        return Err((Exit::Usage, fault));
-    }
+    let strips = strips(args)?;
     let options = options(args);
-    let cascades_s = cascades_s(&options);
-    let cubes = args.strips.iter().map(|&cells| f64::from(cells).powi(3));
-    let strips_s = 2.0 * STRIP_S * cubes.sum::<f64>();
-    let words = expected(args, &options, [strips_s, cascades_s]);
-    progress::announce(&words, draw, streams);
+    let parts = || parts(strips, &options);
+    if parts::plan(&args.parts, draw, parts, streams)? {
+        return Ok(Exit::Done);
+    }
+    let chart: Chart = match &args.parts.gather {
+        Some(folder) => parts::gather(&parts(), folder, command(strips, &options))?,
+        None => {
+            let seconds = [strips_s(strips), cascades_s(&options)];
+            progress::announce(&expected(strips, &options, seconds), draw, streams);
+            made(strips, &options, seconds, target)?
+        }
+    };
+    let svg = tear::svg(&chart).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
+    write_all(draw, &svg, || tear::csv(&chart), &chart, streams)?;
+    if let Some(path) = &args.runs {
+        let runs = cascade::csv(&chart.cascades, &chart.missing);
+        write(path, &runs, streams)?;
+    }
+    let conclusion = &chart.study.conclusion;
+    let words = format!("{conclusion}\n{}", cascade::summary(&chart.cascades));
+    tell(words.trim(), &files, draw.quiet, streams)?;
+    Ok(parts::warn(&chart.missing, draw, streams))
+}
+
+/// The strips that are wanted: none, or two or more.
+fn strips(args: &TearChartArgs) -> Ended<&[u32]> {
+    match &args.strips[..] {
+        _ if args.no_strips => Ok(&[]),
+        [_] => {
+            let message = "`--strips` takes two numbers or more: forces are compared".to_owned();
+            let fault = Fault::error("E-USAGE", message).help("as in --strips 8,16");
+            Err((Exit::Usage, fault))
+        }
+        strips => Ok(strips),
+    }
+}
+
+/// A part is all strips, or the ensembles of one scene by one method.
+fn parts(strips: &[u32], options: &Options) -> Vec<Part> {
+    let none = Options {
+        scenes: Vec::new(),
+        ..options.clone()
+    };
+    let of_strips = Part {
+        name: "strips".to_owned(),
+        command: command(strips, &none),
+    };
+    let cascade = |scene: CascadeScene, method: &str| {
+        let alone = Options {
+            scenes: vec![scene],
+            methods: vec![method.to_owned()],
+            ..options.clone()
+        };
+        Part {
+            name: format!("{}-{method}", scene.name()),
+            command: command(&[], &alone),
+        }
+    };
+    let methods = || METHODS.into_iter().filter(|name| options.plays(name));
+    let scenes = options.scenes.iter();
+    let cascades = scenes.flat_map(|&scene| methods().map(move |method| cascade(scene, method)));
+    let of_strips = Some(of_strips).filter(|_| !strips.is_empty());
+    of_strips.into_iter().chain(cascades).collect()
+}
+
+fn made(
+    strips: &[u32],
+    options: &Options,
+    [strips_s, cascades_s]: [f64; 2],
+    target: ProgressDrawTarget,
+) -> Ended<Chart> {
     let bar = progress::bar(PARTS, PERCENT, target);
     let guard = Guard::new();
     let stop = || guard.is_interrupted();
-    let strips = 2.0 * args.strips.len() as f64;
-    let share = strips_s / (strips_s + cascades_s);
+    let share = strips_s / (strips_s + cascades_s).max(f64::MIN_POSITIVE);
     let show = |part: f64, name: &str| {
         bar.set_position((PARTS as f64 * part) as u64);
         bar.set_message(name.to_owned());
     };
-    let study = tear::study(&args.strips, true, options.threads, &stop, |done| {
-        show(share * done as f64 / strips, "strips");
-    });
-    let study = study.map_err(|error| bug(error.to_string()))?;
-    let study = study.ok_or_else(interrupted)?;
-    let cascades = cascade::play(&options, &stop, |name, part| {
+    let mut study = tear::Study::default();
+    if !strips.is_empty() {
+        let tests = 2.0 * strips.len() as f64;
+        let torn = tear::study(strips, true, options.threads, &stop, |done| {
+            show(share * done as f64 / tests, "strips");
+        });
+        let torn = torn.map_err(|error| bug(error.to_string()))?;
+        study = torn.ok_or_else(interrupted)?;
+    }
+    let cascades = cascade::play(options, &stop, |name, part| {
         show(share + (1.0 - share) * part, name);
     });
     bar.finish_and_clear();
-    drop(guard);
     let cascades = cascades.map_err(|error| bug(error.to_string()))?;
     let cascades = cascades.ok_or_else(interrupted)?;
-    let chart = Chart::new(
-        provenance::of(command(args, &options), false),
-        study,
-        cascades,
-    );
-    let svg = tear::svg(&chart).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
-    write_all(draw, &svg, || tear::csv(&chart.study), &chart, streams)?;
-    if let Some(path) = &args.runs {
-        write(path, &cascade::csv(&chart.cascades), streams)?;
-    }
-    let words = format!(
-        "{}\n{}",
-        chart.study.conclusion,
-        cascade::summary(&chart.cascades)
-    );
-    tell(words.trim_end(), &files, draw.quiet, streams)?;
-    Ok(Exit::Done)
+    let provenance = provenance::of(command(strips, options), false);
+    Ok(Chart::new(provenance, study, cascades))
 }
 
 fn options(args: &TearChartArgs) -> Options {
@@ -91,26 +141,30 @@ fn options(args: &TearChartArgs) -> Options {
 }
 
 /// The command with all that decides the figures.
-fn command(args: &TearChartArgs, options: &Options) -> String {
-    let strips: Vec<String> = args.strips.iter().map(u32::to_string).collect();
-    let strips = format!("tearmesh chart tear --strips {}", strips.join(","));
+fn command(strips: &[u32], options: &Options) -> String {
+    let list: Vec<String> = strips.iter().map(u32::to_string).collect();
+    let strips = match list.is_empty() {
+        true => "--no-strips".to_owned(),
+        false => format!("--strips {}", list.join(",")),
+    };
     let scenes: Vec<&str> = options.scenes.iter().map(|scene| scene.name()).collect();
     let size = options
         .cells
         .map_or(String::new(), |cells| format!(" --size {cells}"));
-    match scenes.is_empty() {
-        true => format!("{strips} --seeds 0"),
+    let cascades = match scenes.is_empty() {
+        true => "--seeds 0".to_owned(),
         false => format!(
-            "{strips} --scene {} --method {} --seeds {}{size}",
+            "--scene {} --method {} --seeds {}{size}",
             scenes.join(","),
             options.methods.join(","),
             options.seeds
         ),
-    }
+    };
+    format!("tearmesh chart tear {strips} {cascades}")
 }
 
 /// How many runs there will be, and how long they will take.
-fn expected(args: &TearChartArgs, options: &Options, [strips_s, cascades_s]: [f64; 2]) -> String {
+fn expected(strips: &[u32], options: &Options, [strips_s, cascades_s]: [f64; 2]) -> String {
     let processors = options.threads.get() as f64;
     let least = some_time((strips_s + cascades_s) / processors);
     let most = some_time((strips_s + cascade::MORE as f64 * cascades_s) / processors);
@@ -121,8 +175,14 @@ fn expected(args: &TearChartArgs, options: &Options, [strips_s, cascades_s]: [f6
     };
     format!(
         "{} strips and {runs} runs of cascades or more, {least}{more}; Ctrl-C ends it without a chart",
-        2 * args.strips.len()
+        2 * strips.len()
     )
+}
+
+/// The seconds of a processor that strips take.
+fn strips_s(strips: &[u32]) -> f64 {
+    let cubes = strips.iter().map(|&cells| f64::from(cells).powi(3));
+    2.0 * STRIP_S * cubes.sum::<f64>()
 }
 
 /// The seconds of a processor that a run at the step of each method took there, and those of all runs at it,

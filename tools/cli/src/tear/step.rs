@@ -4,7 +4,7 @@ use std::num::NonZero;
 
 use indicatif::ProgressBar;
 use tearmesh_cloth::scene::RunError;
-use tearmesh_lab::ensemble::{self, Ensemble, NOISE_M, Quantity, Subject, Verdict};
+use tearmesh_lab::ensemble::{self, Ensemble, MemberStatus, NOISE_M, Quantity, Subject, Verdict};
 use tearmesh_lab::pool;
 
 use super::words::{three_digits, two_digits};
@@ -130,7 +130,9 @@ pub(super) fn warnings(check: &report::StepCheck) -> Vec<Fault> {
         .ensembles
         .iter()
         .flat_map(|ensemble| &ensemble.members);
-    let failed: Vec<_> = members.filter(|member| member.status == "failed").collect();
+    let failed: Vec<_> = members
+        .filter(|member| member.status == MemberStatus::Failed)
+        .collect();
     if let Some(first) = failed.first() {
         let message = format!(
             "{} of the step check failed: {}",

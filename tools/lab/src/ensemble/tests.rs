@@ -108,7 +108,7 @@ fn a_rip_is_chaotic_after_its_first_tear() {
             ensemble
                 .members
                 .iter()
-                .all(|member| member.status == "done")
+                .all(|member| member.status == MemberStatus::Done)
         );
         let first = ensemble.numbers(Quantity::FirstTear).0;
         let [least, _, most] = spread(&first);
@@ -138,7 +138,7 @@ fn a_run_that_fails_or_is_stopped_is_a_member_all_the_same() {
         2,
     );
     for member in refused.iter().flat_map(|ensemble| &ensemble.members) {
-        assert_eq!(member.status, "failed");
+        assert_eq!(member.status, MemberStatus::Failed);
         assert!(member.why.contains("stab"), "{}", member.why);
     }
     assert_eq!(refused[0].numbers(Quantity::Torn), (Vec::new(), false));
@@ -157,6 +157,6 @@ fn a_run_that_fails_or_is_stopped_is_a_member_all_the_same() {
         stopped[0]
             .members
             .iter()
-            .all(|member| member.status == "interrupted")
+            .all(|member| member.status == MemberStatus::Interrupted)
     );
 }

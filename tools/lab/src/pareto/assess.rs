@@ -1,6 +1,6 @@
 //! What the runs of a case say: errors, fronts, and who is cheapest.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::front::{Point, front, rising, vouched};
 use super::method::{DEFAULT, Family, METHODS, PARTS};
@@ -12,17 +12,18 @@ use super::scene::Case;
 use crate::ensemble::NOISE_M;
 
 /// The results of a case.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CaseStudy {
     /// The name of the case: scene, mesh and number of cells.
     pub name: String,
     /// A short description of the scene.
-    pub about: &'static str,
+    pub about: String,
     /// The number of particles.
     pub particles: usize,
     /// The number of edges.
     pub edges: usize,
-    /// The distance of the two runs of the gate divided by the noise; `None` if they failed or did not run.
+    /// The distance of the two runs of the gate divided by the noise; `None` if they failed, did not run, or
+    /// ended infinitely far apart.
     pub amplification: Option<f64>,
     /// Whether displacements are not compared, because noise grows too much or its growth is unknown.
     pub is_barred: bool,
@@ -37,7 +38,7 @@ pub struct CaseStudy {
 }
 
 /// A run of a reference or of the gate.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReferenceRun {
     /// The name of the run, without the name of the case.
     pub name: String,
@@ -45,14 +46,14 @@ pub struct ReferenceRun {
     pub status: Status,
     /// The reason if a step failed or the energy grew too much; otherwise empty.
     pub why: String,
-    /// The step, in seconds.
-    pub dt_s: f64,
+    /// The step in seconds; `None` if the run was not begun.
+    pub dt_s: Option<f64>,
     /// The cost of the run.
     pub cost: Cost,
 }
 
 /// The accuracy to which the true value of an observable is known.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Floor {
     /// The observable.
     pub observable: Observable,
@@ -65,20 +66,20 @@ pub struct Floor {
 pub const FLOORS: f64 = 10.0;
 
 /// The result of one run: at a step of the planned range, or at default settings.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
     /// The name of the run: case, method with settings, and the fraction of the base step or `default`.
     pub run: String,
-    /// The name of the family of methods, as in [`Family::name`].
-    pub family: &'static str,
+    /// The family of methods.
+    pub family: Family,
     /// The name of the method with its settings.
-    pub series: &'static str,
+    pub series: String,
     /// The fraction of the base step; `None` for a run at default settings.
     pub part: Option<f64>,
     /// Whether this is the run of the default method at default settings.
     pub is_default: bool,
-    /// The step, in seconds.
-    pub dt_s: f64,
+    /// The step in seconds; `None` if the run was not begun.
+    pub dt_s: Option<f64>,
     /// The way in which the run ended.
     pub status: Status,
     /// The reason if a step failed or the energy grew too much; otherwise empty.
@@ -100,17 +101,10 @@ impl Row {
         let mut errors = self.errors.iter();
         errors.find(|error| error.observable == observable)
     }
-
-    /// Returns the family of methods; `None` if the name in the field `family` is unknown.
-    #[must_use]
-    pub fn family(&self) -> Option<Family> {
-        let mut all = Family::ALL.into_iter();
-        all.find(|family| family.name() == self.family)
-    }
 }
 
 /// The error of a run for one observable, in three parts. Errors are relative; smaller is better.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Error {
     /// The observable.
     pub observable: Observable,
@@ -133,7 +127,7 @@ pub struct Error {
 }
 
 /// The cheapest rows of the budget that meet a tolerance.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cheapest {
     /// The observable.
     pub observable: Observable,
@@ -152,12 +146,12 @@ pub struct Cheapest {
 }
 
 /// A row that meets a tolerance.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Winner {
     /// The name of the run, without the name of the case.
     pub run: String,
-    /// The name of the family of methods, as in [`Family::name`].
-    pub family: &'static str,
+    /// The family of methods.
+    pub family: Family,
     /// The cost, in visits of edges or, by time, in seconds.
     pub cost: f64,
 }
@@ -192,6 +186,7 @@ pub fn assess(case: &Case, plan: &[Planned], outcomes: &[Outcome]) -> CaseStudy 
         }
         _ => None,
     };
+    let amplification = amplification.filter(|grown| grown.is_finite());
     let is_gated = gate.len() == 2 && case.scene.observables.contains(&Observable::Displacement);
     // Written so that what is not known bars as well.
     let passes = amplification.is_some_and(|a| a <= AMPLIFICATION_MAX);
@@ -250,11 +245,11 @@ pub fn assess(case: &Case, plan: &[Planned], outcomes: &[Outcome]) -> CaseStudy 
         };
         rows.push(Row {
             run: format!("{}/{}", case.name(), planned.name),
-            family: family.name(),
-            series,
+            family,
+            series: series.to_owned(),
             part,
             is_default,
-            dt_s: outcome.dt_s,
+            dt_s: outcome.dt_s.is_finite().then_some(outcome.dt_s),
             status: outcome.status,
             why: outcome.why.clone(),
             simulated_s: outcome.simulated_s,
@@ -268,12 +263,12 @@ pub fn assess(case: &Case, plan: &[Planned], outcomes: &[Outcome]) -> CaseStudy 
         name: planned.name.clone(),
         status: outcome.status,
         why: outcome.why.clone(),
-        dt_s: outcome.dt_s,
+        dt_s: outcome.dt_s.is_finite().then_some(outcome.dt_s),
         cost: outcome.cost,
     });
     let mut study = CaseStudy {
         name: case.name(),
-        about: case.scene.about,
+        about: case.scene.about.to_owned(),
         particles: case.sheet.points.len(),
         edges: case.sheet.edges.len(),
         amplification,
@@ -361,7 +356,7 @@ impl CaseStudy {
             let error = row.error(observable);
             error.is_some_and(|error| error.vouched <= tolerance)
         };
-        let best = |by_time: bool, but: Option<&str>| -> Option<Winner> {
+        let best = |by_time: bool, but: Option<Family>| -> Option<Winner> {
             let rows = self.rows.iter().filter(|row| row.part.is_some());
             let rows = rows.filter(|row| meets(row) && Some(row.family) != but);
             let costs = rows.filter_map(|row| Some((row.cost_by(by_time)?, row)));

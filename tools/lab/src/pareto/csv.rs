@@ -3,10 +3,11 @@
 use std::fmt::Write as _;
 
 use super::{CaseStudy, Error, Row, Study};
+use crate::parts::{Missing, cell};
 
 /// Returns the study as CSV: one line per row and observable, and one for a row without errors.
 ///
-/// A cell is empty if there is no value. The runs of references and of the gate have the series `reference`.
+/// A cell is empty if there is no value. A missing part has one line, with the status `missing`. The runs of references and of the gate have the series `reference`.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
@@ -30,7 +31,7 @@ pub fn csv(study: &Study) -> String {
                 case.name,
                 run.name,
                 run.status.name(),
-                short(Some(run.dt_s)),
+                short(run.dt_s),
                 cost.steps,
                 cost.project,
                 cost.force,
@@ -40,6 +41,10 @@ pub fn csv(study: &Study) -> String {
             )
             .expect("a string grows");
         }
+    }
+    for Missing { part, why } in &study.missing {
+        let empty = ",".repeat(20);
+        writeln!(text, "{part},,,,false,missing{empty}{}", cell(why)).expect("a string grows");
     }
     text
 }
@@ -52,11 +57,11 @@ fn line(text: &mut String, case: &CaseStudy, row: &Row, error: Option<&Error>) {
         text,
         "{},{},{},{part},{},{},{},{},{},{},{},{},{},{},{}",
         row.run,
-        row.family.replace(',', ""),
+        row.family.name().replace(',', ""),
         row.series,
         row.is_default,
         row.status.name(),
-        short(Some(row.dt_s)),
+        short(row.dt_s),
         short(Some(row.simulated_s)),
         cost.steps,
         cost.project,

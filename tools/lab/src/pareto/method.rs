@@ -1,5 +1,7 @@
 //! The methods, their settings, and the budget of steps that each gets.
 
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::scene::{self, suggested_step_s};
 use tearmesh_cloth::{
@@ -19,7 +21,8 @@ pub struct Method {
     kind: Kind,
 }
 
-/// The families of methods, which ignore settings. The chart draws each in one colour.
+/// The families of methods, which ignore settings. The chart draws each in one colour. In JSON a family is
+/// its [name](Family::name).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Family {
     /// The family of [`Verlet::new`].
@@ -86,6 +89,22 @@ impl Family {
             Family::BackwardEuler => Claim::Wins("drape"),
             Family::Bdf2 => Claim::Wins("sliver"),
         }
+    }
+}
+
+impl Serialize for Family {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Family {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Family, D::Error> {
+        let given = String::deserialize(deserializer)?;
+        let found = Family::ALL
+            .into_iter()
+            .find(|family| family.name() == given);
+        found.ok_or_else(|| D::Error::custom(format!("`{given}` is no family of methods")))
     }
 }
 

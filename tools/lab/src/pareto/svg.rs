@@ -12,6 +12,7 @@ use super::observable::{Observable, TOLD};
 use super::run::Status;
 use super::{AMPLIFICATION_MAX, Study};
 use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
+use crate::parts;
 
 /// The units of cost in a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,6 +114,7 @@ fn footer(study: &Study, by: By) -> Vec<String> {
         };
         lines.push(format!("{times} · {}", from.processor()));
     }
+    lines.extend(parts::told(&study.missing));
     let sizes = study.cases.iter().map(|case| {
         let noise = match case.amplification {
             Some(a) => format!(", noise ×{a:.0}"),
@@ -151,7 +153,7 @@ fn panel(
     let title = format!("{} · {}", case.name, observable.name());
     root.draw(&Text::new(title, (left + 46, top + 2), ("sans-serif", 15)))?;
     let about = ("sans-serif", 10).into_font().color(&GREY);
-    root.draw(&Text::new(case.about, (left + 46, top + 20), about))?;
+    root.draw(&Text::new(case.about.clone(), (left + 46, top + 20), about))?;
     let floors = case.floors.iter();
     let known = floors.filter(|known| known.observable == observable);
     let floor = known.filter_map(|known| known.floor).next();
@@ -159,10 +161,10 @@ fn panel(
     for row in &case.rows {
         let cost = row.cost_by(by == By::Time).filter(|cost| *cost > 0.0);
         let error = row.error(observable);
-        if let (Some(family), Some(cost), Some(error)) = (row.family(), cost, error) {
+        if let (Some(cost), Some(error)) = (cost, error) {
             spots.push(Spot {
                 row,
-                family,
+                family: row.family,
                 cost,
                 // What is nothing is drawn at the floor.
                 error: error.total.max(floor.unwrap_or(0.0) * LEAST),
@@ -265,12 +267,12 @@ fn panel(
     let middle = (band * high).sqrt();
     let mut ends: Vec<(i32, Family)> = failed
         .iter()
-        .filter_map(|row| {
+        .map(|row| {
             let cost = row
                 .cost_by(by == By::Time)
                 .unwrap_or(0.0)
                 .clamp(x.start, x.end);
-            Some((chart.backend_coord(&(cost, middle)).0, row.family()?))
+            (chart.backend_coord(&(cost, middle)).0, row.family)
         })
         .collect();
     ends.sort_by_key(|(at, _)| *at);

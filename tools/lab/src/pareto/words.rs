@@ -100,7 +100,7 @@ fn claims(study: &Study) -> String {
         }
         let wins = cases.any(|case| {
             let mut winners = case.cheapest.iter().filter_map(|c| c.winner.as_ref());
-            winners.any(|winner| winner.family == family.name())
+            winners.any(|winner| winner.family == family)
         });
         let answer = if wins { "it does" } else { "it does not" };
         writeln!(text, "{} should win in {scene}: {answer}", family.name())

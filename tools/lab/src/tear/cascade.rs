@@ -4,9 +4,9 @@
 //! method plays each scene with many seeds ([`ensemble`]). The results are medians with the 10 % and 90 %
 //! points, and whether medians differ. If that is undecided, the number of seeds is quadrupled once.
 //!
-//! A method has *converged* in a number if the ensembles at its step and at half of it have the same median.
-//! If the finest ensembles of two methods have the same median, they are the reference with which all
-//! methods are compared. If no two methods agree, there is no reference.
+//! A method has *converged* in a number if its ensembles at half and at a quarter of its step have the same
+//! median. If the finest ensembles of two methods that converged have the same median, they are the reference
+//! with which all methods are compared. If no two of them agree, there is no reference.
 
 mod csv;
 mod svg;
@@ -21,7 +21,7 @@ pub(super) use self::svg::{draw, height};
 
 use std::num::NonZero;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Positions, shapes};
 use tearmesh_cloth::Tearing;
 use tearmesh_cloth::scene::{Axis, Frame, RunError, Scene};
@@ -116,6 +116,14 @@ pub struct Options {
     pub threads: NonZero<usize>,
 }
 
+impl Options {
+    /// Returns whether a method is one of those to play.
+    #[must_use]
+    pub fn plays(&self, method: &str) -> bool {
+        self.methods.iter().any(|name| name == method)
+    }
+}
+
 /// The default number of seeds of an ensemble.
 pub const SEEDS: u64 = 16;
 
@@ -130,15 +138,17 @@ const PARTS: [NonZero<u32>; 3] = [
 ];
 
 /// The results of one scene by one method.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cascade {
     /// The name of the scene.
-    pub scene: &'static str,
+    pub scene: String,
     /// The number of cells across.
     pub cells: u32,
     /// The name of the method.
-    pub method: &'static str,
-    /// The results for each quantity, in the order of [`TOLD`].
+    pub method: String,
+    /// The results for each quantity, in the order of [`TOLD`]. They follow from the ensembles of all methods,
+    /// so they are computed, not read.
+    #[serde(skip_deserializing)]
     pub numbers: Vec<Number>,
     /// The ensembles at the step, at half of it and at a quarter of it.
     pub ensembles: Vec<Ensemble>,
@@ -153,8 +163,9 @@ pub struct Number {
     pub spreads: Vec<Option<[f64; 3]>>,
     /// The comparisons of the step with half of it, and of half with a quarter; `None` without values.
     pub halvings: Vec<Option<Comparison>>,
-    /// The names of the two methods whose finest ensembles are the reference; empty if no two methods agree.
-    pub reference: Vec<&'static str>,
+    /// The names of the two methods whose finest ensembles are the reference; empty if no two methods that
+    /// converged agree.
+    pub reference: Vec<String>,
     /// The comparison of the reference with the ensemble at the step. In its ratio, the median of the
     /// ensemble is the numerator. `None` if there is no reference or no value.
     pub against_reference: Option<Comparison>,
@@ -166,6 +177,13 @@ impl Number {
     #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
         Some((*self.halvings.first()?)?.verdict)
+    }
+
+    /// Returns whether halving the step once more leaves the median of the finest ensembles the same.
+    #[must_use]
+    pub fn has_converged(&self) -> bool {
+        let last = self.halvings.last().copied().flatten();
+        last.is_some_and(|found| found.verdict == Verdict::Same)
     }
 }
 
@@ -196,22 +214,33 @@ pub fn play(
                 return Ok(None);
             }
             of_scene.push(Cascade {
-                scene: scene.name(),
+                scene: scene.name().to_owned(),
                 cells,
-                method: named.name,
-                numbers: TOLD.map(|quantity| number(&ensembles, quantity)).to_vec(),
+                method: named.name.to_owned(),
+                numbers: Vec::new(),
                 ensembles,
             });
         }
-        refer(&mut of_scene);
         cascades.extend(of_scene);
     }
+    conclude(&mut cascades);
     Ok(Some(cascades))
 }
 
+/// Computes what follows from the ensembles of all methods. Those of a scene must be next to each other.
+pub(super) fn conclude(cascades: &mut [Cascade]) {
+    for cascade in &mut *cascades {
+        let of = |quantity| number(&cascade.ensembles, quantity);
+        cascade.numbers = TOLD.map(of).to_vec();
+    }
+    for of_scene in cascades.chunk_by_mut(|one, next| one.scene == next.scene) {
+        refer(of_scene);
+    }
+}
+
 fn methods(options: &Options) -> Vec<Named> {
-    let is_wanted = |named: &Named| options.methods.iter().any(|name| name == named.name);
-    Named::all().into_iter().filter(is_wanted).collect()
+    let all = Named::all().into_iter();
+    all.filter(|named| options.plays(named.name)).collect()
 }
 
 /// Returns the smallest number of runs of the experiment. Undecided comparisons add more.
@@ -287,14 +316,19 @@ fn compared(first: &(Vec<f64>, bool), second: &(Vec<f64>, bool)) -> Option<Compa
     Some(comparison)
 }
 
-/// Finds the references of a scene, and compares all methods with them. Two methods that agree are one; of
-/// several pairs the one whose medians are nearest to each other.
+/// Finds the references of a scene, and compares all methods with them. Two methods that agree and have both
+/// converged are one; of several pairs the one whose medians are nearest to each other. Two that still change
+/// with their step agree by chance.
 fn refer(cascades: &mut [Cascade]) {
     for (place, quantity) in TOLD.into_iter().enumerate() {
+        let finest = |cascade: &Cascade| {
+            let last = cascade.ensembles.last()?;
+            let has_converged = cascade.numbers[place].has_converged();
+            has_converged.then(|| last.numbers(quantity))
+        };
         let finest: Vec<(Vec<f64>, bool)> = cascades
             .iter()
-            .map(|cascade| cascade.ensembles.last().map(|one| one.numbers(quantity)))
-            .map(|sample| sample.unwrap_or((Vec::new(), false)))
+            .map(|cascade| finest(cascade).unwrap_or((Vec::new(), false)))
             .collect();
         let mut best: Option<(f64, [usize; 2])> = None;
         for i in 0..finest.len() {
@@ -314,7 +348,7 @@ fn refer(cascades: &mut [Cascade]) {
         };
         let sample = pair.iter().flat_map(|&i| finest[i].0.clone()).collect();
         let sample = (sample, true);
-        let names = pair.map(|i| cascades[i].method);
+        let names = pair.map(|i| cascades[i].method.clone());
         for cascade in &mut *cascades {
             let own = cascade.ensembles.first().map(|one| one.numbers(quantity));
             let number = &mut cascade.numbers[place];

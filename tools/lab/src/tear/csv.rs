@@ -2,14 +2,16 @@
 
 use std::fmt::Write as _;
 
-use super::Study;
+use super::Chart;
+use crate::parts::{Missing, cell};
 
-/// Returns the study as CSV: for each test a line `largest`, a line `mean`, a line `curve` per point of its
+/// Returns the strips as CSV: for each test a line `largest`, a line `mean`, a line `curve` per point of its
 /// curve, and a line per first tear, such as `first xpbd @0.001` with its step in seconds.
+/// A missing part has a line `missing` with its name, and the reason in the last column.
 #[must_use]
-pub fn csv(study: &Study) -> String {
+pub fn csv(chart: &Chart) -> String {
     let mut text = String::from("rule,threshold,cells,edge_m,what,displacement_m,force_n\n");
-    for test in &study.tests {
+    for test in &chart.study.tests {
         let name = format!(
             "{},{},{},{}",
             test.rule, test.threshold, test.cells, test.edge_m
@@ -26,6 +28,9 @@ pub fn csv(study: &Study) -> String {
         for [displacement, force] in &test.curve {
             line("curve", displacement.to_string(), *force);
         }
+    }
+    for Missing { part, why } in &chart.missing {
+        writeln!(text, ",,,,missing {part},,{}", cell(why)).expect("a string grows");
     }
     text
 }

@@ -5,17 +5,17 @@
 //! Verlet sums up the forces of springs by their lengths. XPBD, with two sweeps at the same step,
 //! projects positions and reads forces off its multipliers.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tearmesh_cloth::Xpbd;
 use tearmesh_cloth::scene::{Method, Scene};
 
 use super::pulled::{Pulled, StudyError, mean};
 
 /// The first tear of a strip by one method at one step.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FirstTear {
     /// The method: `verlet` or `xpbd`.
-    pub method: &'static str,
+    pub method: String,
     /// The step, in seconds.
     pub dt_s: f64,
     /// The distance between the clamps, in metres.
@@ -62,7 +62,7 @@ pub(super) fn first_tears(
                     let count = (MEAN_S / dt_s) as usize;
                     let recent = &forces[forces.len().saturating_sub(count)..];
                     tears.push(FirstTear {
-                        method,
+                        method: method.to_owned(),
                         dt_s,
                         displacement_m: pulled.apart_m(),
                         force_n: mean(recent),

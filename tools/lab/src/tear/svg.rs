@@ -4,6 +4,7 @@ use plotters::prelude::*;
 
 use super::{Chart, Study, Test, cascade};
 use crate::draw::{Area, Drawn, drawn, round_numbers, wrapped};
+use crate::parts;
 
 /// Of the trouser tests.
 const SIZE: (u32, u32) = (1100, 500);
@@ -21,14 +22,23 @@ const COLOURS: [RGBColor; 5] = [
 /// Draws a chart as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(chart: &Chart) -> Option<String> {
+    let above = if chart.study.tests.is_empty() {
+        0
+    } else {
+        SIZE.1
+    };
     let below = cascade::height(&chart.cascades);
-    let footer = wrapped(&chart.provenance.line(), 170);
-    let foot = SIZE.1 + below;
+    let lines = [Some(chart.provenance.line()), parts::told(&chart.missing)];
+    let footer = lines.iter().flatten().flat_map(|line| wrapped(line, 170));
+    let footer: Vec<String> = footer.collect();
+    let foot = above + below;
     let height = foot + LINE * footer.len() as u32 + 12;
     drawn((SIZE.0, height), |root| {
-        let (tests, _) = root.split_vertically(SIZE.1);
-        draw(&chart.study, &tests)?;
-        cascade::draw(root, &chart.cascades, SIZE.1 as i32)?;
+        if above > 0 {
+            let (tests, _) = root.split_vertically(above);
+            draw(&chart.study, &tests)?;
+        }
+        cascade::draw(root, &chart.cascades, above as i32)?;
         for (i, line) in footer.iter().enumerate() {
             let at = (20, (foot + LINE * i as u32) as i32 + 4);
             let style = ("sans-serif", 12).into_font().color(&BLACK.mix(0.6));

@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use super::Cascade;
+use crate::parts::{Missing, cell};
 
-/// Returns all runs of the ensembles as CSV, one line per run. The last column is the reason of a failure.
+/// Returns all runs of the ensembles as CSV, one line per run and one per missing part. The last column is the
+/// reason of a failure.
 #[must_use]
-pub fn csv(cascades: &[Cascade]) -> String {
+pub fn csv(cascades: &[Cascade], missing: &[Missing]) -> String {
     let mut text = String::from(
         "scene,cells,method,parts,step_s,seed,status,first_tear_s,first_force_n,torn_m,pieces,\
          largest_force_n,work_j,why\n",
@@ -18,25 +20,28 @@ pub fn csv(cascades: &[Cascade]) -> String {
                 let seen = member.observed;
                 writeln!(
                     text,
-                    "{},{},{},{},{},{},{},{},{},{},{},{},{},\"{}\"",
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                     cascade.scene,
                     cascade.cells,
                     cascade.method,
                     ensemble.parts,
                     ensemble.step_s,
                     member.seed,
-                    member.status,
+                    member.status.name(),
                     number(seen.and_then(|seen| seen.first_tear_s)),
                     number(seen.and_then(|seen| seen.first_force_n)),
                     number(seen.map(|seen| seen.torn_m)),
                     number(seen.map(|seen| seen.pieces as f64)),
                     number(seen.and_then(|seen| seen.largest_force_n)),
                     number(seen.and_then(|seen| seen.work_j)),
-                    member.why.replace('"', "\"\""),
+                    cell(&member.why),
                 )
                 .expect("a string grows");
             }
         }
+    }
+    for Missing { part, why } in missing {
+        writeln!(text, "{part},,,,,,missing,,,,,,,{}", cell(why)).expect("a string grows");
     }
     text
 }

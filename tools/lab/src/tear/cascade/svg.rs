@@ -28,8 +28,11 @@ pub(in crate::tear) fn height(cascades: &[Cascade]) -> u32 {
     }
 }
 
-fn scenes(cascades: &[Cascade]) -> Vec<&'static str> {
-    let mut scenes: Vec<&str> = cascades.iter().map(|cascade| cascade.scene).collect();
+fn scenes(cascades: &[Cascade]) -> Vec<&str> {
+    let mut scenes: Vec<&str> = cascades
+        .iter()
+        .map(|cascade| cascade.scene.as_str())
+        .collect();
     scenes.dedup();
     scenes
 }
@@ -81,7 +84,7 @@ fn panel(
     let caption = format!("{} · {name}{unit}{scale}", first.scene);
     root.draw(&Text::new(caption, (left + 6, top), ("sans-serif", 14)))?;
     let reference = match &first.numbers[place].reference[..] {
-        [] => "no reference: no two methods agree".to_owned(),
+        [] => "no reference: no two that converged agree".to_owned(),
         names => format!("reference: the finest of {}", names.join(" and ")),
     };
     let grey = |size: i32| ("sans-serif", size).into_font().color(&GREY);
@@ -107,7 +110,7 @@ fn panel(
     }
     for (i, cascade) in cascades.iter().enumerate() {
         let number = &cascade.numbers[place];
-        let colour = crate::pareto::colour(family(cascade.method));
+        let colour = crate::pareto::colour(family(&cascade.method));
         let middle = x0 + METHOD * i as i32 + METHOD / 2;
         for (j, spread) in number.spreads.iter().enumerate() {
             let x = middle + BAR * (j as i32 - 1);
@@ -119,7 +122,11 @@ fn panel(
         }
         let centred = |style: TextStyle<'static>| style.pos(Pos::new(HPos::Center, VPos::Top));
         let name = centred(("sans-serif", 11).into_font().color(&BLACK));
-        root.draw(&Text::new(cascade.method, (middle, bottom + 6), name))?;
+        root.draw(&Text::new(
+            cascade.method.clone(),
+            (middle, bottom + 6),
+            name,
+        ))?;
         let verdict = match number.verdict() {
             Some(Verdict::Same) => "=",
             Some(Verdict::Differ) => "≠",

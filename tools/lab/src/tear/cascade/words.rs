@@ -12,7 +12,10 @@ use crate::ensemble::Verdict;
 #[must_use]
 pub fn summary(cascades: &[Cascade]) -> String {
     let mut text = String::new();
-    let mut scenes: Vec<&str> = cascades.iter().map(|cascade| cascade.scene).collect();
+    let mut scenes: Vec<&str> = cascades
+        .iter()
+        .map(|cascade| cascade.scene.as_str())
+        .collect();
     scenes.dedup();
     for scene in scenes {
         let of = || cascades.iter().filter(|cascade| cascade.scene == scene);
@@ -23,7 +26,7 @@ pub fn summary(cascades: &[Cascade]) -> String {
                 Some(names) if !names.is_empty() => {
                     format!("reference: the finest of {}", names.join(" and "))
                 }
-                _ => "no two methods agree, so that there is no reference".to_owned(),
+                _ => "no two methods that converged agree: there is no reference".to_owned(),
             };
             let unit = match unit {
                 "" => String::new(),

@@ -1,0 +1,135 @@
+//! Charts in parts: what is gathered is what one run makes, and what is not there is named.
+
+use crate::harness::{Folder, seen};
+
+/// Each chart that can be made in parts, small, and its parts.
+const CHARTS: [(&str, &str, &[&str]); 2] = [
+    (
+        "pareto",
+        "--scene swing,strip --mesh grid,delaunay --size 3 --visits-max 30000",
+        &[
+            "swing-grid-3",
+            "swing-delaunay-3",
+            "strip-grid-3",
+            "strip-delaunay-3",
+        ],
+    ),
+    (
+        "tear",
+        "--strips 4,6 --scene rip,trouser --size 4 --method implicit,pbd --seeds 2",
+        &[
+            "strips",
+            "trouser-implicit",
+            "trouser-pbd",
+            "rip-implicit",
+            "rip-pbd",
+        ],
+    ),
+];
+
+/// Plans a chart, and types each line of the plan but those of some parts.
+fn made(folder: &Folder, chart: &str, options: &str, parts: &[&str], but: &[&str]) {
+    let output = folder.run(&format!("tearmesh chart {chart} {options} --plan -o a.svg"));
+    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    assert!(!folder.path("a.svg").exists());
+    let plan = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(plan.lines().count(), parts.len(), "{plan}");
+    for (line, part) in plan.lines().zip(parts) {
+        let files = format!("-o a.parts/{part}.svg --json a.parts/{part}.json");
+        assert!(line.ends_with(&files), "{line}");
+        if !but.contains(part) {
+            let made = folder.run(line);
+            assert_eq!(made.status.code(), Some(0), "{}", seen(&made));
+            assert_eq!(seen(&made), "");
+        }
+    }
+}
+
+#[test]
+fn what_is_gathered_is_what_one_run_makes() {
+    for (chart, options, parts) in CHARTS {
+        let folder = Folder::new();
+        made(&folder, chart, options, parts, &[]);
+        let files = |name: &str| format!("-o {name}.svg --csv {name}.csv --json {name}.json");
+        for (name, how) in [("a", "--gather a.parts"), ("b", "--threads 2")] {
+            let files = files(name);
+            let output = folder.run(&format!("tearmesh chart {chart} {options} {how} {files}"));
+            assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+        }
+        for ending in ["svg", "csv", "json"] {
+            let [gathered, whole] = ["a", "b"].map(|name| folder.read(&format!("{name}.{ending}")));
+            assert!(gathered == whole, "{chart}.{ending} differs");
+        }
+    }
+}
+
+#[test]
+fn a_part_that_is_missing_or_is_another_is_a_row_and_is_named() {
+    for (chart, options, parts) in CHARTS {
+        let folder = Folder::new();
+        made(&folder, chart, options, parts, &[parts[1]]);
+        // One is of another command, and one is cut off, as by a full disk.
+        let of = |part: &str| format!("a.parts/{part}.json");
+        folder.write(&of(parts[2]), folder.read(&of(parts[0])));
+        let text = folder.read(&of(parts[3]));
+        folder.write(&of(parts[3]), &text[..text.len() / 2]);
+        let line = format!(
+            "tearmesh chart {chart} {options} --gather a.parts -o a.svg --csv a.csv --json a.json"
+        );
+        let output = folder.run(&line);
+        assert_eq!(output.status.code(), Some(5), "{}", seen(&output));
+        let said = seen(&output);
+        let names = parts[1..4].join(", ");
+        assert!(said.contains("W-CHART-PARTS"), "{said}");
+        assert!(
+            said.contains(&format!(
+                "3 parts are missing: {names}; the first: a.parts/"
+            )),
+            "{said}"
+        );
+        assert!(folder.read("a.svg").contains("MISSING: "));
+        let table = folder.read("a.csv");
+        let report: serde_json::Value = serde_json::from_str(&folder.read("a.json")).expect("JSON");
+        let reasons = [
+            "No such file",
+            "was made by another command: tearmesh chart",
+            "is no tearmesh.chart.",
+        ];
+        for (i, (part, reason)) in parts[1..4].iter().zip(reasons).enumerate() {
+            let row = table
+                .lines()
+                .find(|line| line.contains("missing") && line.contains(part));
+            let row = row.unwrap_or_else(|| panic!("no {part} in {table}"));
+            assert!(row.contains(reason), "{row}");
+            let header = table.lines().next().expect("a header");
+            let columns = |line: &str| {
+                line.split('"')
+                    .step_by(2)
+                    .collect::<String>()
+                    .matches(',')
+                    .count()
+            };
+            assert_eq!(columns(row), columns(header), "{row}");
+            assert_eq!(report["missing"][i]["part"], *part);
+        }
+    }
+}
+
+#[test]
+fn a_folder_without_any_part_is_refused() {
+    let folder = Folder::new();
+    let (chart, options, _) = CHARTS[0];
+    let output = folder.run(&format!(
+        "tearmesh chart {chart} {options} --gather none -o a.svg"
+    ));
+    let said = seen(&output);
+    assert!(
+        said.contains("E-CHART-PARTS") && said.ends_with("(exit 3)\n"),
+        "{said}"
+    );
+    assert!(!folder.path("a.svg").exists());
+    for wrong in ["--plan -o -", "--plan --gather a.parts -o a.svg"] {
+        let said = seen(&folder.run(&format!("tearmesh chart {chart} {options} {wrong}")));
+        assert!(said.ends_with("(exit 2)\n"), "{said}");
+    }
+}
