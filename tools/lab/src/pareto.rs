@@ -16,7 +16,7 @@
 //!   better than that, and dominates no other error there.
 //! * A step meets a tolerance if all shorter steps of its series do too. So no error meets it by passing
 //!   through zero. An error that is larger than that of a longer step is marked and is on no front.
-//! * A point dominates another if it is a tenth better in cost and a tenth better in error.
+//! * A point dominates another if it is a tenth better in cost or in error, and no worse in the other.
 
 mod assess;
 mod csv;

@@ -13,12 +13,21 @@ pub struct Point {
 }
 
 impl Point {
-    /// Returns whether this point is a tenth better than `other` in cost and a tenth better in error.
+    /// Returns whether this point is a tenth better than `other` in cost or in error, and no worse in the
+    /// other.
+    ///
+    /// A tenth in both would leave each run on the front whose error equals that of a cheaper one, at whatever
+    /// cost.
     #[must_use]
     pub fn dominates(self, other: Point) -> bool {
-        let better = |a: f64, b: f64| a <= (1.0 - MARGIN) * b;
-        better(self.cost, other.cost) && better(self.error, other.error)
+        let is_cheaper = is_better(self.cost, other.cost);
+        let is_nearer = is_better(self.error, other.error);
+        is_cheaper && self.error <= other.error || is_nearer && self.cost <= other.cost
     }
+}
+
+fn is_better(a: f64, b: f64) -> bool {
+    a < b && a <= (1.0 - MARGIN) * b
 }
 
 /// Returns, for each point, whether no other point dominates it, in O(n log n).
@@ -27,18 +36,45 @@ pub fn front(points: &[Point]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&i, &j| points[i].cost.total_cmp(&points[j].cost));
     let mut is_on = vec![true; points.len()];
-    // The least error of all that cost a tenth less.
-    let (mut cheaper, mut least) = (0, f64::INFINITY);
+    let mut cheaper = Least::default();
+    let mut no_dearer = Least::default();
     for &i in &order {
-        let point = points[i];
-        let is_cheaper = |&&other: &&usize| points[other].cost <= (1.0 - MARGIN) * point.cost;
-        while let Some(&other) = order.get(cheaper).filter(is_cheaper) {
-            least = least.min(points[other].error);
-            cheaper += 1;
-        }
-        is_on[i] = least > (1.0 - MARGIN) * point.error;
+        let Point { cost, error } = points[i];
+        let least = cheaper.of(points, &order, |other| is_better(other, cost));
+        let is_matched = least <= error;
+        let least = no_dearer.of(points, &order, |other| other <= cost);
+        is_on[i] = !is_matched && !is_better(least, error);
     }
     is_on
+}
+
+/// The least error of the points at the head of an order.
+#[derive(Clone, Copy, Debug)]
+struct Least {
+    count: usize,
+    error: f64,
+}
+
+impl Default for Least {
+    fn default() -> Least {
+        Least {
+            count: 0,
+            error: f64::INFINITY,
+        }
+    }
+}
+
+impl Least {
+    /// The least error of the points up to the last whose cost is one of those.
+    fn of(&mut self, points: &[Point], order: &[usize], is_one: impl Fn(f64) -> bool) -> f64 {
+        while let Some(&next) = order.get(self.count)
+            && is_one(points[next].cost)
+        {
+            self.error = self.error.min(points[next].error);
+            self.count += 1;
+        }
+        self.error
+    }
 }
 
 /// The points of one series, from its longest step to its shortest, by the error that each of them
@@ -93,7 +129,12 @@ mod tests {
                 .collect();
             let is_on = front(&points);
             for (i, a) in points.iter().enumerate() {
-                let beats = |b: &Point| b.cost <= 0.9 * a.cost && b.error <= 0.9 * a.error;
+                let beats = |b: &Point| {
+                    let is_as_good = b.cost <= a.cost && b.error <= a.error;
+                    let is_cheaper = b.cost < a.cost && b.cost <= 0.9 * a.cost;
+                    let is_nearer = b.error < a.error && b.error <= 0.9 * a.error;
+                    is_as_good && (is_cheaper || is_nearer)
+                };
                 assert_eq!(is_on[i], !points.iter().any(beats), "{a:?} of {points:?}");
             }
         }
@@ -102,8 +143,10 @@ mod tests {
     #[test]
     fn a_point_that_is_better_by_less_than_a_tenth_dominates_nothing() {
         let point = |cost, error| Point { cost, error };
-        assert!(!point(1.0, 1.0).dominates(point(1.05, 5.0)));
-        assert!(!point(1.0, 1.0).dominates(point(5.0, 1.05)));
+        assert!(!point(0.95, 0.95).dominates(point(1.0, 1.0)));
+        assert!(point(1.0, 1.0).dominates(point(5.0, 1.0)));
+        assert!(!point(1.0, 1.0).dominates(point(0.99, 5.0)));
+        assert!(!point(1.0, 1.0).dominates(point(5.0, 0.99)));
         assert!(point(1.0, 1.0).dominates(point(1.2, 1.2)));
         assert!(!point(1.0, 1.0).dominates(point(1.0, 1.0)));
     }

@@ -75,7 +75,7 @@ fn head(root: &Area<'_>, by: By) -> Drawn {
     };
     root.draw(&Text::new(title, (14, 12), ("sans-serif", 21)))?;
     let words = "Down and to the left is better. A line joins the best of a method whatever its settings; dots \
-                 are its other runs. The grey line is the front: nothing is a tenth better in both. Ring: what \
+                 are its other runs. The grey line is the front: nothing is a tenth better in one and no worse in the other. Ring: what \
                  a method does by default; black: the default. Hollow, in the shade: below ten times the \
                  floor, known no better. Above: runs that failed, where they ended.";
     for (i, line) in wrapped(words, 200).iter().enumerate() {
