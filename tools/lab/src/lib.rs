@@ -1,7 +1,8 @@
 //! Experiments on tearmesh, and their charts.
 //!
 //! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
-//! [`stability`] measures where methods fail, and whether users are told. [`cut`] measures the time and the
+//! [`stability`] measures where methods fail, and whether users are told. [`space`] measures whether a finer
+//! mesh or a shorter step is the better buy. [`cut`] measures the time and the
 //! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
 //!
 //! Each experiment returns its figures as plain data, which can be drawn as SVG and written as CSV. Nothing
@@ -17,6 +18,7 @@ mod provenance;
 mod random;
 pub mod rk4;
 mod sample;
+pub mod space;
 pub mod stability;
 pub mod tear;
 
