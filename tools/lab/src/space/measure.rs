@@ -115,23 +115,7 @@ pub(super) struct Reading {
 
 impl Reading {
     pub(super) fn of(case: &Case, places: &Places, records: &Records) -> Reading {
-        let coordinates_m = records.coordinates_m();
-        let checkpoints = || coordinates_m.chunks_exact(3 * case.start.len());
-        let of = |x: &[f64]| -> Vec<f64> {
-            let shared = places.shared.iter();
-            shared
-                .flat_map(|&i| [x[3 * i], x[3 * i + 1], x[3 * i + 2]])
-                .collect()
-        };
-        let start: Vec<f64> = case.start.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
-        let sag = |x: &[f64]| -> f64 {
-            let each = places.lower.iter();
-            each.map(|&(i, part)| part * (start[3 * i + 1] - x[3 * i + 1]))
-                .sum()
-        };
         Reading {
-            shared_m: checkpoints().flat_map(of).collect(),
-            sag_m: checkpoints().next_back().map(sag),
             reaction_n: records.number(Observable::ReactionLargest),
             tears: [
                 Observable::ToughTime,
@@ -140,7 +124,29 @@ impl Reading {
                 Observable::TearForce,
             ]
             .map(|observable| records.number(observable)),
-            start_m: of(&start),
+            ..Reading::of_positions(case, places, records.coordinates_m())
+        }
+    }
+
+    /// What the coordinates of all particles say, checkpoint by checkpoint.
+    fn of_positions(case: &Case, places: &Places, coordinates_m: &[f64]) -> Reading {
+        let start: Vec<f64> = case.start.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
+        let checkpoints = || coordinates_m.chunks_exact(start.len());
+        let shared = |x: &[f64]| -> Vec<f64> {
+            let of = |&i: &usize| [x[3 * i], x[3 * i + 1], x[3 * i + 2]];
+            places.shared.iter().flat_map(of).collect()
+        };
+        let sag = |x: &[f64]| -> f64 {
+            let down = |i: usize| start[3 * i + 1] - x[3 * i + 1];
+            let each = places.lower.iter();
+            each.map(|&(i, part)| part * down(i)).sum()
+        };
+        Reading {
+            shared_m: checkpoints().flat_map(shared).collect(),
+            start_m: shared(&start),
+            sag_m: checkpoints().next_back().map(sag),
+            reaction_n: None,
+            tears: [None; 4],
         }
     }
 
@@ -183,5 +189,62 @@ impl Reading {
         let each = a.zip(b).zip(of_m);
         let each = each.map(|((a, b), of_m)| norm(a, b) / norm(of_m, &of.start_m));
         each.max_by(f64::total_cmp)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::SpaceScene;
+    use super::*;
+
+    /// Thirds, which floats round, too.
+    const CELLS: [u32; 4] = [3, 6, 9, 24];
+
+    /// A field over the sheet as it is read on a mesh.
+    fn read(cells: u32, moved: impl Fn([f64; 3]) -> [f64; 3]) -> Reading {
+        let case = SpaceScene::Hang.case(cells);
+        let coordinates = case.start.iter().flat_map(|p| moved([p.x, p.y, p.z]));
+        let coordinates: Vec<f64> = coordinates.collect();
+        Reading::of_positions(&case, &Places::new(&case, CELLS[0]), &coordinates)
+    }
+
+    #[test]
+    fn a_field_is_the_same_on_every_mesh_and_another_is_as_far_as_it_is_by_hand() {
+        let bent = |[x, y, z]: [f64; 3]| [x + 0.1 * y * y, y - 0.2 * x, z + x * y];
+        let off = |[x, y, z]: [f64; 3]| [x + 0.1 * y * y, y - 0.2 * x, z + x * y + 0.3 * y];
+        let (mut apart, mut far) = (0.0, 0.0);
+        for j in 0..=3 {
+            for i in 0..=3 {
+                let [x, y] = [i, j].map(|k| f64::from(k) / 3.0);
+                apart += 0.09 * y * y;
+                far += 0.01 * y.powi(4) + 0.04 * x * x + x * x * y * y;
+            }
+        }
+        let by_hand = f64::sqrt(apart / far);
+        for a in CELLS {
+            for b in CELLS {
+                let [first, second, third] = [read(a, bent), read(b, bent), read(b, off)];
+                let measure = Measure::Displacement;
+                let same = first.apart(&second, &second, measure).expect("a distance");
+                assert!(same < 1e-14, "{a} {b}: {same}");
+                let apart = third.apart(&first, &first, measure).expect("a distance");
+                assert!(
+                    (apart - by_hand).abs() < 1e-13,
+                    "{a} {b}: {apart}, not {by_hand}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_sag_of_a_parabola_is_its_mean_by_the_rule_of_trapezia() {
+        for cells in CELLS {
+            let reading = read(cells, |[x, y, z]| [x, y - x * x, z]);
+            // ∫ x² = 1/3, and straight lines between its points lie above it by h²/6.
+            let h = 1.0 / f64::from(cells);
+            let mean = 1.0 / 3.0 + h * h / 6.0;
+            let sag = reading.number(Measure::Sag).expect("a sag");
+            assert!((sag - mean).abs() < 1e-14, "{cells}: {sag}, not {mean}");
+        }
     }
 }

@@ -112,3 +112,27 @@ fn slit(case: &mut Case) {
         !(crosses && (is_left(a) || is_left(b)))
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slit_leaves_no_spring_from_its_left_end_to_its_tip() {
+        for cells in [4, 8, 12] {
+            let [whole, slit] =
+                [SpaceScene::Strip, SpaceScene::Slit].map(|scene| scene.case(cells));
+            let points = &slit.sheet.points;
+            let (side, h) = (0.1, 0.1 / f64::from(cells));
+            let above = 0.5 * side + 0.5 * h;
+            for &[a, b] in &slit.edges {
+                let [p, q] = [points[a], points[b]];
+                let crosses = (p.y < above) != (q.y < above);
+                let middle = 0.5 * (p.x + q.x);
+                assert!(!crosses || middle > 0.5 * side - 0.1 * h, "{p:?} {q:?}");
+            }
+            // Of each of the n/2 cells its left side and its diagonal.
+            assert_eq!(whole.edges.len() - slit.edges.len(), cells as usize);
+        }
+    }
+}

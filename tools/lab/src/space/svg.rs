@@ -9,7 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::measure::Measure;
 use super::{Better, Error, Floor, Row, SceneStudy, Study};
 use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
-use crate::pareto::{FLOORS, Family, Status, colour};
+use crate::pareto::{FLOORS, Family, Look, Status, colour, draw_mark};
 
 const COLUMNS: usize = 2;
 const PANEL: (i32, i32) = (640, 330);
@@ -23,6 +23,12 @@ const NAME: i32 = 104;
 
 /// Errors below so many times the floor are drawn as being there.
 const LEAST: f64 = 0.1;
+
+/// Errors above this are drawn as being there: they are wrong, whatever the number.
+const MOST: f64 = 3.0;
+
+/// An axis of logarithms has no zero.
+const LEAST_OF_ALL: f64 = 1e-12;
 
 const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 
@@ -62,10 +68,10 @@ fn grey(root: &Area<'_>, words: &str, at: (i32, i32), size: i32) -> Drawn {
     root.draw(&Text::new(words.to_owned(), at, style))
 }
 
-/// The radius of the marks of a mesh in pixels: the finer, the larger.
-fn radius(study: &Study, cells: u32) -> i32 {
+/// The size of the marks of a mesh in pixels: the finer, the larger.
+fn size(study: &Study, cells: u32) -> f64 {
     let place = study.cells.iter().position(|other| *other == cells);
-    2 + 2 * place.unwrap_or(0) as i32
+    2.2 + 1.9 * place.unwrap_or(0) as f64
 }
 
 /// The title, how to read the chart, and the marks with their names.
@@ -74,9 +80,9 @@ fn head(root: &Area<'_>, study: &Study) -> Drawn {
     root.draw(&Text::new(title, (14, 12), ("sans-serif", 21)))?;
     let words = format!(
         "Errors against {} cells, by work; down and to the left is better. A line joins the steps of a method \
-         on one mesh: along it steps are halved, and to the next larger marks edges are. A black rim: on the \
+         on one mesh: along it steps are halved, and to the next larger marks edges are. A ring: on the \
          front of its method. Shaded: below ten times the distance of the two runs on the finest mesh, known \
-         no better. Tables: which halving lowers the error more per factor of cost, from each mesh (above) and \
+         no better. What is off by 300 % or more stands at 3. Tables: which halving lowers the error more per factor of cost, from each mesh (above) and \
          step (part of the base step); bold on the front, – neither lowers it by a tenth, × the run failed.",
         study.finest
     );
@@ -85,14 +91,14 @@ fn head(root: &Area<'_>, study: &Study) -> Drawn {
     }
     let mut x = 22;
     for family in families(study) {
-        root.draw(&Circle::new((x, LEGEND), 5, colour(family).filled()))?;
+        draw_mark(root, family, (x, LEGEND), 5.0, Look::Filled)?;
         let style = ("sans-serif", 14).into_font().color(&BLACK);
         root.draw(&Text::new(family.name(), (x + 10, LEGEND - 7), style))?;
         x += 38 + 8 * family.name().len() as i32;
     }
     x += 20;
     for &cells in &study.cells {
-        let size = radius(study, cells);
+        let size = size(study, cells).round() as i32;
         root.draw(&Circle::new((x, LEGEND), size, GREY.filled()))?;
         let words = format!("{cells} cells");
         root.draw(&Text::new(words, (x + 12, LEGEND - 7), ("sans-serif", 14)))?;
@@ -163,7 +169,7 @@ fn panel(
         return grey(root, words, (left + 54, top + 120), 12);
     };
     // What is nothing is drawn near the floor.
-    let height = |error: &Error| error.total.max(floor * LEAST).max(f64::MIN_POSITIVE);
+    let height = |error: &Error| error.total.clamp((floor * LEAST).max(LEAST_OF_ALL), MOST);
     let x = spread(spots.iter().map(|(row, _)| row.visits as f64), 1.4);
     let y = spread(spots.iter().map(|(_, error)| height(error)), 1.5);
     let area = root
@@ -197,7 +203,7 @@ fn panel(
             let own = spots.iter().copied();
             let own = own.filter(|(row, _)| row.method == method && row.cells == cells);
             let own: Vec<(&Row, &Error)> = own.collect();
-            series(root, &mut chart, &own, radius(study, cells), &height)?;
+            series(root, &mut chart, &own, size(study, cells), &height)?;
         }
     }
     Ok(())
@@ -208,7 +214,7 @@ fn series(
     root: &Area<'_>,
     chart: &mut Panel<'_, '_>,
     own: &[(&Row, &Error)],
-    radius: i32,
+    size: f64,
     height: &dyn Fn(&Error) -> f64,
 ) -> Drawn {
     let Some(family) = own.first().and_then(|(row, _)| row.family()) else {
@@ -219,9 +225,10 @@ fn series(
     chart.draw_series(LineSeries::new(points, colour(family).stroke_width(1)))?;
     for (row, error) in own {
         let at = chart.backend_coord(&(row.visits as f64, height(error)));
-        root.draw(&Circle::new(at, radius, colour(family).filled()))?;
+        draw_mark(root, family, at, size, Look::Filled)?;
         if error.is_on_front {
-            root.draw(&Circle::new(at, radius + 1, BLACK.stroke_width(1)))?;
+            let rim = (1.3 * size).round() as i32 + 1;
+            root.draw(&Circle::new(at, rim, BLACK.stroke_width(1)))?;
         }
     }
     Ok(())
