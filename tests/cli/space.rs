@@ -24,8 +24,8 @@ fn errors_of_meshes_and_of_steps_are_told_apart() {
     let rows = report["scenes"][0]["rows"].as_array().expect("rows");
     assert_eq!(rows.len(), 12);
     // At rest a step of Verlet's has no error, so that all of it is of the mesh.
-    let of = |name: &str| rows.iter().filter(move |row| row["method"] == name);
-    let errors = of("verlet").flat_map(|row| row["errors"].as_array().expect("errors"));
+    let verlet = rows.iter().filter(|row| row["method"] == "verlet");
+    let errors = verlet.flat_map(|row| row["errors"].as_array().expect("errors"));
     let number = |error: &serde_json::Value, key: &str| error[key].as_f64().expect("a number");
     let mut count = 0;
     for error in errors {
