@@ -2,8 +2,8 @@
 //!
 //! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
 //! [`stability`] measures where methods fail, and whether users are told. [`space`] measures whether a finer
-//! mesh or a shorter step is the better buy. [`cut`] measures the time and the
-//! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
+//! mesh or a shorter step is the better buy. [`cut`] measures the time and the accuracy of cuts. [`fig7`]
+//! measures the time to split vertices. [`ensemble`] compares runs of one scene.
 //!
 //! Each experiment returns its figures as plain data, which can be drawn as SVG and written as CSV. Nothing
 //! here reads a file or a clock: a clock is an argument. So the same experiment gives the same bytes.

@@ -19,7 +19,10 @@
 //!   of the coarsest mesh, each of whose points counts the same.
 //! * When the edge is halved, the step stays the same part of its method's base step. That is half as long
 //!   for explicit methods and those that sweep, and as long as before for implicit ones.
-//! * A threshold of stretch is a property of the mesh: no error by it need fall. It is kept as a foil.
+//! * Not every measure has a value as edges get shorter. A toughness has one at the tip of a slit, and none in
+//!   a whole strip, where an edge of half the length needs √2 times the strain. A stretch ratio has none at
+//!   the tip of a slit, where strains grow without bound. The summary tells what is left of each mesh.
+//! * Provot's limiter moves particles by no force. Its forces are errors, and its chart shows how large.
 
 mod assess;
 mod csv;
@@ -277,8 +280,8 @@ impl Plan {
                     true
                 },
             );
-            let outcomes = outcomes.expect("nobody stops the list itself");
-            scenes.push(self.assessed(prepared, &outcomes));
+            // Nobody stops the list itself, so that it has results.
+            scenes.extend(outcomes.map(|outcomes| self.assessed(prepared, &outcomes)));
         }
         Study {
             schema: "tearmesh.chart.space/1".to_owned(),

@@ -10,7 +10,7 @@ pub enum SpaceScene {
     Hang,
     /// A sheet swings about its upper edge.
     Swing,
-    /// A strip is pulled to its first tear.
+    /// A strip is pulled to its first tear. The finer the mesh, the later toughness tears it.
     Strip,
     /// A strip with a slit across half of its width is pulled to its first tear.
     Slit,

@@ -74,7 +74,7 @@ fn buy(scene: &SceneStudy, cells: u32, part: f64) -> Option<Buy> {
 #[test]
 fn the_better_buy_is_what_the_error_is_made_of() {
     let near = |a: Option<f64>, b: f64| (a.expect("a number") - b).abs() < 1e-12;
-    // Errors h + Δt²/10⁶ are of the mesh, h⁴ + Δt² of the step; a constant is of nothing.
+    // Errors that are of the mesh alone, of the step alone, and of neither.
     let mesh = planted(0.0, |h, _| h);
     let step = planted(0.0, |_, dt| 0.01 * dt * dt);
     let none = planted(0.0, |_, _| 0.5);
