@@ -32,6 +32,7 @@ mod pictures;
 mod pieces;
 mod places;
 mod shell;
+mod space;
 mod stability;
 mod step;
 mod tear;

@@ -8,6 +8,7 @@ mod pareto;
 mod parts;
 mod progress;
 mod provenance;
+mod space;
 mod stability;
 mod tear;
 
@@ -32,6 +33,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Stability(args) => {
             let draw = &args.draw;
             (draw, stability::work(args, target(draw, streams), streams))
+        }
+        What::Space(args) => {
+            let draw = &args.draw;
+            (draw, space::work(args, target(draw, streams), streams))
         }
         What::Cut(args) => {
             let draw = &args.draw;

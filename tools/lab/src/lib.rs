@@ -1,8 +1,9 @@
 //! Experiments on tearmesh, and their charts.
 //!
 //! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
-//! [`stability`] measures where methods fail, and whether users are told. [`cut`] measures the time and the
-//! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
+//! [`stability`] measures where methods fail, and whether users are told. [`space`] measures whether a finer
+//! mesh or a shorter step is the better buy. [`cut`] measures the time and the accuracy of cuts. [`fig7`]
+//! measures the time to split vertices. [`ensemble`] compares runs of one scene.
 //!
 //! [`parts`] puts together what was run apart.
 //!
@@ -20,6 +21,7 @@ mod provenance;
 mod random;
 pub mod rk4;
 mod sample;
+pub mod space;
 pub mod stability;
 pub mod tear;
 

@@ -39,12 +39,15 @@ pub use self::assess::{
     Winner, assess,
 };
 pub use self::csv::csv;
+pub(crate) use self::front::{MARGIN, vouched};
 pub use self::front::{Point, front};
-pub(crate) use self::mark::colour;
+pub(crate) use self::mark::{Look, colour, draw as draw_mark};
 pub(crate) use self::mesh::delaunay;
 pub use self::mesh::{MeshKind, SEED, Sheet};
 pub use self::method::{Claim, Family, METHODS, Method, Named, PARTS};
 pub use self::observable::Observable;
+pub(crate) use self::observe::Records;
+pub(crate) use self::plan::finest;
 pub use self::plan::{Planned, Role, plan};
 pub use self::run::{Bounds, CHECKPOINTS, Cost, ENERGY_MAX, Outcome, Status};
 pub use self::scene::{

@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use tearmesh_lab::pareto::{MeshKind, SCENES};
+use tearmesh_lab::pareto::{METHODS as SERIES, MeshKind, PARTS, SCENES};
+use tearmesh_lab::space::{self, SpaceScene};
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 use tearmesh_lab::tear::cascade::{CascadeScene, METHODS, SEEDS};
 use tearmesh_lab::{fig7, tear};
@@ -36,6 +37,8 @@ pub(crate) enum What {
     Pareto(ParetoArgs),
     /// Where methods fail, by theory and as measured, and what one is told of it.
     Stability(StabilityArgs),
+    /// Whether a finer mesh or a shorter step is the better buy, by errors against a mesh that is finer still.
+    Space(SpaceArgs),
     /// The time of cuts by every method and several snaps, against how far their seams are off.
     Cut(CutChartArgs),
     /// The time that it takes to split vertices while a cloth is ripped, by ghost pairs and without
@@ -197,6 +200,59 @@ fn stiffness(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(k) if (1e-3..=1e9).contains(&k) => Ok(k),
         _ => Err("a number from 1e-3 to 1e9".to_owned()),
+    }
+}
+
+/// What `chart space` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SpaceArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// The scenes.
+    #[arg(long, value_name = "NAME", value_delimiter = ',',
+        default_values_t = SpaceScene::ALL.map(|scene| scene.name().to_owned()),
+        value_parser = clap::builder::PossibleValuesParser::new(SpaceScene::ALL.map(|scene| scene.name())))]
+    pub(crate) scene: Vec<String>,
+
+    /// Cells per side of the meshes that are compared: multiples of the smallest, so that they share
+    /// vertices.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = space::CELLS,
+        value_parser = clap::value_parser!(u32).range(2..=256))]
+    pub(crate) size: Vec<u32>,
+
+    /// Cells per side of the mesh with which they are compared: finer than all, best by two halvings.
+    #[arg(long, value_name = "N", default_value_t = space::FINEST,
+        value_parser = clap::value_parser!(u32).range(2..=512))]
+    pub(crate) finest: u32,
+
+    /// The methods with their settings.
+    #[arg(long, value_name = "NAME", value_delimiter = ',',
+        default_values_t = space::SERIES.map(str::to_owned),
+        value_parser = clap::builder::PossibleValuesParser::new(SERIES.map(|method| method.name)))]
+    pub(crate) method: Vec<String>,
+
+    /// The steps, as parts of each method's base step; one must be half of another.
+    #[arg(long, value_name = "PART", value_delimiter = ',', default_values_t = space::STEPS,
+        value_parser = part)]
+    pub(crate) part: Vec<f64>,
+
+    /// How many runs go on at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// The visits of edges after which a run is given up.
+    #[arg(long, value_name = "N")]
+    pub(crate) visits_max: Option<u64>,
+}
+
+fn part(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(part) if PARTS.contains(&part) => Ok(part),
+        _ => Err(format!(
+            "one of {}",
+            PARTS.map(|part| part.to_string()).join(", ")
+        )),
     }
 }
 

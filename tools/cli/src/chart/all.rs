@@ -32,13 +32,18 @@ const fn chart(name: &'static str, small: &'static str, is_divided: bool) -> Cha
 }
 
 /// The charts, the quick ones first.
-const CHARTS: [Chart; 5] = [
+const CHARTS: [Chart; 6] = [
     chart("stability", "--stiffness 1000", false),
     chart("cut", "--size 8,12 --cuts 3", false),
     chart("fig7", "--size 4,8", false),
     chart(
         "tear",
         "--strips 4,6 --scene rip --size 6 --method implicit,pbd --seeds 2",
+        true,
+    ),
+    chart(
+        "space",
+        "--scene hang,slit --size 2,4 --finest 8 --method verlet,xpbd-4 --part 1,0.5",
         true,
     ),
     chart("pareto", "--scene swing --size 3 --visits-max 100000", true),

@@ -1,7 +1,7 @@
 //! Fronts of work against error, and who is cheapest at a tolerance.
 
 /// By how much a point has to be better, as a part, to dominate.
-pub(super) const MARGIN: f64 = 0.1;
+pub(crate) const MARGIN: f64 = 0.1;
 
 /// The cost and the error of a run. For both, smaller is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ impl Least {
 /// vouches for: the largest of its own and those of all shorter steps. So nobody meets a tolerance by
 /// an error that happens to pass zero.
 #[must_use]
-pub(super) fn vouched(errors: &[f64]) -> Vec<f64> {
+pub(crate) fn vouched(errors: &[f64]) -> Vec<f64> {
     let mut vouched = errors.to_vec();
     for i in (1..vouched.len()).rev() {
         vouched[i - 1] = vouched[i - 1].max(vouched[i]);

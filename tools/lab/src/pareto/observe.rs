@@ -22,6 +22,21 @@ pub struct Records {
 }
 
 impl Records {
+    /// The coordinates of all particles at each checkpoint, in metres.
+    #[must_use]
+    pub(crate) fn coordinates_m(&self) -> &[f64] {
+        &self.raw[Raw::Positions as usize]
+    }
+
+    /// The number of an observable that has one of its own; `None` where there is no answer.
+    #[must_use]
+    pub(crate) fn number(&self, observable: Observable) -> Option<f64> {
+        let (raw, place) = observable.raw();
+        let is_vector = raw as usize <= Raw::Forces as usize;
+        let numbers = (!is_vector).then_some(&self.raw[raw as usize])?;
+        numbers.get(place).copied().filter(|x| x.is_finite())
+    }
+
     /// Returns the linear combination w a + (1 − w) b of the numbers of two runs.
     #[must_use]
     pub fn mixed(weight: f64, a: &Records, b: &Records) -> Records {

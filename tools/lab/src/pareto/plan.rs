@@ -169,6 +169,37 @@ pub fn plan(case: &Case) -> Vec<Planned> {
     runs
 }
 
+/// The steps of Newton's method on a mesh with which coarser ones are compared, as a multiple of the longest
+/// stable step. What is left of them is told by the distance to Verlet's method.
+const FINEST_NEWTON: f64 = 8.0;
+
+/// The runs of a case with which those on coarser meshes are compared. By Verlet's method there is one at half
+/// of its limit, which is the gate's; by Newton's there is one in longer steps.
+#[must_use]
+pub(crate) fn finest(case: &Case) -> Vec<Planned> {
+    let mut runs = plan(case);
+    if let Until::Rest(_) = case.scene.until {
+        runs.retain(|run| matches!(run.role, Role::Verlet | Role::Newton | Role::Rest));
+        return runs;
+    }
+    let base_s = FINEST_NEWTON * reference(case).base_s(case);
+    let newton = runs.iter().find(|run| matches!(run.role, Role::Newton));
+    let newton = newton.map(|run| Planned {
+        name: "reference-newton".to_owned(),
+        base_s,
+        part: 1.0,
+        guess: run.guess * run.part * run.base_s / base_s * 3.0,
+        ..run.clone()
+    });
+    let is_compared = case.scene.observables.contains(&Observable::Displacement);
+    runs.retain(|run| match run.role {
+        Role::Gate { is_disturbed } => is_compared || !is_disturbed,
+        _ => false,
+    });
+    runs.extend(newton);
+    runs
+}
+
 /// A guess at how often a step visits each edge.
 fn visits_of(method: &Method, products: &dyn Fn(f64) -> f64, dt_s: f64) -> f64 {
     let sweeps = method.name.rsplit('-').next();

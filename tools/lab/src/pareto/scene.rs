@@ -257,11 +257,11 @@ pub struct Case {
     pub mesh: MeshKind,
     /// The number of cells along each side.
     pub cells: u32,
-    pub(super) sheet: Sheet,
+    pub(crate) sheet: Sheet,
     /// Where particles start.
-    pub(super) start: Vec<Point>,
+    pub(crate) start: Vec<Point>,
     /// The edges in the order in which they become constraints.
-    pub(super) edges: Vec<[usize; 2]>,
+    pub(crate) edges: Vec<[usize; 2]>,
 }
 
 impl Case {
