@@ -1,6 +1,7 @@
 //! Experiments on tearmesh, and their charts.
 //!
 //! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
+//! [`plane`] measures which method is the cheapest at a fixed error, by stiffness and mass ratio.
 //! [`stability`] measures where methods fail, and whether users are told. [`cut`] measures the time and the
 //! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
 //!
@@ -12,6 +13,7 @@ mod draw;
 pub mod ensemble;
 pub mod fig7;
 pub mod pareto;
+pub mod plane;
 pub mod pool;
 mod provenance;
 mod random;

@@ -1,11 +1,11 @@
 //! What can be asked of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The observables of a run, by which errors are measured. Errors are relative to the reference. Of
 /// positions and strains the largest error of all checkpoints counts. An edge is *loaded* if it bears more
 /// than 0.3 of the largest strain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Observable {
     /// The mass-weighted L2 norm of the position errors, divided by that of the displacements from the start.

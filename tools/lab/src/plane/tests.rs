@@ -1,0 +1,282 @@
+//! Lines through costs that are known, answers by hand, the same study from its parts, and an end at once.
+
+use super::place::QUESTIONS;
+use super::*;
+use crate::pareto::{Family, PARTS, Status};
+
+fn options(stiffness_n_per_m: &[f64], mass_ratios: &[f64]) -> Options {
+    Options {
+        stiffness_n_per_m: stiffness_n_per_m.to_vec(),
+        mass_ratios: mass_ratios.to_vec(),
+        cells: 4,
+        methods: ["verlet", "verlet-plain", "xpbd-1", "bdf2-100"]
+            .map(str::to_owned)
+            .into(),
+        cost_max: COST_MAX,
+        threads: NonZero::<usize>::MIN.saturating_add(1),
+    }
+}
+
+fn made(options: &Options) -> Study {
+    let study = study(options, Provenance::default(), &|| false, |_, _| {});
+    study.expect("nobody stops it")
+}
+
+/// A place with such costs of XPBD and of Verlet's method, which does not ask for displacements.
+fn planted(stiffness_n_per_m: f64, xpbd: Option<u64>, verlet: Option<u64>) -> Place {
+    let cost = |(family, visits): (Family, Option<u64>)| FamilyCost {
+        family: family.name().to_owned(),
+        visits,
+        run: None,
+        is_at_most: false,
+        is_cut_short: false,
+    };
+    let costs = [(Family::Verlet, verlet), (Family::Xpbd, xpbd)];
+    Place {
+        stiffness_n_per_m,
+        mass_ratio: 1.0,
+        amplification: None,
+        references: Vec::new(),
+        runs: Vec::new(),
+        answers: vec![Answer {
+            asked: QUESTIONS[0],
+            floor: Some(0.0),
+            is_barred: false,
+            is_known: true,
+            costs: costs.map(cost).into(),
+        }],
+    }
+}
+
+/// The line of these places against Verlet's method.
+fn line_of(places: Vec<Place>) -> Line {
+    let mut study = Study {
+        places,
+        ..made(&options(&[], &[]))
+    };
+    study.conclude();
+    let mut lines = study.lines.into_iter();
+    let found = lines.find(|line| line.asked == QUESTIONS[0] && line.opponent == "Verlet");
+    found.expect("a line for each ratio")
+}
+
+#[test]
+fn a_line_of_powers_crosses_where_the_powers_are_equal() {
+    // 3e6 = 1e4 k^½ at k = 9e4; of a power law linear interpolation of logarithms is exact.
+    let verlet = |k: f64| Some((1e4 * k.sqrt()).round() as u64);
+    let places = [1e6, 1e2, 1e5, 1e4, 1e3].map(|k| planted(k, Some(3_000_000), verlet(k)));
+    let line = line_of(places.into());
+    assert_eq!(line.begins_with_xpbd, Some(false));
+    let [crossing] = line.crossings[..] else {
+        panic!("one change: {line:?}");
+    };
+    assert_eq!((crossing.from_n_per_m, crossing.to_n_per_m), (1e4, 1e5));
+    assert!(crossing.is_to_xpbd);
+    let at = crossing.at_n_per_m.expect("both costs are known");
+    assert!((at / 9e4 - 1.0).abs() < 1e-3, "{at}");
+}
+
+#[test]
+fn who_misses_the_tolerance_is_dearer_and_who_costs_the_same_is_not_cheaper() {
+    let line = line_of(vec![
+        planted(1e2, None, Some(5)),
+        planted(1e3, Some(7), None),
+        // Nobody meets it: skipped.
+        planted(1e4, None, None),
+        planted(1e5, Some(6), Some(6)),
+        planted(1e6, Some(5), Some(6)),
+    ]);
+    assert_eq!(line.known_n_per_m, [1e2, 1e3, 1e5, 1e6]);
+    assert_eq!(line.begins_with_xpbd, Some(false));
+    let changes = line
+        .crossings
+        .iter()
+        .map(|c| (c.from_n_per_m, c.to_n_per_m, c.is_to_xpbd));
+    let expected = [(1e2, 1e3, true), (1e3, 1e5, false), (1e5, 1e6, true)];
+    assert_eq!(changes.collect::<Vec<_>>(), expected);
+    assert_eq!(line.crossings[0].at_n_per_m, None);
+    assert_eq!(line.crossings[1].at_n_per_m, None);
+    let at = line.crossings[2].at_n_per_m.expect("both costs are known");
+    assert!((at - 1e5).abs() < 1.0, "equal there: {at}");
+}
+
+#[test]
+fn the_cost_of_a_family_is_the_least_of_the_runs_that_all_shorter_steps_confirm() {
+    let study = made(&options(&[1e2, 1e4], &[1.0, 1e-3]));
+    let mut met = 0;
+    for place in &study.places {
+        assert_eq!(
+            place.runs.iter().filter(|run| run.part.is_some()).count(),
+            4 * PARTS.len()
+        );
+        for answer in &place.answers {
+            for cost in &answer.costs {
+                let error = |run: &&Run| {
+                    let asked = answer.asked.observable;
+                    run.errors
+                        .iter()
+                        .find(|error| error.observable == asked)
+                        .map(|error| error.total)
+                };
+                let mut least: Option<u64> = None;
+                for run in place.runs.iter().filter(|run| run.family == cost.family) {
+                    let is_short = |other: &&Run| {
+                        other.series == run.series && other.part.is_some() && other.part <= run.part
+                    };
+                    let worst = place
+                        .runs
+                        .iter()
+                        .filter(is_short)
+                        .filter_map(|other| error(&other))
+                        .fold(0.0, f64::max);
+                    let is_met = run.part.is_some()
+                        && error(&run).is_some()
+                        && worst <= answer.asked.tolerance;
+                    if is_met && least.is_none_or(|least| run.visits < least) {
+                        least = Some(run.visits);
+                    }
+                }
+                let floor = answer.floor.unwrap_or(f64::INFINITY);
+                let is_known = 10.0 * floor <= answer.asked.tolerance;
+                assert_eq!(answer.is_known, is_known);
+                assert_eq!(cost.visits, least.filter(|_| is_known), "{cost:?}");
+                met += u32::from(cost.visits.is_some());
+            }
+        }
+    }
+    assert!(met >= 12, "{met} costs");
+}
+
+#[test]
+fn a_light_particle_shortens_the_steps_of_plain_verlet_alone() {
+    let study = made(&options(&[1e3], &[1e-2, 1e-4]));
+    let base_s = |place: &Place, series: &str| {
+        let mut runs = place.runs.iter();
+        let run = runs.find(|run| run.series == series && run.part == Some(0.0625));
+        run.and_then(|run| run.dt_s)
+    };
+    let [light, lighter] = &study.places[..] else {
+        panic!("two places");
+    };
+    // Of a frequency √(k/m) where one mass is a hundredth as large, that of its own springs alone; steps are
+    // whole fractions of a tenth of a second.
+    let visits = |place: &Place| {
+        let of = place.runs.iter().filter(|run| run.series == "verlet-plain");
+        of.map(|run| run.status).collect::<Vec<_>>()
+    };
+    assert!(
+        visits(lighter)
+            .iter()
+            .all(|status| *status == Status::TooDear || *status == Status::Refused),
+        "{:?}",
+        visits(lighter)
+    );
+    let [a, b] = [light, lighter].map(|place| base_s(place, "verlet").expect("it ran"));
+    assert!((a / b - 1.0).abs() < 0.05, "{a} {b}");
+}
+
+#[test]
+fn runs_that_cost_too_much_are_rows_that_say_so() {
+    let few = Options {
+        cost_max: 3.0,
+        ..options(&[1e3], &[1.0])
+    };
+    let many = Options {
+        cost_max: 1e3,
+        ..few.clone()
+    };
+    let [few, many] = [few, many].map(|options| made(&options));
+    let unit = many.places[0]
+        .runs
+        .iter()
+        .find(|run| run.run == "verlet@1")
+        .expect("a run")
+        .visits;
+    assert_eq!(few.places[0].runs.len(), many.places[0].runs.len());
+    let mut cut = 0;
+    for (short, whole) in few.places[0].runs.iter().zip(&many.places[0].runs) {
+        assert_eq!(short.run, whole.run);
+        assert_ne!(whole.status, Status::TooDear, "{whole:?}");
+        if short.status == Status::TooDear {
+            cut += 1;
+            assert!(short.errors.is_empty() && short.visits < 4 * unit);
+            // To the accuracy of estimates, which know no visits to detect and to measure.
+            assert!(whole.visits as f64 > 2.5 * unit as f64, "{whole:?}");
+        } else {
+            assert_eq!(short.visits, whole.visits);
+        }
+    }
+    assert!(cut >= 4, "{cut} runs");
+    let xpbd = |study: &Study| {
+        study.places[0].answers[1]
+            .cost(Family::Xpbd)
+            .expect("runs")
+            .is_cut_short
+    };
+    assert!(xpbd(&few) && !xpbd(&many));
+}
+
+#[test]
+fn a_study_is_its_parts_one_after_the_other_however_many_work_on_it() {
+    let whole = made(&options(&[1e3, 1e4], &[1.0, 1e-2]));
+    let mut parts = Vec::new();
+    for place in [(1e4, 1e-2), (1e3, 1e-2), (1e4, 1.0), (1e3, 1.0)] {
+        let alone = Options {
+            threads: NonZero::<usize>::MIN,
+            ..options(&[place.0], &[place.1])
+        };
+        parts.extend(made(&alone).places);
+    }
+    let mut gathered = Study {
+        places: parts,
+        lines: Vec::new(),
+        ..whole.clone()
+    };
+    gathered.conclude();
+    assert_eq!(csv(&gathered), csv(&whole));
+    assert_eq!(svg(&gathered), svg(&whole));
+    assert_eq!(summary(&gathered), summary(&whole));
+    let columns = csv(&whole);
+    let mut counts = columns.lines().map(|line| {
+        line.split('"')
+            .step_by(2)
+            .collect::<String>()
+            .matches(',')
+            .count()
+    });
+    let head = counts.next().expect("a head");
+    assert!(counts.all(|count| count == head));
+}
+
+#[test]
+fn a_place_without_an_answer_says_why() {
+    let study = made(&options(&[1e3], &[1.0]));
+    let told = |change: &dyn Fn(&mut Answer)| {
+        let mut study = study.clone();
+        let places = study.places.iter_mut();
+        places
+            .flat_map(|place| &mut place.answers)
+            .for_each(|answer| {
+                answer.costs.iter_mut().for_each(|cost| cost.visits = None);
+                change(answer);
+            });
+        study.conclude();
+        assert!(summary(&study).contains("not known"));
+        svg(&study).expect("a chart")
+    };
+    let below = told(&|answer| (answer.is_known, answer.floor) = (false, Some(0.05)));
+    assert!(below.contains("not known: floor"));
+    assert!(
+        told(&|answer| (answer.is_known, answer.floor) = (false, None)).contains("no reference")
+    );
+    assert!(told(&|answer| answer.is_barred = true).contains("barred: noise"));
+    assert!(told(&|answer| answer.is_known = true).contains("nobody meets it"));
+}
+
+#[test]
+fn an_interrupted_study_ends_at_once_with_nothing() {
+    let options = options(&[1e3], &[1.0]);
+    let mut heard = 0;
+    let study = study(&options, Provenance::default(), &|| true, |_, _| heard += 1);
+    assert!(study.is_none() && heard <= 1);
+}
