@@ -30,6 +30,7 @@ mod pareto;
 mod pictures;
 mod pieces;
 mod places;
+mod plane;
 mod shell;
 mod stability;
 mod step;

@@ -5,6 +5,7 @@ mod cut;
 mod fig7;
 mod files;
 mod pareto;
+mod plane;
 mod progress;
 mod provenance;
 mod stability;
@@ -27,6 +28,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Pareto(args) => {
             let draw = &args.draw;
             (draw, pareto::work(args, target(draw, streams), streams))
+        }
+        What::Plane(args) => {
+            let draw = &args.draw;
+            (draw, plane::work(args, target(draw, streams), streams))
         }
         What::Stability(args) => {
             let draw = &args.draw;

@@ -13,13 +13,17 @@ use crate::say::{Fault, count};
 use crate::streams::Streams;
 
 /// The charts, the quick ones first, and what each takes where all is to be small.
-const CHARTS: [(&str, &str); 5] = [
+const CHARTS: [(&str, &str); 6] = [
     ("stability", "--stiffness 1000"),
     ("cut", "--size 8,12 --cuts 3"),
     ("fig7", "--size 4,8"),
     (
         "tear",
         "--strips 4,6 --scene rip --size 6 --method implicit,pbd --seeds 2",
+    ),
+    (
+        "plane",
+        "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
     ),
     ("pareto", "--scene swing --size 3 --visits-max 100000"),
 ];
