@@ -100,79 +100,78 @@ fn who_misses_the_tolerance_is_dearer_and_who_costs_the_same_is_not_cheaper() {
     assert!((at - 1e5).abs() < 1.0, "equal there: {at}");
 }
 
+/// The least cost of the runs of a family whose error, and that of each shorter step of the same series, is
+/// within a tolerance.
+fn least(place: &Place, family: &str, asked: Asked) -> Option<u64> {
+    let error = |run: &Run| {
+        let mut errors = run.errors.iter();
+        let found = errors.find(|error| error.observable == asked.observable);
+        found.map(|error| error.total)
+    };
+    let mut least = None;
+    for run in &place.runs {
+        let Some(part) = run
+            .part
+            .filter(|_| run.family == family && error(run).is_some())
+        else {
+            continue;
+        };
+        let is_shorter =
+            |other: &&Run| other.series == run.series && other.part.is_some_and(|p| p <= part);
+        let mut shorter = place.runs.iter().filter(is_shorter).filter_map(error);
+        if shorter.all(|error| error <= asked.tolerance) {
+            least = Some(run.visits.min(least.unwrap_or(u64::MAX)));
+        }
+    }
+    least
+}
+
 #[test]
 fn the_cost_of_a_family_is_the_least_of_the_runs_that_all_shorter_steps_confirm() {
     let study = made(&options(&[1e2, 1e4], &[1.0, 1e-3]));
-    let mut met = 0;
+    let (mut met, mut missed) = (0, 0);
     for place in &study.places {
-        assert_eq!(
-            place.runs.iter().filter(|run| run.part.is_some()).count(),
-            4 * PARTS.len()
-        );
+        let of_budget = place.runs.iter().filter(|run| run.part.is_some());
+        assert_eq!(of_budget.count(), 4 * PARTS.len());
         for answer in &place.answers {
+            let floor = answer.floor.unwrap_or(f64::INFINITY);
+            let is_known = 10.0 * floor <= answer.asked.tolerance;
+            assert_eq!(answer.is_known, is_known);
             for cost in &answer.costs {
-                let error = |run: &&Run| {
-                    let asked = answer.asked.observable;
-                    run.errors
-                        .iter()
-                        .find(|error| error.observable == asked)
-                        .map(|error| error.total)
-                };
-                let mut least: Option<u64> = None;
-                for run in place.runs.iter().filter(|run| run.family == cost.family) {
-                    let is_short = |other: &&Run| {
-                        other.series == run.series && other.part.is_some() && other.part <= run.part
-                    };
-                    let worst = place
-                        .runs
-                        .iter()
-                        .filter(is_short)
-                        .filter_map(|other| error(&other))
-                        .fold(0.0, f64::max);
-                    let is_met = run.part.is_some()
-                        && error(&run).is_some()
-                        && worst <= answer.asked.tolerance;
-                    if is_met && least.is_none_or(|least| run.visits < least) {
-                        least = Some(run.visits);
-                    }
-                }
-                let floor = answer.floor.unwrap_or(f64::INFINITY);
-                let is_known = 10.0 * floor <= answer.asked.tolerance;
-                assert_eq!(answer.is_known, is_known);
-                assert_eq!(cost.visits, least.filter(|_| is_known), "{cost:?}");
+                let expected = least(place, &cost.family, answer.asked);
+                assert_eq!(cost.visits, expected.filter(|_| is_known), "{cost:?}");
                 met += u32::from(cost.visits.is_some());
+                missed += u32::from(is_known && cost.visits.is_none());
             }
         }
     }
-    assert!(met >= 12, "{met} costs");
+    assert!(met >= 12 && missed >= 1, "{met} met, {missed} missed");
 }
 
 #[test]
 fn a_light_particle_shortens_the_steps_of_plain_verlet_alone() {
-    let study = made(&options(&[1e3], &[1e-2, 1e-4]));
-    let base_s = |place: &Place, series: &str| {
-        let mut runs = place.runs.iter();
-        let run = runs.find(|run| run.series == series && run.part == Some(0.0625));
-        run.and_then(|run| run.dt_s)
-    };
+    let methods = ["verlet", "verlet-plain"].map(str::to_owned).into();
+    let study = made(&Options {
+        methods,
+        cost_max: 200.0,
+        ..options(&[1e3], &[1e-2, 1e-4])
+    });
     let [light, lighter] = &study.places[..] else {
         panic!("two places");
     };
-    // Of a frequency √(k/m) where one mass is a hundredth as large, that of its own springs alone; steps are
-    // whole fractions of a tenth of a second.
-    let visits = |place: &Place| {
-        let of = place.runs.iter().filter(|run| run.series == "verlet-plain");
-        of.map(|run| run.status).collect::<Vec<_>>()
+    let shortened = |name: &str| {
+        let step_s = |place: &Place| {
+            let found = place.runs.iter().find(|run| run.run == name);
+            found.and_then(|run| run.dt_s).expect("it ran")
+        };
+        step_s(light) / step_s(lighter)
     };
-    assert!(
-        visits(lighter)
-            .iter()
-            .all(|status| *status == Status::TooDear || *status == Status::Refused),
-        "{:?}",
-        visits(lighter)
-    );
-    let [a, b] = [light, lighter].map(|place| base_s(place, "verlet").expect("it ran"));
-    assert!((a / b - 1.0).abs() < 0.05, "{a} {b}");
+    // A particle that is much lighter than its neighbours has the frequency √(k/m); steps are whole fractions
+    // of a tenth of a second.
+    let plain = shortened("verlet-plain@0.5");
+    assert!((plain - 10.0).abs() < 0.3, "{plain}");
+    let guarded = shortened("verlet@0.5");
+    assert!((guarded - 1.0).abs() < 0.1, "{guarded}");
 }
 
 #[test]
@@ -218,9 +217,9 @@ fn runs_that_cost_too_much_are_rows_that_say_so() {
 
 #[test]
 fn a_study_is_its_parts_one_after_the_other_however_many_work_on_it() {
-    let whole = made(&options(&[1e3, 1e4], &[1.0, 1e-2]));
+    let whole = made(&options(&[1e2, 1e3], &[1.0, 1e-3]));
     let mut parts = Vec::new();
-    for place in [(1e4, 1e-2), (1e3, 1e-2), (1e4, 1.0), (1e3, 1.0)] {
+    for place in [(1e3, 1e-3), (1e2, 1e-3), (1e3, 1.0), (1e2, 1.0)] {
         let alone = Options {
             threads: NonZero::<usize>::MIN,
             ..options(&[place.0], &[place.1])
