@@ -175,10 +175,8 @@ pub fn study(
                 !stop()
             },
         )?;
-        places.push(Place::new(
-            job.place,
-            &assess(&job.case, &job.plan, &outcomes),
-        ));
+        let case = assess(&job.case, &job.plan, &outcomes);
+        places.push(Place::new(job.place, job.visits_max, &case));
     }
     let mut study = Study {
         schema: "tearmesh.chart.plane/1".to_owned(),

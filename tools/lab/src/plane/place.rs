@@ -33,6 +33,8 @@ pub struct Place {
     pub stiffness_n_per_m: f64,
     /// The factor by which the mass of the middle particle is multiplied.
     pub mass_ratio: f64,
+    /// The largest number of visits of edges that a run was allowed. References have no limit.
+    pub visits_max: u64,
     /// The distance of the two runs of the gate divided by the noise; `None` if they failed.
     pub amplification: Option<f64>,
     /// The runs of the references and of the gate.
@@ -137,7 +139,11 @@ pub struct FamilyCost {
 
 impl Place {
     /// Reads the results of a place from those of its case.
-    pub(super) fn new((stiffness_n_per_m, mass_ratio): (f64, f64), case: &CaseStudy) -> Place {
+    pub(super) fn new(
+        (stiffness_n_per_m, mass_ratio): (f64, f64),
+        visits_max: u64,
+        case: &CaseStudy,
+    ) -> Place {
         let references = case.references.iter().map(|of| Reference {
             run: of.name.clone(),
             status: of.status,
@@ -149,6 +155,7 @@ impl Place {
         Place {
             stiffness_n_per_m,
             mass_ratio,
+            visits_max,
             amplification: case.amplification.filter(|a| a.is_finite()),
             references: references.collect(),
             answers: QUESTIONS

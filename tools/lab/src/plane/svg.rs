@@ -6,7 +6,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::line::OPPONENTS;
 use super::words::question;
-use super::{Answer, Asked, Crossing, Line, Place, QUESTIONS, Study};
+use super::{Answer, Asked, Crossing, FamilyCost, Line, Place, QUESTIONS, Study};
 use crate::draw::{Area, Drawn, drawn, wrapped};
 use crate::pareto::{Family, colour};
 
@@ -22,6 +22,9 @@ const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 /// Where nothing is known.
 const BLANK: RGBColor = RGBColor(0xe6, 0xe6, 0xe6);
 
+/// Lines, which words on them can be read through.
+const LINE: RGBColor = RGBColor(0x80, 0x80, 0x80);
+
 /// How much of a family's colour shows behind words.
 const PALE: f64 = 0.4;
 
@@ -34,7 +37,7 @@ pub fn svg(study: &Study) -> Option<String> {
         TABLE_HEAD + CELL.1 * axes.ratios.len() as i32 + BELOW,
     );
     let width = (QUESTIONS.len() as i32 * table.0 + 12).max(900);
-    let foot = wrapped(&footer(study), width as usize / 7);
+    let foot = wrapped(&footer(study), width as usize / 6);
     let height = HEAD + table.1 + 16 * foot.len() as i32 + 18;
     drawn((width as u32, height as u32), |root| {
         head(root, width, study)?;
@@ -80,10 +83,10 @@ fn head(root: &Area<'_>, width: i32, study: &Study) -> Drawn {
     root.draw(&Text::new(title, (14, 10), ("sans-serif", 21)))?;
     let words = "Each place has the colour of the cheapest family, with its cost in visits of edges, and the \
                  costs of XPBD and of plain Verlet as multiples of Verlet's (which divides steps around light \
-                 particles). ≤: by the longest step tried; a longer one may cost less. >: given up, as it \
-                 costs more. misses: no step tried meets the error. Black line: where XPBD and Verlet cost \
-                 the same, with the stiffness; dashed: XPBD and plain Verlet.";
-    for (i, line) in wrapped(words, width as usize / 7).iter().enumerate() {
+                 particles). ≤: by the longest step tried; a longer one may cost less. >: runs were given up \
+                 there. misses: no step tried meets the error. Grey line: where XPBD and Verlet cost the \
+                 same, with the stiffness; dashed: XPBD and plain Verlet.";
+    for (i, line) in wrapped(words, width as usize / 6).iter().enumerate() {
         root.draw(&Text::new(
             line.clone(),
             (14, 38 + 17 * i as i32),
@@ -126,6 +129,9 @@ fn families(study: &Study) -> impl Iterator<Item = Family> + '_ {
     Family::ALL.into_iter().filter(has)
 }
 
+/// A place with its answer and its upper left corner.
+type Cell<'a> = ((i32, i32), &'a Place, &'a Answer);
+
 /// What the tables have in common: the stiffness values from left to right, and the mass ratios downward.
 struct Axes {
     stiffness: Vec<f64>,
@@ -156,60 +162,56 @@ impl Axes {
         )
     }
 
+    /// Words stand above lines, and lines above colours.
     fn panel(&self, root: &Area<'_>, at: (i32, i32), study: &Study, asked: Asked) -> Drawn {
-        let (left, top) = at;
-        root.draw(&Text::new(
-            question(asked),
-            (left + LEFT, top + 4),
-            style(16, &BLACK),
-        ))?;
-        for (column, k) in self.stiffness.iter().enumerate() {
-            let (x, y) = Axes::corner(at, column, self.ratios.len());
-            let words = anchored(13, &BLACK, HPos::Center, VPos::Top);
-            root.draw(&Text::new(format!("{k:e}"), (x + CELL.0 / 2, y + 5), words))?;
-        }
-        let (right, bottom) = Axes::corner(at, self.stiffness.len(), self.ratios.len());
-        let words = anchored(13, &GREY, HPos::Center, VPos::Top);
-        let middle = (left + LEFT + right) / 2;
-        root.draw(&Text::new(
-            "stiffness k, N/m (logarithmic)",
-            (middle, bottom + 23),
-            words,
-        ))?;
-        let words = anchored(12, &GREY, HPos::Right, VPos::Bottom);
-        root.draw(&Text::new(
-            "mass ratio",
-            (left + LEFT - 4, top + TABLE_HEAD - 4),
-            words,
-        ))?;
-        for (row, ratio) in self.ratios.iter().enumerate() {
-            let (x, y) = Axes::corner(at, 0, row);
-            let words = anchored(13, &BLACK, HPos::Right, VPos::Center);
-            root.draw(&Text::new(
-                format!("{ratio:e}"),
-                (x - 6, y + CELL.1 / 2),
-                words,
-            ))?;
-        }
-        for place in &study.places {
-            let column = self
-                .stiffness
-                .iter()
-                .position(|k| *k == place.stiffness_n_per_m);
-            let row = self
-                .ratios
-                .iter()
-                .position(|ratio| *ratio == place.mass_ratio);
-            if let (Some(column), Some(row), Some(answer)) =
-                (column, row, place.answer(asked.observable))
-            {
-                cell(root, Axes::corner(at, column, row), place, answer)?;
-            }
+        let title = (at.0 + LEFT, at.1 + 4);
+        root.draw(&Text::new(question(asked), title, style(16, &BLACK)))?;
+        self.names(root, at)?;
+        let cells = self.cells(at, study, asked);
+        for &(corner, _, answer) in &cells {
+            fill(root, corner, answer)?;
         }
         for opponent in OPPONENTS {
             self.line(root, at, study, asked, opponent)?;
         }
+        for &(corner, place, answer) in &cells {
+            words(root, corner, place, answer)?;
+        }
         Ok(())
+    }
+
+    /// The numbers along both axes, and what they are.
+    fn names(&self, root: &Area<'_>, at: (i32, i32)) -> Drawn {
+        let below = |size, colour| anchored(size, colour, HPos::Center, VPos::Top);
+        let beside = |size, colour| anchored(size, colour, HPos::Right, VPos::Center);
+        for (column, k) in self.stiffness.iter().enumerate() {
+            let (x, y) = Axes::corner(at, column, self.ratios.len());
+            let middle = (x + CELL.0 / 2, y + 5);
+            root.draw(&Text::new(format!("{k:e}"), middle, below(13, &BLACK)))?;
+        }
+        for (row, ratio) in self.ratios.iter().enumerate() {
+            let (x, y) = Axes::corner(at, 0, row);
+            let middle = (x - 6, y + CELL.1 / 2);
+            root.draw(&Text::new(format!("{ratio:e}"), middle, beside(13, &BLACK)))?;
+        }
+        let (right, bottom) = Axes::corner(at, self.stiffness.len(), self.ratios.len());
+        let middle = ((at.0 + LEFT + right) / 2, bottom + 23);
+        let name = "stiffness k, N/m (logarithmic)";
+        root.draw(&Text::new(name, middle, below(13, &GREY)))?;
+        let middle = (at.0 + LEFT - 6, at.1 + TABLE_HEAD - 8);
+        root.draw(&Text::new("mass ratio", middle, beside(12, &GREY)))
+    }
+
+    /// The corner of each place that has an answer.
+    fn cells<'a>(&self, at: (i32, i32), study: &'a Study, asked: Asked) -> Vec<Cell<'a>> {
+        let find = |all: &[f64], wanted: f64| all.iter().position(|one| *one == wanted);
+        let cell = |place: &'a Place| {
+            let column = find(&self.stiffness, place.stiffness_n_per_m)?;
+            let row = find(&self.ratios, place.mass_ratio)?;
+            let answer = place.answer(asked.observable)?;
+            Some((Axes::corner(at, column, row), place, answer))
+        };
+        study.places.iter().filter_map(cell).collect()
     }
 
     /// The changes between XPBD and an opponent, row by row, joined where rows below each other have one.
@@ -264,8 +266,8 @@ impl Axes {
 
 /// A piece of a line, straight down or across.
 fn stroke(root: &Area<'_>, [(x0, y0), (x1, y1)]: [(i32, i32); 2], is_dashed: bool) -> Drawn {
-    let thick = BLACK.stroke_width(3);
     if !is_dashed {
+        let thick = LINE.stroke_width(4);
         return root.draw(&PathElement::new([(x0, y0), (x1, y1)], thick));
     }
     let long = (x1 - x0).abs().max((y1 - y0).abs());
@@ -275,7 +277,7 @@ fn stroke(root: &Area<'_>, [(x0, y0), (x1, y1)]: [(i32, i32); 2], is_dashed: boo
     };
     (0..long).step_by(10).try_for_each(|along| {
         let dash = [at(along), at(along + 5)];
-        root.draw(&PathElement::new(dash, BLACK.stroke_width(2)))
+        root.draw(&PathElement::new(dash, LINE.stroke_width(2)))
     })
 }
 
@@ -293,63 +295,62 @@ fn label(root: &Area<'_>, (x, y): (i32, i32), crossing: &Crossing) -> Drawn {
     root.draw(&Text::new(words, (x, y), words_style))
 }
 
-/// A place: the cheapest family and its cost, and two ratios.
-fn cell(root: &Area<'_>, (x, y): (i32, i32), place: &Place, answer: &Answer) -> Drawn {
+/// A place in the colour of its cheapest family.
+fn fill(root: &Area<'_>, (x, y): (i32, i32), answer: &Answer) -> Drawn {
     let corners = [(x + 1, y + 1), (x + CELL.0 - 1, y + CELL.1 - 1)];
     let winner = answer.winner();
-    let family = Family::ALL
-        .into_iter()
-        .find(|family| winner.is_some_and(|winner| winner.family == family.name()));
-    let fill = match family {
+    let is_it = |family: &Family| winner.is_some_and(|winner| winner.family == family.name());
+    let fill = match Family::ALL.into_iter().find(is_it) {
         Some(family) => colour(family).mix(PALE),
         None => BLANK.to_rgba(),
     };
-    root.draw(&Rectangle::new(corners, fill.filled()))?;
+    root.draw(&Rectangle::new(corners, fill.filled()))
+}
+
+/// The cheapest family with its cost and two ratios, or why there is none.
+fn words(root: &Area<'_>, (x, y): (i32, i32), place: &Place, answer: &Answer) -> Drawn {
+    let winner = answer.winner();
     let lines = match winner {
         Some(winner) => vec![
-            format!(
-                "{} {}",
-                winner.family,
-                most(winner.is_at_most, winner.visits)
-            ),
-            format!("XPBD / Verlet {}", ratio(answer, Family::Xpbd)),
-            format!("plain / Verlet {}", ratio(answer, Family::Plain)),
+            format!("{} {}", winner.family, cost(winner)),
+            format!("XPBD / Verlet {}", ratio(place, answer, Family::Xpbd)),
+            format!("plain / Verlet {}", ratio(place, answer, Family::Plain)),
         ],
         None => unanswered(place, answer),
     };
+    let colour = if winner.is_some() { BLACK } else { GREY };
     for (i, line) in lines.into_iter().enumerate() {
         let size = if i == 0 { 14 } else { 12 };
-        let colour = if winner.is_some() { BLACK } else { GREY };
-        root.draw(&Text::new(
-            line,
-            (x + 8, y + 7 + 19 * i as i32),
-            style(size, &colour),
-        ))?;
+        let at = (x + 8, y + 7 + 19 * i as i32);
+        root.draw(&Text::new(line, at, style(size, &colour)))?;
     }
     Ok(())
 }
 
-fn most(is_at_most: bool, visits: Option<u64>) -> String {
-    let sign = if is_at_most { "≤ " } else { "" };
-    visits.map_or(String::new(), |visits| {
-        format!("{sign}{:.1e}", visits as f64)
-    })
+fn cost(of: &FamilyCost) -> String {
+    let sign = if of.is_at_most { "≤ " } else { "" };
+    let visits = of
+        .visits
+        .map(|visits| format!("{sign}{:.1e}", visits as f64));
+    visits.unwrap_or_default()
 }
 
 /// The cost of a family as a multiple of Verlet's, or why there is none.
-fn ratio(answer: &Answer, of: Family) -> String {
-    let Some(cost) = answer.cost(of) else {
+fn ratio(place: &Place, answer: &Answer, of: Family) -> String {
+    let (Some(cost), Some(verlet)) = (answer.cost(of), answer.cost(Family::Verlet)) else {
         return "not run".to_owned();
     };
-    match (answer.ratio(of, Family::Verlet), cost.visits) {
-        (Some(ratio), _) => {
-            let verlet = answer.cost(Family::Verlet);
-            let is_at_most = cost.is_at_most && !verlet.is_some_and(|verlet| verlet.is_at_most);
-            format!("{}{ratio:.2}", if is_at_most { "≤ " } else { "" })
+    let Some(least) = verlet.visits.map(|visits| visits as f64) else {
+        return "(Verlet misses)".to_owned();
+    };
+    match cost.visits {
+        Some(visits) => {
+            let is_at_most = cost.is_at_most && !verlet.is_at_most;
+            let sign = if is_at_most { "≤ " } else { "" };
+            format!("{sign}{:.2}", visits as f64 / least)
         }
-        (None, Some(_)) => "(Verlet misses)".to_owned(),
-        (None, None) if cost.is_cut_short => "> given up".to_owned(),
-        (None, None) => "misses".to_owned(),
+        None if cost.is_cut_short => format!("> {:.1}", place.visits_max as f64 / least),
+        None => "misses".to_owned(),
     }
 }
 

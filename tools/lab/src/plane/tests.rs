@@ -35,6 +35,7 @@ fn planted(stiffness_n_per_m: f64, xpbd: Option<u64>, verlet: Option<u64>) -> Pl
     Place {
         stiffness_n_per_m,
         mass_ratio: 1.0,
+        visits_max: 0,
         amplification: None,
         references: Vec::new(),
         runs: Vec::new(),
