@@ -239,7 +239,7 @@ impl Answer {
 }
 
 impl FamilyCost {
-    fn new(family: &str, asked: Asked, is_known: bool, runs: &[Run]) -> FamilyCost {
+    pub(super) fn new(family: &str, asked: Asked, is_known: bool, runs: &[Run]) -> FamilyCost {
         let own = || {
             let of = move |run: &&Run| run.family == family && run.part.is_some();
             runs.iter().filter(of)

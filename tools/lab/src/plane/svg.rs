@@ -11,7 +11,7 @@ use crate::draw::{Area, Drawn, drawn, wrapped};
 use crate::pareto::{Family, colour};
 
 /// The room of a place, and what is left free above and beside a table.
-const CELL: (i32, i32) = (148, 84);
+const CELL: (i32, i32) = (164, 84);
 const HEAD: i32 = 132;
 const TABLE_HEAD: i32 = 40;
 const LEFT: i32 = 66;
@@ -85,7 +85,8 @@ fn head(root: &Area<'_>, width: i32, study: &Study) -> Drawn {
                  costs of XPBD and of plain Verlet as multiples of Verlet's (which divides steps around light \
                  particles). ≤: by the longest step tried; a longer one may cost less. >: runs were given up \
                  there. misses: no step tried meets the error. Grey line: where XPBD and Verlet cost the \
-                 same, with the stiffness; dashed: XPBD and plain Verlet.";
+                 same, with the stiffness (between: one of the two misses on one side); dashed: XPBD and plain \
+                 Verlet.";
     for (i, line) in wrapped(words, width as usize / 6).iter().enumerate() {
         root.draw(&Text::new(
             line.clone(),

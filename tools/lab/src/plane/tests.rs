@@ -150,6 +150,38 @@ fn the_cost_of_a_family_is_the_least_of_the_runs_that_all_shorter_steps_confirm(
 }
 
 #[test]
+fn an_error_that_passes_through_zero_meets_no_tolerance() {
+    let run = |part: f64, visits: u64, total: f64, vouched: f64| Run {
+        run: format!("xpbd-1@{part}"),
+        series: "xpbd-1".to_owned(),
+        family: "XPBD".to_owned(),
+        part: Some(part),
+        dt_s: Some(part),
+        status: Status::Ok,
+        why: String::new(),
+        steps: visits,
+        visits,
+        errors: vec![RunError {
+            observable: QUESTIONS[0].observable,
+            total,
+            vouched,
+        }],
+    };
+    let runs = [
+        run(2.0, 10, 1e-3, 0.2),
+        run(1.0, 20, 0.2, 0.2),
+        run(0.5, 40, 0.04, 0.04),
+        run(0.25, 80, 0.01, 0.01),
+    ];
+    let cost = |is_known| FamilyCost::new("XPBD", QUESTIONS[0], is_known, &runs);
+    assert_eq!(cost(true).visits, Some(40));
+    assert!(!cost(true).is_at_most && !cost(true).is_cut_short);
+    assert_eq!(cost(false).visits, None);
+    let longest = FamilyCost::new("XPBD", QUESTIONS[0], true, &[run(2.0, 10, 0.01, 0.01)]);
+    assert!(longest.is_at_most && longest.visits == Some(10));
+}
+
+#[test]
 fn a_light_particle_shortens_the_steps_of_plain_verlet_alone() {
     let methods = ["verlet", "verlet-plain"].map(str::to_owned).into();
     let study = made(&Options {
