@@ -75,7 +75,7 @@ pub struct Options {
     /// The names of the methods, as in [`METHODS`]. Other names are ignored.
     pub methods: Vec<String>,
     /// The largest cost of a run, as a multiple of the estimated visits of edges of Verlet's method with its
-    /// base step at the same place. References have no limit.
+    /// base step at the same place. References and the gate have no limit.
     pub cost_max: f64,
     /// The number of runs to execute at a time.
     pub threads: NonZero<usize>,

@@ -63,7 +63,7 @@ impl Job {
     /// An estimate of the visits of a run, which is nothing if it is not begun.
     pub(super) fn guess_of(&self, planned: &Planned) -> f64 {
         match planned.role {
-            Role::Verlet | Role::Newton => planned.guess,
+            Role::Verlet | Role::Newton | Role::Gate { .. } => planned.guess,
             _ if self.is_too_dear(planned) => 0.0,
             _ => planned.guess.min(self.visits_max as f64),
         }
@@ -87,7 +87,12 @@ impl Job {
                 ..Outcome::interrupted()
             };
         }
-        planned.carry_out(&self.case, bounds)
+        let mut bounds = *bounds;
+        if let Role::Gate { .. } = planned.role {
+            // Without it nothing would be known of displacements where one light particle shortens its steps.
+            bounds.visits_max = u64::MAX;
+        }
+        planned.carry_out(&self.case, &bounds)
     }
 
     /// Whether what is planned is a row that costs more than it may, as far as that can be known before: the

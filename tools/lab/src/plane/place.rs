@@ -33,7 +33,7 @@ pub struct Place {
     pub stiffness_n_per_m: f64,
     /// The factor by which the mass of the middle particle is multiplied.
     pub mass_ratio: f64,
-    /// The largest number of visits of edges that a run was allowed. References have no limit.
+    /// The largest number of visits of edges that a run was allowed. References and the gate have no limit.
     pub visits_max: u64,
     /// The distance of the two runs of the gate divided by the noise; `None` if they failed.
     pub amplification: Option<f64>,

@@ -249,6 +249,21 @@ fn runs_that_cost_too_much_are_rows_that_say_so() {
 }
 
 #[test]
+fn references_and_the_gate_have_no_limit() {
+    let study = made(&Options {
+        cost_max: 1.0,
+        ..options(&[1e2], &[1e-2])
+    });
+    let place = &study.places[0];
+    assert_eq!(place.references.len(), 6);
+    for of in &place.references {
+        assert_eq!(of.status, Status::Ok, "{}", of.run);
+        assert!(of.visits > place.visits_max, "{}", of.run);
+    }
+    assert!(place.amplification.is_some());
+}
+
+#[test]
 fn a_study_is_its_parts_one_after_the_other_however_many_work_on_it() {
     let whole = made(&options(&[1e2, 1e3], &[1.0, 1e-3]));
     let mut parts = Vec::new();
