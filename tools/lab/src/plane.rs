@@ -10,6 +10,10 @@
 //! floor is not answered, and a step meets a tolerance only if all shorter steps of its series that were run
 //! do too.
 //!
+//! Verlet's method as shipped has light particles carried by their neighbours, so its step hardly depends on
+//! the mass ratio; visits do not count the passes over carried particles. Plain Verlet takes a step that the
+//! lightest particle allows.
+//!
 //! The steps of the budget end at twice the base step. A method whose cheapest run has that step may cost less
 //! than is known ([`FamilyCost::is_at_most`]), so for stiff springs the costs of XPBD are upper bounds.
 //!

@@ -82,8 +82,8 @@ fn head(root: &Area<'_>, width: i32, study: &Study) -> Drawn {
     let title = "The plane of stiffness and mass ratio: the cheapest method at a fixed error";
     root.draw(&Text::new(title, (14, 10), ("sans-serif", 21)))?;
     let words = "Each place has the colour of the cheapest family, with its cost in visits of edges, and the \
-                 costs of XPBD and of plain Verlet as multiples of Verlet's (which divides steps around light \
-                 particles). ≤: by the longest step tried; a longer one may cost less. >: runs were given up \
+                 costs of XPBD and of plain Verlet as multiples of Verlet's (which has light particles carried \
+                 by their neighbours). ≤: by the longest step tried; a longer one may cost less. >: runs were given up \
                  there. misses: no step tried meets the error. Grey line: where XPBD and Verlet cost the \
                  same, with the stiffness (between: one of the two misses on one side); dashed: XPBD and plain \
                  Verlet.";
