@@ -31,6 +31,7 @@ mod parts;
 mod pictures;
 mod pieces;
 mod places;
+mod plane;
 mod shell;
 mod space;
 mod stability;

@@ -3,7 +3,7 @@
 use crate::harness::{Folder, seen};
 
 /// Each chart that can be made in parts, small, and its parts.
-const CHARTS: [(&str, &str, &[&str]); 2] = [
+const CHARTS: [(&str, &str, &[&str]); 4] = [
     (
         "pareto",
         "--scene swing,strip --mesh grid,delaunay --size 3 --visits-max 30000",
@@ -24,6 +24,16 @@ const CHARTS: [(&str, &str, &[&str]); 2] = [
             "rip-implicit",
             "rip-pbd",
         ],
+    ),
+    (
+        "space",
+        "--scene hang,swing,strip,slit --size 2,4 --finest 8 --method verlet,xpbd-4 --part 1,0.5",
+        &["hang", "swing", "strip", "slit"],
+    ),
+    (
+        "plane",
+        "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
+        &["1e3-1e0", "1e3-1e-2", "1e4-1e0", "1e4-1e-2"],
     ),
 ];
 

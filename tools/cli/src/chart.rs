@@ -6,6 +6,7 @@ mod fig7;
 mod files;
 mod pareto;
 mod parts;
+mod plane;
 mod progress;
 mod provenance;
 mod space;
@@ -29,6 +30,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Pareto(args) => {
             let draw = &args.draw;
             (draw, pareto::work(args, target(draw, streams), streams))
+        }
+        What::Plane(args) => {
+            let draw = &args.draw;
+            (draw, plane::work(args, target(draw, streams), streams))
         }
         What::Stability(args) => {
             let draw = &args.draw;

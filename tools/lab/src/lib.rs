@@ -2,8 +2,9 @@
 //!
 //! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
 //! [`stability`] measures where methods fail, and whether users are told. [`space`] measures whether a finer
-//! mesh or a shorter step is the better buy. [`cut`] measures the time and the accuracy of cuts. [`fig7`]
-//! measures the time to split vertices. [`ensemble`] compares runs of one scene.
+//! mesh or a shorter step is the better buy. [`plane`] measures which method is the cheapest at a fixed error,
+//! by stiffness and mass ratio. [`cut`] measures the time and the accuracy of cuts. [`fig7`] measures the time
+//! to split vertices. [`ensemble`] compares runs of one scene.
 //!
 //! [`parts`] puts together what was run apart.
 //!
@@ -16,6 +17,7 @@ pub mod ensemble;
 pub mod fig7;
 pub mod pareto;
 pub mod parts;
+pub mod plane;
 pub mod pool;
 mod provenance;
 mod random;

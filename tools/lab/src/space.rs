@@ -47,6 +47,7 @@ use serde::{Deserialize, Serialize};
 
 use self::assess::{Ran, assess};
 use crate::pareto::{Bounds, Case, METHODS, Outcome, PARTS, Planned, Role, finest, plan};
+use crate::parts::{Divided, Missing};
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
@@ -183,6 +184,30 @@ pub struct Study {
     pub is_interrupted: bool,
     /// The results of each scene.
     pub scenes: Vec<SceneStudy>,
+    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    pub missing: Vec<Missing>,
+}
+
+/// A part is a scene, or several.
+impl Divided for Study {
+    const SCHEMA: &'static str = "tearmesh.chart.space/1";
+
+    fn provenance(&self) -> &Provenance {
+        &self.provenance
+    }
+
+    fn merged(parts: Vec<Study>, provenance: Provenance, missing: Vec<Missing>) -> Option<Study> {
+        let is_interrupted = parts.iter().any(|part| part.is_interrupted);
+        let mut parts = parts.into_iter();
+        let mut whole = parts.next()?;
+        whole.scenes.extend(parts.flat_map(|part| part.scenes));
+        Some(Study {
+            provenance,
+            is_interrupted,
+            missing,
+            ..whole
+        })
+    }
 }
 
 /// A run, and the place of its mesh among those of the scene.
@@ -284,7 +309,7 @@ impl Plan {
             scenes.extend(outcomes.map(|outcomes| self.assessed(prepared, &outcomes)));
         }
         Study {
-            schema: "tearmesh.chart.space/1".to_owned(),
+            schema: Study::SCHEMA.to_owned(),
             provenance,
             cells: self.options.cells.clone(),
             finest: self.options.finest,
@@ -292,6 +317,7 @@ impl Plan {
             visits_max: self.options.visits_max,
             is_interrupted: stop(),
             scenes,
+            missing: Vec::new(),
         }
     }
 

@@ -8,7 +8,7 @@ use tearmesh_lab::pareto::{METHODS as SERIES, MeshKind, PARTS, SCENES};
 use tearmesh_lab::space::{self, SpaceScene};
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 use tearmesh_lab::tear::cascade::{CascadeScene, METHODS, SEEDS};
-use tearmesh_lab::{fig7, tear};
+use tearmesh_lab::{fig7, plane, tear};
 
 use crate::say::Color;
 
@@ -35,6 +35,9 @@ pub(crate) enum What {
     Tear(TearChartArgs),
     /// The work of all methods against their precision.
     Pareto(ParetoArgs),
+    /// The cheapest method at a fixed error, by the stiffness of springs and the mass of one particle; and
+    /// from which stiffness on XPBD is cheaper than Verlet's method.
+    Plane(PlaneArgs),
     /// Where methods fail, by theory and as measured, and what one is told of it.
     Stability(StabilityArgs),
     /// Whether a finer mesh or a shorter step is the better buy, by errors against a mesh that is finer still.
@@ -125,6 +128,59 @@ pub(crate) struct ParetoArgs {
     pub(crate) repeats: u32,
 }
 
+/// What `chart plane` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PlaneArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    #[command(flatten)]
+    pub(crate) parts: PartsArgs,
+
+    /// The stiffness of springs, in N/m.
+    #[arg(long, value_name = "K", value_delimiter = ',',
+        default_values_t = plane::STIFFNESS_N_PER_M, value_parser = stiffness)]
+    pub(crate) stiffness: Vec<f64>,
+
+    /// The factor by which the mass of the middle particle is multiplied, as next to cuts.
+    #[arg(long, value_name = "R", value_delimiter = ',',
+        default_values_t = plane::MASS_RATIOS, value_parser = ratio)]
+    pub(crate) ratio: Vec<f64>,
+
+    /// The methods with their settings.
+    #[arg(long, value_name = "NAME", value_delimiter = ',',
+        default_values_t = plane::SERIES.map(str::to_owned),
+        value_parser = clap::builder::PossibleValuesParser::new(SERIES.map(|method| method.name)))]
+    pub(crate) method: Vec<String>,
+
+    /// Cells per side.
+    #[arg(long, value_name = "N", default_value_t = plane::CELLS,
+        value_parser = clap::value_parser!(u32).range(2..=256))]
+    pub(crate) size: u32,
+
+    /// Give up runs that cost N times as much as Verlet's method with its base step.
+    #[arg(long, value_name = "N", default_value_t = plane::COST_MAX, value_parser = multiple)]
+    pub(crate) cost_max: f64,
+
+    /// How many runs are made at a time (default: one per processor).
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(ratio) if (1e-6..=1.0).contains(&ratio) => Ok(ratio),
+        _ => Err("a number from 1e-6 to 1".to_owned()),
+    }
+}
+
+fn multiple(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(multiple) if (1.0..=1e6).contains(&multiple) => Ok(multiple),
+        _ => Err("a number from 1 to 1e6".to_owned()),
+    }
+}
+
 /// What `chart tear` takes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct TearChartArgs {
@@ -208,6 +264,9 @@ fn stiffness(text: &str) -> Result<f64, String> {
 pub(crate) struct SpaceArgs {
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
+
+    #[command(flatten)]
+    pub(crate) parts: PartsArgs,
 
     /// The scenes.
     #[arg(long, value_name = "NAME", value_delimiter = ',',

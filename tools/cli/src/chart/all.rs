@@ -32,7 +32,7 @@ const fn chart(name: &'static str, small: &'static str, is_divided: bool) -> Cha
 }
 
 /// The charts, the quick ones first.
-const CHARTS: [Chart; 6] = [
+const CHARTS: [Chart; 7] = [
     chart("stability", "--stiffness 1000", false),
     chart("cut", "--size 8,12 --cuts 3", false),
     chart("fig7", "--size 4,8", false),
@@ -44,6 +44,11 @@ const CHARTS: [Chart; 6] = [
     chart(
         "space",
         "--scene hang,slit --size 2,4 --finest 8 --method verlet,xpbd-4 --part 1,0.5",
+        true,
+    ),
+    chart(
+        "plane",
+        "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
         true,
     ),
     chart("pareto", "--scene swing --size 3 --visits-max 100000", true),

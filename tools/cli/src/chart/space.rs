@@ -1,10 +1,11 @@
 //! `chart space`: a finer mesh or a shorter step.
 
 use indicatif::ProgressDrawTarget;
-use tearmesh_lab::space::{self, Options, Plan, SpaceScene, VISITS_MAX};
-use tearmesh_lab::{Provenance, pool};
+use tearmesh_lab::pool;
+use tearmesh_lab::space::{self, Options, Plan, SpaceScene, Study, VISITS_MAX};
 
 use super::files::{Ended, bug, check, some_time, tell, write_all};
+use super::parts::{self, Part};
 use super::progress::{self, PARTS, PERCENT};
 use super::provenance;
 use crate::args::SpaceArgs;
@@ -16,7 +17,7 @@ use crate::streams::Streams;
 /// A visit of an edge took some 9 ns on the machine that charts were first made on.
 const VISIT_S: f64 = 9e-9;
 
-/// Runs the experiment, and draws its chart. What is done when it is interrupted is drawn as well.
+/// Runs the experiment, or puts it together of its parts, and draws its chart. What is done when it is interrupted is drawn as well.
 pub(super) fn work(
     args: &SpaceArgs,
     target: ProgressDrawTarget,
@@ -30,21 +31,23 @@ pub(super) fn work(
         let fault = Fault::error("E-USAGE", error.to_string()).help(help);
         (Exit::Usage, fault)
     })?;
-    let guard = Guard::new();
-    progress::announce(&expected(&plan, &options), draw, streams);
-    let bar = progress::bar(PARTS, PERCENT, target);
-    let study = plan.study(told(&options), &|| guard.is_interrupted(), |name, part| {
-        bar.set_position((PARTS as f64 * part) as u64);
-        bar.set_message(name.to_owned());
-    });
-    bar.finish_and_clear();
-    drop(guard);
+    let parts = || parts(&options);
+    if parts::plan(&args.parts, draw, parts, streams)? {
+        return Ok(Exit::Done);
+    }
+    let study: Study = match &args.parts.gather {
+        Some(folder) => parts::gather(&parts(), folder, command(&options))?,
+        None => {
+            progress::announce(&expected(&plan, &options), draw, streams);
+            made(&plan, &options, target)
+        }
+    };
     let svg = space::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
     write_all(draw, &svg, || space::csv(&study), &study, streams)?;
     let words = space::summary(&study);
     tell(words.trim_end(), &files, draw.quiet, streams)?;
     if !study.is_interrupted {
-        return Ok(Exit::Done);
+        return Ok(parts::warn(&study.missing, draw, streams));
     }
     let message = "interrupted; runs that were not done stand as failed";
     let fault = Fault::warning("W-CHART-INTERRUPTED", message.to_owned());
@@ -55,6 +58,33 @@ pub(super) fn work(
     // Nowhere is left to say it if standard error is closed.
     let _ = screen.show(&fault);
     Ok(Exit::Interrupted)
+}
+
+/// A part is a scene.
+fn parts(options: &Options) -> Vec<Part> {
+    let part = |&scene: &SpaceScene| {
+        let alone = Options {
+            scenes: vec![scene],
+            ..options.clone()
+        };
+        Part {
+            name: scene.name().to_owned(),
+            command: command(&alone),
+        }
+    };
+    options.scenes.iter().map(part).collect()
+}
+
+fn made(plan: &Plan, options: &Options, target: ProgressDrawTarget) -> Study {
+    let guard = Guard::new();
+    let bar = progress::bar(PARTS, PERCENT, target);
+    let provenance = provenance::of(command(options), false);
+    let study = plan.study(provenance, &|| guard.is_interrupted(), |name, part| {
+        bar.set_position((PARTS as f64 * part) as u64);
+        bar.set_message(name.to_owned());
+    });
+    bar.finish_and_clear();
+    study
 }
 
 fn options(args: &SpaceArgs) -> Options {
@@ -83,11 +113,11 @@ fn expected(plan: &Plan, options: &Options) -> String {
     format!("{runs} runs on {threads}, some {about}; Ctrl-C ends it with what is done")
 }
 
-/// What charts say of where they come from: the command with all that decides their figures.
-fn told(options: &Options) -> Provenance {
+/// The command with all that decides its figures.
+fn command(options: &Options) -> String {
     let list = |words: &mut dyn Iterator<Item = String>| words.collect::<Vec<_>>().join(",");
     let scenes = options.scenes.iter().map(|scene| scene.name().to_owned());
-    let command = format!(
+    format!(
         "tearmesh chart space --scene {} --size {} --finest {} --method {} --part {} --visits-max {}",
         list(&mut { scenes }),
         list(&mut options.cells.iter().map(u32::to_string)),
@@ -95,6 +125,5 @@ fn told(options: &Options) -> Provenance {
         options.methods.join(","),
         list(&mut options.parts.iter().map(f64::to_string)),
         options.visits_max,
-    );
-    provenance::of(command, false)
+    )
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Buy, Error, Floor, Row, SceneStudy, Study};
+use crate::parts::{Missing, cell};
 
 /// Returns the study as CSV: one line per row and measure, and one for a row without errors.
 ///
@@ -37,6 +38,10 @@ pub fn csv(study: &Study) -> String {
             )
             .expect("a string grows");
         }
+    }
+    for Missing { part, why } in &study.missing {
+        let empty = ",".repeat(19);
+        writeln!(text, "{part},,,,missing{empty}{}", cell(why)).expect("a string grows");
     }
     text
 }

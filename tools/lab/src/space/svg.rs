@@ -10,6 +10,7 @@ use super::measure::Measure;
 use super::{Better, Error, Floor, Row, SceneStudy, Study};
 use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
 use crate::pareto::{FLOORS, Family, Look, Status, colour, draw_mark};
+use crate::parts;
 
 const COLUMNS: usize = 2;
 const PANEL: (i32, i32) = (640, 330);
@@ -134,8 +135,9 @@ fn footer(study: &Study) -> String {
         true => " · INTERRUPTED: what was not done stands as failed",
         false => "",
     };
+    let missing = parts::told(&study.missing).map_or(String::new(), |told| format!(" · {told}"));
     format!(
-        "{} · runs end at {} visits{interrupted} · {}",
+        "{} · runs end at {} visits{interrupted}{missing} · {}",
         study.provenance.line(),
         study.visits_max,
         runs.collect::<Vec<_>>().join(" · ")
