@@ -1,9 +1,9 @@
 //! Where a chart comes from, so that who reads it can make it again.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The origin of a chart: the program, the commit and the machine that produced it.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Provenance {
     /// The command line that produced the chart.
     pub command: String,

@@ -4,7 +4,7 @@
 
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tearmesh_cloth::{Solver, StepError, System, Visits, energy, force};
 
 use super::method::Store;
@@ -12,7 +12,7 @@ use super::observe::{Probe, Records};
 use super::scene::{Case, Until};
 
 /// The ways in which a run ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// The run reached its end.
