@@ -2,7 +2,7 @@
 
 use crate::harness::{Folder, seen};
 
-const NAMES: [&str; 5] = ["stability", "cut", "fig7", "tear", "pareto"];
+const NAMES: [&str; 6] = ["stability", "cut", "fig7", "choice", "tear", "pareto"];
 
 #[test]
 fn all_charts_are_made_into_one_folder() {
@@ -10,7 +10,7 @@ fn all_charts_are_made_into_one_folder() {
     let output = folder.run("tearmesh chart all --small -o a/charts");
     let said = seen(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("5 charts in a/charts, in "), "{said}");
+    assert!(said.contains("6 charts in a/charts, in "), "{said}");
     for name in NAMES {
         assert!(
             folder

@@ -1,6 +1,7 @@
 //! The verb `chart`.
 
 mod all;
+mod choice;
 mod cut;
 mod fig7;
 mod files;
@@ -31,6 +32,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Stability(args) => {
             let draw = &args.draw;
             (draw, stability::work(args, target(draw, streams), streams))
+        }
+        What::Choice(args) => {
+            let draw = &args.draw;
+            (draw, choice::work(args, target(draw, streams), streams))
         }
         What::Cut(args) => {
             let draw = &args.draw;

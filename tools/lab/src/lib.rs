@@ -2,11 +2,13 @@
 //!
 //! [`tear`] measures the forces that tear cloth. [`pareto`] measures the cost and the error of methods.
 //! [`stability`] measures where methods fail, and whether users are told. [`cut`] measures the time and the
-//! accuracy of cuts. [`fig7`] measures the time to split vertices. [`ensemble`] compares runs of one scene.
+//! accuracy of cuts. [`fig7`] measures the time to split vertices. [`choice`] measures what choosing a method
+//! by scene could save. [`ensemble`] compares runs of one scene.
 //!
 //! Each experiment returns its figures as plain data, which can be drawn as SVG and written as CSV. Nothing
 //! here reads a file or a clock: a clock is an argument. So the same experiment gives the same bytes.
 
+pub mod choice;
 pub mod cut;
 mod draw;
 pub mod ensemble;

@@ -40,7 +40,7 @@ pub use self::assess::{
 };
 pub use self::csv::csv;
 pub use self::front::{Point, front};
-pub(crate) use self::mark::colour;
+pub(crate) use self::mark::{Look, colour, draw as draw_mark};
 pub(crate) use self::mesh::delaunay;
 pub use self::mesh::{MeshKind, SEED, Sheet};
 pub use self::method::{Claim, Family, METHODS, Method, Named, PARTS};

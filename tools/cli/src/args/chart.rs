@@ -1,13 +1,14 @@
 //! What `chart` takes.
 
 use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use tearmesh_lab::pareto::{MeshKind, SCENES};
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 use tearmesh_lab::tear::cascade::{CascadeScene, METHODS, SEEDS};
-use tearmesh_lab::{fig7, tear};
+use tearmesh_lab::{choice, fig7, tear};
 
 use crate::say::Color;
 
@@ -36,6 +37,8 @@ pub(crate) enum What {
     Pareto(ParetoArgs),
     /// Where methods fail, by theory and as measured, and what one is told of it.
     Stability(StabilityArgs),
+    /// What choosing a method by scene could save, over scenes drawn at random.
+    Choice(ChoiceArgs),
     /// The time of cuts by every method and several snaps, against how far their seams are off.
     Cut(CutChartArgs),
     /// The time that it takes to split vertices while a cloth is ripped, by ghost pairs and without
@@ -174,6 +177,45 @@ fn stiffness(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(k) if (1e-3..=1e9).contains(&k) => Ok(k),
         _ => Err("a number from 1e-3 to 1e9".to_owned()),
+    }
+}
+
+/// What `chart choice` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ChoiceArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    /// The seed that scenes are drawn from.
+    #[arg(long, value_name = "N", default_value_t = choice::SEED)]
+    pub(crate) seed: u64,
+
+    /// The scenes to make, by their numbers.
+    #[arg(long, value_name = "FIRST-LAST", default_value = "1-60", value_parser = numbers)]
+    pub(crate) scenes: RangeInclusive<u32>,
+
+    /// The time that each scene takes, in seconds.
+    #[arg(long, value_name = "S", default_value_t = choice::SECONDS, value_parser = seconds)]
+    pub(crate) seconds: f64,
+
+    /// How many scenes are made at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+fn numbers(text: &str) -> Result<RangeInclusive<u32>, String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    match (first.parse(), last.parse()) {
+        (Ok(first), Ok(last)) if 1 <= first && first <= last && last <= 10_000 => Ok(first..=last),
+        _ => Err("a number from 1 to 10000, or two of them as in 1-20".to_owned()),
+    }
+}
+
+/// Reactions are means over 1/60 s, which a scene has to last.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(s) if (0.02..=10.0).contains(&s) => Ok(s),
+        _ => Err("a number from 0.02 to 10".to_owned()),
     }
 }
 

@@ -13,10 +13,11 @@ use crate::say::{Fault, count};
 use crate::streams::Streams;
 
 /// The charts, the quick ones first, and what each takes where all is to be small.
-const CHARTS: [(&str, &str); 5] = [
+const CHARTS: [(&str, &str); 6] = [
     ("stability", "--stiffness 1000"),
     ("cut", "--size 8,12 --cuts 3"),
     ("fig7", "--size 4,8"),
+    ("choice", "--scenes 1-3 --seconds 0.03"),
     (
         "tear",
         "--strips 4,6 --scene rip --size 6 --method implicit,pbd --seeds 2",

@@ -7,7 +7,7 @@ use crate::draw::{Area, Drawn};
 
 /// How a mark is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look {
+pub(crate) enum Look {
     /// What is known.
     Filled,
     /// What is known no better than the floor.
@@ -53,7 +53,7 @@ fn shape(family: Family) -> Shape {
 }
 
 /// Draws the mark of a method at a pixel, of a size in pixels.
-pub(super) fn draw(
+pub(crate) fn draw(
     area: &Area<'_>,
     family: Family,
     (x, y): (i32, i32),
