@@ -69,7 +69,7 @@ pub struct Options {
     pub seed: u64,
     /// The numbers of the tasks to carry out, from 1.
     pub scenes: RangeInclusive<u32>,
-    /// The time that each scene takes, in seconds.
+    /// The time that each scene takes, in seconds. Reactions are means over 1/60 s, and unknown in less.
     pub seconds: f64,
     /// The number of tasks to carry out at a time.
     pub threads: NonZero<usize>,

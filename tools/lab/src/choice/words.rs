@@ -127,7 +127,7 @@ fn regions(study: &Study, ranking: &Ranking) -> String {
         };
         writeln!(
             text,
-            "  {name}, {} tasks: always-Verlet {:.2}, always-XPBD {:.2}",
+            "  {name}, {} known: always-Verlet {:.2}, always-XPBD {:.2}",
             of.len(),
             mean(0),
             mean(1)
