@@ -22,6 +22,8 @@
 //! * An answer is known if the tolerance is at least ten times the floor of each observable that counts.
 //! * A policy that misses a tolerance that another run meets costs ten times what always-Verlet does or,
 //!   where that misses it as well, ten times the cheapest run.
+//! * The cheapest run is one of a series, whose error all shorter steps vouch for. A run at default settings
+//!   may meet a tolerance by luck, and cost less.
 //! * Costs are visits of edges, which are the same on every machine.
 
 mod csv;

@@ -135,9 +135,9 @@ pub struct Ranking {
 pub struct Standing {
     /// The number of the task.
     pub number: u32,
-    /// The series of the cheapest run that meets the tolerance.
+    /// The series of the cheapest run that meets the tolerance, of those that all shorter steps vouch for.
     pub series: String,
-    /// The fraction of the base step of that run; `None` for default settings.
+    /// The fraction of the base step of that run.
     pub part: Option<f64>,
     /// The visits of edges of that run.
     pub visits: u64,
@@ -243,7 +243,7 @@ fn stand(trial: &Trial, demand: Demand) -> Result<Standing, Why> {
     }
     let met = trial.runs.iter().filter(|run| demand.is_met_by(run, trial));
     let met: Vec<&Run> = met.collect();
-    let best = cheapest(&met, |_| true).ok_or(Why::NobodyMeetsIt)?;
+    let best = cheapest(&met, |run| run.part.is_some()).ok_or(Why::NobodyMeetsIt)?;
     let cost = |run: Option<&Run>| run.map(|run| run.visits as f64 / best.visits as f64);
     let paid = POLICIES.map(|policy| cost(policy.pick(&met)));
     let failed = FAILURE * paid[0].unwrap_or(1.0);

@@ -100,13 +100,12 @@ fn costs(root: &Area<'_>, ranking: &Ranking) -> Drawn {
         left,
         "Cost over that of the cheapest run, tasks sorted for each policy",
     )?;
-    let shown = |standing: &Standing| {
-        let of = LINES.iter().map(|&(place, _)| standing.ratios[place]);
-        of.fold(1.0, f64::max)
-    };
-    let most = ranking.standings.iter().map(shown).fold(10.0, f64::max) * 1.2;
-    let y = |ratio: f64| TOP + PLOT.1 - (share(ratio, 0.9, most) * f64::from(PLOT.1)) as i32;
-    for tick in round_numbers(&(0.9..most)) {
+    let paid = |standing: &Standing| LINES.map(|(place, _)| standing.ratios[place]);
+    let all = || ranking.standings.iter().flat_map(paid);
+    let most = all().fold(10.0, f64::max) * 1.2;
+    let least = all().fold(1.0, f64::min) * 0.9;
+    let y = |ratio: f64| TOP + PLOT.1 - (share(ratio, least, most) * f64::from(PLOT.1)) as i32;
+    for tick in round_numbers(&(least..most)) {
         let line = [(left, y(tick)), (left + PLOT.0, y(tick))];
         root.draw(&PathElement::new(line, GREY.mix(0.25)))?;
         let pos = Pos::new(HPos::Right, VPos::Center);

@@ -160,9 +160,9 @@ fn a_default_is_no_foresight_and_a_fixed_step_is_its_own() {
     );
     let ranking = rank(&[trial], Demand::All);
     for (name, ratio) in [
-        ("Verlet, best step", 2.0),
-        ("Verlet, the step that suits it", 4.0),
-        ("Verlet, default", 1.0),
+        ("Verlet, best step", 1.0),
+        ("Verlet, the step that suits it", 2.0),
+        ("Verlet, default", 0.5),
     ] {
         let regret = of(&ranking, name).regret;
         assert!((regret - ratio).abs() < 1e-12, "{name}: {regret}");
@@ -232,7 +232,7 @@ fn a_small_study_has_a_row_for_each_candidate_and_step_and_is_the_same_twice() {
         for run in &trial.expect("a trial").runs {
             let worst = run.errors.iter().flatten().fold(0.0_f64, |a, b| a.max(*b));
             let is_known = run.errors.iter().all(Option::is_some);
-            if is_known && worst <= trial.expect("a trial").task.tolerance {
+            if run.part.is_some() && is_known && worst <= trial.expect("a trial").task.tolerance {
                 least = least.min(run.visits);
             }
         }
