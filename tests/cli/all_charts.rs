@@ -2,10 +2,11 @@
 
 use crate::harness::{Folder, seen};
 
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 8] = [
     "stability",
     "cut",
     "fig7",
+    "choice",
     "tear",
     "space",
     "plane",
@@ -18,7 +19,7 @@ fn all_charts_are_made_into_one_folder() {
     let output = folder.run("tearmesh chart all --small -o a/charts");
     let said = seen(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("7 charts in a/charts, in "), "{said}");
+    assert!(said.contains("8 charts in a/charts, in "), "{said}");
     for name in NAMES {
         assert!(
             folder

@@ -7,6 +7,7 @@ mod all_charts;
 mod cache;
 mod cascades;
 mod check;
+mod choice;
 mod cut;
 mod cut_chart;
 mod edited;

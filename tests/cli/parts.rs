@@ -3,7 +3,7 @@
 use crate::harness::{Folder, seen};
 
 /// Each chart that can be made in parts, small, and its parts.
-const CHARTS: [(&str, &str, &[&str]); 4] = [
+const CHARTS: [(&str, &str, &[&str]); 5] = [
     (
         "pareto",
         "--scene swing,strip --mesh grid,delaunay --size 3 --visits-max 30000",
@@ -34,6 +34,11 @@ const CHARTS: [(&str, &str, &[&str]); 4] = [
         "plane",
         "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
         &["1e3-1e0", "1e3-1e-2", "1e4-1e0", "1e4-1e-2"],
+    ),
+    (
+        "choice",
+        "--scenes 1-31 --seconds 0.02",
+        &["1-10", "11-20", "21-30", "31-31"],
     ),
 ];
 
@@ -97,7 +102,7 @@ fn a_part_that_is_missing_or_is_another_is_a_row_and_is_named() {
             )),
             "{said}"
         );
-        assert!(folder.read("a.svg").contains("MISSING: "));
+        assert!(folder.read("a.svg").contains("MISSING"));
         let table = folder.read("a.csv");
         let report: serde_json::Value = serde_json::from_str(&folder.read("a.json")).expect("JSON");
         let reasons = [

@@ -19,8 +19,8 @@ use clap::{Parser, Subcommand};
 use crate::rays;
 
 pub(crate) use self::chart::{
-    AllArgs, ChartArgs, CutChartArgs, DrawArgs, Fig7Args, ParetoArgs, PartsArgs, PlaneArgs,
-    SpaceArgs, StabilityArgs, TearChartArgs, What,
+    AllArgs, ChartArgs, ChoiceArgs, CutChartArgs, DrawArgs, Fig7Args, ParetoArgs, PartsArgs,
+    PlaneArgs, SpaceArgs, StabilityArgs, TearChartArgs, What,
 };
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name};

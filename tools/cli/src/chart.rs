@@ -1,6 +1,7 @@
 //! The verb `chart`.
 
 mod all;
+mod choice;
 mod cut;
 mod fig7;
 mod files;
@@ -42,6 +43,10 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Space(args) => {
             let draw = &args.draw;
             (draw, space::work(args, target(draw, streams), streams))
+        }
+        What::Choice(args) => {
+            let draw = &args.draw;
+            (draw, choice::work(args, target(draw, streams), streams))
         }
         What::Cut(args) => {
             let draw = &args.draw;

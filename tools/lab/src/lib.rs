@@ -4,13 +4,15 @@
 //! [`stability`] measures where methods fail, and whether users are told. [`space`] measures whether a finer
 //! mesh or a shorter step is the better buy. [`plane`] measures which method is the cheapest at a fixed error,
 //! by stiffness and mass ratio. [`cut`] measures the time and the accuracy of cuts. [`fig7`] measures the time
-//! to split vertices. [`ensemble`] compares runs of one scene.
+//! to split vertices. [`choice`] measures what choosing a method by scene could save. [`ensemble`] compares
+//! runs of one scene.
 //!
 //! [`parts`] puts together what was run apart.
 //!
 //! Each experiment returns its figures as plain data, which can be drawn as SVG and written as CSV. Nothing
 //! here reads a file or a clock: a clock is an argument. So the same experiment gives the same bytes.
 
+pub mod choice;
 pub mod cut;
 mod draw;
 pub mod ensemble;

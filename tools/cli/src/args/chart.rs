@@ -1,6 +1,7 @@
 //! What `chart` takes.
 
 use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -8,7 +9,7 @@ use tearmesh_lab::pareto::{METHODS as SERIES, MeshKind, PARTS, SCENES};
 use tearmesh_lab::space::{self, SpaceScene};
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 use tearmesh_lab::tear::cascade::{CascadeScene, METHODS, SEEDS};
-use tearmesh_lab::{fig7, plane, tear};
+use tearmesh_lab::{choice, fig7, plane, tear};
 
 use crate::say::Color;
 
@@ -42,6 +43,8 @@ pub(crate) enum What {
     Stability(StabilityArgs),
     /// Whether a finer mesh or a shorter step is the better buy, by errors against a mesh that is finer still.
     Space(SpaceArgs),
+    /// What choosing a method by scene could save, over scenes drawn at random.
+    Choice(ChoiceArgs),
     /// The time of cuts by every method and several snaps, against how far their seams are off.
     Cut(CutChartArgs),
     /// The time that it takes to split vertices while a cloth is ripped, by ghost pairs and without
@@ -312,6 +315,48 @@ fn part(text: &str) -> Result<f64, String> {
             "one of {}",
             PARTS.map(|part| part.to_string()).join(", ")
         )),
+    }
+}
+
+/// What `chart choice` takes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ChoiceArgs {
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+
+    #[command(flatten)]
+    pub(crate) parts: PartsArgs,
+
+    /// The seed that scenes are drawn from.
+    #[arg(long, value_name = "N", default_value_t = choice::SEED)]
+    pub(crate) seed: u64,
+
+    /// The scenes to make, by their numbers.
+    #[arg(long, value_name = "FIRST-LAST", default_value = "1-60", value_parser = numbers)]
+    pub(crate) scenes: RangeInclusive<u32>,
+
+    /// The time that each scene takes, in seconds.
+    #[arg(long, value_name = "S", default_value_t = choice::SECONDS, value_parser = seconds)]
+    pub(crate) seconds: f64,
+
+    /// How many scenes are made at a time; as many as there are processors unless said.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+fn numbers(text: &str) -> Result<RangeInclusive<u32>, String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    match (first.parse(), last.parse()) {
+        (Ok(first), Ok(last)) if 1 <= first && first <= last && last <= 10_000 => Ok(first..=last),
+        _ => Err("a number from 1 to 10000, or two of them as in 1-20".to_owned()),
+    }
+}
+
+/// Reactions are means over 1/60 s, which a scene has to last.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(s) if (0.02..=10.0).contains(&s) => Ok(s),
+        _ => Err("a number from 0.02 to 10".to_owned()),
     }
 }
 

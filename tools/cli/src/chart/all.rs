@@ -10,7 +10,7 @@ use super::files::some_time;
 use crate::args::{AllArgs, ChartArgs};
 use crate::exit::Exit;
 use crate::output;
-use crate::say::{Fault, Screen, count, is_colored};
+use crate::say::{Fault, count};
 use crate::streams::Streams;
 
 /// A chart among all.
@@ -32,10 +32,11 @@ const fn chart(name: &'static str, small: &'static str, is_divided: bool) -> Cha
 }
 
 /// The charts, the quick ones first.
-const CHARTS: [Chart; 7] = [
+const CHARTS: [Chart; 8] = [
     chart("stability", "--stiffness 1000", false),
     chart("cut", "--size 8,12 --cuts 3", false),
     chart("fig7", "--size 4,8", false),
+    chart("choice", "--scenes 1-3 --seconds 0.03", true),
     chart(
         "tear",
         "--strips 4,6 --scene rip --size 6 --method implicit,pbd --seeds 2",
@@ -143,13 +144,8 @@ fn is_there(json: &Path, args: &AllArgs, streams: &mut Streams<'_>) -> Exit {
     }
     let message = format!("{} is missing", json.display());
     let help = "run its line of --plan again";
-    let mut screen = Screen {
-        colored: is_colored(args.color, streams.error_is_terminal),
-        error: streams.error,
-    };
-    // Nowhere is left to say it if standard error is closed.
-    let _ = screen.show(&Fault::warning("W-CHART-PARTS", message).help(help));
-    Exit::Simulation
+    let fault = Fault::warning("W-CHART-PARTS", message).help(help);
+    streams.fail(&fault, args.color, Exit::Simulation)
 }
 
 fn file(args: &AllArgs, chart: &Chart, ending: &str) -> PathBuf {

@@ -14,7 +14,7 @@ use super::files::Ended;
 use crate::args::{DrawArgs, PartsArgs};
 use crate::exit::Exit;
 use crate::output;
-use crate::say::{Fault, Screen, count, is_colored, quoted};
+use crate::say::{Fault, count, quoted};
 use crate::streams::Streams;
 
 /// A part of a chart.
@@ -142,11 +142,5 @@ pub(super) fn warn(missing: &[Missing], draw: &DrawArgs, streams: &mut Streams<'
     );
     let help = "run their lines of --plan again, and gather once more";
     let fault = Fault::warning("W-CHART-PARTS", message).help(help);
-    let mut screen = Screen {
-        colored: is_colored(draw.color, streams.error_is_terminal),
-        error: streams.error,
-    };
-    // Nowhere is left to say it if standard error is closed.
-    let _ = screen.show(&fault);
-    Exit::Simulation
+    streams.fail(&fault, draw.color, Exit::Simulation)
 }

@@ -6,15 +6,12 @@ use tearmesh_lab::pool;
 
 use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
 use super::parts::{self, Part};
-use super::progress::{self, PARTS, PERCENT};
+use super::progress::{self, PARTS, PERCENT, VISIT_S};
 use super::provenance;
 use crate::args::PlaneArgs;
 use crate::exit::Exit;
 use crate::interrupt::Guard;
 use crate::streams::Streams;
-
-/// A visit of an edge took some 9 ns on the machine that charts were first made on.
-const VISIT_S: f64 = 9e-9;
 
 /// Makes the experiment, or puts it together of its parts, and draws the map.
 pub(super) fn work(

@@ -6,16 +6,13 @@ use tearmesh_lab::space::{self, Options, Plan, SpaceScene, Study, VISITS_MAX};
 
 use super::files::{Ended, bug, check, some_time, tell, write_all};
 use super::parts::{self, Part};
-use super::progress::{self, PARTS, PERCENT};
+use super::progress::{self, PARTS, PERCENT, VISIT_S};
 use super::provenance;
 use crate::args::SpaceArgs;
 use crate::exit::Exit;
 use crate::interrupt::Guard;
-use crate::say::{Fault, Screen, is_colored};
+use crate::say::Fault;
 use crate::streams::Streams;
-
-/// A visit of an edge took some 9 ns on the machine that charts were first made on.
-const VISIT_S: f64 = 9e-9;
 
 /// Runs the experiment, or puts it together of its parts, and draws its chart. What is done when it is interrupted is drawn as well.
 pub(super) fn work(
@@ -49,15 +46,9 @@ pub(super) fn work(
     if !study.is_interrupted {
         return Ok(parts::warn(&study.missing, draw, streams));
     }
-    let message = "interrupted; runs that were not done stand as failed";
-    let fault = Fault::warning("W-CHART-INTERRUPTED", message.to_owned());
-    let mut screen = Screen {
-        colored: is_colored(draw.color, streams.error_is_terminal),
-        error: streams.error,
-    };
-    // Nowhere is left to say it if standard error is closed.
-    let _ = screen.show(&fault);
-    Ok(Exit::Interrupted)
+    let message = "interrupted; runs that were not done stand as failed".to_owned();
+    let fault = Fault::warning("W-CHART-INTERRUPTED", message);
+    Ok(streams.fail(&fault, draw.color, Exit::Interrupted))
 }
 
 /// A part is a scene.
