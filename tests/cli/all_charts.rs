@@ -7,10 +7,10 @@ const NAMES: [&str; 8] = [
     "cut",
     "fig7",
     "choice",
-    "tear",
-    "space",
-    "plane",
     "pareto",
+    "plane",
+    "space",
+    "tear",
 ];
 
 #[test]

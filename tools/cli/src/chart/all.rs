@@ -37,9 +37,10 @@ const CHARTS: [Chart; 8] = [
     chart("cut", "--size 8,12 --cuts 3", false),
     chart("fig7", "--size 4,8", false),
     chart("choice", "--scenes 1-3 --seconds 0.03", true),
+    chart("pareto", "--scene swing --size 3 --visits-max 100000", true),
     chart(
-        "tear",
-        "--strips 4,6 --scene rip --size 6 --method implicit,pbd --seeds 2",
+        "plane",
+        "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
         true,
     ),
     chart(
@@ -48,11 +49,10 @@ const CHARTS: [Chart; 8] = [
         true,
     ),
     chart(
-        "plane",
-        "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
+        "tear",
+        "--strips 4,6 --scene rip --size 6 --method implicit,pbd --seeds 2",
         true,
     ),
-    chart("pareto", "--scene swing --size 3 --visits-max 100000", true),
 ];
 
 /// Makes each chart as if its command was typed, prints the commands of its parts, or puts it together of them.

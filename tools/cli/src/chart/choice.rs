@@ -46,7 +46,7 @@ pub(super) fn work(
 }
 
 /// The scenes of a part.
-const SCENES: usize = 10;
+const SCENES: usize = 5;
 
 /// A part is a range of scenes.
 fn parts(options: &Options) -> Vec<Part> {
