@@ -276,11 +276,10 @@ fn panel(
         })
         .collect();
     ends.sort_by_key(|(at, _)| *at);
-    let (y, mut next) = (chart.backend_coord(&(x.start, middle)).1 + 5, i32::MIN);
-    for (at, family) in ends {
-        // Beside each other, where many ended at once.
-        let at = at.max(next);
-        next = at + 5;
+    let y = chart.backend_coord(&(x.start, middle)).1 + 5;
+    let right = chart.backend_coord(&(x.end, middle)).0;
+    let places: Vec<i32> = ends.iter().map(|(at, _)| *at).collect();
+    for (at, (_, family)) in beside(&places, right).into_iter().zip(ends) {
         mark::draw(root, family, (at, y), 3.0, Look::Filled)?;
     }
     if !failed.is_empty() {
@@ -291,6 +290,29 @@ fn panel(
         root.draw(&Text::new(told(&failed), (at.0 + 3, at.1 + 1), style))?;
     }
     Ok(())
+}
+
+/// How far apart two marks of the same kind are at least, in pixels.
+const APART: i32 = 5;
+
+/// Ascending places, moved apart where many are at one, and none beyond the right end: from there they are
+/// moved to the left.
+fn beside(places: &[i32], right: i32) -> Vec<i32> {
+    let mut next = i32::MIN;
+    let mut moved: Vec<i32> = places
+        .iter()
+        .map(|&at| {
+            let at = at.max(next);
+            next = at + APART;
+            at
+        })
+        .collect();
+    let mut limit = right;
+    for at in moved.iter_mut().rev() {
+        *at = (*at).min(limit);
+        limit = *at - APART;
+    }
+    moved
 }
 
 type Axis = WithKeyPoints<LogCoord<f64>>;
@@ -401,5 +423,17 @@ fn number(x: f64) -> String {
         format!("{}", (x * 1e6).round() / 1e6)
     } else {
         format!("{x:.0e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_stand_apart_and_none_beyond_the_end() {
+        assert_eq!(beside(&[0, 2, 50], 100), [0, 5, 50]);
+        assert_eq!(beside(&[90, 98, 99, 100], 100), [85, 90, 95, 100]);
+        assert_eq!(beside(&[], 100), [0; 0]);
     }
 }
