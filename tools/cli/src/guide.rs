@@ -5,6 +5,7 @@
 //! * [`report`]: every key of the JSON report.
 //! * [`scenes`]: every key of a scene file.
 //! * [`batches`]: process many files at once with GNU parallel.
+//! * [`charts`]: which method for what, by experiment.
 //! * [`blender`]: play a simulation in Blender.
 //!
 //! The guide of the crate `tearmesh` says what a version number promises, how the project compares
@@ -25,6 +26,9 @@ pub mod scenes {}
 
 #[doc = include_str!("guide/batches.md")]
 pub mod batches {}
+
+#[doc = include_str!("guide/charts.md")]
+pub mod charts {}
 
 #[doc = include_str!("guide/blender.md")]
 pub mod blender {}
