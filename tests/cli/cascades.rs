@@ -17,7 +17,10 @@ fn a_small_chart_has_medians_verdicts_and_each_run_and_each_time_the_same() {
         said.contains("4 strips and 12 runs of cascades or more, "),
         "{said}"
     );
-    assert!(said.contains("rip, torn length in m; "), "{said}");
+    assert!(
+        said.contains("rip of 6 cells, torn length in m; "),
+        "{said}"
+    );
     assert!(said.contains(" halved: "), "{said}");
     assert!(said.contains("wrote t.svg, t.csv, t.json, r.csv"), "{said}");
 
@@ -40,7 +43,7 @@ fn a_small_chart_has_medians_verdicts_and_each_run_and_each_time_the_same() {
     assert_eq!(runs.lines().count(), 1 + count);
 
     let chart = folder.read("t.svg");
-    assert!(chart.contains("rip · torn length, m") && chart.contains("--seeds 2"));
+    assert!(chart.contains("rip of 6 · torn length, m") && chart.contains("--seeds 2"));
     let again = folder.run(&format!("{SMALL} -q -o - --runs s.csv"));
     assert_eq!(String::from_utf8_lossy(&again.stdout), chart);
     assert_eq!(folder.read("s.csv"), runs);

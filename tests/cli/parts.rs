@@ -19,10 +19,10 @@ const CHARTS: [(&str, &str, &[&str]); 5] = [
         "--strips 4,6 --scene rip,trouser --size 4 --method implicit,pbd --seeds 2",
         &[
             "strips",
-            "trouser-implicit",
-            "trouser-pbd",
-            "rip-implicit",
-            "rip-pbd",
+            "trouser-4-implicit",
+            "trouser-4-pbd",
+            "rip-4-implicit",
+            "rip-4-pbd",
         ],
     ),
     (

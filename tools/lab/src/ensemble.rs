@@ -108,6 +108,8 @@ pub struct Observed {
     /// The work of all holds, led ones included, in joules. `None` if the method does not know its forces:
     /// the work of Provot's limiter grows without bound as steps get shorter.
     pub work_j: Option<f64>,
+    /// The cost of the run: the number of visits to single constraints, whatever for.
+    pub visits: u64,
 }
 
 /// A measured quantity of a run.
@@ -282,8 +284,14 @@ fn member(subject: Subject<'_>, parts: NonZero<u32>, seed: u64, stop: &dyn Fn() 
         pieces: run.mesh().components().count(),
         largest_force_n,
         work_j: largest_force_n.map(|_| run.energy_balance().held_j),
+        visits: visits(&run),
     };
     ended(MemberStatus::Done, String::new(), Some(seen))
+}
+
+fn visits(run: &Run) -> u64 {
+    let visits = run.cloth().system().counters().visits;
+    visits.project + visits.force + visits.detect + visits.meter
 }
 
 /// A run with the step that the scene has, divided.

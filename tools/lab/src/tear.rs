@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
-use self::cascade::Cascade;
+use self::cascade::{Cascade, Finer};
 use self::pulled::{Pulled, mean};
 use self::strip::strip;
 use crate::parts::{Divided, Missing};
@@ -57,6 +57,10 @@ pub struct Chart {
     pub study: Study,
     /// The results of many seeds, one entry per scene and method; empty if none were played.
     pub cascades: Vec<Cascade>,
+    /// What changes as the step or the mesh gets finer, computed from `cascades`; empty if each scene was played
+    /// on one mesh.
+    #[serde(skip_deserializing)]
+    pub finer: Vec<Finer>,
     /// The parts whose results are not there; empty for an experiment that was run in one go.
     pub missing: Vec<Missing>,
 }
@@ -69,6 +73,7 @@ impl Chart {
             schema: Chart::SCHEMA.to_owned(),
             provenance,
             study,
+            finer: cascade::finer(&cascades),
             cascades,
             missing: Vec::new(),
         }

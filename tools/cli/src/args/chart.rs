@@ -223,9 +223,11 @@ pub(crate) struct TearChartArgs {
         value_parser = clap::value_parser!(u64).range(0..=10_000))]
     pub(crate) seeds: u64,
 
-    /// Cells across, of each scene its own unless said.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(4..=256))]
-    pub(crate) size: Option<u32>,
+    /// Cells across, of each scene its own unless said. With several it is told whether a finer mesh or a
+    /// shorter step is the better buy.
+    #[arg(long, value_name = "N", value_delimiter = ',',
+        value_parser = clap::value_parser!(u32).range(4..=256))]
+    pub(crate) size: Vec<u32>,
 
     /// How many runs go on at a time; as many as there are processors unless said.
     #[arg(long, value_name = "N")]

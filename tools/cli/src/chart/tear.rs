@@ -66,7 +66,7 @@ fn strips(args: &TearChartArgs) -> Ended<&[u32]> {
     }
 }
 
-/// A part is all strips, or the ensembles of one scene by one method.
+/// A part is all strips, or the ensembles of one scene on one mesh by one method.
 fn parts(strips: &[u32], options: &Options) -> Vec<Part> {
     let none = Options {
         scenes: Vec::new(),
@@ -76,22 +76,27 @@ fn parts(strips: &[u32], options: &Options) -> Vec<Part> {
         name: "strips".to_owned(),
         command: command(strips, &none),
     };
-    let cascade = |scene: CascadeScene, method: &str| {
-        let alone = Options {
-            scenes: vec![scene],
-            methods: vec![method.to_owned()],
-            ..options.clone()
-        };
-        Part {
-            name: format!("{}-{method}", scene.name()),
-            command: command(&[], &alone),
+    let mut parts: Vec<Part> = Some(of_strips)
+        .filter(|_| !strips.is_empty())
+        .into_iter()
+        .collect();
+    for &scene in &options.scenes {
+        for cells in options.sizes(scene) {
+            for method in METHODS.into_iter().filter(|name| options.plays(name)) {
+                let alone = Options {
+                    scenes: vec![scene],
+                    cells: vec![cells],
+                    methods: vec![method.to_owned()],
+                    ..options.clone()
+                };
+                parts.push(Part {
+                    name: format!("{}-{cells}-{method}", scene.name()),
+                    command: command(&[], &alone),
+                });
+            }
         }
-    };
-    let methods = || METHODS.into_iter().filter(|name| options.plays(name));
-    let scenes = options.scenes.iter();
-    let cascades = scenes.flat_map(|&scene| methods().map(move |method| cascade(scene, method)));
-    let of_strips = Some(of_strips).filter(|_| !strips.is_empty());
-    of_strips.into_iter().chain(cascades).collect()
+    }
+    parts
 }
 
 fn made(
@@ -133,7 +138,12 @@ fn options(args: &TearChartArgs) -> Options {
     Options {
         // Of ensembles without seeds there is nothing to tell.
         scenes: scenes.filter(|_| args.seeds > 0).collect(),
-        cells: args.size,
+        cells: {
+            let mut cells = args.size.clone();
+            cells.sort_unstable();
+            cells.dedup();
+            cells
+        },
         methods: args.method.clone(),
         seeds: args.seeds,
         threads: args.threads.unwrap_or_else(pool::workers),
@@ -148,9 +158,11 @@ fn command(strips: &[u32], options: &Options) -> String {
         false => format!("--strips {}", list.join(",")),
     };
     let scenes: Vec<&str> = options.scenes.iter().map(|scene| scene.name()).collect();
-    let size = options
-        .cells
-        .map_or(String::new(), |cells| format!(" --size {cells}"));
+    let cells: Vec<String> = options.cells.iter().map(u32::to_string).collect();
+    let size = match cells.is_empty() {
+        true => String::new(),
+        false => format!(" --size {}", cells.join(",")),
+    };
     let cascades = match scenes.is_empty() {
         true => "--seeds 0".to_owned(),
         false => format!(
@@ -189,20 +201,24 @@ fn strips_s(strips: &[u32]) -> f64 {
 /// half and a quarter of it: a mesh twice as fine has four times as many edges, and steps that are shorter,
 /// by half where the method is explicit.
 fn cascades_s(options: &Options) -> f64 {
-    let run_s = |scene: CascadeScene, method: &str| {
+    let run_s = |scene: CascadeScene, cells: u32, method: &str| {
         let known = RUN_S.iter().find(|(name, _)| *name == method);
         let [trouser, rip] = known.map_or([1.0; 2], |(_, seconds)| *seconds);
-        let finer = f64::from(options.cells.unwrap_or(scene.cells())) / f64::from(scene.cells());
+        let finer = f64::from(cells) / f64::from(scene.cells());
         finer.powf(2.5)
             * match scene {
                 CascadeScene::Trouser => trouser,
                 CascadeScene::Rip => rip,
             }
     };
-    let methods = || options.methods.iter();
-    let each = options.scenes.iter();
-    let each = each.flat_map(|&scene| methods().map(move |method| run_s(scene, method)));
-    7.0 * options.seeds as f64 * each.sum::<f64>()
+    let mut each_s = 0.0;
+    for &scene in &options.scenes {
+        for cells in options.sizes(scene) {
+            let methods = options.methods.iter();
+            each_s += methods.map(|name| run_s(scene, cells, name)).sum::<f64>();
+        }
+    }
+    7.0 * options.seeds as f64 * each_s
 }
 
 /// By method, of trouser tests and rips of their own sizes.

@@ -9,12 +9,14 @@
 //! with which all methods are compared. If no two of them agree, there is no reference.
 
 mod csv;
+mod finer;
 mod svg;
 #[cfg(test)]
 mod tests;
 mod words;
 
 pub use self::csv::csv;
+pub use self::finer::{Finer, Move, finer};
 pub use self::words::summary;
 
 pub(super) use self::svg::{draw, height};
@@ -106,8 +108,8 @@ pub const TOLD: [Quantity; 4] = [
 pub struct Options {
     /// The scenes to play.
     pub scenes: Vec<CascadeScene>,
-    /// The number of cells across, not 0; `None` for the default of each scene.
-    pub cells: Option<u32>,
+    /// The numbers of cells across, none of them 0, in ascending order; empty for the default of each scene.
+    pub cells: Vec<u32>,
     /// The names of the methods to play, from [`METHODS`]. Other names are ignored.
     pub methods: Vec<String>,
     /// The number of seeds of each ensemble.
@@ -117,6 +119,15 @@ pub struct Options {
 }
 
 impl Options {
+    /// Returns the numbers of cells across with which a scene is played.
+    #[must_use]
+    pub fn sizes(&self, scene: CascadeScene) -> Vec<u32> {
+        match self.cells.is_empty() {
+            true => vec![scene.cells()],
+            false => self.cells.clone(),
+        }
+    }
+
     /// Returns whether a method is one of those to play.
     #[must_use]
     pub fn plays(&self, method: &str) -> bool {
@@ -152,6 +163,14 @@ pub struct Cascade {
     pub numbers: Vec<Number>,
     /// The ensembles at the step, at half of it and at a quarter of it.
     pub ensembles: Vec<Ensemble>,
+}
+
+impl Cascade {
+    /// Returns the name of the scene, and the number of cells across.
+    #[must_use]
+    pub fn mesh(&self) -> (&str, u32) {
+        (&self.scene, self.cells)
+    }
 }
 
 /// The results of a cascade for one quantity.
@@ -201,19 +220,21 @@ pub fn play(
     mut watch: impl FnMut(&str, f64),
 ) -> Result<Option<Vec<Cascade>>, RunError> {
     let mut cascades = Vec::new();
-    let all = options.scenes.len() * options.methods.len();
-    for &scene in &options.scenes {
-        let cells = options.cells.unwrap_or(scene.cells());
-        let mut of_scene = Vec::new();
+    let scenes = options.scenes.iter();
+    let meshes =
+        scenes.flat_map(|&scene| options.sizes(scene).into_iter().map(move |n| (scene, n)));
+    let meshes: Vec<(CascadeScene, u32)> = meshes.collect();
+    let all = meshes.len() * options.methods.len();
+    for (scene, cells) in meshes {
         for named in methods(options) {
-            let begun = cascades.len() + of_scene.len();
-            let name = format!("{} by {}", scene.name(), named.name);
+            let begun = cascades.len();
+            let name = format!("{} of {cells} cells by {}", scene.name(), named.name);
             let watch = |part: f64| watch(&name, (begun as f64 + part) / all as f64);
             let ensembles = ensembles(scene, cells, &named, options, stop, watch)?;
             if stop() {
                 return Ok(None);
             }
-            of_scene.push(Cascade {
+            cascades.push(Cascade {
                 scene: scene.name().to_owned(),
                 cells,
                 method: named.name.to_owned(),
@@ -221,20 +242,20 @@ pub fn play(
                 ensembles,
             });
         }
-        cascades.extend(of_scene);
     }
     conclude(&mut cascades);
     Ok(Some(cascades))
 }
 
-/// Computes what follows from the ensembles of all methods. Those of a scene must be next to each other.
+/// Computes what follows from the ensembles of all methods. Those of a scene on a mesh must be next to each
+/// other.
 pub(super) fn conclude(cascades: &mut [Cascade]) {
     for cascade in &mut *cascades {
         let of = |quantity| number(&cascade.ensembles, quantity);
         cascade.numbers = TOLD.map(of).to_vec();
     }
-    for of_scene in cascades.chunk_by_mut(|one, next| one.scene == next.scene) {
-        refer(of_scene);
+    for of_mesh in cascades.chunk_by_mut(|one, next| one.mesh() == next.mesh()) {
+        refer(of_mesh);
     }
 }
 
@@ -247,7 +268,12 @@ fn methods(options: &Options) -> Vec<Named> {
 #[must_use]
 pub fn runs(options: &Options) -> u64 {
     let each = options.seeds * PARTS.len() as u64;
-    (options.scenes.len() * options.methods.len()) as u64 * each
+    let meshes: usize = options
+        .scenes
+        .iter()
+        .map(|&scene| options.sizes(scene).len())
+        .sum();
+    (meshes * options.methods.len()) as u64 * each
 }
 
 fn ensembles(

@@ -11,7 +11,7 @@ use crate::parts::{Missing, cell};
 pub fn csv(cascades: &[Cascade], missing: &[Missing]) -> String {
     let mut text = String::from(
         "scene,cells,method,parts,step_s,seed,status,first_tear_s,first_force_n,torn_m,pieces,\
-         largest_force_n,work_j,why\n",
+         largest_force_n,work_j,visits,why\n",
     );
     let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
     for cascade in cascades {
@@ -20,7 +20,7 @@ pub fn csv(cascades: &[Cascade], missing: &[Missing]) -> String {
                 let seen = member.observed;
                 writeln!(
                     text,
-                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                     cascade.scene,
                     cascade.cells,
                     cascade.method,
@@ -34,6 +34,7 @@ pub fn csv(cascades: &[Cascade], missing: &[Missing]) -> String {
                     number(seen.map(|seen| seen.pieces as f64)),
                     number(seen.and_then(|seen| seen.largest_force_n)),
                     number(seen.and_then(|seen| seen.work_j)),
+                    number(seen.map(|seen| seen.visits as f64)),
                     cell(&member.why),
                 )
                 .expect("a string grows");
@@ -41,7 +42,7 @@ pub fn csv(cascades: &[Cascade], missing: &[Missing]) -> String {
         }
     }
     for Missing { part, why } in missing {
-        writeln!(text, "{part},,,,,,missing,,,,,,,{}", cell(why)).expect("a string grows");
+        writeln!(text, "{part},,,,,,missing,,,,,,,,{}", cell(why)).expect("a string grows");
     }
     text
 }

@@ -22,24 +22,21 @@ const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 
 /// What the rows of some scenes take, in pixels.
 pub(in crate::tear) fn height(cascades: &[Cascade]) -> u32 {
-    match scenes(cascades).len() {
+    match meshes(cascades).len() {
         0 => 0,
         rows => (46 + ROW * rows as i32) as u32,
     }
 }
 
-fn scenes(cascades: &[Cascade]) -> Vec<&str> {
-    let mut scenes: Vec<&str> = cascades
-        .iter()
-        .map(|cascade| cascade.scene.as_str())
-        .collect();
-    scenes.dedup();
-    scenes
+/// The cascades of each mesh.
+fn meshes(cascades: &[Cascade]) -> Vec<&[Cascade]> {
+    let of_mesh = cascades.chunk_by(|one, next| one.mesh() == next.mesh());
+    of_mesh.collect()
 }
 
 /// Draws them from so far down.
 pub(in crate::tear) fn draw(root: &Area<'_>, cascades: &[Cascade], top: i32) -> Drawn {
-    let rows = scenes(cascades);
+    let rows = meshes(cascades);
     if rows.is_empty() {
         return Ok(());
     }
@@ -49,8 +46,8 @@ pub(in crate::tear) fn draw(root: &Area<'_>, cascades: &[Cascade], top: i32) -> 
                  halving does to the median: = same, ≠ differ, ? cannot tell. Grey: the reference.";
     let style = ("sans-serif", 12).into_font().color(&GREY);
     root.draw(&Text::new(words, (20, top + 25), style))?;
-    for (row, scene) in rows.into_iter().enumerate() {
-        let of: Vec<&Cascade> = cascades.iter().filter(|one| one.scene == scene).collect();
+    for (row, of) in rows.into_iter().enumerate() {
+        let of: Vec<&Cascade> = of.iter().collect();
         let y = top + 50 + ROW * row as i32;
         for (column, quantity) in TOLD.into_iter().enumerate() {
             panel(root, (12 + PANEL * column as i32, y), &of, column, quantity)?;
@@ -81,7 +78,8 @@ fn panel(
     } else {
         ""
     };
-    let caption = format!("{} · {name}{unit}{scale}", first.scene);
+    let (scene, cells) = first.mesh();
+    let caption = format!("{scene} of {cells} · {name}{unit}{scale}");
     root.draw(&Text::new(caption, (left + 6, top), ("sans-serif", 14)))?;
     let reference = match &first.numbers[place].reference[..] {
         [] => "no reference: no two that converged agree".to_owned(),

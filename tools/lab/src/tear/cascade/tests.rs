@@ -18,6 +18,7 @@ fn torn(parts: u32, middle_m: f64) -> Ensemble {
             pieces: 2,
             largest_force_n: None,
             work_j: None,
+            visits: 100 * u64::from(parts),
         }),
     };
     Ensemble {
@@ -27,7 +28,7 @@ fn torn(parts: u32, middle_m: f64) -> Ensemble {
     }
 }
 
-fn cascade(method: &'static str, middles_m: [f64; 3]) -> Cascade {
+fn cascade(method: &str, middles_m: [f64; 3]) -> Cascade {
     let ensembles: Vec<Ensemble> = PARTS
         .iter()
         .zip(middles_m)
@@ -71,7 +72,7 @@ fn two_methods_that_agree_at_their_finest_are_the_reference() {
             let root = SVGBackend::with_string(&mut text, (1100, high)).into_drawing_area();
             draw(&root, cascades, 0).expect("it is drawn");
         }
-        text.contains("rip · torn length, m, logarithmic")
+        text.contains("rip of 4 · torn length, m, logarithmic")
     };
     assert!(!caption(&cascades));
     let mut far = cascades.clone();
@@ -79,7 +80,9 @@ fn two_methods_that_agree_at_their_finest_are_the_reference() {
     conclude(&mut far);
     assert!(caption(&far));
     let said = summary(&cascades);
-    assert!(said.contains("rip, torn length in m; reference: the finest of verlet and implicit"));
+    assert!(said.contains(
+        "rip of 4 cells, torn length in m; reference: the finest of verlet and implicit"
+    ));
     assert!(
         said.contains("largest force in N; no two methods that converged agree"),
         "{said}"
@@ -102,6 +105,69 @@ fn two_that_agree_but_still_change_with_their_step_are_no_reference() {
     assert_eq!(cascades[0].numbers[0].reference, ["verlet", "implicit"]);
 }
 
+/// A cascade of so many cells, whose runs cost so much at the step.
+fn on(cells: u32, method: &str, middles_m: [f64; 3], visits: u64) -> Cascade {
+    let mut cascade = cascade(method, middles_m);
+    cascade.cells = cells;
+    for ensemble in &mut cascade.ensembles {
+        for member in &mut ensemble.members {
+            let seen = member.observed.as_mut().expect("it is done");
+            seen.visits = visits * u64::from(ensemble.parts);
+        }
+    }
+    cascade
+}
+
+#[test]
+fn the_better_buy_is_what_changes_more_per_factor_of_cost() {
+    let cascades = [
+        // The mesh alone changes it.
+        on(8, "verlet", [1.0, 1.0, 1.0], 100),
+        on(16, "verlet", [2.0, 2.0, 2.0], 800),
+        on(32, "verlet", [2.02, 2.0, 2.0], 6400),
+        // Each changes it twofold, but the mesh costs eight times as much, and the step twice.
+        on(8, "xpbd", [1.0, 2.0, 4.0], 100),
+        on(16, "xpbd", [2.0, 4.0, 8.0], 800),
+        // Alone of its mesh.
+        on(16, "pbd", [1.0, 2.0, 4.0], 100),
+    ];
+    let found = finer(&cascades);
+    let torn = found.iter().filter(|one| one.quantity == "torn_m");
+    let told: Vec<(&str, [u32; 2], Option<&str>)> = torn
+        .map(|one| {
+            (
+                one.method.as_str(),
+                [one.cells, one.finer_cells],
+                one.better,
+            )
+        })
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("verlet", [8, 16], Some("mesh")),
+            ("verlet", [16, 32], None),
+            ("xpbd", [8, 16], Some("step")),
+        ]
+    );
+    let of_mesh = found[0].by_mesh.expect("both tore");
+    assert_eq!((of_mesh.change.ratio, of_mesh.cost_ratio), (2.0, 8.0));
+    assert_eq!(found[0].by_step.map(|way| way.cost_ratio), Some(2.0));
+    // Of forces nobody says anything.
+    let force = found.iter().find(|one| one.quantity == "largest_force_n");
+    assert!(force.is_some_and(|one| one.by_mesh.is_none() && one.better.is_none()));
+    let said = summary(&conclusions(cascades.to_vec()));
+    assert!(
+        said.contains("rip of 8 cells by verlet, torn_m: half the step ×1 (same) for ×2.0 the cost, 16 cells ×2 (differ) for ×8.0 the cost: the mesh is the better buy"),
+        "{said}"
+    );
+}
+
+fn conclusions(mut cascades: Vec<Cascade>) -> Vec<Cascade> {
+    conclude(&mut cascades);
+    cascades
+}
+
 #[test]
 fn where_no_two_agree_there_is_no_reference() {
     let mut cascades = vec![cascade("verlet", [1.0; 3]), cascade("xpbd", [2.0; 3])];
@@ -122,7 +188,7 @@ fn where_no_two_agree_there_is_no_reference() {
 fn options(seeds: u64) -> Options {
     Options {
         scenes: vec![CascadeScene::Rip],
-        cells: Some(6),
+        cells: vec![6],
         methods: vec!["implicit".to_owned(), "provot".to_owned()],
         seeds,
         threads: NonZero::<usize>::MIN.saturating_add(1),

@@ -2,26 +2,22 @@
 
 use std::fmt::Write as _;
 
-use super::{Cascade, TOLD};
+use super::{Cascade, Move, TOLD, finer};
 use crate::ensemble::Verdict;
 
 /// Returns a summary in words: for each scene and quantity the reference, if any, and a line per method.
 ///
-/// A line has the medians with the 10 % and 90 % points at the step, half and a quarter of it, and whether
-/// halving the step makes a difference.
+/// A method's line has the medians with the 10 % and 90 % points at the step, half and a quarter of it, and whether
+/// halving the step makes a difference. If a scene was played on several meshes, a line per method and quantity
+/// says whether a shorter step or the next finer mesh is the better buy.
 #[must_use]
 pub fn summary(cascades: &[Cascade]) -> String {
     let mut text = String::new();
-    let mut scenes: Vec<&str> = cascades
-        .iter()
-        .map(|cascade| cascade.scene.as_str())
-        .collect();
-    scenes.dedup();
-    for scene in scenes {
-        let of = || cascades.iter().filter(|cascade| cascade.scene == scene);
+    for of in cascades.chunk_by(|one, next| one.mesh() == next.mesh()) {
+        let (scene, cells) = of[0].mesh();
         for (place, quantity) in TOLD.into_iter().enumerate() {
             let [name, unit] = quantity.name();
-            let reference = of().next().map(|cascade| &cascade.numbers[place].reference);
+            let reference = of.first().map(|cascade| &cascade.numbers[place].reference);
             let reference = match reference {
                 Some(names) if !names.is_empty() => {
                     format!("reference: the finest of {}", names.join(" and "))
@@ -32,8 +28,9 @@ pub fn summary(cascades: &[Cascade]) -> String {
                 "" => String::new(),
                 unit => format!(" in {unit}"),
             };
-            writeln!(text, "{scene}, {name}{unit}; {reference}").expect("a string grows");
-            for cascade in of() {
+            writeln!(text, "{scene} of {cells} cells, {name}{unit}; {reference}")
+                .expect("a string grows");
+            for cascade in of {
                 let number = &cascade.numbers[place];
                 let spreads = number.spreads.iter().map(|spread| match spread {
                     Some([low, middle, high]) => {
@@ -58,6 +55,40 @@ pub fn summary(cascades: &[Cascade]) -> String {
                 .expect("a string grows");
             }
         }
+    }
+    text + &refined(cascades)
+}
+
+/// A line for each cascade of which there is a finer one, and quantity: what halving the step changes, what the
+/// finer mesh changes, and which is the better buy.
+fn refined(cascades: &[Cascade]) -> String {
+    let mut text = String::new();
+    for found in finer(cascades) {
+        let way = |way: Option<Move>| match way {
+            Some(Move { change, cost_ratio }) => format!(
+                "×{} ({}) for ×{:.1} the cost",
+                short(change.ratio),
+                change.verdict.name(),
+                cost_ratio
+            ),
+            None => "not said".to_owned(),
+        };
+        let better = match found.better {
+            Some(way) => format!("the {way} is the better buy"),
+            None => "neither is known to change it".to_owned(),
+        };
+        writeln!(
+            text,
+            "{} of {} cells by {}, {}: half the step {}, {} cells {}: {better}",
+            found.scene,
+            found.cells,
+            found.method,
+            found.quantity,
+            way(found.by_step),
+            found.finer_cells,
+            way(found.by_mesh),
+        )
+        .expect("a string grows");
     }
     text
 }
