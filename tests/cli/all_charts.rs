@@ -20,6 +20,8 @@ fn all_charts_are_made_into_one_folder() {
     let said = seen(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("8 charts in a/charts, in "), "{said}");
+    let times = folder.read("a/charts/pareto-time.svg");
+    assert!(times.contains("CPU time of the one run"));
     for name in NAMES {
         assert!(
             folder

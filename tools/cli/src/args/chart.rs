@@ -386,7 +386,8 @@ pub(crate) struct CutChartArgs {
 /// What `chart all` takes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct AllArgs {
-    /// The folder for `NAME.svg`, `NAME.csv` and `NAME.json` of each chart; made where there is none.
+    /// The folder for `NAME.svg`, `NAME.csv` and `NAME.json` of each chart, and for `pareto-time.svg`; made
+    /// where there is none.
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
 

@@ -170,6 +170,12 @@ fn words(args: &AllArgs, chart: &Chart) -> Vec<OsString> {
     for (option, ending) in [("-o", "svg"), ("--csv", "csv"), ("--json", "json")] {
         words.extend([option.into(), file(args, chart, ending).into_os_string()]);
     }
+    if chart.name == "pareto" {
+        // Times of the runs as they are: repeated alone, each six times, they would take an hour.
+        let times = args.output.join("pareto-time.svg").into_os_string();
+        words.extend(["--time-chart".into(), times]);
+        words.extend(["--repeats".into(), "0".into()]);
+    }
     if let Some(color) = args.color.to_possible_value() {
         words.extend(["--color".into(), color.get_name().into()]);
     }
