@@ -32,13 +32,13 @@ pub fn csv(study: &Study) -> String {
 }
 
 fn answer_lines(text: &mut String, place: &Place, answer: &Answer) {
-    let winner = answer.winner().map(|winner| &winner.family);
+    let winner = answer.winner().map(|winner| winner.family);
     for cost in &answer.costs {
         writeln!(
             text,
             "answer,{},{},{},,,,{},{},{},{},,,{},{},{},{},{}",
             at(place),
-            quoted(&cost.family),
+            quoted(cost.family.name()),
             cost.run.as_deref().unwrap_or_default(),
             cost.visits
                 .map_or(String::new(), |visits| visits.to_string()),
@@ -48,7 +48,7 @@ fn answer_lines(text: &mut String, place: &Place, answer: &Answer) {
             answer.is_known,
             cost.is_at_most,
             cost.is_cut_short,
-            winner == Some(&cost.family),
+            winner == Some(cost.family),
             if answer.is_barred {
                 "barred: noise grows"
             } else {
@@ -66,14 +66,14 @@ fn line_lines(text: &mut String, study: &Study) {
             let above = if crossing.is_to_xpbd {
                 "XPBD"
             } else {
-                &line.opponent
+                line.opponent.name()
             };
             writeln!(
                 text,
                 "line,{},{:e},{},,,,,,{},{},,,,,,,,cheaper from {:e} to {:e} on: {}",
                 short(crossing.at_n_per_m),
                 line.mass_ratio,
-                quoted(&line.opponent),
+                quoted(line.opponent.name()),
                 line.asked.observable.name(),
                 line.asked.tolerance,
                 crossing.from_n_per_m,
@@ -106,7 +106,7 @@ fn run_lines(text: &mut String, place: &Place) {
         let head = format!(
             "run,{},{},{},{},{},{},{}",
             at(place),
-            quoted(&run.family),
+            quoted(run.family.name()),
             run.run,
             run.status.name(),
             short(run.dt_s),

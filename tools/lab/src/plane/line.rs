@@ -14,8 +14,8 @@ pub(super) const OPPONENTS: [Family; 2] = [Family::Verlet, Family::Plain];
 pub struct Line {
     /// The tolerance.
     pub asked: Asked,
-    /// The name of the opponent, as in [`Family::name`].
-    pub opponent: String,
+    /// The opponent.
+    pub opponent: Family,
     /// The mass ratio.
     pub mass_ratio: f64,
     /// The stiffness values in N/m at which it is known who is cheaper, in ascending order.
@@ -77,7 +77,7 @@ pub(super) fn lines(places: &[Place]) -> Vec<Line> {
                     .collect();
                 lines.push(Line {
                     asked,
-                    opponent: opponent.name().to_owned(),
+                    opponent,
                     mass_ratio,
                     known_n_per_m: duels.iter().map(|duel| duel.stiffness_n_per_m).collect(),
                     begins_with_xpbd: duels.first().map(Duel::is_of_xpbd),

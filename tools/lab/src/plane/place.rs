@@ -67,8 +67,8 @@ pub struct Run {
     pub run: String,
     /// The name of the method with its settings.
     pub series: String,
-    /// The name of the family of methods, as in [`Family::name`].
-    pub family: String,
+    /// The family of methods.
+    pub family: Family,
     /// The fraction of the base step; `None` for a run at default settings.
     pub part: Option<f64>,
     /// The step, in seconds; `None` if the run was not begun.
@@ -124,8 +124,8 @@ pub struct Answer {
 /// The cheapest run of a family that meets a tolerance.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FamilyCost {
-    /// The name of the family, as in [`Family::name`].
-    pub family: String,
+    /// The family of methods.
+    pub family: Family,
     /// The visits of edges of the cheapest run; `None` if no run meets the tolerance.
     pub visits: Option<u64>,
     /// The name of the cheapest run; `None` if no run meets the tolerance.
@@ -182,7 +182,7 @@ fn told(row: &Row) -> Run {
     Run {
         run: row.run.rsplit('/').next().unwrap_or_default().to_owned(),
         series: row.series.clone(),
-        family: row.family.name().to_owned(),
+        family: row.family,
         part: row.part,
         dt_s: row.dt_s,
         status: row.status,
@@ -199,8 +199,8 @@ impl Answer {
         let found = floors.find(|floor| floor.observable == asked.observable);
         let floor = found.and_then(|found| found.floor);
         let is_known = floor.is_some_and(|floor| asked.tolerance >= FLOORS * floor);
-        let names = Family::ALL.map(Family::name).into_iter();
-        let families = names.filter(|name| runs.iter().any(|run| run.family == *name));
+        let has_run = |family: &Family| runs.iter().any(|run| run.family == *family);
+        let families = Family::ALL.into_iter().filter(has_run);
         Answer {
             asked,
             floor,
@@ -221,7 +221,7 @@ impl Answer {
     /// Returns the cost of a family; `None` if it has no runs.
     #[must_use]
     pub fn cost(&self, family: Family) -> Option<&FamilyCost> {
-        self.costs.iter().find(|cost| cost.family == family.name())
+        self.costs.iter().find(|cost| cost.family == family)
     }
 
     /// Returns the family with the fewest visits of edges; `None` if no run meets the tolerance.
@@ -239,7 +239,7 @@ impl Answer {
 }
 
 impl FamilyCost {
-    pub(super) fn new(family: &str, asked: Asked, is_known: bool, runs: &[Run]) -> FamilyCost {
+    pub(super) fn new(family: Family, asked: Asked, is_known: bool, runs: &[Run]) -> FamilyCost {
         let own = || {
             let of = move |run: &&Run| run.family == family && run.part.is_some();
             runs.iter().filter(of)
@@ -247,7 +247,7 @@ impl FamilyCost {
         let met = own().filter(|run| is_known && run.meets(asked));
         let cheapest = met.min_by_key(|run| run.visits);
         FamilyCost {
-            family: family.to_owned(),
+            family,
             visits: cheapest.map(|run| run.visits),
             run: cheapest.map(|run| run.run.clone()),
             is_at_most: cheapest.is_some_and(|run| run.part == Some(PARTS[0])),

@@ -226,7 +226,7 @@ impl Axes {
         asked: Asked,
         opponent: Family,
     ) -> Drawn {
-        let is_it = |line: &&Line| line.asked == asked && line.opponent == opponent.name();
+        let is_it = |line: &&Line| line.asked == asked && line.opponent == opponent;
         let lines: Vec<&Line> = study.lines.iter().filter(is_it).collect();
         let is_dashed = opponent == Family::Plain;
         let mut above: Option<i32> = None;
@@ -302,11 +302,7 @@ fn label(root: &Area<'_>, (x, y): (i32, i32), crossing: &Crossing) -> Drawn {
 fn fill(root: &Area<'_>, (x, y): (i32, i32), answer: &Answer) -> Drawn {
     let corners = [(x + 1, y + 1), (x + CELL.0 - 1, y + CELL.1 - 1)];
     let winner = answer.winner();
-    let is_it = |family: &Family| winner.is_some_and(|winner| winner.family == family.name());
-    let fill = match Family::ALL.into_iter().find(is_it) {
-        Some(family) => colour(family).mix(PALE),
-        None => BLANK.to_rgba(),
-    };
+    let fill = winner.map_or(BLANK.to_rgba(), |winner| colour(winner.family).mix(PALE));
     root.draw(&Rectangle::new(corners, fill.filled()))
 }
 
@@ -315,7 +311,7 @@ fn words(root: &Area<'_>, (x, y): (i32, i32), place: &Place, answer: &Answer) ->
     let winner = answer.winner();
     let lines = match winner {
         Some(winner) => vec![
-            format!("{} {}", winner.family, cost(winner)),
+            format!("{} {}", winner.family.name(), cost(winner)),
             format!("XPBD / Verlet {}", ratio(place, answer, Family::Xpbd)),
             format!("plain / Verlet {}", ratio(place, answer, Family::Plain)),
         ],

@@ -25,7 +25,7 @@ fn made(options: &Options) -> Study {
 /// A place with such costs of XPBD and of Verlet's method, which does not ask for displacements.
 fn planted(stiffness_n_per_m: f64, xpbd: Option<u64>, verlet: Option<u64>) -> Place {
     let cost = |(family, visits): (Family, Option<u64>)| FamilyCost {
-        family: family.name().to_owned(),
+        family,
         visits,
         run: None,
         is_at_most: false,
@@ -57,7 +57,7 @@ fn line_of(places: Vec<Place>) -> Line {
     };
     study.conclude();
     let mut lines = study.lines.into_iter();
-    let found = lines.find(|line| line.asked == QUESTIONS[0] && line.opponent == "Verlet");
+    let found = lines.find(|line| line.asked == QUESTIONS[0] && line.opponent == Family::Verlet);
     found.expect("a line for each ratio")
 }
 
@@ -103,7 +103,7 @@ fn who_misses_the_tolerance_is_dearer_and_who_costs_the_same_is_not_cheaper() {
 
 /// The least cost of the runs of a family whose error, and that of each shorter step of the same series, is
 /// within a tolerance.
-fn least(place: &Place, family: &str, asked: Asked) -> Option<u64> {
+fn least(place: &Place, family: Family, asked: Asked) -> Option<u64> {
     let error = |run: &Run| {
         let mut errors = run.errors.iter();
         let found = errors.find(|error| error.observable == asked.observable);
@@ -139,7 +139,7 @@ fn the_cost_of_a_family_is_the_least_of_the_runs_that_all_shorter_steps_confirm(
             let is_known = 10.0 * floor <= answer.asked.tolerance;
             assert_eq!(answer.is_known, is_known);
             for cost in &answer.costs {
-                let expected = least(place, &cost.family, answer.asked);
+                let expected = least(place, cost.family, answer.asked);
                 assert_eq!(cost.visits, expected.filter(|_| is_known), "{cost:?}");
                 met += u32::from(cost.visits.is_some());
                 missed += u32::from(is_known && cost.visits.is_none());
@@ -154,7 +154,7 @@ fn an_error_that_passes_through_zero_meets_no_tolerance() {
     let run = |part: f64, visits: u64, total: f64, vouched: f64| Run {
         run: format!("xpbd-1@{part}"),
         series: "xpbd-1".to_owned(),
-        family: "XPBD".to_owned(),
+        family: Family::Xpbd,
         part: Some(part),
         dt_s: Some(part),
         status: Status::Ok,
@@ -173,11 +173,16 @@ fn an_error_that_passes_through_zero_meets_no_tolerance() {
         run(0.5, 40, 0.04, 0.04),
         run(0.25, 80, 0.01, 0.01),
     ];
-    let cost = |is_known| FamilyCost::new("XPBD", QUESTIONS[0], is_known, &runs);
+    let cost = |is_known| FamilyCost::new(Family::Xpbd, QUESTIONS[0], is_known, &runs);
     assert_eq!(cost(true).visits, Some(40));
     assert!(!cost(true).is_at_most && !cost(true).is_cut_short);
     assert_eq!(cost(false).visits, None);
-    let longest = FamilyCost::new("XPBD", QUESTIONS[0], true, &[run(2.0, 10, 0.01, 0.01)]);
+    let longest = FamilyCost::new(
+        Family::Xpbd,
+        QUESTIONS[0],
+        true,
+        &[run(2.0, 10, 0.01, 0.01)],
+    );
     assert!(longest.is_at_most && longest.visits == Some(10));
 }
 

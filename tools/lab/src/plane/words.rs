@@ -47,10 +47,7 @@ fn winners(answers: &[&Answer]) -> String {
     let count = |is_it: &dyn Fn(&Answer) -> bool| answers.iter().filter(|a| is_it(a)).count();
     let mut told: Vec<String> = Vec::new();
     for family in Family::ALL {
-        let won = count(&|a| {
-            a.winner()
-                .is_some_and(|winner| winner.family == family.name())
-        });
+        let won = count(&|a| a.winner().is_some_and(|winner| winner.family == family));
         if won > 0 {
             told.push(format!("{} in {won}", family.name()));
         }
@@ -92,7 +89,7 @@ fn ratios(answers: &[&Answer], of: Family) -> Option<String> {
 
 /// Who is cheaper along a line.
 fn told(line: &Line) -> String {
-    let opponent = &line.opponent;
+    let opponent = line.opponent.name();
     let begin = format!("at ratio {:e}, against {opponent}:", line.mass_ratio);
     let name = |is_xpbd: bool| if is_xpbd { "XPBD" } else { opponent };
     let (Some(first), [.., last]) = (line.begins_with_xpbd, &line.known_n_per_m[..]) else {

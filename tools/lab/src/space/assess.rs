@@ -165,7 +165,7 @@ fn row(told: &Told<'_>, errors: Vec<Error>) -> Row {
     let outcome = told.ran.outcome;
     Row {
         method: METHODS[method].name.to_owned(),
-        family: METHODS[method].family.name().to_owned(),
+        family: METHODS[method].family,
         cells: told.ran.case.cells,
         part: PARTS[part],
         dt_s: Some(outcome.dt_s).filter(|dt_s| dt_s.is_finite()),

@@ -59,8 +59,8 @@ pub struct Floor {
 pub struct Row {
     /// The name of the method with its settings.
     pub method: String,
-    /// The name of the family of methods, as in [`Family::name`].
-    pub family: String,
+    /// The family of methods.
+    pub family: Family,
     /// The number of cells along each side of the mesh.
     pub cells: u32,
     /// The fraction of the base step.
@@ -152,13 +152,6 @@ impl Row {
     #[must_use]
     pub fn error(&self, measure: Measure) -> Option<&Error> {
         self.errors.iter().find(|error| error.measure == measure)
-    }
-
-    /// Returns the family of methods; `None` if the name in the field `family` is unknown.
-    #[must_use]
-    pub fn family(&self) -> Option<Family> {
-        let mut all = Family::ALL.into_iter();
-        all.find(|family| family.name() == self.family)
     }
 
     fn error_mut(&mut self, measure: Measure) -> Option<&mut Error> {

@@ -119,7 +119,7 @@ fn head(root: &Area<'_>, study: &Study) -> Drawn {
 
 fn families(study: &Study) -> Vec<Family> {
     let rows = || study.scenes.iter().flat_map(|scene| &scene.rows);
-    let is_there = |family: &Family| rows().any(|row| row.family() == Some(*family));
+    let is_there = |family: &Family| rows().any(|row| row.family == *family);
     Family::ALL.into_iter().filter(is_there).collect()
 }
 
@@ -219,7 +219,7 @@ fn series(
     size: f64,
     height: &dyn Fn(&Error) -> f64,
 ) -> Drawn {
-    let Some(family) = own.first().and_then(|(row, _)| row.family()) else {
+    let Some(family) = own.first().map(|(row, _)| row.family) else {
         return Ok(());
     };
     let points = own.iter();

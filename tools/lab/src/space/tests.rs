@@ -4,6 +4,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
+use crate::pareto::Family;
 use crate::pareto::Status;
 use crate::random::Random;
 
@@ -14,7 +15,7 @@ fn row(method: &str, cells: u32, part: f64, total: f64) -> Row {
     let n = f64::from(cells);
     Row {
         method: method.to_owned(),
-        family: "Verlet".to_owned(),
+        family: Family::Verlet,
         cells,
         part,
         dt_s: Some(part),
@@ -168,7 +169,8 @@ fn a_front_is_of_one_method_over_all_its_meshes_and_steps() {
             let mut own = scene.rows.iter().filter(|other| other.method == row.method);
             let is_beaten = own.any(|other| {
                 let (other_cost, other_total) = of(other);
-                other_cost <= 0.9 * cost && other_total <= 0.9 * total
+                let is_as_good = other_cost <= cost && other_total <= total;
+                is_as_good && (other_cost <= 0.9 * cost || other_total <= 0.9 * total)
             });
             let error = row.error(MEASURE).expect("an error");
             assert_eq!(error.is_on_front, !is_beaten, "{:?}", scene.rows);
