@@ -9,6 +9,9 @@ use crate::parts;
 /// Of the trouser tests.
 const SIZE: (u32, u32) = (1100, 500);
 
+/// Above the first title.
+const MARGIN: u32 = 14;
+
 /// A line of what stands below all.
 const LINE: u32 = 16;
 const COLOURS: [RGBColor; 5] = [
@@ -22,11 +25,8 @@ const COLOURS: [RGBColor; 5] = [
 /// Draws a chart as SVG. Returns `None` if the drawing library fails, which does not happen in memory.
 #[must_use]
 pub fn svg(chart: &Chart) -> Option<String> {
-    let above = if chart.study.tests.is_empty() {
-        0
-    } else {
-        SIZE.1
-    };
+    let has_strips = !chart.study.tests.is_empty();
+    let above = if has_strips { SIZE.1 } else { MARGIN };
     let below = cascade::height(&chart.cascades);
     let lines = [Some(chart.provenance.line()), parts::told(&chart.missing)];
     let footer = lines.iter().flatten().flat_map(|line| wrapped(line, 170));
@@ -34,7 +34,7 @@ pub fn svg(chart: &Chart) -> Option<String> {
     let foot = above + below;
     let height = foot + LINE * footer.len() as u32 + 12;
     drawn((SIZE.0, height), |root| {
-        if above > 0 {
+        if has_strips {
             let (tests, _) = root.split_vertically(above);
             draw(&chart.study, &tests)?;
         }
