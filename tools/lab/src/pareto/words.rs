@@ -4,9 +4,11 @@ use std::fmt::Write as _;
 
 use super::method::{Claim, Family};
 use super::observable::{Observable, TOLD};
-use super::{CaseStudy, Cheapest, Study};
+use super::run::Status;
+use super::{CaseStudy, Cheapest, Row, Study};
 
-/// Returns a summary in words: the cheapest method for each tolerance, by case, and which claims hold.
+/// Returns a summary in words: by case, the cheapest method for each tolerance and what each method does at its
+/// default settings; and which claims hold.
 #[must_use]
 pub fn summary(study: &Study) -> String {
     let mut text = String::from(
@@ -35,8 +37,41 @@ pub fn summary(study: &Study) -> String {
             writeln!(text, "  displacement     barred: noise grows too much")
                 .expect("a string grows");
         }
+        text += &defaults(case);
     }
     text.push_str(&claims(study));
+    text
+}
+
+/// A line for each method at its default settings: what it costs as a share of what the default costs, and how
+/// far it is off.
+fn defaults(case: &CaseStudy) -> String {
+    let mut text = String::new();
+    let visits = |row: &Row| row.cost.visits() as f64;
+    let Some(unit) = case.rows.iter().find(|row| row.is_default).map(visits) else {
+        return text;
+    };
+    for row in case.rows.iter().filter(|row| row.part.is_none()) {
+        let errors = TOLD
+            .into_iter()
+            .filter_map(|observable| row.error(observable));
+        let errors = errors.map(|error| {
+            let percent = 100.0 * error.total;
+            format!("{} {percent:.2} %", error.observable.name())
+        });
+        let errors: Vec<String> = errors.collect();
+        let how = match row.status {
+            Status::Ok => errors.join(", "),
+            status => status.name().to_owned(),
+        };
+        let cost = visits(row) / unit;
+        let name = row.series.as_str();
+        writeln!(
+            text,
+            "  {name:<9} at its defaults: cost {cost:.2}, off by {how}"
+        )
+        .expect("a string grows");
+    }
     text
 }
 
