@@ -53,3 +53,20 @@ pub(crate) fn wrapped(text: &str, most: usize) -> Vec<String> {
     }
     lines
 }
+
+/// From a bit below the least to a bit above the most.
+pub(crate) fn spread(numbers: impl Iterator<Item = f64>, beyond: f64) -> Range<f64> {
+    let ends = numbers.fold((f64::INFINITY, 0.0_f64), |(least, most), x| {
+        (least.min(x), most.max(x))
+    });
+    ends.0 / beyond..ends.1 * beyond
+}
+
+/// A number as it stands along an axis: plain between this and a thousand, and else as a power of ten.
+pub(crate) fn axis_number(x: f64, plain_from: f64) -> String {
+    if (plain_from..1000.0).contains(&x) {
+        format!("{}", (x * 1e6).round() / 1e6)
+    } else {
+        format!("{x:.0e}")
+    }
+}

@@ -21,6 +21,9 @@ struct Chart {
     /// Whether it can be made in parts. Charts of times compare runs of one machine, and stability takes half
     /// a minute.
     is_divided: bool,
+    /// Whether a second chart is drawn by CPU time, of the runs as they are: repeated alone, each six times,
+    /// they would take an hour.
+    is_timed: bool,
 }
 
 const fn chart(name: &'static str, small: &'static str, is_divided: bool) -> Chart {
@@ -28,6 +31,7 @@ const fn chart(name: &'static str, small: &'static str, is_divided: bool) -> Cha
         name,
         small,
         is_divided,
+        is_timed: false,
     }
 }
 
@@ -37,7 +41,10 @@ const CHARTS: [Chart; 8] = [
     chart("cut", "--size 8,12 --cuts 3", false),
     chart("fig7", "--size 4,8", false),
     chart("choice", "--scenes 1-3 --seconds 0.03", true),
-    chart("pareto", "--scene swing --size 3 --visits-max 100000", true),
+    Chart {
+        is_timed: true,
+        ..chart("pareto", "--scene swing --size 3 --visits-max 100000", true)
+    },
     chart(
         "plane",
         "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
@@ -170,9 +177,9 @@ fn words(args: &AllArgs, chart: &Chart) -> Vec<OsString> {
     for (option, ending) in [("-o", "svg"), ("--csv", "csv"), ("--json", "json")] {
         words.extend([option.into(), file(args, chart, ending).into_os_string()]);
     }
-    if chart.name == "pareto" {
-        // Times of the runs as they are: repeated alone, each six times, they would take an hour.
-        let times = args.output.join("pareto-time.svg").into_os_string();
+    if chart.is_timed {
+        let name = format!("{}-time.svg", chart.name);
+        let times = args.output.join(name).into_os_string();
         words.extend(["--time-chart".into(), times]);
         words.extend(["--repeats".into(), "0".into()]);
     }

@@ -11,7 +11,7 @@ use super::method::Family;
 use super::observable::{Observable, TOLD};
 use super::run::Status;
 use super::{AMPLIFICATION_MAX, Study};
-use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
+use crate::draw::{Area, Drawn, axis_number, drawn, of_decades, round_numbers, spread, wrapped};
 use crate::parts;
 
 /// The units of cost in a chart.
@@ -240,8 +240,8 @@ fn panel(
             By::Visits => "visits of edges",
             By::Time => "CPU time, s",
         })
-        .x_label_formatter(&|x| number(*x))
-        .y_label_formatter(&|y| number(*y))
+        .x_label_formatter(&|x| axis_number(*x, 0.01))
+        .y_label_formatter(&|y| axis_number(*y, 0.01))
         .label_style(("sans-serif", 11))
         .axis_desc_style(("sans-serif", 11))
         .bold_line_style(RGBColor(0xe4, 0xe4, 0xe4))
@@ -399,14 +399,6 @@ fn told(failed: &[&Row]) -> String {
     counts.collect::<Vec<_>>().join(", ")
 }
 
-/// From a bit below the least to a bit above the most.
-fn spread(numbers: impl Iterator<Item = f64>, beyond: f64) -> Range<f64> {
-    let ends = numbers.fold((f64::INFINITY, 0.0_f64), |(least, most), x| {
-        (least.min(x), most.max(x))
-    });
-    ends.0 / beyond..ends.1 * beyond
-}
-
 /// Numbers to write along an axis.
 fn ticks(range: &Range<f64>) -> Vec<f64> {
     let tens = of_decades(range, &[1.0]);
@@ -414,15 +406,6 @@ fn ticks(range: &Range<f64>) -> Vec<f64> {
         0..=1 => round_numbers(range),
         2..=7 => tens,
         _ => tens.into_iter().step_by(2).collect(),
-    }
-}
-
-/// As it stands along an axis.
-fn number(x: f64) -> String {
-    if (0.01..1000.0).contains(&x) {
-        format!("{}", (x * 1e6).round() / 1e6)
-    } else {
-        format!("{x:.0e}")
     }
 }
 

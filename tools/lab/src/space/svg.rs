@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::measure::Measure;
 use super::{Better, Error, Floor, Row, SceneStudy, Study};
-use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
+use crate::draw::{Area, Drawn, axis_number, drawn, of_decades, round_numbers, spread, wrapped};
 use crate::pareto::{FLOORS, Family, Look, Status, colour, draw_mark};
 use crate::parts;
 
@@ -193,8 +193,8 @@ fn panel(
         .configure_mesh()
         .x_desc("visits of edges")
         .y_desc("error against the finest mesh")
-        .x_label_formatter(&|x| number(*x))
-        .y_label_formatter(&|y| number(*y))
+        .x_label_formatter(&|x| axis_number(*x, 0.001))
+        .y_label_formatter(&|y| axis_number(*y, 0.001))
         .label_style(("sans-serif", 12))
         .axis_desc_style(("sans-serif", 12))
         .bold_line_style(RGBColor(0xe4, 0xe4, 0xe4))
@@ -310,28 +310,11 @@ fn cell(root: &Area<'_>, (x, y): (i32, i32), row: &Row, measure: Measure) -> Dra
     root.draw(&Text::new(words, (x + CELL / 2 - 1, y), style))
 }
 
-/// From a bit below the least to a bit above the most.
-fn spread(numbers: impl Iterator<Item = f64>, beyond: f64) -> Range<f64> {
-    let ends = numbers.fold((f64::INFINITY, 0.0_f64), |(least, most), x| {
-        (least.min(x), most.max(x))
-    });
-    ends.0 / beyond..ends.1 * beyond
-}
-
 /// Numbers to write along an axis.
 fn ticks(range: &Range<f64>) -> Vec<f64> {
     let tens = of_decades(range, &[1.0]);
     match tens.len() {
         0..=2 => round_numbers(range),
         _ => tens,
-    }
-}
-
-/// As it stands along an axis.
-fn number(x: f64) -> String {
-    if (0.001..1000.0).contains(&x) {
-        format!("{}", (x * 1e6).round() / 1e6)
-    } else {
-        format!("{x:.0e}")
     }
 }
