@@ -3,6 +3,7 @@
 mod all;
 mod choice;
 mod cut;
+mod experiment;
 mod fig7;
 mod files;
 mod pareto;

@@ -93,7 +93,7 @@ pub struct Study {
     pub trials: Vec<Trial>,
     /// The comparison of the policies, one per [`Demand`], computed from `trials`.
     pub rankings: Vec<Ranking>,
-    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    /// The parts whose results are not there; empty for an experiment that was run to its end.
     pub missing: Vec<Missing>,
 }
 
@@ -103,6 +103,10 @@ impl Divided for Study {
 
     fn provenance(&self) -> &Provenance {
         &self.provenance
+    }
+
+    fn missing(&self) -> &[Missing] {
+        &self.missing
     }
 
     fn merged(parts: Vec<Study>, provenance: Provenance, missing: Vec<Missing>) -> Option<Study> {
@@ -138,7 +142,8 @@ pub fn guessed_visits(options: &Options) -> f64 {
 /// Runs the experiment. The same options give the same study.
 ///
 /// `watch` is called after each task with its number and the estimated fraction of all work that is done.
-/// Returns `None` soon after `stop` returns true.
+/// When `stop` returns true, all tasks end as soon as possible, and those that were not finished are missing.
+/// Returns `None` if no task was finished.
 #[must_use]
 pub fn study(
     options: &Options,
@@ -149,7 +154,7 @@ pub fn study(
     let tasks = tasks(options.seed, options.scenes.clone(), options.seconds);
     let whole = guessed_visits(options);
     let mut done = 0.0;
-    let trials = side_by_side(
+    let outcomes = side_by_side(
         &tasks,
         options.threads,
         Task::guess,
@@ -157,17 +162,27 @@ pub fn study(
         |i| {
             done += tasks[i].guess();
             watch(tasks[i].number, done / whole);
-            !stop()
+            true
         },
-    )?;
+    );
+    let (mut trials, mut missing) = (Vec::new(), Vec::new());
+    for (task, outcome) in tasks.iter().zip(outcomes) {
+        match outcome.flatten() {
+            Some(trial) => trials.push(trial),
+            None => missing.push(Missing::interrupted(format!("scene {}", task.number))),
+        }
+    }
+    if trials.is_empty() {
+        return None;
+    }
     let mut study = Study {
         schema: Study::SCHEMA.to_owned(),
         provenance,
         seed: options.seed,
         seconds: options.seconds,
-        trials: trials.into_iter().collect::<Option<_>>()?,
+        trials,
         rankings: Vec::new(),
-        missing: Vec::new(),
+        missing,
     };
     study.conclude();
     Some(study)

@@ -29,6 +29,7 @@ use tearmesh::{
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
 use crate::pareto::{SEED, delaunay};
+use crate::parts::Missing;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 use crate::random::Random;
@@ -96,6 +97,8 @@ pub struct Study {
     pub rows: Vec<Row>,
     /// The results of other programs, read from a record.
     pub rivals: Vec<Rival>,
+    /// The sheets and methods whose results are not there; empty for an experiment that was run to its end.
+    pub missing: Vec<Missing>,
 }
 
 /// The results of one method on one sheet, over all lines.
@@ -159,8 +162,9 @@ pub fn cuts(options: &Options) -> usize {
 /// Runs the experiment.
 ///
 /// `clock` returns the CPU time of the calling thread. Without it there are no times, and the same options
-/// give the same study. `watch` is called after each cut with the name of its method. Returns `None` when
-/// `stop` returns true, after the cuts that are under way.
+/// give the same study. `watch` is called after each cut with the name of its method. When `stop` returns true,
+/// no other cut is begun, and methods that have not cut a sheet along every line are missing for that sheet.
+/// Returns `None` if no method was finished.
 ///
 /// # Panics
 ///
@@ -174,24 +178,34 @@ pub fn study(
     stop: &(dyn Fn() -> bool + Sync),
     mut watch: impl FnMut(&str),
 ) -> Option<Study> {
-    let mut rows = Vec::new();
+    let lines: Vec<u64> = (0..u64::from(options.cuts)).collect();
+    let (mut rows, mut missing) = (Vec::new(), Vec::new());
     for &cells in &options.cells {
-        let subject = Subject::new(cells);
+        let subject = (!stop()).then(|| Subject::new(cells));
         for way in &WAYS {
-            let lines: Vec<u64> = (0..u64::from(options.cuts)).collect();
-            let done = side_by_side(
-                &lines,
-                options.threads,
-                |_| 1.0,
-                |&line| (!stop()).then(|| subject.cut(way, line, clock)),
-                |_| {
-                    watch(way.name);
-                    !stop()
-                },
-            )?;
-            let done: Vec<Done> = done.into_iter().collect::<Option<_>>()?;
-            rows.push(subject.row(way, &done));
+            let made = subject.as_ref().and_then(|subject| {
+                let done = side_by_side(
+                    &lines,
+                    options.threads,
+                    |_| 1.0,
+                    |&line| (!stop()).then(|| subject.cut(way, line, clock)),
+                    |_| {
+                        watch(way.name);
+                        true
+                    },
+                );
+                let done: Option<Vec<Done>> = done.into_iter().map(Option::flatten).collect();
+                Some(subject.row(way, &done?))
+            });
+            let name = || format!("{} on {cells} cells", way.name);
+            match made {
+                Some(row) => rows.push(row),
+                None => missing.push(Missing::interrupted(name())),
+            }
         }
+    }
+    if rows.is_empty() {
+        return None;
     }
     Some(Study {
         schema: "tearmesh.chart.cut/1",
@@ -200,6 +214,7 @@ pub fn study(
         cuts: options.cuts,
         rows,
         rivals,
+        missing,
     })
 }
 

@@ -236,6 +236,7 @@ pub fn play(
             true
         },
     );
+    let members: Option<Vec<Member>> = members.into_iter().collect();
     let mut members = members.expect("nobody stops the list itself").into_iter();
     let ensemble = |&parts: &NonZero<u32>| Ensemble {
         parts: parts.get(),
@@ -252,6 +253,9 @@ fn member(subject: Subject<'_>, parts: NonZero<u32>, seed: u64, stop: &dyn Fn() 
         why,
         observed,
     };
+    if stop() {
+        return ended(MemberStatus::Interrupted, String::new(), None);
+    }
     let mut random = Random(seed);
     let mesh = shuffled(subject.mesh, &mut random);
     let run = begun(subject, mesh, parts).map_err(|error| error.to_string());

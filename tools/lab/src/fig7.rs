@@ -34,6 +34,7 @@ use tearmesh_cloth::scene::{Axis, FRAME_S, Frame, Run, Scene};
 
 use self::wanted::Wanted;
 use self::way::Way;
+use crate::parts::Missing;
 use crate::provenance::Provenance;
 use crate::sample;
 
@@ -56,6 +57,8 @@ pub struct Study {
     pub tests: Vec<Test>,
     /// A summary of the results of the last patch, in words.
     pub conclusion: String,
+    /// The patches whose results are not there; empty for an experiment that was run to its end.
+    pub missing: Vec<Missing>,
 }
 
 /// The results of one patch.
@@ -143,8 +146,8 @@ impl std::error::Error for StudyError {}
 /// Rips one patch for each entry of `cells`, which is its number of cells along each side.
 ///
 /// `clock` returns the CPU time of the calling thread. `watch` is called after each step with the index of
-/// the patch, from 0, and the fraction of its scene that is done. If `watch` returns false, the study stops
-/// and the result is `None`.
+/// the patch, from 0, and the fraction of its scene that is done. If `watch` returns false, the study stops,
+/// and patches that were not finished are missing. The result is `None` if no patch was finished.
 ///
 /// # Errors
 ///
@@ -160,12 +163,15 @@ pub fn study(
     clock: &dyn Fn() -> Duration,
     mut watch: impl FnMut(usize, f64) -> bool,
 ) -> Result<Option<Study>, StudyError> {
-    let mut tests = Vec::new();
+    let (mut tests, mut missing) = (Vec::new(), Vec::new());
     for (i, &cells) in cells.iter().enumerate() {
         match rip(cells, rounds, clock, |part| watch(i, part))? {
             Some(test) => tests.push(test),
-            None => return Ok(None),
+            None => missing.push(Missing::interrupted(format!("{cells} cells"))),
         }
+    }
+    if tests.is_empty() {
+        return Ok(None);
     }
     Ok(Some(Study {
         schema: "tearmesh.chart.fig7/1",
@@ -173,6 +179,7 @@ pub fn study(
         rounds,
         conclusion: conclude(&tests),
         tests,
+        missing,
     }))
 }
 

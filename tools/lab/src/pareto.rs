@@ -103,7 +103,7 @@ pub struct Study {
     pub is_interrupted: bool,
     /// The results of each case, ordered by scene, then by kind of mesh, then by size.
     pub cases: Vec<CaseStudy>,
-    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    /// The parts whose results are not there; empty for an experiment that was run to its end.
     pub missing: Vec<Missing>,
 }
 
@@ -112,6 +112,10 @@ impl Divided for Study {
 
     fn provenance(&self) -> &Provenance {
         &self.provenance
+    }
+
+    fn missing(&self) -> &[Missing] {
+        &self.missing
     }
 
     fn merged(parts: Vec<Study>, provenance: Provenance, missing: Vec<Missing>) -> Option<Study> {
@@ -196,7 +200,7 @@ pub fn study(
     let whole = guessed_visits(options);
     let mut done = 0.0;
     let cases = cases(options);
-    let mut studies = Vec::new();
+    let (mut studies, mut missing) = (Vec::new(), Vec::new());
     for case in &cases {
         let plan = plan(case);
         let outcomes = side_by_side(
@@ -213,14 +217,19 @@ pub fn study(
                 true
             },
         );
+        let outcomes: Option<Vec<Outcome>> = outcomes.into_iter().collect();
         let outcomes = outcomes.expect("nobody stops the list itself");
+        missing.extend(undone(case.part_name(), &outcomes));
         studies.push(assess(case, &plan, &outcomes));
     }
-    if options.repeats > 0 && clock.is_some() && !stop() {
-        repeat(options, &cases, &mut studies, &bounds, |name, guess| {
+    if options.repeats > 0 && clock.is_some() {
+        let are_done = repeat(options, &cases, &mut studies, &bounds, |name, guess| {
             done += guess;
             watch(name, done / whole);
         });
+        if !are_done {
+            missing.push(Missing::interrupted("repeated times".to_owned()));
+        }
     }
     Study {
         schema: Study::SCHEMA.to_owned(),
@@ -228,21 +237,29 @@ pub fn study(
         seed: SEED,
         visits_max: options.visits_max,
         repeats: options.repeats,
-        is_interrupted: stop(),
+        is_interrupted: !missing.is_empty(),
         cases: studies,
-        missing: Vec::new(),
+        missing,
     }
 }
 
+/// What is missing of a part, if any of its runs was interrupted.
+pub(crate) fn undone(part: String, outcomes: &[Outcome]) -> Option<Missing> {
+    let is_done = |one: &&Outcome| one.status != Status::Interrupted;
+    let (done, runs) = (outcomes.iter().filter(is_done).count(), outcomes.len());
+    let why = format!("interrupted after {done} of {runs} runs");
+    (done < runs).then_some(Missing { part, why })
+}
+
 /// Runs all rows that succeeded again and again, one after the other, scenes by turns: the first time to
-/// warm up.
+/// warm up. Returns false if it was interrupted; then there are no times.
 fn repeat(
     options: &Options,
     cases: &[Case],
     studies: &mut [CaseStudy],
     bounds: &Bounds<'_>,
     mut watch: impl FnMut(&str, f64),
-) {
+) -> bool {
     let plans: Vec<Vec<Planned>> = cases.iter().map(plan).collect();
     let mut times: Vec<Vec<Vec<f64>>> = plans.iter().map(|p| vec![Vec::new(); p.len()]).collect();
     // The first of each case, the second of each, and so on.
@@ -259,7 +276,7 @@ fn repeat(
             if row.is_some_and(|row| row.status == Status::Ok) {
                 let outcome = planned.carry_out(case, bounds);
                 if outcome.status == Status::Interrupted {
-                    return;
+                    return false;
                 }
                 if round > 0 {
                     times[number][i].extend(outcome.cost.cpu_s);
@@ -280,4 +297,5 @@ fn repeat(
         }
         study.rank();
     }
+    true
 }

@@ -18,6 +18,17 @@ pub struct Missing {
     pub why: String,
 }
 
+impl Missing {
+    /// Returns what stands for a part that was not done when the experiment was interrupted.
+    #[must_use]
+    pub fn interrupted(part: String) -> Missing {
+        Missing {
+            part,
+            why: "interrupted".to_owned(),
+        }
+    }
+}
+
 /// A study that can be made of the studies of its parts.
 pub trait Divided: Serialize + DeserializeOwned {
     /// The name and version of the file format, as in the field `schema`.
@@ -25,6 +36,9 @@ pub trait Divided: Serialize + DeserializeOwned {
 
     /// Returns the origin of the results.
     fn provenance(&self) -> &Provenance;
+
+    /// Returns the parts whose results are not there, as after an interruption.
+    fn missing(&self) -> &[Missing];
 
     /// Makes one study of those of some parts, which must be in the order of a single run. Returns `None` if
     /// there are none.

@@ -40,7 +40,7 @@ use std::num::NonZero;
 use serde::{Deserialize, Serialize};
 
 use self::job::Job;
-use crate::pareto::{Bounds, METHODS, Outcome, assess};
+use crate::pareto::{Bounds, METHODS, Outcome, Status, assess};
 use crate::parts::{Divided, Missing};
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
@@ -104,7 +104,7 @@ pub struct Study {
     pub places: Vec<Place>,
     /// The lines between XPBD and Verlet's method, by tolerance, opponent and mass ratio.
     pub lines: Vec<Line>,
-    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    /// The parts whose results are not there; empty for an experiment that was run to its end.
     pub missing: Vec<Missing>,
 }
 
@@ -114,6 +114,10 @@ impl Divided for Study {
 
     fn provenance(&self) -> &Provenance {
         &self.provenance
+    }
+
+    fn missing(&self) -> &[Missing] {
+        &self.missing
     }
 
     fn merged(parts: Vec<Study>, provenance: Provenance, missing: Vec<Missing>) -> Option<Study> {
@@ -166,10 +170,17 @@ pub fn expected(options: &Options) -> (usize, f64) {
     (runs, jobs.iter().map(Job::guess).sum())
 }
 
+/// Returns the name of a place in lists of missing parts and in the names of files, such as `1e3-1e-2`.
+#[must_use]
+pub fn place_name(stiffness_n_per_m: f64, mass_ratio: f64) -> String {
+    format!("{stiffness_n_per_m:e}-{mass_ratio:e}")
+}
+
 /// Runs the experiment. The same options give the same study.
 ///
-/// `watch` is called after each run with its name and the estimated fraction of all work that is done.
-/// Returns `None` soon after `stop` returns true.
+/// `watch` is called after each run with its name and the estimated fraction of all work that is done. When
+/// `stop` returns true, all runs end as soon as possible, and places that were not finished are missing.
+/// Returns `None` if no place was finished.
 ///
 /// # Panics
 ///
@@ -185,14 +196,14 @@ pub fn study(
     let jobs = jobs(options);
     let whole: f64 = jobs.iter().map(Job::guess).sum();
     let mut done = 0.0;
-    let mut places = Vec::new();
+    let (mut places, mut missing) = (Vec::new(), Vec::new());
     for job in &jobs {
         let bounds = Bounds {
             visits_max: job.visits_max,
             clock: None,
             stop,
         };
-        let outcomes: Vec<Outcome> = side_by_side(
+        let outcomes = side_by_side(
             &job.plan,
             options.threads,
             |planned| job.guess_of(planned),
@@ -200,11 +211,21 @@ pub fn study(
             |i| {
                 done += job.guess_of(&job.plan[i]);
                 watch(&job.name_of(&job.plan[i]), done / whole);
-                !stop()
+                true
             },
-        )?;
+        );
+        let is_done = |one: &Outcome| one.status != Status::Interrupted;
+        let outcomes = outcomes.into_iter().map(|one| one.filter(is_done));
+        let Some(outcomes) = outcomes.collect::<Option<Vec<Outcome>>>() else {
+            let (stiffness, ratio) = job.place;
+            missing.push(Missing::interrupted(place_name(stiffness, ratio)));
+            continue;
+        };
         let case = assess(&job.case, &job.plan, &outcomes);
         places.push(Place::new(job.place, job.visits_max, &case));
+    }
+    if places.is_empty() {
+        return None;
     }
     let mut study = Study {
         schema: Study::SCHEMA.to_owned(),
@@ -214,7 +235,7 @@ pub fn study(
         cost_max: options.cost_max,
         places,
         lines: Vec::new(),
-        missing: Vec::new(),
+        missing,
     };
     study.conclude();
     Some(study)

@@ -11,15 +11,15 @@ pub fn workers() -> NonZero<usize> {
 }
 
 /// Does `work` for each job with so many workers, the costliest first. `watch` hears of each that is
-/// done, by its place in the list, and may stop all by saying false: then there are no results, and
-/// what is under way ends unheard.
+/// done, by its place in the list, and may stop all by saying false: then nothing else is begun, what is
+/// under way ends unheard, and what nobody heard of has no result.
 pub(crate) fn side_by_side<J: Sync, R: Send>(
     jobs: &[J],
     workers: NonZero<usize>,
     cost: impl Fn(&J) -> f64,
     work: impl Fn(&J) -> R + Sync,
     mut watch: impl FnMut(usize) -> bool,
-) -> Option<Vec<R>> {
+) -> Vec<Option<R>> {
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by(|&i, &j| cost(&jobs[i]).total_cmp(&cost(&jobs[j])));
     let waiting = Mutex::new(order);
@@ -41,10 +41,10 @@ pub(crate) fn side_by_side<J: Sync, R: Send>(
             found[i] = Some(result);
             if !watch(i) {
                 // Nobody waits for what is left: those who are at work send it into the void.
-                drop(results);
-                return None;
+                break;
             }
         }
-        found.into_iter().collect()
+        drop(results);
+        found
     })
 }

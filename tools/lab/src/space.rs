@@ -46,7 +46,7 @@ use std::num::NonZero;
 use serde::{Deserialize, Serialize};
 
 use self::assess::{Ran, assess};
-use crate::pareto::{Bounds, Case, METHODS, Outcome, PARTS, Planned, Role, finest, plan};
+use crate::pareto::{Bounds, Case, METHODS, Outcome, PARTS, Planned, Role, finest, plan, undone};
 use crate::parts::{Divided, Missing};
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
@@ -184,7 +184,7 @@ pub struct Study {
     pub is_interrupted: bool,
     /// The results of each scene.
     pub scenes: Vec<SceneStudy>,
-    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    /// The parts whose results are not there; empty for an experiment that was run to its end.
     pub missing: Vec<Missing>,
 }
 
@@ -194,6 +194,10 @@ impl Divided for Study {
 
     fn provenance(&self) -> &Provenance {
         &self.provenance
+    }
+
+    fn missing(&self) -> &[Missing] {
+        &self.missing
     }
 
     fn merged(parts: Vec<Study>, provenance: Provenance, missing: Vec<Missing>) -> Option<Study> {
@@ -290,7 +294,7 @@ impl Plan {
         mut watch: impl FnMut(&str, f64),
     ) -> Study {
         let (whole, mut done) = (self.guessed_visits(), 0.0);
-        let mut scenes = Vec::new();
+        let (mut scenes, mut missing) = (Vec::new(), Vec::new());
         for prepared in &self.scenes {
             let outcomes = side_by_side(
                 &prepared.jobs,
@@ -305,8 +309,10 @@ impl Plan {
                     true
                 },
             );
-            // Nobody stops the list itself, so that it has results.
-            scenes.extend(outcomes.map(|outcomes| self.assessed(prepared, &outcomes)));
+            // Nobody stops the list itself, so that each run has an outcome.
+            let outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
+            missing.extend(undone(prepared.scene.name().to_owned(), &outcomes));
+            scenes.push(self.assessed(prepared, &outcomes));
         }
         Study {
             schema: Study::SCHEMA.to_owned(),
@@ -315,9 +321,9 @@ impl Plan {
             finest: self.options.finest,
             parts: self.options.parts.clone(),
             visits_max: self.options.visits_max,
-            is_interrupted: stop(),
+            is_interrupted: !missing.is_empty(),
             scenes,
-            missing: Vec::new(),
+            missing,
         }
     }
 

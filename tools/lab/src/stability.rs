@@ -33,6 +33,7 @@ use std::num::NonZero;
 use serde::Serialize;
 
 use self::limit::Asked;
+use crate::parts::Missing;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
 
@@ -60,6 +61,8 @@ pub struct Study {
     pub differing: usize,
     /// The number of cells and verdicts that failed without a message.
     pub silent: usize,
+    /// The limits and scenes whose results are not there; empty for an experiment that was run to its end.
+    pub missing: Vec<Missing>,
 }
 
 /// A piece of the experiment.
@@ -87,8 +90,8 @@ pub fn pieces(options: &Options) -> usize {
 
 /// Runs the experiment. The same options and messages give the same study.
 ///
-/// `watch` is called with the name of each piece that is done. Returns `None` soon after `stop` returns
-/// true.
+/// `watch` is called with the name of each piece that is done. When `stop` returns true, all pieces end as soon
+/// as possible, and those that were not finished are missing. Returns `None` if no piece was finished.
 #[must_use]
 pub fn study(
     options: &Options,
@@ -111,15 +114,19 @@ pub fn study(
         },
         |i| {
             watch(&name(&jobs[i]));
-            !stop()
+            true
         },
-    )?;
-    let (mut limits, mut verdicts) = (Vec::new(), Vec::new());
-    for done in done {
-        match done? {
-            Done::Limit(limit) => limits.push(limit),
-            Done::Trial(of_trial) => verdicts.extend(of_trial),
+    );
+    let (mut limits, mut verdicts, mut missing) = (Vec::new(), Vec::new(), Vec::new());
+    for (job, done) in jobs.iter().zip(done) {
+        match done.flatten() {
+            Some(Done::Limit(limit)) => limits.push(limit),
+            Some(Done::Trial(of_trial)) => verdicts.extend(of_trial),
+            None => missing.push(Missing::interrupted(name(job))),
         }
+    }
+    if limits.is_empty() && verdicts.is_empty() {
+        return None;
     }
     let off = limits.iter().filter(|limit| !limit.agrees).count();
     let other = verdicts.iter().filter(|one| one.expected != one.measured);
@@ -132,6 +139,7 @@ pub fn study(
         silent: unsaid + verdicts.iter().filter(|one| one.is_silent()).count(),
         limits,
         verdicts,
+        missing,
     })
 }
 

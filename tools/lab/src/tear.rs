@@ -61,7 +61,7 @@ pub struct Chart {
     /// on one mesh.
     #[serde(skip_deserializing)]
     pub finer: Vec<Finer>,
-    /// The parts whose results are not there; empty for an experiment that was run in one go.
+    /// The parts whose results are not there; empty for an experiment that was run to its end.
     pub missing: Vec<Missing>,
 }
 
@@ -86,6 +86,10 @@ impl Divided for Chart {
 
     fn provenance(&self) -> &Provenance {
         &self.provenance
+    }
+
+    fn missing(&self) -> &[Missing] {
+        &self.missing
     }
 
     fn merged(parts: Vec<Chart>, provenance: Provenance, missing: Vec<Missing>) -> Option<Chart> {
@@ -185,7 +189,8 @@ pub fn study(
     // The finest first, since it takes longest.
     let finest = |(cells, _): &(u32, Threshold)| f64::from(*cells);
     let tear = |&(cells, rule): &(u32, Threshold)| test(cells, rule, is_checked, stop);
-    let Some(tests) = side_by_side(&strips, threads, finest, tear, done) else {
+    let tests = side_by_side(&strips, threads, finest, tear, done);
+    let Some(tests) = tests.into_iter().collect::<Option<Vec<_>>>() else {
         return Ok(None);
     };
     let tests: Vec<Test> = match tests.into_iter().collect() {

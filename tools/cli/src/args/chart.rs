@@ -218,7 +218,7 @@ pub(crate) struct TearChartArgs {
         value_parser = clap::builder::PossibleValuesParser::new(METHODS))]
     pub(crate) method: Vec<String>,
 
-    /// Seeds of an ensemble, four times as many where they cannot tell; with 0 nothing is played.
+    /// Seeds of an ensemble; with 0 nothing is played.
     #[arg(long, value_name = "N", default_value_t = SEEDS,
         value_parser = clap::value_parser!(u64).range(0..=10_000))]
     pub(crate) seeds: u64,

@@ -6,15 +6,15 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use indicatif::ProgressDrawTarget;
-use tearmesh_lab::cut::{self, Options, Rival};
+use tearmesh_lab::Provenance;
+use tearmesh_lab::cut::{self, Options, Rival, Study};
+use tearmesh_lab::parts::Missing;
 
-use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
-use super::progress;
-use super::provenance;
+use super::experiment::{self, Experiment, Stop, Watch, list};
+use super::files::{Ended, some_time};
 use crate::args::CutChartArgs;
 use crate::exit::Exit;
 use crate::input::cannot_read;
-use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::streams::Streams;
 
@@ -22,60 +22,89 @@ use crate::streams::Streams;
 /// first made on.
 const FACE_S: f64 = 2e-6;
 
-/// Cuts the sheets, and draws the chart.
 pub(super) fn work(
     args: &CutChartArgs,
     target: ProgressDrawTarget,
     streams: &mut Streams<'_>,
 ) -> Ended<Exit> {
-    let draw = &args.draw;
-    let files = check(draw, None)?;
-    let rivals = match &args.record {
-        Some(path) => read(path)?,
-        None => Vec::new(),
-    };
-    let options = Options {
-        cells: args.size.clone(),
-        cuts: args.cuts,
-        // Times of cuts beside each other are those of a memory that both wait for.
-        threads: NonZero::<usize>::MIN,
-    };
-    let cuts = cut::cuts(&options);
-    let faces: f64 = args.size.iter().map(|&n| 2.0 * f64::from(n).powi(2)).sum();
-    let each = cuts as f64 / args.size.len() as f64;
-    let about = some_time(FACE_S * faces * each);
-    let words = format!("{cuts} cuts, some {about}; Ctrl-C ends it without a chart");
-    progress::announce(&words, draw, streams);
-    let bar = progress::bar(cuts as u64, "{pos}/{len} {eta}", target);
-    let guard = Guard::new();
-    let sizes: Vec<String> = args.size.iter().map(u32::to_string).collect();
-    let mut command = format!(
-        "tearmesh chart cut --size {} --cuts {}",
-        sizes.join(","),
-        args.cuts
-    );
-    if args.record.is_some() {
-        command += " --record …";
-    }
-    let clock = || -> Duration { ThreadTime::now().as_duration() };
-    let study = cut::study(
-        &options,
-        provenance::of(command, true),
-        rivals,
-        Some(&clock),
-        &|| guard.is_interrupted(),
-        |name| {
-            bar.inc(1);
-            bar.set_message(name.to_owned());
+    let cuts = Cuts {
+        options: Options {
+            cells: args.size.clone(),
+            cuts: args.cuts,
+            // Times of cuts beside each other are those of a memory that both wait for.
+            threads: NonZero::<usize>::MIN,
         },
-    );
-    bar.finish_and_clear();
-    drop(guard);
-    let study = study.ok_or_else(interrupted)?;
-    let svg = cut::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
-    write_all(draw, &svg, || cut::csv(&study), &study, streams)?;
-    tell(cut::summary(&study).trim_end(), &files, draw.quiet, streams)?;
-    Ok(Exit::Done)
+        rivals: args.record.as_deref().map(read).transpose()?,
+    };
+    experiment::work(&cuts, &args.draw, target, streams)
+}
+
+struct Cuts {
+    options: Options,
+    /// The rows of a record, if there is one.
+    rivals: Option<Vec<Rival>>,
+}
+
+impl Experiment for Cuts {
+    type Study = Study;
+
+    fn is_timed(&self) -> bool {
+        true
+    }
+
+    fn command(&self) -> String {
+        let record = match self.rivals {
+            Some(_) => " --record …",
+            None => "",
+        };
+        format!(
+            "tearmesh chart cut --size {} --cuts {}{record}",
+            list(&self.options.cells),
+            self.options.cuts
+        )
+    }
+
+    fn expected(&self) -> String {
+        let sizes = &self.options.cells;
+        let cuts = cut::cuts(&self.options);
+        let faces: f64 = sizes.iter().map(|&n| 2.0 * f64::from(n).powi(2)).sum();
+        let each = cuts as f64 / sizes.len() as f64;
+        format!("{cuts} cuts, some {}", some_time(FACE_S * faces * each))
+    }
+
+    fn study(
+        &self,
+        provenance: Provenance,
+        stop: Stop<'_>,
+        watch: Watch<'_>,
+    ) -> Ended<Option<Study>> {
+        let rivals = self.rivals.clone().unwrap_or_default();
+        let clock = || -> Duration { ThreadTime::now().as_duration() };
+        let cuts = cut::cuts(&self.options) as f64;
+        let mut done = 0.0;
+        let heard = |name: &str| {
+            done += 1.0;
+            watch(name, done / cuts);
+        };
+        let study = cut::study(&self.options, provenance, rivals, Some(&clock), stop, heard);
+        Ok(study)
+    }
+
+    fn svg(study: &Study) -> Option<String> {
+        cut::svg(study)
+    }
+
+    fn csv(study: &Study) -> String {
+        cut::csv(study)
+    }
+
+    fn summary(study: &Study) -> String {
+        cut::summary(study)
+    }
+
+    fn missing(study: &Study) -> &[Missing] {
+        &study.missing
+    }
 }
 
 /// The rows of a record.

@@ -4,55 +4,88 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use indicatif::ProgressDrawTarget;
-use tearmesh_lab::fig7;
+use tearmesh_lab::Provenance;
+use tearmesh_lab::fig7::{self, Study};
+use tearmesh_lab::parts::Missing;
 
-use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
-use super::progress::{self, PARTS, PERCENT};
-use super::provenance;
+use super::experiment::{self, Experiment, Stop, Watch, list};
+use super::files::{Ended, bug, some_time};
 use crate::args::Fig7Args;
 use crate::exit::Exit;
-use crate::interrupt::Guard;
 use crate::streams::Streams;
 
 /// The seconds that a rip with one cell per side would take, as measured on the machine on which
 /// charts were first made. A rip with n cells per side has n² cells, and steps n times as short.
 const CELL_S: f64 = 3e-5;
 
-/// Rips the patches, and draws the chart.
 pub(super) fn work(
     args: &Fig7Args,
     target: ProgressDrawTarget,
     streams: &mut Streams<'_>,
 ) -> Ended<Exit> {
-    let draw = &args.draw;
-    let files = check(draw, None)?;
-    let costs: Vec<f64> = args.size.iter().map(|&n| f64::from(n).powi(3)).collect();
-    let whole: f64 = costs.iter().sum();
-    let (rips, about) = (costs.len(), some_time(CELL_S * whole));
-    let words = format!("{rips} rips, some {about}; Ctrl-C ends it without a chart");
-    progress::announce(&words, draw, streams);
-    let sizes: Vec<String> = args.size.iter().map(u32::to_string).collect();
-    let command = format!("tearmesh chart fig7 --size {}", sizes.join(","));
-    let bar = progress::bar(PARTS, PERCENT, target);
-    let guard = Guard::new();
-    let clock = || -> Duration { ThreadTime::now().as_duration() };
-    let study = fig7::study(
-        &args.size,
-        fig7::ROUNDS,
-        provenance::of(command, true),
-        &clock,
-        |rip, part| {
+    let cells = args.size.clone();
+    experiment::work(&Fig7 { cells }, &args.draw, target, streams)
+}
+
+struct Fig7 {
+    cells: Vec<u32>,
+}
+
+impl Fig7 {
+    /// What rips cost beside each other.
+    fn costs(&self) -> Vec<f64> {
+        self.cells.iter().map(|&n| f64::from(n).powi(3)).collect()
+    }
+}
+
+impl Experiment for Fig7 {
+    type Study = Study;
+
+    fn is_timed(&self) -> bool {
+        true
+    }
+
+    fn command(&self) -> String {
+        format!("tearmesh chart fig7 --size {}", list(&self.cells))
+    }
+
+    fn expected(&self) -> String {
+        let about = some_time(CELL_S * self.costs().iter().sum::<f64>());
+        format!("{} rips, some {about}", self.cells.len())
+    }
+
+    fn study(
+        &self,
+        provenance: Provenance,
+        stop: Stop<'_>,
+        watch: Watch<'_>,
+    ) -> Ended<Option<Study>> {
+        let costs = self.costs();
+        let whole: f64 = costs.iter().sum();
+        let clock = || -> Duration { ThreadTime::now().as_duration() };
+        let heard = |rip: usize, part: f64| {
             let before: f64 = costs[..rip].iter().sum();
-            bar.set_position((PARTS as f64 * (before + part * costs[rip]) / whole) as u64);
-            !guard.is_interrupted()
-        },
-    );
-    bar.finish_and_clear();
-    drop(guard);
-    let study = study.map_err(|error| bug(error.to_string()))?;
-    let study = study.ok_or_else(interrupted)?;
-    let svg = fig7::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
-    write_all(draw, &svg, || fig7::csv(&study), &study, streams)?;
-    tell(&study.conclusion, &files, draw.quiet, streams)?;
-    Ok(Exit::Done)
+            let name = format!("{} cells", self.cells[rip]);
+            watch(&name, (before + part * costs[rip]) / whole);
+            !stop()
+        };
+        let study = fig7::study(&self.cells, fig7::ROUNDS, provenance, &clock, heard);
+        study.map_err(|error| bug(error.to_string()))
+    }
+
+    fn svg(study: &Study) -> Option<String> {
+        fig7::svg(study)
+    }
+
+    fn csv(study: &Study) -> String {
+        fig7::csv(study)
+    }
+
+    fn summary(study: &Study) -> String {
+        study.conclusion.clone()
+    }
+
+    fn missing(study: &Study) -> &[Missing] {
+        &study.missing
+    }
 }

@@ -96,15 +96,6 @@ pub(super) fn tell(
     said.map(|_| ())
 }
 
-/// That a chart was given up before it was drawn.
-pub(super) fn interrupted() -> (Exit, Fault) {
-    let message = "interrupted; nothing written".to_owned();
-    (
-        Exit::Interrupted,
-        Fault::warning("W-CHART-INTERRUPTED", message),
-    )
-}
-
 /// A duration in words, rounded up.
 pub(super) fn some_time(seconds: f64) -> String {
     match seconds {

@@ -11,7 +11,7 @@ use tearmesh_lab::Provenance;
 use tearmesh_lab::parts::{Divided, Missing};
 
 use super::files::Ended;
-use crate::args::{DrawArgs, PartsArgs};
+use crate::args::DrawArgs;
 use crate::exit::Exit;
 use crate::output;
 use crate::say::{Fault, count, quoted};
@@ -25,16 +25,8 @@ pub(super) struct Part {
     pub(super) command: String,
 }
 
-/// The commands that make the parts, if a plan is wanted, one a line; and makes the folder for their files.
-pub(super) fn plan(
-    args: &PartsArgs,
-    draw: &DrawArgs,
-    parts: impl FnOnce() -> Vec<Part>,
-    streams: &mut Streams<'_>,
-) -> Ended<bool> {
-    if !args.plan {
-        return Ok(false);
-    }
+/// Prints the commands that make the parts, one a line, and makes the folder for their files.
+pub(super) fn plan(parts: &[Part], draw: &DrawArgs, streams: &mut Streams<'_>) -> Ended<Exit> {
     if draw.output == Path::new("-") {
         let message = "the files of parts stand beside that of the chart, which is `-`".to_owned();
         let fault = Fault::error("E-USAGE", message).help("name a file: --plan -o chart.svg");
@@ -43,12 +35,12 @@ pub(super) fn plan(
     let folder = draw.output.with_extension("parts");
     let made = std::fs::create_dir_all(&folder);
     made.map_err(|error| (Exit::Output, output::cannot_write(&folder, &error)))?;
-    let lines: Vec<String> = parts().iter().map(|part| part.line(&folder)).collect();
+    let lines: Vec<String> = parts.iter().map(|part| part.line(&folder)).collect();
     let printed = output::print(streams.output, |out| {
         out.write_all(lines.concat().as_bytes())
     });
     printed.map_err(|fault| (Exit::Output, fault))?;
-    Ok(true)
+    Ok(Exit::Done)
 }
 
 impl Part {
@@ -91,8 +83,11 @@ impl Part {
 pub(super) fn gather<S: Divided>(parts: &[Part], folder: &Path, command: String) -> Ended<S> {
     let (mut found, mut missing): (Vec<S>, Vec<Missing>) = (Vec::new(), Vec::new());
     for part in parts {
-        match part.read(folder) {
-            Ok(study) => found.push(study),
+        match part.read::<S>(folder) {
+            Ok(study) => {
+                missing.extend_from_slice(study.missing());
+                found.push(study);
+            }
             Err(why) => missing.push(Missing {
                 part: part.name.clone(),
                 why,
@@ -133,14 +128,19 @@ pub(super) fn warn(missing: &[Missing], draw: &DrawArgs, streams: &mut Streams<'
     let Some(first) = missing.first() else {
         return Exit::Done;
     };
-    let names: Vec<&str> = missing.iter().map(|one| one.part.as_str()).collect();
     let message = format!(
         "{} missing: {}; the first: {}",
         count(missing.len(), "part is", "parts are"),
-        names.join(", "),
+        names(missing),
         first.why
     );
     let help = "run their lines of --plan again, and gather once more";
     let fault = Fault::warning("W-CHART-PARTS", message).help(help);
     streams.fail(&fault, draw.color, Exit::Simulation)
+}
+
+/// The names of missing parts.
+pub(super) fn names(missing: &[Missing]) -> String {
+    let names: Vec<&str> = missing.iter().map(|one| one.part.as_str()).collect();
+    names.join(", ")
 }

@@ -1,5 +1,7 @@
 //! How long a chart will take, and how far it is.
 
+use std::num::NonZero;
+
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::DrawArgs;
@@ -16,17 +18,28 @@ pub(super) fn announce(words: &str, draw: &DrawArgs, streams: &mut Streams<'_>) 
     }
 }
 
-/// A bar of so many parts, with `numbers` and a message behind it.
-pub(super) fn bar(parts: u64, numbers: &str, target: ProgressDrawTarget) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(parts), target);
-    match ProgressStyle::with_template(&format!("{{wide_bar}} {numbers} {{msg}}")) {
+/// The parts of a bar.
+const PARTS: f64 = 1000.0;
+
+/// A bar with a percentage, the time that is left, and a message behind it.
+pub(super) fn bar(target: ProgressDrawTarget) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(PARTS as u64), target);
+    match ProgressStyle::with_template("{wide_bar} {percent} % {eta} {msg}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }
 }
 
-/// The parts of a bar whose numbers are a percentage and the time that is left.
-pub(super) const PARTS: u64 = 1000;
+/// Shows the part of all work that is done, and the name of what was done last.
+pub(super) fn show(bar: &ProgressBar, name: &str, part: f64) {
+    bar.set_position((PARTS * part) as u64);
+    bar.set_message(name.to_owned());
+}
 
-/// The numbers of a bar of [`PARTS`].
-pub(super) const PERCENT: &str = "{percent} % {eta}";
+/// Which threads runs share, in words.
+pub(super) fn on_threads(threads: NonZero<usize>) -> String {
+    match threads.get() {
+        1 => "on one thread".to_owned(),
+        n => format!("on {n} threads"),
+    }
+}

@@ -3,15 +3,14 @@
 use indicatif::ProgressDrawTarget;
 use tearmesh_cloth::StepError;
 use tearmesh_cloth::scene::{Frame, Run};
-use tearmesh_lab::pool;
-use tearmesh_lab::stability::{self, Options, Teller, Told};
+use tearmesh_lab::parts::Missing;
+use tearmesh_lab::stability::{self, Options, Study, Teller, Told};
+use tearmesh_lab::{Provenance, pool};
 
-use super::files::{Ended, bug, check, interrupted, some_time, tell, write_all};
-use super::progress;
-use super::provenance;
+use super::experiment::{self, Experiment, Stop, Watch, list};
+use super::files::{Ended, some_time};
 use crate::args::StabilityArgs;
 use crate::exit::Exit;
-use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::streams::Streams;
 use crate::tear::advice;
@@ -21,48 +20,66 @@ use crate::tear::advice;
 const LIMITS_S: f64 = 7.0;
 const SCENES_S: f64 = 10.0;
 
-/// Makes the experiment, and draws the map.
 pub(super) fn work(
     args: &StabilityArgs,
     target: ProgressDrawTarget,
     streams: &mut Streams<'_>,
 ) -> Ended<Exit> {
-    let draw = &args.draw;
-    let files = check(draw, None)?;
-    let options = Options {
+    let stability = Stability(Options {
         stiffness_n_per_m: args.stiffness.clone(),
         threads: args.threads.unwrap_or_else(pool::workers),
-    };
-    let pieces = stability::pieces(&options);
-    let work_s = LIMITS_S * options.stiffness_n_per_m.len() as f64 + SCENES_S;
-    let about = some_time(work_s / options.threads.get() as f64);
-    let words = format!("{pieces} limits and scenes, some {about}; Ctrl-C ends it without a chart");
-    progress::announce(&words, draw, streams);
-    let bar = progress::bar(pieces as u64, "{pos}/{len}", target);
-    let guard = Guard::new();
-    let stiffness: Vec<String> = args.stiffness.iter().map(f64::to_string).collect();
-    let command = format!(
-        "tearmesh chart stability --stiffness {}",
-        stiffness.join(",")
-    );
-    let study = stability::study(
-        &options,
-        provenance::of(command, false),
-        &Command,
-        &|| guard.is_interrupted(),
-        |name| {
-            bar.inc(1);
-            bar.set_message(name.to_owned());
-        },
-    );
-    bar.finish_and_clear();
-    drop(guard);
-    let study = study.ok_or_else(interrupted)?;
-    let svg = stability::svg(&study).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
-    write_all(draw, &svg, || stability::csv(&study), &study, streams)?;
-    let words = stability::summary(&study);
-    tell(words.trim_end(), &files, draw.quiet, streams)?;
-    Ok(Exit::Done)
+    });
+    experiment::work(&stability, &args.draw, target, streams)
+}
+
+struct Stability(Options);
+
+impl Experiment for Stability {
+    type Study = Study;
+
+    fn command(&self) -> String {
+        let stiffness = list(&self.0.stiffness_n_per_m);
+        format!("tearmesh chart stability --stiffness {stiffness}")
+    }
+
+    fn expected(&self) -> String {
+        let pieces = stability::pieces(&self.0);
+        let work_s = LIMITS_S * self.0.stiffness_n_per_m.len() as f64 + SCENES_S;
+        let about = some_time(work_s / self.0.threads.get() as f64);
+        format!("{pieces} limits and scenes, some {about}")
+    }
+
+    fn study(
+        &self,
+        provenance: Provenance,
+        stop: Stop<'_>,
+        watch: Watch<'_>,
+    ) -> Ended<Option<Study>> {
+        let pieces = stability::pieces(&self.0) as f64;
+        let mut done = 0.0;
+        let heard = |name: &str| {
+            done += 1.0;
+            watch(name, done / pieces);
+        };
+        let study = stability::study(&self.0, provenance, &Command, stop, heard);
+        Ok(study)
+    }
+
+    fn svg(study: &Study) -> Option<String> {
+        stability::svg(study)
+    }
+
+    fn csv(study: &Study) -> String {
+        stability::csv(study)
+    }
+
+    fn summary(study: &Study) -> String {
+        stability::summary(study)
+    }
+
+    fn missing(study: &Study) -> &[Missing] {
+        &study.missing
+    }
 }
 
 /// What this command says, as it would say it of the same run.

@@ -1,17 +1,18 @@
 //! `chart tear`: the force that tears strips, and what comes of cascades.
 
+use std::path::PathBuf;
+
 use indicatif::ProgressDrawTarget;
-use tearmesh_lab::pool;
+use tearmesh_lab::parts::Missing;
 use tearmesh_lab::tear::cascade::{self, CascadeScene, METHODS, Options};
 use tearmesh_lab::tear::{self, Chart};
+use tearmesh_lab::{Provenance, pool};
 
-use super::files::{Ended, bug, check, interrupted, some_time, tell, write, write_all};
-use super::parts::{self, Part};
-use super::progress::{self, PARTS, PERCENT};
-use super::provenance;
+use super::experiment::{Experiment, Parted, Stop, Watch, list, work_in_parts};
+use super::files::{Ended, bug, some_time};
+use super::parts::Part;
 use crate::args::TearChartArgs;
 use crate::exit::Exit;
-use crate::interrupt::Guard;
 use crate::say::Fault;
 use crate::streams::Streams;
 
@@ -19,38 +20,26 @@ use crate::streams::Streams;
 /// on; one of n cells has n times n of them, and steps n times as short.
 const STRIP_S: f64 = 4e-3;
 
-/// Tears strips and plays cascades, or puts them together of parts, and draws the chart.
 pub(super) fn work(
     args: &TearChartArgs,
     target: ProgressDrawTarget,
     streams: &mut Streams<'_>,
 ) -> Ended<Exit> {
-    let draw = &args.draw;
-    let files = check(draw, args.runs.as_ref())?;
-    let strips = strips(args)?;
-    let options = options(args);
-    let parts = || parts(strips, &options);
-    if parts::plan(&args.parts, draw, parts, streams)? {
-        return Ok(Exit::Done);
-    }
-    let chart: Chart = match &args.parts.gather {
-        Some(folder) => parts::gather(&parts(), folder, command(strips, &options))?,
-        None => {
-            let seconds = [strips_s(strips), cascades_s(&options)];
-            progress::announce(&expected(strips, &options, seconds), draw, streams);
-            made(strips, &options, seconds, target)?
-        }
+    let tear = Tear {
+        strips: strips(args)?,
+        options: options(args),
+        runs: args.runs.as_ref(),
     };
-    let svg = tear::svg(&chart).ok_or_else(|| bug("the chart cannot be drawn".to_owned()))?;
-    write_all(draw, &svg, || tear::csv(&chart), &chart, streams)?;
-    if let Some(path) = &args.runs {
-        let runs = cascade::csv(&chart.cascades, &chart.missing);
-        write(path, &runs, streams)?;
-    }
-    let conclusion = &chart.study.conclusion;
-    let words = format!("{conclusion}\n{}", cascade::summary(&chart.cascades));
-    tell(words.trim(), &files, draw.quiet, streams)?;
-    Ok(parts::warn(&chart.missing, draw, streams))
+    work_in_parts(&tear, &args.parts, &args.draw, target, streams)
+}
+
+struct Tear<'a> {
+    /// The numbers of cells across the strips.
+    strips: &'a [u32],
+    /// The options of cascades.
+    options: Options,
+    /// The file for a table of all runs.
+    runs: Option<&'a PathBuf>,
 }
 
 /// The strips that are wanted: none, or two or more.
@@ -64,72 +53,6 @@ fn strips(args: &TearChartArgs) -> Ended<&[u32]> {
         }
         strips => Ok(strips),
     }
-}
-
-/// A part is all strips, or the ensembles of one scene on one mesh by one method.
-fn parts(strips: &[u32], options: &Options) -> Vec<Part> {
-    let none = Options {
-        scenes: Vec::new(),
-        ..options.clone()
-    };
-    let of_strips = Part {
-        name: "strips".to_owned(),
-        command: command(strips, &none),
-    };
-    let mut parts: Vec<Part> = Some(of_strips)
-        .filter(|_| !strips.is_empty())
-        .into_iter()
-        .collect();
-    for &scene in &options.scenes {
-        for cells in options.sizes(scene) {
-            for method in METHODS.into_iter().filter(|name| options.plays(name)) {
-                let alone = Options {
-                    scenes: vec![scene],
-                    cells: vec![cells],
-                    methods: vec![method.to_owned()],
-                    ..options.clone()
-                };
-                parts.push(Part {
-                    name: format!("{}-{cells}-{method}", scene.name()),
-                    command: command(&[], &alone),
-                });
-            }
-        }
-    }
-    parts
-}
-
-fn made(
-    strips: &[u32],
-    options: &Options,
-    [strips_s, cascades_s]: [f64; 2],
-    target: ProgressDrawTarget,
-) -> Ended<Chart> {
-    let bar = progress::bar(PARTS, PERCENT, target);
-    let guard = Guard::new();
-    let stop = || guard.is_interrupted();
-    let share = strips_s / (strips_s + cascades_s).max(f64::MIN_POSITIVE);
-    let show = |part: f64, name: &str| {
-        bar.set_position((PARTS as f64 * part) as u64);
-        bar.set_message(name.to_owned());
-    };
-    let mut study = tear::Study::default();
-    if !strips.is_empty() {
-        let tests = 2.0 * strips.len() as f64;
-        let torn = tear::study(strips, true, options.threads, &stop, |done| {
-            show(share * done as f64 / tests, "strips");
-        });
-        let torn = torn.map_err(|error| bug(error.to_string()))?;
-        study = torn.ok_or_else(interrupted)?;
-    }
-    let cascades = cascade::play(options, &stop, |name, part| {
-        show(share + (1.0 - share) * part, name);
-    });
-    bar.finish_and_clear();
-    let cascades = cascades.map_err(|error| bug(error.to_string()))?;
-    let cascades = cascades.ok_or_else(interrupted)?;
-    let provenance = provenance::of(command(strips, options), false);
-    Ok(Chart::new(provenance, study, cascades))
 }
 
 fn options(args: &TearChartArgs) -> Options {
@@ -150,45 +73,142 @@ fn options(args: &TearChartArgs) -> Options {
     }
 }
 
+impl Tear<'_> {
+    /// The seconds of a processor that strips take, and those of cascades.
+    fn seconds(&self) -> [f64; 2] {
+        [strips_s(self.strips), cascades_s(&self.options)]
+    }
+}
+
+impl Experiment for Tear<'_> {
+    type Study = Chart;
+
+    fn command(&self) -> String {
+        command(self.strips, &self.options)
+    }
+
+    fn expected(&self) -> String {
+        let [strips_s, cascades_s] = self.seconds();
+        let processors = self.options.threads.get() as f64;
+        let about = some_time((strips_s + cascades_s) / processors);
+        let (strips, runs) = (2 * self.strips.len(), cascade::runs(&self.options));
+        format!("{strips} strips and {runs} runs of cascades, some {about}")
+    }
+
+    fn study(
+        &self,
+        provenance: Provenance,
+        stop: Stop<'_>,
+        watch: Watch<'_>,
+    ) -> Ended<Option<Chart>> {
+        let [strips_s, cascades_s] = self.seconds();
+        let share = strips_s / (strips_s + cascades_s).max(f64::MIN_POSITIVE);
+        let (mut study, mut missing) = (tear::Study::default(), Vec::new());
+        if !self.strips.is_empty() {
+            let tests = 2.0 * self.strips.len() as f64;
+            let torn = tear::study(self.strips, true, self.options.threads, stop, |done| {
+                watch("strips", share * done as f64 / tests);
+            });
+            match torn.map_err(|error| bug(error.to_string()))? {
+                Some(torn) => study = torn,
+                None => missing.push(Missing::interrupted(STRIPS.to_owned())),
+            }
+        }
+        let played = cascade::play(&self.options, stop, |name, part| {
+            watch(name, share + (1.0 - share) * part);
+        });
+        let (cascades, unplayed) = played.map_err(|error| bug(error.to_string()))?;
+        missing.extend(unplayed);
+        let is_nothing = study.tests.is_empty() && cascades.is_empty();
+        Ok((!is_nothing).then(|| Chart {
+            missing,
+            ..Chart::new(provenance, study, cascades)
+        }))
+    }
+
+    fn svg(chart: &Chart) -> Option<String> {
+        tear::svg(chart)
+    }
+
+    fn csv(chart: &Chart) -> String {
+        tear::csv(chart)
+    }
+
+    fn summary(chart: &Chart) -> String {
+        let conclusion = &chart.study.conclusion;
+        format!("{conclusion}\n{}", cascade::summary(&chart.cascades))
+    }
+
+    fn missing(chart: &Chart) -> &[Missing] {
+        &chart.missing
+    }
+
+    fn other_file(&self) -> Option<&PathBuf> {
+        self.runs
+    }
+
+    fn other(&self, chart: &Chart) -> Option<String> {
+        Some(cascade::csv(&chart.cascades, &chart.missing))
+    }
+}
+
+/// The name of the part that has all strips.
+const STRIPS: &str = "strips";
+
+/// A part is all strips, or the ensembles of one scene on one mesh by one method.
+impl Parted for Tear<'_> {
+    fn parts(&self) -> Vec<Part> {
+        let options = &self.options;
+        let none = Options {
+            scenes: Vec::new(),
+            ..options.clone()
+        };
+        let of_strips = Part {
+            name: STRIPS.to_owned(),
+            command: command(self.strips, &none),
+        };
+        let has_strips = !self.strips.is_empty();
+        let mut parts: Vec<Part> = has_strips.then_some(of_strips).into_iter().collect();
+        for &scene in &options.scenes {
+            for cells in options.sizes(scene) {
+                for method in METHODS.into_iter().filter(|name| options.plays(name)) {
+                    let alone = Options {
+                        scenes: vec![scene],
+                        cells: vec![cells],
+                        methods: vec![method.to_owned()],
+                        ..options.clone()
+                    };
+                    parts.push(Part {
+                        name: cascade::part_name(scene, cells, method),
+                        command: command(&[], &alone),
+                    });
+                }
+            }
+        }
+        parts
+    }
+}
+
 /// The command with all that decides the figures.
 fn command(strips: &[u32], options: &Options) -> String {
-    let list: Vec<String> = strips.iter().map(u32::to_string).collect();
-    let strips = match list.is_empty() {
-        true => "--no-strips".to_owned(),
-        false => format!("--strips {}", list.join(",")),
+    let strips = match strips {
+        [] => "--no-strips".to_owned(),
+        strips => format!("--strips {}", list(strips)),
     };
-    let scenes: Vec<&str> = options.scenes.iter().map(|scene| scene.name()).collect();
-    let cells: Vec<String> = options.cells.iter().map(u32::to_string).collect();
-    let size = match cells.is_empty() {
-        true => String::new(),
-        false => format!(" --size {}", cells.join(",")),
+    let size = match &options.cells[..] {
+        [] => String::new(),
+        cells => format!(" --size {}", list(cells)),
     };
-    let cascades = match scenes.is_empty() {
-        true => "--seeds 0".to_owned(),
-        false => format!(
+    let cascades = match &options.scenes[..] {
+        [] => "--seeds 0".to_owned(),
+        scenes => format!(
             "--scene {} --method {} --seeds {}{size}",
-            scenes.join(","),
-            options.methods.join(","),
+            list(scenes.iter().map(|scene| scene.name())),
+            list(&options.methods),
             options.seeds
         ),
     };
     format!("tearmesh chart tear {strips} {cascades}")
-}
-
-/// How many runs there will be, and how long they will take.
-fn expected(strips: &[u32], options: &Options, [strips_s, cascades_s]: [f64; 2]) -> String {
-    let processors = options.threads.get() as f64;
-    let least = some_time((strips_s + cascades_s) / processors);
-    let most = some_time((strips_s + cascade::MORE as f64 * cascades_s) / processors);
-    let runs = cascade::runs(options);
-    let more = match runs {
-        0 => String::new(),
-        _ => format!(" to {most}, as seeds tell"),
-    };
-    format!(
-        "{} strips and {runs} runs of cascades or more, {least}{more}; Ctrl-C ends it without a chart",
-        2 * strips.len()
-    )
 }
 
 /// The seconds of a processor that strips take.
@@ -224,8 +244,8 @@ fn cascades_s(options: &Options) -> f64 {
 /// By method, of trouser tests and rips of their own sizes.
 const RUN_S: [(&str, [f64; 2]); 5] = [
     ("verlet", [3.0, 0.6]),
-    ("xpbd", [1.2, 0.3]),
+    ("xpbd", [1.2, 0.5]),
     ("implicit", [3.5, 1.4]),
-    ("pbd", [1.8, 0.5]),
+    ("pbd", [1.8, 0.7]),
     ("provot", [10.0, 3.8]),
 ];

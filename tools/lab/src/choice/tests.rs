@@ -269,3 +269,34 @@ fn it_ends_at_once() {
     assert!(study(&options, Provenance::default(), &stop, |_, _| {}).is_none());
     assert!(asked.load(Ordering::Relaxed) < 200 && begun.elapsed().as_secs() < 20);
 }
+
+#[test]
+fn an_interrupted_study_has_the_scenes_that_were_done_and_names_the_others() {
+    let options = Options {
+        seed: SEED,
+        scenes: 4..=6,
+        seconds: 0.02,
+        threads: NonZero::<usize>::MIN,
+    };
+    let made = |last: usize| {
+        let heard = AtomicUsize::new(0);
+        let stop = || heard.load(Ordering::SeqCst) >= last;
+        let watch = |_, _| {
+            heard.fetch_add(1, Ordering::SeqCst);
+        };
+        study(&options, Provenance::default(), &stop, watch).expect("a scene at least")
+    };
+    let [some, whole] = [1, 4].map(made);
+    // The costliest is the first, and another one may have been begun before it was heard of.
+    let done: Vec<u32> = some.trials.iter().map(|trial| trial.task.number).collect();
+    assert!((1..=2).contains(&done.len()), "{done:?}");
+    for trial in &some.trials {
+        let mut all = whole.trials.iter();
+        let same = all.find(|other| other.task.number == trial.task.number);
+        assert_eq!(format!("{:?}", Some(trial)), format!("{same:?}"));
+    }
+    let others = (4..=6).filter(|number| !done.contains(number));
+    let others = others.map(|number| Missing::interrupted(format!("scene {number}")));
+    assert_eq!(some.missing, others.collect::<Vec<_>>());
+    assert!(whole.missing.is_empty() && svg(&some).is_some_and(|chart| chart.contains("MISSING")));
+}

@@ -3,9 +3,11 @@
 use std::fmt::Write as _;
 
 use super::Study;
+use crate::parts::{Missing, cell};
 
 /// Returns the study as CSV: one line per sheet and method, and one per row of a record. The latter has only
-/// a name, a number of faces, a time, a deviation and its processor.
+/// a name, a number of faces, a time, a deviation and its processor. What is missing has a line with its name,
+/// and the reason in the last column.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
@@ -49,6 +51,10 @@ pub fn csv(study: &Study) -> String {
             rival.processor.replace(',', ""),
         )
         .expect("a string grows");
+    }
+    for Missing { part, why } in &study.missing {
+        let why = cell(&format!("missing: {why}"));
+        writeln!(text, "{part},,,,,,,,,,,,,,,,{why}").expect("a string grows");
     }
     text
 }

@@ -6,6 +6,7 @@ use plotters::prelude::*;
 
 use super::{Row, Study, WAYS};
 use crate::draw::{Area, Drawn, drawn, of_decades, round_numbers, wrapped};
+use crate::parts;
 
 const WIDTH: u32 = 1180;
 const CHART: (u32, u32) = (WIDTH, 520);
@@ -51,12 +52,13 @@ pub fn svg(study: &Study) -> Option<String> {
 
 fn footer(study: &Study) -> String {
     let from = &study.provenance;
+    let missing = parts::told(&study.missing).map_or(String::new(), |told| format!(" · {told}"));
     let record = study
         .rivals
         .first()
         .map(|rival| format!(" · record: {}", rival.processor));
     format!(
-        "{} · {} · seed {} · {} cuts each, along the same lines{}",
+        "{} · {} · seed {} · {} cuts each, along the same lines{}{missing}",
         from.line(),
         from.processor(),
         study.seed,
@@ -99,10 +101,13 @@ fn colour(row: &Row) -> RGBColor {
 fn chart(study: &Study, area: &Area<'_>) -> Drawn {
     let title = "Cuts: time against how far the seam is from the plane";
     area.draw(&Text::new(title, (20, 12), ("sans-serif", 21)))?;
-    let words = "Down and to the left is better. Discs: ways of the table below, larger for larger sheets. Grey \
-                 rings: a record of tearmesh-bench, ours and others'. What is no further than 1e-14 edges off \
-                 stands there.";
-    for (i, line) in wrapped(words, 170).iter().enumerate() {
+    let words = "Down and to the left is better. Discs: ways of the table below, larger for larger sheets. What is \
+                 no further than 1e-14 edges off stands there.";
+    let rings = match study.rivals.is_empty() {
+        true => "",
+        false => " Grey rings: a record of tearmesh-bench, ours and others'.",
+    };
+    for (i, line) in wrapped(&format!("{words}{rings}"), 170).iter().enumerate() {
         let style = ("sans-serif", 12).into_font().color(&GREY);
         area.draw(&Text::new(line.clone(), (20, 38 + 15 * i as i32), style))?;
     }

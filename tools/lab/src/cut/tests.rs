@@ -111,7 +111,41 @@ fn it_ends_where_it_is_told_to() {
         &stop,
         |_| {},
     );
-    assert!(made.is_none() && asked.load(Ordering::Relaxed) < 20);
+    assert!(made.is_none());
+    // Once for the sheet, and once for each cut.
+    assert_eq!(asked.load(Ordering::Relaxed), 1 + 6 * WAYS.len());
+}
+
+#[test]
+fn an_interrupted_study_has_the_ways_that_were_done_and_names_the_others() {
+    let two = Options {
+        cells: vec![24, 6],
+        ..options()
+    };
+    let heard = AtomicUsize::new(0);
+    // In the middle of the third way.
+    let stop = || heard.load(Ordering::SeqCst) > 12;
+    let watch = |_: &str| {
+        heard.fetch_add(1, Ordering::SeqCst);
+    };
+    let some = study(&two, Provenance::default(), Vec::new(), None, &stop, watch);
+    let (some, whole) = (some.expect("two ways"), made());
+    assert_eq!(
+        format!("{:?}", some.rows),
+        format!("{:?}", &whole.rows[..2])
+    );
+    let ways = |cells: u32| {
+        let name = move |way: &Way| format!("{} on {cells} cells", way.name);
+        WAYS.iter().map(name)
+    };
+    let others = ways(24).skip(2).chain(ways(6)).map(Missing::interrupted);
+    assert_eq!(some.missing, others.collect::<Vec<_>>());
+    let table = csv(&some);
+    assert_eq!(table.lines().count(), 1 + 2 * WAYS.len());
+    assert!(table.ends_with("exact .2 moved on 6 cells,,,,,,,,,,,,,,,,\"missing: interrupted\"\n"));
+    let columns = |line: &str| line.split(',').count();
+    assert!(table.lines().all(|line| columns(line) == 17), "{table}");
+    assert!(svg(&some).is_some_and(|chart| chart.contains("MISSING: partition on 24 cells")));
 }
 
 const RECORD: &str = "tearmesh-bench cut\n\

@@ -7,6 +7,7 @@ use plotters::prelude::*;
 
 use super::{Study, Test, Timed};
 use crate::draw::{Area, Drawn, drawn, round_numbers, wrapped};
+use crate::parts;
 
 const SIZE: (u32, u32) = (1100, 570);
 
@@ -52,10 +53,11 @@ fn draw(study: &Study, root: &Area<'_>) -> Drawn {
     }
     let from = &study.provenance;
     let foot = [
-        study.conclusion.clone(),
-        format!("{} · {}", from.line(), from.processor()),
+        Some(study.conclusion.clone()),
+        Some(format!("{} · {}", from.line(), from.processor())),
+        parts::told(&study.missing),
     ];
-    let lines = foot.iter().flat_map(|text| wrapped(text, 165));
+    let lines = foot.iter().flatten().flat_map(|text| wrapped(text, 165));
     for (i, line) in lines.enumerate() {
         let at = (12, 6 + 18 * i as i32);
         words.draw(&Text::new(line, at, ("sans-serif", 14)))?;

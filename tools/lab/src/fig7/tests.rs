@@ -56,15 +56,25 @@ fn all_ways_split_as_the_simulation_does() {
 }
 
 #[test]
-fn a_study_that_is_stopped_is_none() {
-    let stopped = study(
-        &[4, 4],
-        1,
-        Provenance::default(),
-        &ticking(),
-        |patch, part| patch == 0 || part < 0.5,
+fn an_interrupted_study_has_the_patches_that_were_done_and_names_the_others() {
+    let made = |last: usize| {
+        let watch = |patch, part| patch < last || part < 0.5;
+        let study = study(&[4, 5, 6], 1, Provenance::default(), &ticking(), watch);
+        study.expect("all have the same triangles")
+    };
+    assert!(made(0).is_none());
+    let [some, whole] = [1, 3].map(|last| made(last).expect("a patch"));
+    assert_eq!(
+        format!("{:?}", some.tests),
+        format!("{:?}", &whole.tests[..1])
     );
-    assert!(stopped.is_ok_and(|study| study.is_none()));
+    let missing = ["5 cells", "6 cells"].map(|name| Missing::interrupted(name.to_owned()));
+    assert_eq!(some.missing, missing);
+    let table = csv(&some);
+    assert!(table.ends_with("6 cells,,,,,,,missing,,,,,,\"interrupted\"\n"));
+    let columns = |line: &str| line.split(',').count();
+    assert!(table.lines().all(|line| columns(line) == 14), "{table}");
+    assert!(svg(&some).is_some_and(|chart| chart.contains("MISSING: 5 cells, 6 cells")));
 }
 
 /// A way with a clock of its own: it takes as many microseconds as it is told to.

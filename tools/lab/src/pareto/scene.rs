@@ -301,6 +301,13 @@ impl Case {
         case
     }
 
+    /// Returns the name of the case in lists of missing parts and in the names of files, such as
+    /// `swing-grid-16`.
+    #[must_use]
+    pub fn part_name(&self) -> String {
+        self.name().replace('/', "-")
+    }
+
     /// Returns the name of the case, which is the first part of the names of its runs.
     #[must_use]
     pub fn name(&self) -> String {

@@ -214,6 +214,9 @@ fn an_interrupted_study_ends_within_a_step_of_each_run_and_leaves_no_gap() {
         let options = options(&["swing"], 6);
         let study = study(&options, Provenance::default(), None, &stop, |_, _| {});
         assert!(study.is_interrupted);
+        assert_eq!(study.missing.len(), 1);
+        let why = &study.missing[0].why;
+        assert!(why.starts_with("interrupted after "), "{why}");
         let runs = study.cases[0].rows.len() + study.cases[0].references.len();
         // Once for each run, twice for those that were under way, and at the end.
         let after = asked.load(Ordering::SeqCst) - patience;

@@ -1,5 +1,7 @@
 //! Lines through costs that are known, answers by hand, the same study from its parts, and an end at once.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::place::QUESTIONS;
 use super::*;
 use crate::pareto::{Family, PARTS, Status};
@@ -326,9 +328,23 @@ fn a_place_without_an_answer_says_why() {
 }
 
 #[test]
-fn an_interrupted_study_ends_at_once_with_nothing() {
-    let options = options(&[1e3], &[1.0]);
-    let mut heard = 0;
-    let study = study(&options, Provenance::default(), &|| true, |_, _| heard += 1);
-    assert!(study.is_none() && heard <= 1);
+fn an_interrupted_study_has_the_places_that_were_done_and_names_the_others() {
+    let options = options(&[1e3, 1e4], &[1.0, 0.1]);
+    let whole = made(&options);
+    let of_place = expected(&options).0 / 4;
+    // In the middle of the third place, and before the first.
+    let heard = AtomicUsize::new(0);
+    let stop = || heard.load(Ordering::SeqCst) > 2 * of_place;
+    let watch = |_: &str, _| {
+        heard.fetch_add(1, Ordering::SeqCst);
+    };
+    let some = study(&options, Provenance::default(), &stop, watch).expect("two places");
+    assert_eq!(
+        format!("{:?}", some.places),
+        format!("{:?}", &whole.places[..2])
+    );
+    let missing = ["1e4-1e0", "1e4-1e-1"].map(|name| Missing::interrupted(name.to_owned()));
+    assert_eq!(some.missing, missing);
+    assert!(svg(&some).is_some_and(|chart| chart.contains("MISSING: 1e4-1e0, 1e4-1e-1")));
+    assert!(study(&options, Provenance::default(), &|| true, |_, _| {}).is_none());
 }

@@ -259,6 +259,9 @@ fn a_study_that_is_stopped_ends_at_once_and_every_run_stands_there() {
     let asked = AtomicU64::new(0);
     let study = made(&small(), &|| asked.fetch_add(1, Ordering::Relaxed) >= 100);
     assert!(study.is_interrupted && asked.load(Ordering::Relaxed) < 300);
+    let missing = study.missing.iter().map(|one| one.part.as_str());
+    let scenes = study.scenes.iter().map(|one| one.scene.as_str());
+    assert!(missing.eq(scenes));
     for scene in &study.scenes {
         assert_eq!(scene.rows.len(), 12);
         assert!(

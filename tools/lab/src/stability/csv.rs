@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use super::{Study, Told};
+use crate::parts::{Missing, cell};
 
 /// Returns the study as CSV: one line per limit, one per step of a limit, and one per scene and method.
 ///
-/// The first column is `limit`, `step` or `scene`. In a line of a limit, `dt_s` is the measured limit.
+/// The first column is `limit`, `step` or `scene`. In a line of a limit, `dt_s` is the measured limit. A missing
+/// limit or scene has a line `missing` with its name, and the reason in the last column.
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let mut text = String::from(
@@ -58,6 +60,9 @@ pub fn csv(study: &Study) -> String {
             said(&verdict.told),
         )
         .expect("a string grows");
+    }
+    for Missing { part, why } in &study.missing {
+        writeln!(text, "missing,{part},,,,,,,,,,,,,{}", cell(why)).expect("a string grows");
     }
     text
 }

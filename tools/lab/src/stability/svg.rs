@@ -9,6 +9,7 @@ use super::told::Class;
 use super::trial::{METHODS, TRIALS};
 use super::{Limit, Study, Verdict};
 use crate::draw::{Area, Drawn, drawn, wrapped};
+use crate::parts;
 
 const WIDTH: i32 = 1480;
 const HEAD: i32 = 96;
@@ -69,9 +70,10 @@ pub fn svg(study: &Study) -> Option<String> {
 }
 
 fn footer(study: &Study) -> String {
+    let missing = parts::told(&study.missing).map_or(String::new(), |told| format!(" · {told}"));
     format!(
         "{} · {} limits, {} scenes by method · {} differ from what is expected, {} failed without a \
-         word",
+         word{missing}",
         study.provenance.line(),
         study.limits.len(),
         study.verdicts.len(),

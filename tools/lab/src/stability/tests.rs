@@ -103,6 +103,7 @@ fn tables_have_a_line_for_all_and_quotes_are_doubled() {
         verdicts: judged("wind", false),
         differing: 0,
         silent: 0,
+        missing: Vec::new(),
     };
     let table = csv(&study);
     assert_eq!(table.lines().count(), 1 + METHODS.len());
@@ -128,4 +129,32 @@ fn it_ends_at_once() {
     let made = study(&options, Provenance::default(), &teller, &stop, |_| {});
     assert!(made.is_none() && begun.elapsed().as_secs() < 20);
     assert!(asked.load(Ordering::Relaxed) < 1000);
+}
+
+#[test]
+fn an_interrupted_study_has_what_was_done_and_names_the_others() {
+    let options = Options {
+        stiffness_n_per_m: vec![1e3],
+        threads: NonZero::<usize>::MIN,
+    };
+    let teller = Terse { is_mute: false };
+    let heard = AtomicUsize::new(0);
+    let stop = || heard.load(Ordering::SeqCst) >= TRIALS.len();
+    let watch = |_: &str| {
+        heard.fetch_add(1, Ordering::SeqCst);
+    };
+    let some = study(&options, Provenance::default(), &teller, &stop, watch).expect("scenes");
+    // Scenes go first, as they take longest; one limit may have been begun before the last was heard of.
+    assert_eq!(some.verdicts.len(), METHODS.len() * TRIALS.len());
+    assert!(some.limits.len() <= 1);
+    let all = pieces(&options) - TRIALS.len();
+    assert_eq!(some.limits.len() + some.missing.len(), all);
+    let table = csv(&some);
+    let missing = table.lines().filter(|line| line.starts_with("missing,"));
+    assert_eq!(missing.clone().count(), some.missing.len());
+    for line in missing {
+        assert!(line.ends_with(",,,,,,,,,,,,,\"interrupted\""), "{line}");
+    }
+    assert!(svg(&some).is_some_and(|chart| chart.contains("MISSING: ")));
+    assert!(summary(&some).starts_with(&format!("{} limits", some.limits.len())));
 }

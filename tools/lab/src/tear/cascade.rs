@@ -2,7 +2,7 @@
 //!
 //! A cascade is chaotic, and two single runs of one scene differ by a fifth in half of all pairs. So every
 //! method plays each scene with many seeds ([`ensemble`]). The results are medians with the 10 % and 90 %
-//! points, and whether medians differ. If that is undecided, the number of seeds is quadrupled once.
+//! points, and whether medians differ.
 //!
 //! A method has *converged* in a number if its ensembles at half and at a quarter of its step have the same
 //! median. If the finest ensembles of two methods that converged have the same median, they are the reference
@@ -29,8 +29,11 @@ use tearmesh_cloth::Tearing;
 use tearmesh_cloth::scene::{Axis, Frame, RunError, Scene};
 
 use super::strip::{TIP, strip};
-use crate::ensemble::{self, Comparison, Ensemble, Quantity, Subject, Verdict};
+use crate::ensemble::{
+    self, Comparison, Ensemble, Member, MemberStatus, Quantity, Subject, Verdict,
+};
 use crate::pareto::Named;
+use crate::parts::Missing;
 
 /// The scenes in which cascades are played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,9 +141,6 @@ impl Options {
 /// The default number of seeds of an ensemble.
 pub const SEEDS: u64 = 16;
 
-/// The factor by which the number of seeds grows if a comparison is undecided.
-pub const MORE: u64 = 4;
-
 /// A step's parts.
 const PARTS: [NonZero<u32>; 3] = [
     NonZero::<u32>::MIN,
@@ -206,10 +206,18 @@ impl Number {
     }
 }
 
+/// Returns the name of the ensembles of a scene on a mesh by a method in lists of missing parts and in the
+/// names of files, such as `rip-32-verlet`.
+#[must_use]
+pub fn part_name(scene: CascadeScene, cells: u32, method: &str) -> String {
+    format!("{}-{cells}-{method}", scene.name())
+}
+
 /// Plays all scenes by all methods. The results are ordered by scene and then by method, as in [`METHODS`].
 ///
 /// `watch` is called with the name of the current scene and method, and the fraction of all work that is
-/// done. Returns `None` soon after `stop` returns true.
+/// done. When `stop` returns true, all runs end as soon as possible and are marked as interrupted. Ensembles
+/// with such runs are among the missing parts. Those without any finished run are not among the results.
 ///
 /// # Errors
 ///
@@ -218,8 +226,8 @@ pub fn play(
     options: &Options,
     stop: &(dyn Fn() -> bool + Sync),
     mut watch: impl FnMut(&str, f64),
-) -> Result<Option<Vec<Cascade>>, RunError> {
-    let mut cascades = Vec::new();
+) -> Result<(Vec<Cascade>, Vec<Missing>), RunError> {
+    let (mut cascades, mut missing) = (Vec::new(), Vec::new());
     let scenes = options.scenes.iter();
     let meshes =
         scenes.flat_map(|&scene| options.sizes(scene).into_iter().map(move |n| (scene, n)));
@@ -227,24 +235,36 @@ pub fn play(
     let all = meshes.len() * options.methods.len();
     for (scene, cells) in meshes {
         for named in methods(options) {
+            let part = part_name(scene, cells, named.name);
+            if stop() {
+                missing.push(Missing::interrupted(part));
+                continue;
+            }
             let begun = cascades.len();
             let name = format!("{} of {cells} cells by {}", scene.name(), named.name);
             let watch = |part: f64| watch(&name, (begun as f64 + part) / all as f64);
             let ensembles = ensembles(scene, cells, &named, options, stop, watch)?;
-            if stop() {
-                return Ok(None);
+            let members = ensembles.iter().flat_map(|ensemble| &ensemble.members);
+            let runs = members.clone().count();
+            let is_done = |member: &&Member| member.status != MemberStatus::Interrupted;
+            let done = members.filter(is_done).count();
+            if done < runs {
+                let why = format!("interrupted after {done} of {runs} runs");
+                missing.push(Missing { part, why });
             }
-            cascades.push(Cascade {
-                scene: scene.name().to_owned(),
-                cells,
-                method: named.name.to_owned(),
-                numbers: Vec::new(),
-                ensembles,
-            });
+            if done > 0 {
+                cascades.push(Cascade {
+                    scene: scene.name().to_owned(),
+                    cells,
+                    method: named.name.to_owned(),
+                    numbers: Vec::new(),
+                    ensembles,
+                });
+            }
         }
     }
     conclude(&mut cascades);
-    Ok(Some(cascades))
+    Ok((cascades, missing))
 }
 
 /// Computes what follows from the ensembles of all methods. Those of a scene on a mesh must be next to each
@@ -264,7 +284,7 @@ fn methods(options: &Options) -> Vec<Named> {
     all.filter(|named| options.plays(named.name)).collect()
 }
 
-/// Returns the smallest number of runs of the experiment. Undecided comparisons add more.
+/// Returns the number of runs of the experiment.
 #[must_use]
 pub fn runs(options: &Options) -> u64 {
     let each = options.seeds * PARTS.len() as u64;
@@ -282,7 +302,7 @@ fn ensembles(
     named: &Named,
     options: &Options,
     stop: &(dyn Fn() -> bool + Sync),
-    mut watch: impl FnMut(f64),
+    watch: impl FnMut(f64),
 ) -> Result<Vec<Ensemble>, RunError> {
     let (mesh, positions) = scene.mesh(cells).expect("a strip of our own is a mesh");
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
@@ -297,20 +317,8 @@ fn ensembles(
         scene: &scene,
         strengths: None,
     };
-    let mut play =
-        |seeds| ensemble::play(subject, seeds, &PARTS, options.threads, stop, &mut watch);
-    let mut ensembles = play(1..=options.seeds)?;
-    let is_open = |quantity| {
-        let verdict = number(&ensembles, quantity).verdict();
-        verdict == Some(Verdict::CannotTell)
-    };
-    if !stop() && TOLD.into_iter().any(is_open) {
-        let more = play(options.seeds + 1..=MORE * options.seeds)?;
-        for (ensemble, more) in ensembles.iter_mut().zip(more) {
-            ensemble.members.extend(more.members);
-        }
-    }
-    Ok(ensembles)
+    let seeds = 1..=options.seeds;
+    ensemble::play(subject, seeds, &PARTS, options.threads, stop, watch)
 }
 
 /// A number of some ensembles, from coarse to fine, without a reference. Where some runs of an ensemble

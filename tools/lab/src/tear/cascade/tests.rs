@@ -1,9 +1,11 @@
-//! References are found where methods agree, and only there; more seeds are played where nobody can tell.
+//! References are found where methods agree, and only there; every seed is played at every step.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use plotters::prelude::*;
 
 use super::*;
-use crate::ensemble::{Member, MemberStatus, Observed};
+use crate::ensemble::Observed;
 
 /// An ensemble whose torn lengths are about a middle, and of which nobody says the forces.
 fn torn(parts: u32, middle_m: f64) -> Ensemble {
@@ -196,34 +198,26 @@ fn options(seeds: u64) -> Options {
 }
 
 #[test]
-fn more_seeds_are_played_where_nobody_can_tell() {
+fn every_seed_is_played_at_every_step() {
     let mut parts = Vec::new();
-    let cascades = play(&options(2), &|| false, |_, part| parts.push(part));
-    let cascades = cascades.expect("no bug").expect("nobody stops it");
+    let played = play(&options(2), &|| false, |_, part| parts.push(part));
+    let (cascades, missing) = played.expect("no bug");
+    assert!(missing.is_empty());
     assert!(parts.iter().all(|part| (0.0..=1.0).contains(part)));
+    assert_eq!(parts.len() as u64, runs(&options(2)));
     for cascade in &cascades {
-        let seeds = cascade.ensembles[0]
-            .members
-            .iter()
-            .map(|member| member.seed);
-        let seeds: Vec<u64> = seeds.collect();
-        let played = seeds.len() as u64;
-        assert!(played == 2 || played == 2 * MORE, "{played}");
-        assert_eq!(seeds, (1..=played).collect::<Vec<_>>());
-        let verdicts: Vec<_> = cascade.numbers.iter().map(Number::verdict).collect();
-        if played == 2 {
-            assert!(!verdicts.contains(&Some(Verdict::CannotTell)));
-        }
         let steps = cascade.ensembles.iter().map(|one| one.parts);
         assert_eq!(steps.collect::<Vec<_>>(), [1, 2, 4]);
+        for ensemble in &cascade.ensembles {
+            let seeds = ensemble.members.iter().map(|member| member.seed);
+            assert_eq!(seeds.collect::<Vec<_>>(), [1, 2]);
+        }
     }
-    let all: usize = cascades
-        .iter()
-        .map(|one| one.ensembles[0].members.len())
-        .sum();
-    assert!(all > 4, "two seeds are too few for any of it");
     let table = csv(&cascades, &[]);
-    assert_eq!(table.lines().count(), 1 + 3 * all);
+    assert_eq!(table.lines().count(), 1 + 2 * 3 * 2);
+    // Two seeds are too few for any of it, and of Provot's forces nobody knows.
+    let said = summary(&cascades);
+    assert!(said.contains(" of 6 halvings cannot tell; "), "{said}");
     // Provot's forces are nobody's.
     let forces = &cascades[1].numbers[3];
     assert_eq!(
@@ -233,7 +227,37 @@ fn more_seeds_are_played_where_nobody_can_tell() {
 }
 
 #[test]
-fn it_ends_at_once_and_without_a_result() {
+fn interrupted_ensembles_have_the_runs_that_were_done_and_are_named() {
+    let names = ["rip-6-implicit", "rip-6-provot"];
     let played = play(&options(1000), &|| true, |_, _| {});
-    assert!(played.expect("no bug").is_none());
+    let (cascades, missing) = played.expect("no bug");
+    assert!(cascades.is_empty());
+    let none = names.map(|name| Missing::interrupted(name.to_owned()));
+    assert_eq!(missing, none);
+    // After two runs of one ensemble.
+    let heard = AtomicUsize::new(0);
+    let stop = || heard.load(Ordering::SeqCst) >= 2;
+    let watch = |_: &str, _| {
+        heard.fetch_add(1, Ordering::SeqCst);
+    };
+    let (cascades, missing) = play(&options(1), &stop, watch).expect("no bug");
+    let [implicit] = &cascades[..] else {
+        panic!("{cascades:?}");
+    };
+    let members = implicit.ensembles.iter().flat_map(|one| &one.members);
+    let runs = members.clone().count();
+    let done = members
+        .filter(|one| one.status == MemberStatus::Done)
+        .count();
+    assert!(done >= 2 && done < runs, "{done} of {runs}");
+    let why = format!("interrupted after {done} of {runs} runs");
+    let part = names[0].to_owned();
+    assert_eq!(missing, [Missing { part, why }, none[1].clone()]);
+    // Those that are left are not drawn at random.
+    for number in &implicit.numbers {
+        assert_ne!(number.verdict(), Some(Verdict::Same));
+    }
+    let table = csv(&cascades, &missing);
+    let stopped = table.lines().filter(|line| line.contains(",interrupted,"));
+    assert_eq!(stopped.count(), runs - done);
 }

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use super::{Cascade, Move, TOLD, finer};
+use super::{Cascade, Move, Number, TOLD, finer};
 use crate::ensemble::Verdict;
 
 /// Returns a summary in words: for each scene and quantity the reference, if any, and a line per method.
 ///
 /// A method's line has the medians with the 10 % and 90 % points at the step, half and a quarter of it, and whether
-/// halving the step makes a difference. If a scene was played on several meshes, a line per method and quantity
+/// halving the step makes a difference. A line counts the halvings that are undecided, if any. If a scene was played on several meshes, a line per method and quantity
 /// says whether a shorter step or the next finer mesh is the better buy.
 #[must_use]
 pub fn summary(cascades: &[Cascade]) -> String {
@@ -56,7 +56,21 @@ pub fn summary(cascades: &[Cascade]) -> String {
             }
         }
     }
-    text + &refined(cascades)
+    text + &open(cascades) + &refined(cascades)
+}
+
+/// A line on comparisons that are undecided, if there are any.
+fn open(cascades: &[Cascade]) -> String {
+    let numbers = cascades.iter().flat_map(|cascade| &cascade.numbers);
+    let verdicts: Vec<Verdict> = numbers.filter_map(Number::verdict).collect();
+    let is_open = |verdict: &&Verdict| **verdict == Verdict::CannotTell;
+    match verdicts.iter().filter(is_open).count() {
+        0 => String::new(),
+        undecided => format!(
+            "{undecided} of {} halvings cannot tell; four times the `--seeds` halve their intervals\n",
+            verdicts.len()
+        ),
+    }
 }
 
 /// A line for each cascade of which there is a finer one, and quantity: what halving the step changes, what the
