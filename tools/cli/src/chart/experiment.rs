@@ -127,7 +127,7 @@ fn made<E: Experiment>(
     let guard = Guard::new();
     let provenance = provenance::of(experiment.command(), experiment.is_timed());
     let study = experiment.study(provenance, &|| guard.is_interrupted(), &mut |name, part| {
-        progress::show(&bar, name, part)
+        progress::show(&bar, name, part);
     });
     bar.finish_and_clear();
     study?.ok_or_else(|| {
