@@ -130,6 +130,30 @@ fn a_part_that_is_missing_or_is_another_is_a_row_and_is_named() {
     }
 }
 
+/// A run that is told to end writes what it has, and names the rest.
+#[test]
+fn what_a_part_did_not_come_to_is_missing_from_the_whole() {
+    let (chart, options, parts) = CHARTS[3];
+    let folder = Folder::new();
+    made(&folder, chart, options, parts, &[]);
+    let file = format!("a.parts/{}.json", parts[2]);
+    let mut part: serde_json::Value = serde_json::from_str(&folder.read(&file)).expect("JSON");
+    let left = serde_json::json!({ "part": "the rest", "why": "interrupted" });
+    part["missing"] = serde_json::json!([left]);
+    folder.write(&file, part.to_string());
+    let line = format!("tearmesh chart {chart} {options} --gather a.parts -o a.svg --json a.json");
+    let output = folder.run(&line);
+    let said = seen(&output);
+    assert_eq!(output.status.code(), Some(5), "{said}");
+    assert!(
+        said.contains("1 part is missing: the rest; the first: interrupted"),
+        "{said}"
+    );
+    assert!(folder.read("a.svg").contains("MISSING: the rest"));
+    let report: serde_json::Value = serde_json::from_str(&folder.read("a.json")).expect("JSON");
+    assert_eq!(report["missing"], serde_json::json!([left]));
+}
+
 #[test]
 fn a_folder_without_any_part_is_refused() {
     let folder = Folder::new();

@@ -197,10 +197,12 @@ pub fn study(
                 let done: Option<Vec<Done>> = done.into_iter().map(Option::flatten).collect();
                 Some(subject.row(way, &done?))
             });
-            let name = || format!("{} on {cells} cells", way.name);
             match made {
                 Some(row) => rows.push(row),
-                None => missing.push(Missing::interrupted(name())),
+                None => {
+                    let name = format!("{} on {cells} cells", way.name);
+                    missing.push(Missing::interrupted(name));
+                }
             }
         }
     }
