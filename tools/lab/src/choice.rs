@@ -143,7 +143,7 @@ pub fn guessed_visits(options: &Options) -> f64 {
 ///
 /// `watch` is called after each task with its number and the estimated fraction of all work that is done.
 /// When `stop` returns true, all tasks end as soon as possible, and those that were not finished are missing.
-/// Returns `None` if no task was finished.
+/// Returns `None` if that leaves no task.
 #[must_use]
 pub fn study(
     options: &Options,
@@ -172,7 +172,7 @@ pub fn study(
             None => missing.push(Missing::interrupted(format!("scene {}", task.number))),
         }
     }
-    if trials.is_empty() {
+    if trials.is_empty() && !missing.is_empty() {
         return None;
     }
     let mut study = Study {

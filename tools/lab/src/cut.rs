@@ -164,7 +164,7 @@ pub fn cuts(options: &Options) -> usize {
 /// `clock` returns the CPU time of the calling thread. Without it there are no times, and the same options
 /// give the same study. `watch` is called after each cut with the name of its method. When `stop` returns true,
 /// no other cut is begun, and methods that have not cut a sheet along every line are missing for that sheet.
-/// Returns `None` if no method was finished.
+/// Returns `None` if that leaves no row.
 ///
 /// # Panics
 ///
@@ -206,7 +206,7 @@ pub fn study(
             }
         }
     }
-    if rows.is_empty() {
+    if rows.is_empty() && !missing.is_empty() {
         return None;
     }
     Some(Study {

@@ -147,7 +147,7 @@ impl std::error::Error for StudyError {}
 ///
 /// `clock` returns the CPU time of the calling thread. `watch` is called after each step with the index of
 /// the patch, from 0, and the fraction of its scene that is done. If `watch` returns false, the study stops,
-/// and patches that were not finished are missing. The result is `None` if no patch was finished.
+/// and patches that were not finished are missing. The result is `None` if that leaves no patch.
 ///
 /// # Errors
 ///
@@ -170,7 +170,7 @@ pub fn study(
             None => missing.push(Missing::interrupted(format!("{cells} cells"))),
         }
     }
-    if tests.is_empty() {
+    if tests.is_empty() && !missing.is_empty() {
         return Ok(None);
     }
     Ok(Some(Study {

@@ -180,7 +180,7 @@ pub fn place_name(stiffness_n_per_m: f64, mass_ratio: f64) -> String {
 ///
 /// `watch` is called after each run with its name and the estimated fraction of all work that is done. When
 /// `stop` returns true, all runs end as soon as possible, and places that were not finished are missing.
-/// Returns `None` if no place was finished.
+/// Returns `None` if that leaves no place.
 ///
 /// # Panics
 ///
@@ -224,7 +224,7 @@ pub fn study(
         let case = assess(&job.case, &job.plan, &outcomes);
         places.push(Place::new(job.place, job.visits_max, &case));
     }
-    if places.is_empty() {
+    if places.is_empty() && !missing.is_empty() {
         return None;
     }
     let mut study = Study {

@@ -91,7 +91,7 @@ pub fn pieces(options: &Options) -> usize {
 /// Runs the experiment. The same options and messages give the same study.
 ///
 /// `watch` is called with the name of each piece that is done. When `stop` returns true, all pieces end as soon
-/// as possible, and those that were not finished are missing. Returns `None` if no piece was finished.
+/// as possible, and those that were not finished are missing. Returns `None` if that leaves no piece.
 #[must_use]
 pub fn study(
     options: &Options,
@@ -125,7 +125,7 @@ pub fn study(
             None => missing.push(Missing::interrupted(name(job))),
         }
     }
-    if limits.is_empty() && verdicts.is_empty() {
+    if limits.is_empty() && verdicts.is_empty() && !missing.is_empty() {
         return None;
     }
     let off = limits.iter().filter(|limit| !limit.agrees).count();
