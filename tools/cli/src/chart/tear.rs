@@ -18,7 +18,7 @@ use crate::streams::Streams;
 
 /// A strip with a cell across took so many seconds of a processor on the machine that charts were first made
 /// on; one of n cells has n times n of them, and steps n times as short.
-const STRIP_S: f64 = 4e-3;
+const STRIP_S: f64 = 5e-3;
 
 pub(super) fn work(
     args: &TearChartArgs,
@@ -243,9 +243,9 @@ fn cascades_s(options: &Options) -> f64 {
 
 /// By method, of trouser tests and rips of their own sizes.
 const RUN_S: [(&str, [f64; 2]); 5] = [
-    ("verlet", [3.0, 0.6]),
-    ("xpbd", [1.2, 0.5]),
-    ("implicit", [3.5, 1.4]),
-    ("pbd", [1.8, 0.7]),
-    ("provot", [10.0, 3.8]),
+    ("verlet", [6.0, 1.2]),
+    ("xpbd", [2.0, 0.5]),
+    ("implicit", [5.0, 2.5]),
+    ("pbd", [2.5, 0.8]),
+    ("provot", [20.0, 6.0]),
 ];
