@@ -162,12 +162,11 @@ pub fn study(
         |i| {
             done += tasks[i].guess();
             watch(tasks[i].number, done / whole);
-            true
         },
     );
     let (mut trials, mut missing) = (Vec::new(), Vec::new());
     for (task, outcome) in tasks.iter().zip(outcomes) {
-        match outcome.flatten() {
+        match outcome {
             Some(trial) => trials.push(trial),
             None => missing.push(Missing::interrupted(format!("scene {}", task.number))),
         }

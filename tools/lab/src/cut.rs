@@ -191,10 +191,9 @@ pub fn study(
                     |&line| (!stop()).then(|| subject.cut(way, line, clock)),
                     |_| {
                         watch(way.name);
-                        true
                     },
                 );
-                let done: Option<Vec<Done>> = done.into_iter().map(Option::flatten).collect();
+                let done: Option<Vec<Done>> = done.into_iter().collect();
                 Some(subject.row(way, &done?))
             });
             match made {

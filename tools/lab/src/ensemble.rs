@@ -233,11 +233,9 @@ pub fn play(
         |i| {
             done += cost(&jobs[i]);
             watch(done / all);
-            true
         },
     );
-    let members: Option<Vec<Member>> = members.into_iter().collect();
-    let mut members = members.expect("nobody stops the list itself").into_iter();
+    let mut members = members.into_iter();
     let ensemble = |&parts: &NonZero<u32>| Ensemble {
         parts: parts.get(),
         step_s: whole.step_s() / f64::from(parts.get()),

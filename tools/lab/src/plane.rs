@@ -40,7 +40,7 @@ use std::num::NonZero;
 use serde::{Deserialize, Serialize};
 
 use self::job::Job;
-use crate::pareto::{Bounds, METHODS, Outcome, Status, assess};
+use crate::pareto::{Bounds, METHODS, Status, assess};
 use crate::parts::{Divided, Missing};
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
@@ -211,16 +211,13 @@ pub fn study(
             |i| {
                 done += job.guess_of(&job.plan[i]);
                 watch(&job.name_of(&job.plan[i]), done / whole);
-                true
             },
         );
-        let is_done = |one: &Outcome| one.status != Status::Interrupted;
-        let outcomes = outcomes.into_iter().map(|one| one.filter(is_done));
-        let Some(outcomes) = outcomes.collect::<Option<Vec<Outcome>>>() else {
+        if outcomes.iter().any(|one| one.status == Status::Interrupted) {
             let (stiffness, ratio) = job.place;
             missing.push(Missing::interrupted(place_name(stiffness, ratio)));
             continue;
-        };
+        }
         let case = assess(&job.case, &job.plan, &outcomes);
         places.push(Place::new(job.place, job.visits_max, &case));
     }

@@ -11,15 +11,14 @@ pub fn workers() -> NonZero<usize> {
 }
 
 /// Does `work` for each job with so many workers, the costliest first. `watch` hears of each that is
-/// done, by its place in the list, and may stop all by saying false: then nothing else is begun, what is
-/// under way ends unheard, and what nobody heard of has no result.
+/// done, by its place in the list. Work that is to end early says so in its result.
 pub(crate) fn side_by_side<J: Sync, R: Send>(
     jobs: &[J],
     workers: NonZero<usize>,
     cost: impl Fn(&J) -> f64,
     work: impl Fn(&J) -> R + Sync,
-    mut watch: impl FnMut(usize) -> bool,
-) -> Vec<Option<R>> {
+    mut watch: impl FnMut(usize),
+) -> Vec<R> {
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by(|&i, &j| cost(&jobs[i]).total_cmp(&cost(&jobs[j])));
     let waiting = Mutex::new(order);
@@ -37,14 +36,11 @@ pub(crate) fn side_by_side<J: Sync, R: Send>(
         }
         drop(done);
         let mut found: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
-        for (i, result) in &results {
+        for (i, result) in results {
             found[i] = Some(result);
-            if !watch(i) {
-                // Nobody waits for what is left: those who are at work send it into the void.
-                break;
-            }
+            watch(i);
         }
-        drop(results);
-        found
+        let found: Option<Vec<R>> = found.into_iter().collect();
+        found.expect("each job has been done, or its worker's panic ends the scope")
     })
 }

@@ -306,11 +306,8 @@ impl Plan {
                     done += self.guess(job);
                     let name = prepared.cases[job.place].name();
                     watch(&format!("{name}/{}", job.planned.name), done / whole);
-                    true
                 },
             );
-            // Nobody stops the list itself, so that each run has an outcome.
-            let outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
             missing.extend(undone(prepared.scene.name().to_owned(), &outcomes));
             scenes.push(self.assessed(prepared, &outcomes));
         }

@@ -114,12 +114,11 @@ pub fn study(
         },
         |i| {
             watch(&name(&jobs[i]));
-            true
         },
     );
     let (mut limits, mut verdicts, mut missing) = (Vec::new(), Vec::new(), Vec::new());
     for (job, done) in jobs.iter().zip(done) {
-        match done.flatten() {
+        match done {
             Some(Done::Limit(limit)) => limits.push(limit),
             Some(Done::Trial(of_trial)) => verdicts.extend(of_trial),
             None => missing.push(Missing::interrupted(name(job))),

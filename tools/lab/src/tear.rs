@@ -184,15 +184,11 @@ pub fn study(
     let done = |_| {
         count += 1;
         watch(count);
-        !stop()
     };
     // The finest first, since it takes longest.
     let finest = |(cells, _): &(u32, Threshold)| f64::from(*cells);
     let tear = |&(cells, rule): &(u32, Threshold)| test(cells, rule, is_checked, stop);
     let tests = side_by_side(&strips, threads, finest, tear, done);
-    let Some(tests) = tests.into_iter().collect::<Option<Vec<_>>>() else {
-        return Ok(None);
-    };
     let tests: Vec<Test> = match tests.into_iter().collect() {
         Err(StudyError::Stopped) => return Ok(None),
         tests => tests?,
@@ -264,6 +260,9 @@ fn test(
     is_checked: bool,
     stop: &dyn Fn() -> bool,
 ) -> Result<Test, StudyError> {
+    if stop() {
+        return Err(StudyError::Stopped);
+    }
     let (mesh, positions) = strip(cells).ok_or(StudyError::Strip)?;
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let scene = Scene {
