@@ -11,7 +11,8 @@ pub fn workers() -> NonZero<usize> {
 }
 
 /// Does `work` for each job with so many workers, the costliest first. `watch` hears of each that is
-/// done, by its place in the list. Work that is to end early says so in its result.
+/// done, by its place in the list. Work that is to end early says so in its result. Results are handed over
+/// and do not queue, so that each worker does one more job at most before `watch` has heard of its last.
 pub(crate) fn side_by_side<J: Sync, R: Send>(
     jobs: &[J],
     workers: NonZero<usize>,
@@ -22,7 +23,7 @@ pub(crate) fn side_by_side<J: Sync, R: Send>(
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by(|&i, &j| cost(&jobs[i]).total_cmp(&cost(&jobs[j])));
     let waiting = Mutex::new(order);
-    let (done, results) = mpsc::channel();
+    let (done, results) = mpsc::sync_channel(0);
     thread::scope(|scope| {
         for _ in 0..workers.get().min(jobs.len()) {
             let (waiting, done, work) = (&waiting, done.clone(), &work);
