@@ -74,7 +74,7 @@ fn takes_no_more_than_promised(name: &str, faces: &str) {
     let path = folder.path().join("refused.obj");
     let path = path.to_str().expect("a plain name");
     let nine = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nv 2 0 1\nv 0 2 1\nv 2 2 0\nv 3 1 0\nv 1 3 0\n";
-    let file = nine.to_owned() + &faces.repeat((12 << 20) / faces.len());
+    let file = nine.to_owned() + &faces.repeat((6 << 20) / faces.len());
     std::fs::write(path, &file).expect("a temporary file");
     let allowed = 12 * file.len() / 1024;
     for verb in ["check", "cut"] {
