@@ -45,3 +45,36 @@ pub(crate) fn side_by_side<J: Sync, R: Send>(
         found.expect("each job has been done, or its worker's panic ends the scope")
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn workers_wait_until_they_were_heard_of() {
+        let (begun, mut heard) = (AtomicUsize::new(0), 0);
+        let workers = NonZero::<usize>::MIN.saturating_add(2);
+        let jobs: Vec<usize> = (0..40).collect();
+        let work = |&job: &usize| {
+            begun.fetch_add(1, Ordering::SeqCst);
+            2 * job
+        };
+        let doubled = side_by_side(
+            &jobs,
+            workers,
+            |_| 1.0,
+            work,
+            |_| {
+                heard += 1;
+                thread::sleep(Duration::from_millis(2));
+                let ahead = begun.load(Ordering::SeqCst) - heard;
+                assert!(ahead <= workers.get(), "{ahead}");
+            },
+        );
+        let expected: Vec<usize> = jobs.iter().map(|job| 2 * job).collect();
+        assert_eq!((doubled, heard), (expected, jobs.len()));
+    }
+}
