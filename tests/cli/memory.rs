@@ -63,6 +63,10 @@ fn a_refused_bow_tie_takes_no_more_memory_than_promised() {
     takes_no_more_than_promised("a bow-tie of pentagons", "f 1 2 3 4 5\nf 1 6 7 8 9\n");
 }
 
+/// The size of such a file. Twelve times it is just more than 64 MiB, so that what is taken besides counts
+/// most.
+const MIB: usize = 6;
+
 /// A file that has these faces again and again.
 fn takes_no_more_than_promised(name: &str, faces: &str) {
     if !cfg!(target_os = "linux") {
@@ -74,7 +78,7 @@ fn takes_no_more_than_promised(name: &str, faces: &str) {
     let path = folder.path().join("refused.obj");
     let path = path.to_str().expect("a plain name");
     let nine = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nv 2 0 1\nv 0 2 1\nv 2 2 0\nv 3 1 0\nv 1 3 0\n";
-    let file = nine.to_owned() + &faces.repeat((6 << 20) / faces.len());
+    let file = nine.to_owned() + &faces.repeat((MIB << 20) / faces.len());
     std::fs::write(path, &file).expect("a temporary file");
     let allowed = 12 * file.len() / 1024;
     for verb in ["check", "cut"] {

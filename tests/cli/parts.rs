@@ -2,48 +2,52 @@
 
 use crate::harness::{Folder, seen};
 
-/// Each chart that can be made in parts, small, and its parts.
-const CHARTS: [(&str, &str, &[&str]); 5] = [
-    (
-        "pareto",
-        "--scene swing,strip --mesh grid,delaunay --size 3 --visits-max 30000",
-        &[
-            "swing-grid-3",
-            "swing-delaunay-3",
-            "strip-grid-3",
-            "strip-delaunay-3",
-        ],
-    ),
-    (
-        "tear",
-        "--strips 4,6 --scene rip,trouser --size 4 --method implicit,pbd --seeds 2",
-        &[
-            "strips",
-            "trouser-4-implicit",
-            "trouser-4-pbd",
-            "rip-4-implicit",
-            "rip-4-pbd",
-        ],
-    ),
-    (
-        "space",
-        "--scene hang,swing,strip,slit --size 2,4 --finest 8 --method verlet,xpbd-4 --part 1,0.5",
-        &["hang", "swing", "strip", "slit"],
-    ),
-    (
-        "plane",
-        "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
-        &["1e3-1e0", "1e3-1e-2", "1e4-1e0", "1e4-1e-2"],
-    ),
-    (
-        "choice",
-        "--scenes 16-31 --seconds 0.02",
-        &["16-20", "21-25", "26-30", "31-31"],
-    ),
-];
+/// A chart that can be made in parts: its name, options that make it small, and its parts.
+type Chart = (&'static str, &'static str, &'static [&'static str]);
+
+const PARETO: Chart = (
+    "pareto",
+    "--scene swing,strip --mesh grid,delaunay --size 3 --visits-max 30000",
+    &[
+        "swing-grid-3",
+        "swing-delaunay-3",
+        "strip-grid-3",
+        "strip-delaunay-3",
+    ],
+);
+
+const TEAR: Chart = (
+    "tear",
+    "--strips 4,6 --scene rip,trouser --size 4 --method implicit,pbd --seeds 2",
+    &[
+        "strips",
+        "trouser-4-implicit",
+        "trouser-4-pbd",
+        "rip-4-implicit",
+        "rip-4-pbd",
+    ],
+);
+
+const SPACE: Chart = (
+    "space",
+    "--scene hang,swing,strip,slit --size 2,4 --finest 8 --method verlet,xpbd-4 --part 1,0.5",
+    &["hang", "swing", "strip", "slit"],
+);
+
+const PLANE: Chart = (
+    "plane",
+    "--stiffness 1000,10000 --ratio 1,0.01 --size 4 --method verlet,xpbd-1",
+    &["1e3-1e0", "1e3-1e-2", "1e4-1e0", "1e4-1e-2"],
+);
+
+const CHOICE: Chart = (
+    "choice",
+    "--scenes 16-31 --seconds 0.02",
+    &["16-20", "21-25", "26-30", "31-31"],
+);
 
 /// Plans a chart, and types each line of the plan.
-fn made(folder: &Folder, chart: &str, options: &str, parts: &[&str]) {
+fn made(folder: &Folder, (chart, options, parts): Chart) {
     let output = folder.run(&format!("tearmesh chart {chart} {options} --plan -o a.svg"));
     assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
     assert!(!folder.path("a.svg").exists());
@@ -62,39 +66,37 @@ fn made(folder: &Folder, chart: &str, options: &str, parts: &[&str]) {
 
 #[test]
 fn pareto_in_parts_is_what_one_run_makes_and_names_those_that_are_missing() {
-    in_parts("pareto");
+    in_parts(PARETO);
 }
 
 #[test]
 fn tear_in_parts_is_what_one_run_makes_and_names_those_that_are_missing() {
-    in_parts("tear");
+    in_parts(TEAR);
 }
 
 #[test]
 fn space_in_parts_is_what_one_run_makes_and_names_those_that_are_missing() {
-    in_parts("space");
+    in_parts(SPACE);
 }
 
 #[test]
 fn plane_in_parts_is_what_one_run_makes_and_names_those_that_are_missing() {
-    in_parts("plane");
+    in_parts(PLANE);
 }
 
 #[test]
 fn choice_in_parts_is_what_one_run_makes_and_names_those_that_are_missing() {
-    in_parts("choice");
+    in_parts(CHOICE);
 }
 
-fn in_parts(name: &str) {
-    let mut charts = CHARTS.into_iter();
-    let (chart, options, parts) = charts.find(|one| one.0 == name).expect("one of them");
+fn in_parts(chart: Chart) {
     let folder = Folder::new();
-    made(&folder, chart, options, parts);
-    what_is_gathered_is_what_one_run_makes(&folder, chart, options);
-    a_part_that_is_missing_or_is_another_is_a_row_and_is_named(&folder, chart, options, parts);
+    made(&folder, chart);
+    what_is_gathered_is_what_one_run_makes(&folder, chart);
+    a_part_that_is_missing_or_is_another_is_a_row_and_is_named(&folder, chart);
 }
 
-fn what_is_gathered_is_what_one_run_makes(folder: &Folder, chart: &str, options: &str) {
+fn what_is_gathered_is_what_one_run_makes(folder: &Folder, (chart, options, _): Chart) {
     let files = |name: &str| format!("-o {name}.svg --csv {name}.csv --json {name}.json");
     for (name, how) in [("a", "--gather a.parts"), ("b", "--threads 2")] {
         let files = files(name);
@@ -109,9 +111,7 @@ fn what_is_gathered_is_what_one_run_makes(folder: &Folder, chart: &str, options:
 
 fn a_part_that_is_missing_or_is_another_is_a_row_and_is_named(
     folder: &Folder,
-    chart: &str,
-    options: &str,
-    parts: &[&str],
+    (chart, options, parts): Chart,
 ) {
     // One is not there, one is of another command, and one is cut off, as by a full disk.
     let of = |part: &str| format!("a.parts/{part}.json");
@@ -163,9 +163,9 @@ fn a_part_that_is_missing_or_is_another_is_a_row_and_is_named(
 /// A run that is told to end writes what it has, and names the rest.
 #[test]
 fn what_a_part_did_not_come_to_is_missing_from_the_whole() {
-    let (chart, options, parts) = CHARTS[3];
+    let (chart, options, parts) = PLANE;
     let folder = Folder::new();
-    made(&folder, chart, options, parts);
+    made(&folder, PLANE);
     let file = format!("a.parts/{}.json", parts[2]);
     let mut part: serde_json::Value = serde_json::from_str(&folder.read(&file)).expect("JSON");
     let left = serde_json::json!({ "part": "the rest", "why": "interrupted" });
@@ -187,7 +187,7 @@ fn what_a_part_did_not_come_to_is_missing_from_the_whole() {
 #[test]
 fn a_folder_without_any_part_is_refused() {
     let folder = Folder::new();
-    let (chart, options, _) = CHARTS[0];
+    let (chart, options, _) = PARETO;
     let output = folder.run(&format!(
         "tearmesh chart {chart} {options} --gather none -o a.svg"
     ));
