@@ -10,6 +10,7 @@ mod bending;
 mod chronicle;
 mod cost;
 mod defaults;
+mod ensemble;
 mod failures;
 mod follow;
 mod implicit;
@@ -26,6 +27,7 @@ mod reaction;
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;
 mod scenes;
+mod statistics;
 mod stiff;
 mod stiff_held;
 mod strain;

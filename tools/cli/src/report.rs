@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 use tearmesh::{CutReport, Mesh, Point, Ray, Scissor, Vector};
-use tearmesh_lab::ensemble::{Comparison, Ensemble};
+use tearmesh_cloth::scene::ensemble::Ensemble;
+use tearmesh_cloth::statistics::Comparison;
 
 use crate::say::{Fault, Severity};
 

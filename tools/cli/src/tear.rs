@@ -19,9 +19,9 @@ use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tearmesh::{Cursor, Scissor, VertexId};
+use tearmesh_cloth::scene::ensemble::Subject;
 use tearmesh_cloth::scene::{Chronicle, CutMade, Frame, Region, Run, Scene, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
-use tearmesh_lab::ensemble::Subject;
 use tearmesh_obj::{Document, TornDocument};
 
 use self::cost::Shortened;

@@ -77,6 +77,7 @@ mod solver;
 mod spectrum;
 mod spring;
 mod stability;
+pub mod statistics;
 mod step;
 mod strain;
 mod system;

@@ -3,9 +3,11 @@
 //! A [`Scene`] is the plan of a simulation, and a [`Run`] carries it out. Four scenes are built in,
 //! and are sized to the mesh: [`Scene::hang`], [`Scene::flag`], [`Scene::rip`] and
 //! [`Scene::trouser`]. Nothing here is read from files: a program fills in a scene's fields from
-//! any source.
+//! any source. [`ensemble`] plays a scene many times with tiny disturbances, to separate results
+//! from chance.
 
 mod chronicle;
+pub mod ensemble;
 mod frame;
 mod plays;
 mod run;

@@ -26,14 +26,13 @@ use serde::Serialize;
 use tearmesh::{
     Cut, CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray, Scissor, Vector,
 };
+use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
 use crate::pareto::{SEED, delaunay};
 use crate::parts::Missing;
 use crate::pool::side_by_side;
 use crate::provenance::Provenance;
-use crate::random::Random;
-use crate::sample::median;
 
 /// A cut method with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -294,7 +293,7 @@ impl Subject {
 
 /// The Delaunay triangles of a grid whose inner points are off their places at random, waving.
 fn sheet(cells: u32) -> (Mesh, Positions) {
-    let mut random = Random(SEED);
+    let mut random = Random::new(SEED);
     let width = cells + 1;
     let points: Vec<[f64; 2]> = (0..width * width)
         .map(|i| {
@@ -320,7 +319,7 @@ fn sheet(cells: u32) -> (Mesh, Positions) {
 
 /// From above right through the sheet, along a line at random.
 fn through(line: u64) -> Scissor {
-    let mut random = Random(SEED + 1000 * line);
+    let mut random = Random::new(SEED + 1000 * line);
     let [x, y] = [0, 1].map(|_| 0.25 + 0.5 * random.next());
     let (sin, cos) = (PI * random.next()).sin_cos();
     let ray = |along: f64| {

@@ -31,12 +31,12 @@ use serde::Serialize;
 use tearmesh::{Mesh, Point, shapes};
 use tearmesh_cloth::StepError;
 use tearmesh_cloth::scene::{Axis, FRAME_S, Frame, Run, Scene};
+use tearmesh_cloth::statistics;
 
 use self::wanted::Wanted;
 use self::way::Way;
 use crate::parts::Missing;
 use crate::provenance::Provenance;
-use crate::sample;
 
 /// The default numbers of cells along each side of the patches.
 pub const CELLS: [u32; 4] = [8, 16, 32, 64];
@@ -340,7 +340,7 @@ impl<'c> Stopwatch<'c> {
 
 /// The median of some times; 0 of none.
 fn median(seconds: Vec<f64>) -> f64 {
-    sample::median(seconds).unwrap_or(0.0)
+    statistics::median(seconds).unwrap_or(0.0)
 }
 
 fn conclude(tests: &[Test]) -> String {

@@ -4,8 +4,7 @@
 //! [`stability`] measures where methods fail, and whether users are told. [`space`] measures whether a finer
 //! mesh or a shorter step is the better buy. [`plane`] measures which method is the cheapest at a fixed error,
 //! by stiffness and mass ratio. [`cut`] measures the time and the accuracy of cuts. [`fig7`] measures the time
-//! to split vertices. [`choice`] measures what choosing a method by scene could save. [`ensemble`] compares
-//! runs of one scene.
+//! to split vertices. [`choice`] measures what choosing a method by scene could save.
 //!
 //! [`parts`] puts together what was run apart.
 //!
@@ -15,16 +14,13 @@
 pub mod choice;
 pub mod cut;
 mod draw;
-pub mod ensemble;
 pub mod fig7;
 pub mod pareto;
 pub mod parts;
 pub mod plane;
 pub mod pool;
 mod provenance;
-mod random;
 pub mod rk4;
-mod sample;
 pub mod space;
 pub mod stability;
 pub mod tear;

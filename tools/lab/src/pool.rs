@@ -10,10 +10,16 @@ pub fn workers() -> NonZero<usize> {
     thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
 }
 
-/// Does `work` for each job with so many workers, the costliest first. `watch` hears of each that is
-/// done, by its place in the list. Work that is to end early says so in its result. Results are handed over
-/// and do not queue, so that each worker does one more job at most before `watch` has heard of its last.
-pub(crate) fn side_by_side<J: Sync, R: Send>(
+/// Does `work` for each job on up to `workers` threads, the costliest jobs first, and returns the results in
+/// the order of the jobs. `watch` is called on this thread after each job, with its index.
+///
+/// Results are handed over one at a time, so a thread starts at most one more job before `watch` has been
+/// called for its last. Work that can end early must return that as its result.
+///
+/// # Panics
+///
+/// If `work` panics.
+pub fn side_by_side<J: Sync, R: Send>(
     jobs: &[J],
     workers: NonZero<usize>,
     cost: impl Fn(&J) -> f64,

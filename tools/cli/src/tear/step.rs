@@ -4,7 +4,10 @@ use std::num::NonZero;
 
 use indicatif::ProgressBar;
 use tearmesh_cloth::scene::RunError;
-use tearmesh_lab::ensemble::{self, Ensemble, MemberStatus, NOISE_M, Quantity, Subject, Verdict};
+use tearmesh_cloth::scene::ensemble::{
+    self, Ensemble, Job, MemberStatus, NOISE_M, Quantity, Subject,
+};
+use tearmesh_cloth::statistics::{self, Verdict, compare};
 use tearmesh_lab::pool;
 
 use super::words::{three_digits, two_digits};
@@ -22,15 +25,16 @@ pub(super) fn check(
     bar: &ProgressBar,
 ) -> Result<report::StepCheck, RunError> {
     const WHOLE: NonZero<u32> = NonZero::<u32>::MIN;
-    let parts = [WHOLE, WHOLE.saturating_add(1)];
-    let ensembles = ensemble::play(
-        subject,
-        1..=SEEDS,
-        &parts,
-        pool::workers(),
-        &|| guard.is_interrupted(),
-        |part| bar.set_position((part * bar.length().unwrap_or(0) as f64) as u64),
-    )?;
+    let step_divisors = [WHOLE, WHOLE.saturating_add(1)];
+    let stop = || guard.is_interrupted();
+    let ensembles = ensemble::play(subject, 1..=SEEDS, &step_divisors, &stop, |jobs, member| {
+        let whole: f64 = jobs.iter().map(Job::cost).sum();
+        let mut done = 0.0;
+        pool::side_by_side(jobs, pool::workers(), Job::cost, member, |i| {
+            done += jobs[i].cost();
+            bar.set_position((done / whole * bar.length().unwrap_or(0) as f64) as u64);
+        })
+    })?;
     bar.finish_and_clear();
     let quantities = Quantity::ALL.into_iter();
     let quantities = quantities.filter_map(|quantity| compared(&ensembles, quantity));
@@ -51,13 +55,13 @@ fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQu
     if whole.is_empty() || half.is_empty() {
         return None;
     }
-    let mut comparison = ensemble::compare(&whole, &half);
+    let mut comparison = compare(&whole, &half);
     if !(all && all_of_half) {
         comparison.verdict = Verdict::CannotTell;
     }
     Some(report::StepQuantity {
         name: quantity.key(),
-        spread: [ensemble::spread(&whole), ensemble::spread(&half)],
+        spread: [statistics::spread(&whole), statistics::spread(&half)],
         comparison,
     })
 }

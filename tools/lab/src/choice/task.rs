@@ -3,9 +3,9 @@
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
+use tearmesh_cloth::statistics::Random;
 
 use crate::pareto::{Case, Held, MeshKind, Observable, Scene, Start, Until};
-use crate::random::Random;
 
 /// A scene drawn at random, and the error that is allowed in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -84,7 +84,7 @@ const ASKED: &[Observable] = &OBSERVABLES;
 /// Returns the tasks of these numbers in the sequence of a seed.
 #[must_use]
 pub fn tasks(seed: u64, numbers: RangeInclusive<u32>, seconds: f64) -> Vec<Task> {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let all = (1..=*numbers.end()).map(|number| Task::drawn(number, &mut random, seconds));
     all.filter(|task| numbers.contains(&task.number)).collect()
 }

@@ -7,10 +7,10 @@ use std::time::Duration;
 
 use tearmesh::geometry::{Plane, Vector};
 use tearmesh::{Mesh, Point, VertexId, shapes};
+use tearmesh_cloth::statistics::Random;
 
 use super::way::Way;
 use super::*;
-use crate::random::Random;
 
 /// A clock that goes a microsecond ahead each time it is looked at.
 fn ticking() -> impl Fn() -> Duration {
@@ -163,7 +163,7 @@ fn a_way_that_splits_otherwise_is_noticed() {
 #[test]
 fn all_ways_agree_wherever_a_mesh_is_split() {
     for seed in 0..20 {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let (mesh, positions) = shapes::grid(5, 5);
         let mut places = positions.as_slice().to_vec();
         let makers = way::all();

@@ -1,6 +1,7 @@
 //! What the runs of a case say: errors, fronts, and who is cheapest.
 
 use serde::{Deserialize, Serialize};
+use tearmesh_cloth::scene::ensemble::NOISE_M;
 
 use super::front::{Point, front, rising, vouched};
 use super::method::{DEFAULT, Family, METHODS, PARTS};
@@ -9,7 +10,6 @@ use super::observe::{Records, apart_m, distance, error};
 use super::plan::{Planned, Role};
 use super::run::{Cost, Outcome, Status};
 use super::scene::Case;
-use crate::ensemble::NOISE_M;
 
 /// The results of a case.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -106,12 +106,13 @@ pub(super) fn rising(errors: &[f64]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
+    use tearmesh_cloth::statistics::Random;
+
     use super::*;
-    use crate::random::Random;
 
     #[test]
     fn a_front_is_what_a_comparison_of_all_pairs_leaves() {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         for round in 0..400 {
             let count = 1 + round % 40;
             let points: Vec<Point> = (0..count)

@@ -1,8 +1,7 @@
 //! The sheets: a grid whose diagonals lie at random, and Delaunay triangles of as many random points.
 
 use tearmesh::{Masses, Mesh, Point, Positions, shapes};
-
-use crate::random::Random;
+use tearmesh_cloth::statistics::Random;
 
 /// The mass of a square metre, in kg.
 pub(super) const DENSITY_KG_PER_M2: f64 = 0.15;
@@ -54,7 +53,7 @@ impl Sheet {
     /// If `cells` is 0 or more than a mesh can have, or if `side_m` is 0 or not finite.
     #[must_use]
     pub fn new(kind: MeshKind, cells: u32, side_m: f64) -> Sheet {
-        let mut random = Random(SEED);
+        let mut random = Random::new(SEED);
         let (mesh, positions) = match kind {
             MeshKind::Grid => shapes::grid_with_diagonals(cells, cells, |_, _| random.next() < 0.5),
             MeshKind::Delaunay => scattered(cells, &mut random),

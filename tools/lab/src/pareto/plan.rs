@@ -1,13 +1,13 @@
 //! The runs of a case: references, the gate, and the budget, each with a name and a guess at its cost.
 
 use tearmesh_cloth::implicit::{self, Tolerance};
+use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::{Implicit, Solver, Unstable};
 
 use super::method::{METHODS, Method, Named, PARTS, Store};
 use super::observable::Observable;
 use super::run::{Bounds, Outcome, Settings, fitted_step_s, run};
 use super::scene::{Case, REST_M_PER_S, Until};
-use crate::ensemble::NOISE_M;
 
 /// A planned run of a case.
 #[derive(Clone, Debug)]

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Implicit, Loads, Path, System};
 
 use super::mesh::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
 use super::observable::Observable::{self, *};
-use crate::random::Random;
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]
@@ -279,7 +279,7 @@ impl Case {
         }
         let mut edges = sheet.edges.clone();
         if scene.start == Start::Shuffled {
-            let mut random = Random(SEED);
+            let mut random = Random::new(SEED);
             for i in (1..edges.len()).rev() {
                 let j = (random.next() * (i + 1) as f64) as usize;
                 edges.swap(i, j);
@@ -392,7 +392,7 @@ impl Case {
     /// If the numbers of the scene are not usable; those of [`SCENES`] are.
     #[must_use]
     pub fn disturbed(&self, noise_m: f64) -> System {
-        let mut random = Random(SEED);
+        let mut random = Random::new(SEED);
         let mut system = self.system();
         let free: Vec<bool> = system.inverse_masses().iter().map(|w| *w > 0.0).collect();
         let mut off = || noise_m * (2.0 * random.next() - 1.0);

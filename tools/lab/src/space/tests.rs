@@ -3,10 +3,11 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use tearmesh_cloth::statistics::Random;
+
 use super::*;
 use crate::pareto::Family;
 use crate::pareto::Status;
-use crate::random::Random;
 
 const MEASURE: Measure = Measure::Sag;
 
@@ -147,7 +148,7 @@ fn an_error_that_passes_zero_by_luck_vouches_for_what_shorter_steps_have() {
 
 #[test]
 fn a_front_is_of_one_method_over_all_its_meshes_and_steps() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for _ in 0..50 {
         let mut rows = Vec::new();
         for method in ["one", "other"] {

@@ -1,12 +1,12 @@
 //! From which step on a method blows up, found by bisection, and what theory says of it.
 
 use serde::Serialize;
+use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Solver, StepError, System, Unstable, energy};
 
 use super::net::{Net, NetKind};
 use super::told::{Class, Teller, Told};
 use crate::pareto::{Family, METHODS, Method};
-use crate::random::Random;
 
 /// The theoretical stability of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -283,7 +283,7 @@ impl Pushed<'_> {
         let is_always = self.asked.theory == Theory::Always;
         // Where a limit is looked for, motions are to stay small even when they have grown.
         let amplitude_m = self.net.edge_m() * if is_always { 1e-3 } else { 1e-9 };
-        let mut random = Random(1);
+        let mut random = Random::new(1);
         let mut push = || amplitude_m * self.omega_rad_per_s * (2.0 * random.next() - 1.0);
         for i in self.net.free() {
             let velocity = &mut system.state_mut().1[i];

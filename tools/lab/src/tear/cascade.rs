@@ -26,14 +26,16 @@ use std::num::NonZero;
 use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Positions, shapes};
 use tearmesh_cloth::Tearing;
+use tearmesh_cloth::scene::ensemble::{
+    self, Ensemble, Job, Member, MemberStatus, Quantity, Subject,
+};
 use tearmesh_cloth::scene::{Axis, Frame, RunError, Scene};
+use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
 use super::strip::{TIP, strip};
-use crate::ensemble::{
-    self, Comparison, Ensemble, Member, MemberStatus, Quantity, Subject, Verdict,
-};
 use crate::pareto::Named;
 use crate::parts::Missing;
+use crate::pool::side_by_side;
 
 /// The scenes in which cascades are played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -302,7 +304,7 @@ fn ensembles(
     named: &Named,
     options: &Options,
     stop: &(dyn Fn() -> bool + Sync),
-    watch: impl FnMut(f64),
+    mut watch: impl FnMut(f64),
 ) -> Result<Vec<Ensemble>, RunError> {
     let (mesh, positions) = scene.mesh(cells).expect("a strip of our own is a mesh");
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
@@ -318,7 +320,14 @@ fn ensembles(
         strengths: None,
     };
     let seeds = 1..=options.seeds;
-    ensemble::play(subject, seeds, &PARTS, options.threads, stop, watch)
+    ensemble::play(subject, seeds, &PARTS, stop, |jobs, member| {
+        let whole: f64 = jobs.iter().map(Job::cost).sum();
+        let mut done = 0.0;
+        side_by_side(jobs, options.threads, Job::cost, member, |i| {
+            done += jobs[i].cost();
+            watch(done / whole);
+        })
+    })
 }
 
 /// A number of some ensembles, from coarse to fine, without a reference. Where some runs of an ensemble
@@ -331,7 +340,7 @@ fn number(ensembles: &[Ensemble], quantity: Quantity) -> Number {
         name: quantity.key(),
         spreads: samples
             .iter()
-            .map(|(sample, _)| (!sample.is_empty()).then(|| ensemble::spread(sample)))
+            .map(|(sample, _)| (!sample.is_empty()).then(|| spread(sample)))
             .collect(),
         halvings: halvings.map(|pair| compared(&pair[0], &pair[1])).collect(),
         reference: Vec::new(),
@@ -343,7 +352,7 @@ fn compared(first: &(Vec<f64>, bool), second: &(Vec<f64>, bool)) -> Option<Compa
     if first.0.is_empty() || second.0.is_empty() {
         return None;
     }
-    let mut comparison = ensemble::compare(&first.0, &second.0);
+    let mut comparison = compare(&first.0, &second.0);
     if !(first.1 && second.1) {
         comparison.verdict = Verdict::CannotTell;
     }

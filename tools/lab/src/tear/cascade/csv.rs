@@ -24,7 +24,7 @@ pub fn csv(cascades: &[Cascade], missing: &[Missing]) -> String {
                     cascade.scene,
                     cascade.cells,
                     cascade.method,
-                    ensemble.parts,
+                    ensemble.step_divisor,
                     ensemble.step_s,
                     member.seed,
                     member.status.name(),

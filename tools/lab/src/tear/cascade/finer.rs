@@ -2,10 +2,10 @@
 //! are chaotic.
 
 use serde::Serialize;
+use tearmesh_cloth::scene::ensemble::Ensemble;
+use tearmesh_cloth::statistics::{Comparison, Verdict, median};
 
 use super::{Cascade, TOLD, compared};
-use crate::ensemble::{Comparison, Ensemble, Verdict};
-use crate::sample::median;
 
 /// What halving the step and going to the next finer mesh change, for one quantity of a cascade.
 #[derive(Clone, Debug, Serialize)]

@@ -2,11 +2,12 @@
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use tearmesh_cloth::scene::ensemble::Quantity;
+use tearmesh_cloth::statistics::Verdict;
 
 use super::words::short;
 use super::{Cascade, TOLD};
 use crate::draw::{Area, Drawn};
-use crate::ensemble::{Quantity, Verdict};
 use crate::pareto::Family;
 
 const ROW: i32 = 270;

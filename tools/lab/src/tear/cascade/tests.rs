@@ -3,12 +3,12 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use plotters::prelude::*;
+use tearmesh_cloth::scene::ensemble::Observed;
 
 use super::*;
-use crate::ensemble::Observed;
 
 /// An ensemble whose torn lengths are about a middle, and of which nobody says the forces.
-fn torn(parts: u32, middle_m: f64) -> Ensemble {
+fn torn(step_divisor: NonZero<u32>, middle_m: f64) -> Ensemble {
     let member = |seed: u64| Member {
         seed,
         status: MemberStatus::Done,
@@ -20,12 +20,12 @@ fn torn(parts: u32, middle_m: f64) -> Ensemble {
             pieces: 2,
             largest_force_n: None,
             work_j: None,
-            visits: 100 * u64::from(parts),
+            visits: 100 * u64::from(step_divisor.get()),
         }),
     };
     Ensemble {
-        parts,
-        step_s: 1e-3 / f64::from(parts),
+        step_divisor,
+        step_s: 1e-3 / f64::from(step_divisor.get()),
         members: (1..=16).map(member).collect(),
     }
 }
@@ -34,7 +34,7 @@ fn cascade(method: &str, middles_m: [f64; 3]) -> Cascade {
     let ensembles: Vec<Ensemble> = PARTS
         .iter()
         .zip(middles_m)
-        .map(|(parts, middle_m)| torn(parts.get(), middle_m))
+        .map(|(&step_divisor, middle_m)| torn(step_divisor, middle_m))
         .collect();
     Cascade {
         scene: "rip".to_owned(),
@@ -114,7 +114,7 @@ fn on(cells: u32, method: &str, middles_m: [f64; 3], visits: u64) -> Cascade {
     for ensemble in &mut cascade.ensembles {
         for member in &mut ensemble.members {
             let seen = member.observed.as_mut().expect("it is done");
-            seen.visits = visits * u64::from(ensemble.parts);
+            seen.visits = visits * u64::from(ensemble.step_divisor.get());
         }
     }
     cascade
@@ -206,7 +206,7 @@ fn every_seed_is_played_at_every_step() {
     assert!(parts.iter().all(|part| (0.0..=1.0).contains(part)));
     assert_eq!(parts.len() as u64, runs(&options(2)));
     for cascade in &cascades {
-        let steps = cascade.ensembles.iter().map(|one| one.parts);
+        let steps = cascade.ensembles.iter().map(|one| one.step_divisor.get());
         assert_eq!(steps.collect::<Vec<_>>(), [1, 2, 4]);
         for ensemble in &cascade.ensembles {
             let seeds = ensemble.members.iter().map(|member| member.seed);

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use tearmesh_cloth::statistics::Verdict;
+
 use super::{Cascade, Move, Number, TOLD, finer};
-use crate::ensemble::Verdict;
 
 /// Returns a summary in words: for each scene and quantity the reference, if any, and a line per method.
 ///

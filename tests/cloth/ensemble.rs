@@ -1,0 +1,218 @@
+//! Ensembles of small scenes: disturbances are tiny, members are plain runs, and a run that fails
+//! or is interrupted remains a member.
+
+use std::cell::Cell;
+use std::num::NonZero;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::thread;
+
+use tearmesh::{Mesh, Positions};
+use tearmesh_cloth::scene::ensemble::{
+    self, Disturbance, Job, Member, MemberStatus, NOISE_M, Quantity, Subject,
+};
+use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, RunError, Scene};
+
+use crate::parts::scenes::square;
+
+const ONE: NonZero<u32> = NonZero::<u32>::MIN;
+const TWO: NonZero<u32> = ONE.saturating_add(1);
+
+/// A cloth with a scene, which a [`Subject`] borrows.
+struct Staged {
+    mesh: Mesh,
+    positions: Positions,
+    frame: Frame,
+    scene: Scene,
+}
+
+impl Staged {
+    fn new(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Staged {
+        let (mesh, positions) = square(cells);
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let scene = scene(&frame);
+        Staged {
+            mesh,
+            positions,
+            frame,
+            scene,
+        }
+    }
+
+    fn subject(&self) -> Subject<'_> {
+        Subject {
+            mesh: &self.mesh,
+            positions: &self.positions,
+            frame: &self.frame,
+            scene: &self.scene,
+            strengths: None,
+        }
+    }
+}
+
+type RunJob<'a> = &'a (dyn Fn(&Job) -> Member + Sync);
+
+fn last_job_first(jobs: &[Job], member: RunJob<'_>) -> Vec<Member> {
+    let mut members: Vec<Member> = jobs.iter().rev().map(member).collect();
+    members.reverse();
+    members
+}
+
+fn one_thread_per_job(jobs: &[Job], member: RunJob<'_>) -> Vec<Member> {
+    thread::scope(|scope| {
+        let start = |job| scope.spawn(move || member(job));
+        let threads: Vec<_> = jobs.iter().map(start).collect();
+        let joined = threads.into_iter().map(|thread| thread.join());
+        joined.map(|member| member.expect("no panic")).collect()
+    })
+}
+
+#[test]
+fn an_ensemble_is_the_same_in_any_order_of_its_jobs() {
+    let staged = Staged::new(8, Scene::rip);
+    let play = |map: fn(&[Job], RunJob<'_>) -> Vec<Member>| {
+        let ensembles = ensemble::play(staged.subject(), 1..=3, &[ONE, TWO], &|| false, map);
+        ensembles.expect("a scene that can be played")
+    };
+    let ensembles = play(ensemble::in_series);
+    assert_eq!(play(last_job_first), ensembles);
+    assert_eq!(play(one_thread_per_job), ensembles);
+    let [whole, half] = &ensembles[..] else {
+        panic!("{ensembles:?}");
+    };
+    assert_eq!((whole.step_divisor, half.step_divisor), (ONE, TWO));
+    assert_eq!(half.step_s, whole.step_s / 2.0);
+    for ensemble in &ensembles {
+        let seeds = ensemble.members.iter().map(|member| member.seed);
+        assert_eq!(seeds.collect::<Vec<_>>(), [1, 2, 3]);
+        // A rip is chaotic, so no two seeds tear the same length.
+        let (torn_m, is_whole) = ensemble.numbers(Quantity::Torn);
+        assert!(is_whole);
+        assert!(torn_m[0] != torn_m[1], "{torn_m:?}");
+        assert!(torn_m[1] != torn_m[2], "{torn_m:?}");
+    }
+}
+
+/// A face that begins with its smallest corner.
+fn from_smallest(face: &[u32; 3]) -> [u32; 3] {
+    let [a, b, c] = *face;
+    let rotations = [[a, b, c], [b, c, a], [c, a, b]];
+    rotations.into_iter().min().expect("three rotations")
+}
+
+#[test]
+fn a_disturbance_shuffles_faces_and_displaces_by_at_most_the_noise() {
+    let (mesh, _) = square(8);
+    let disturbance = Disturbance::new(&mesh, 5);
+    let faces = |mesh: &Mesh| mesh.indices().as_chunks::<3>().0.to_vec();
+    let (before, after) = (faces(&mesh), faces(&disturbance.mesh));
+    let sorted = |faces: &[[u32; 3]]| {
+        let mut faces: Vec<_> = faces.iter().map(from_smallest).collect();
+        faces.sort_unstable();
+        faces
+    };
+    assert_eq!(sorted(&before), sorted(&after));
+    let moved = before.iter().zip(&after);
+    let moved = moved.filter(|(a, b)| from_smallest(a) != from_smallest(b));
+    assert!(2 * moved.count() > before.len());
+    let turned = after.iter().filter(|face| !before.contains(*face));
+    assert!(2 * turned.count() > before.len());
+    assert_eq!(disturbance.offsets_m.len(), mesh.vertex_count());
+    let components: Vec<f64> = disturbance.offsets_m.iter().flatten().copied().collect();
+    assert!(components.iter().all(|x| x.abs() <= NOISE_M));
+    let largest = components
+        .iter()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    assert!(largest > 0.9 * NOISE_M, "{largest}");
+    let mean = components.iter().sum::<f64>() / components.len() as f64;
+    assert!(mean.abs() < 0.2 * NOISE_M, "{mean}");
+}
+
+/// The oracle of a member is a run that is disturbed and played here.
+#[test]
+fn a_member_is_a_run_that_was_disturbed() {
+    let staged = Staged::new(8, Scene::rip);
+    let member = ensemble::member(staged.subject(), TWO, 5, &|| false);
+    assert_eq!((member.seed, member.status), (5, MemberStatus::Done));
+    let Disturbance { mesh, offsets_m } = Disturbance::new(&staged.mesh, 5);
+    let run = Run::new(mesh, &staged.positions, staged.scene.clone(), &staged.frame);
+    let run = run.expect("a scene").in_smaller_steps(TWO);
+    let mut run = run.displaced(|v| offsets_m[v.index()]).expect("a metre");
+    let mut chronicle = Chronicle::new(&run);
+    while !run.is_over() {
+        let step = run.step().expect("a step");
+        chronicle.note(&run, &step);
+    }
+    let observed = member.observed.expect("a run that is done");
+    let first_tear = chronicle.first_tear().expect("a rip");
+    assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
+    assert_eq!(observed.first_force_n, first_tear.force_n);
+    assert_eq!(observed.torn_m, run.torn_length_m());
+    assert_eq!(observed.pieces, run.mesh().components().count());
+    assert_eq!(observed.largest_force_n, chronicle.largest_force_n());
+    assert_eq!(observed.work_j, Some(run.energy_balance().held_j));
+    assert!(observed.torn_m > 0.0);
+}
+
+#[test]
+fn an_interrupted_ensemble_keeps_the_runs_that_were_done() {
+    let staged = Staged::new(4, |frame| Scene {
+        duration_s: 0.05,
+        ..Scene::hang(frame)
+    });
+    let checks = Cell::new(0_u32);
+    let count_checks = || {
+        checks.set(checks.get() + 1);
+        false
+    };
+    let whole = ensemble::member(staged.subject(), ONE, 1, &count_checks);
+    assert_eq!(whole.status, MemberStatus::Done);
+    let checks_of_a_run = checks.get();
+    assert!(checks_of_a_run > 10, "{checks_of_a_run}");
+    for (allowed, statuses) in [
+        (0, [MemberStatus::Interrupted; 2]),
+        (checks_of_a_run - 1, [MemberStatus::Interrupted; 2]),
+        (
+            checks_of_a_run + 2,
+            [MemberStatus::Done, MemberStatus::Interrupted],
+        ),
+    ] {
+        let checks = AtomicU32::new(0);
+        let stop = || checks.fetch_add(1, Ordering::SeqCst) >= allowed;
+        let ensembles = ensemble::play(staged.subject(), 1..=2, &[ONE], &stop, ensemble::in_series);
+        let ensemble = ensembles.expect("a scene").remove(0);
+        let found = [0, 1].map(|i| ensemble.members[i].status);
+        assert_eq!(found, statuses, "{allowed} checks");
+        let done = statuses.iter().filter(|&&one| one == MemberStatus::Done);
+        let torn_m = vec![0.0; done.count()];
+        assert_eq!(ensemble.numbers(Quantity::Torn), (torn_m, false));
+    }
+}
+
+#[test]
+fn a_failed_run_is_a_member_and_a_refused_scene_is_an_error() {
+    // Such a step is far beyond what is stable, and is not divided since the scene names it.
+    let unstable = Staged::new(4, |frame| Scene {
+        step_s: Some(0.1),
+        ..Scene::hang(frame)
+    });
+    let play = |staged: &Staged| {
+        ensemble::play(
+            staged.subject(),
+            1..=2,
+            &[ONE],
+            &|| false,
+            ensemble::in_series,
+        )
+    };
+    let ensembles = play(&unstable).expect("a scene that begins");
+    for member in &ensembles[0].members {
+        assert_eq!(member.status, MemberStatus::Failed);
+        assert!(member.why.contains("stab"), "{}", member.why);
+    }
+    assert_eq!(ensembles[0].numbers(Quantity::Torn), (Vec::new(), false));
+    let backwards = Staged::new(4, |frame| Scene {
+        duration_s: -1.0,
+        ..Scene::hang(frame)
+    });
+    assert!(matches!(play(&backwards), Err(RunError::Times { .. })));
+}

@@ -1,0 +1,400 @@
+//! Ensembles: one scene played many times, each time with a tiny disturbance.
+//!
+//! Tearing is chaotic: a nanometre decides which edge tears first, and two runs soon have little in
+//! common. So a single run says nothing about a step or a method, but the distribution over many
+//! disturbed runs does. The members of an ensemble differ by a [`Disturbance`] and by nothing else.
+//! Two ensembles are compared by [`compare`](crate::statistics::compare), for each [`Quantity`].
+//!
+//! [`play`] lists the runs as [`Job`]s, and leaves it to its caller to carry them out: this crate
+//! starts no threads. [`in_series`] carries them out one after the other.
+
+use std::num::NonZero;
+use std::ops::RangeInclusive;
+
+use tearmesh::geometry::Vector;
+use tearmesh::{Mesh, Positions, VertexId};
+
+use super::{Chronicle, Frame, Run, RunError, Scene};
+use crate::statistics::Random;
+
+/// The largest random displacement of a vertex from its starting position along each axis, in
+/// metres. Larger displacements spread the results of an ensemble no further.
+pub const NOISE_M: f64 = 1e-9;
+
+/// The cloth and the scene that an ensemble plays.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The mesh of the cloth.
+    pub mesh: &'a Mesh,
+    /// The positions of the vertices of `mesh` at rest, in metres.
+    pub positions: &'a Positions,
+    /// The frame for which the scene was created.
+    pub frame: &'a Frame,
+    /// The scene to play.
+    pub scene: &'a Scene,
+    /// The strength of each vertex, as in [`Run::with_strengths`]; `None` for the strengths of the scene.
+    pub strengths: Option<&'a [f64]>,
+}
+
+/// All runs of a subject with one step.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Ensemble {
+    /// The number by which the step of the scene was divided.
+    #[cfg_attr(feature = "serde", serde(rename = "parts"))]
+    pub step_divisor: NonZero<u32>,
+    /// The divided step, in seconds.
+    pub step_s: f64,
+    /// The runs, in ascending order of their seeds. Those that failed are included.
+    pub members: Vec<Member>,
+}
+
+/// One run of an ensemble.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Member {
+    /// The seed of the disturbance.
+    pub seed: u64,
+    /// The way in which the run ended.
+    pub status: MemberStatus,
+    /// The reason for a failure; empty if the run did not fail.
+    pub why: String,
+    /// The measured quantities; `None` if the run did not reach its end.
+    pub observed: Option<Observed>,
+}
+
+/// The ways in which a run of an ensemble ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum MemberStatus {
+    /// The run reached its end.
+    Done,
+    /// The run could not be begun, or a step failed.
+    Failed,
+    /// The run was interrupted.
+    Interrupted,
+}
+
+impl MemberStatus {
+    /// Returns the name of the status in tables and reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            MemberStatus::Done => "done",
+            MemberStatus::Failed => "failed",
+            MemberStatus::Interrupted => "interrupted",
+        }
+    }
+}
+
+/// The measured quantities of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Observed {
+    /// The time of the first tear, in seconds; `None` if nothing tore.
+    pub first_tear_s: Option<f64>,
+    /// The force at the first tear in newtons, as in [`Chronicle::first_tear`]. `None` if nothing tore, or
+    /// if the method does not know its forces, as Provot's does not.
+    pub first_force_n: Option<f64>,
+    /// The rest length of the edges that tore, in metres.
+    pub torn_m: f64,
+    /// The number of components of the mesh at the end.
+    pub pieces: usize,
+    /// The largest force at a hold in newtons, as in [`Chronicle::largest_force_n`]; `None` if unknown.
+    pub largest_force_n: Option<f64>,
+    /// The work of all holds, led ones included, in joules. `None` if the method does not know its forces:
+    /// the work of Provot's limiter grows without bound as steps get shorter.
+    pub work_j: Option<f64>,
+    /// The cost of the run: the number of visits to single constraints, whatever for.
+    pub visits: u64,
+}
+
+/// A measured quantity of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The time of the first tear, [`Observed::first_tear_s`]; infinite if nothing tore.
+    FirstTear,
+    /// The force at the first tear, [`Observed::first_force_n`]; infinite if nothing tore, unless it is
+    /// unknown.
+    FirstForce,
+    /// The torn length, [`Observed::torn_m`].
+    Torn,
+    /// The number of pieces, [`Observed::pieces`].
+    Pieces,
+    /// The largest force at a hold, [`Observed::largest_force_n`].
+    LargestForce,
+    /// The work of all holds, [`Observed::work_j`].
+    Work,
+}
+
+impl Quantity {
+    /// All quantities, in the order of the fields of [`Observed`].
+    pub const ALL: [Quantity; 6] = [
+        Quantity::FirstTear,
+        Quantity::FirstForce,
+        Quantity::Torn,
+        Quantity::Pieces,
+        Quantity::LargestForce,
+        Quantity::Work,
+    ];
+
+    /// Returns the name of the quantity in words, and its unit; the unit is empty for a number.
+    #[must_use]
+    pub fn name(self) -> [&'static str; 2] {
+        match self {
+            Quantity::FirstTear => ["first tear", "s"],
+            Quantity::FirstForce => ["force then", "N"],
+            Quantity::Torn => ["torn length", "m"],
+            Quantity::Pieces => ["pieces", ""],
+            Quantity::LargestForce => ["largest force", "N"],
+            Quantity::Work => ["work of holds", "J"],
+        }
+    }
+
+    /// Returns the key of the quantity in reports.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Quantity::FirstTear => "first_tear_s",
+            Quantity::FirstForce => "first_force_n",
+            Quantity::Torn => "torn_m",
+            Quantity::Pieces => "pieces",
+            Quantity::LargestForce => "largest_force_n",
+            Quantity::Work => "work_j",
+        }
+    }
+
+    /// The value of the quantity in a run; `None` if the method does not know it. In a run without
+    /// a tear the first tear is infinitely late, at a force that was never reached.
+    fn of(self, observed: &Observed) -> Option<f64> {
+        match self {
+            Quantity::FirstTear => Some(observed.first_tear_s.unwrap_or(f64::INFINITY)),
+            Quantity::FirstForce => match observed.first_tear_s {
+                Some(_) => observed.first_force_n,
+                None => observed.largest_force_n.map(|_| f64::INFINITY),
+            },
+            Quantity::Torn => Some(observed.torn_m),
+            Quantity::Pieces => Some(observed.pieces as f64),
+            Quantity::LargestForce => observed.largest_force_n,
+            Quantity::Work => observed.work_j,
+        }
+    }
+}
+
+impl Ensemble {
+    /// Returns the values of a quantity of all members that have it, and whether every member has
+    /// it.
+    #[must_use]
+    pub fn numbers(&self, quantity: Quantity) -> (Vec<f64>, bool) {
+        let observed = self.members.iter().filter_map(|member| member.observed);
+        let numbers: Vec<f64> = observed.filter_map(|one| quantity.of(&one)).collect();
+        let is_whole = numbers.len() == self.members.len();
+        (numbers, is_whole)
+    }
+}
+
+/// One run to carry out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Job {
+    /// The number by which to divide the step of the scene.
+    pub step_divisor: NonZero<u32>,
+    /// The seed of the disturbance.
+    pub seed: u64,
+}
+
+impl Job {
+    /// Returns the expected cost of the run, relative to a run at the undivided step.
+    #[must_use]
+    pub fn cost(&self) -> f64 {
+        f64::from(self.step_divisor.get())
+    }
+}
+
+/// Plays a subject once for each of `step_divisors` and each of `seeds`.
+///
+/// The result has one ensemble per divisor, in the order of `step_divisors`. `map` carries out the
+/// jobs in any order, by calling its second argument for each, and returns the members in the order
+/// of the jobs. It is the place for threads and for progress. [`in_series`] is one that needs
+/// neither. When `stop` returns true, every run ends before its next step and is marked as
+/// interrupted.
+///
+/// ```
+/// use std::num::NonZero;
+/// use tearmesh::shapes;
+/// use tearmesh_cloth::scene::ensemble::{self, Quantity, Subject};
+/// use tearmesh_cloth::scene::{Axis, Frame, Scene};
+/// use tearmesh_cloth::statistics::{Verdict, compare};
+///
+/// let (mesh, positions) = shapes::grid(4, 4);
+/// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+/// let subject = Subject {
+///     mesh: &mesh,
+///     positions: &positions,
+///     frame: &frame,
+///     scene: &Scene { duration_s: 0.1, ..Scene::hang(&frame) },
+///     strengths: None,
+/// };
+/// let step_divisors = [1, 2].map(|divisor| NonZero::new(divisor).unwrap());
+/// let ensembles = ensemble::play(subject, 1..=3, &step_divisors, &|| false, ensemble::in_series)?;
+/// let [(whole, _), (half, _)] = [0, 1].map(|i| ensembles[i].numbers(Quantity::Torn));
+/// assert_eq!(compare(&whole, &half).verdict, Verdict::Same); // Nothing tears at either step.
+/// # Ok::<(), tearmesh_cloth::scene::RunError>(())
+/// ```
+///
+/// # Errors
+///
+/// [`RunError`] if the scene cannot be played.
+///
+/// # Panics
+///
+/// If a divided step leads to more than [`Run::STEPS_MAX`] steps, or if `map` does not return one
+/// member per job, in the order of the jobs.
+pub fn play(
+    subject: Subject<'_>,
+    seeds: RangeInclusive<u64>,
+    step_divisors: &[NonZero<u32>],
+    stop: &(dyn Fn() -> bool + Sync),
+    map: impl FnOnce(&[Job], &(dyn Fn(&Job) -> Member + Sync)) -> Vec<Member>,
+) -> Result<Vec<Ensemble>, RunError> {
+    let whole_step_s = begin(subject, subject.mesh.clone(), NonZero::<u32>::MIN)?.step_s();
+    let with_all_seeds = |&step_divisor: &NonZero<u32>| {
+        let seeds = seeds.clone();
+        seeds.map(move |seed| Job { step_divisor, seed })
+    };
+    let jobs: Vec<Job> = step_divisors.iter().flat_map(with_all_seeds).collect();
+    let members = map(&jobs, &|job| {
+        member(subject, job.step_divisor, job.seed, stop)
+    });
+    assert!(
+        members
+            .iter()
+            .map(|member| member.seed)
+            .eq(jobs.iter().map(|job| job.seed)),
+        "`map` returns one member per job, in order"
+    );
+    let mut members = members.into_iter();
+    let ensemble = |&step_divisor: &NonZero<u32>| Ensemble {
+        step_divisor,
+        step_s: whole_step_s / f64::from(step_divisor.get()),
+        members: members.by_ref().take(seeds.clone().count()).collect(),
+    };
+    Ok(step_divisors.iter().map(ensemble).collect())
+}
+
+/// Carries out jobs one after the other, for [`play`].
+#[must_use]
+pub fn in_series(jobs: &[Job], member: &(dyn Fn(&Job) -> Member + Sync)) -> Vec<Member> {
+    jobs.iter().map(member).collect()
+}
+
+/// Plays a subject once, with its step divided by `step_divisor` and the [`Disturbance`] of `seed`.
+/// When `stop` returns true, the run ends before its next step and is marked as interrupted.
+///
+/// # Panics
+///
+/// If the divided step leads to more than [`Run::STEPS_MAX`] steps.
+#[must_use]
+pub fn member(
+    subject: Subject<'_>,
+    step_divisor: NonZero<u32>,
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+) -> Member {
+    let ended = |status, why: String, observed| Member {
+        seed,
+        status,
+        why,
+        observed,
+    };
+    let interrupted = || ended(MemberStatus::Interrupted, String::new(), None);
+    let failed = |why| ended(MemberStatus::Failed, why, None);
+    if stop() {
+        return interrupted();
+    }
+    let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, seed);
+    let mut run = match begin(subject, mesh, step_divisor) {
+        Ok(run) => match run.displaced(|v| offsets_m[v.index()]) {
+            Ok(run) => run,
+            Err(error) => return failed(error.to_string()),
+        },
+        Err(error) => return failed(error.to_string()),
+    };
+    let torn_before_m = run.torn_length_m();
+    let mut chronicle = Chronicle::new(&run);
+    while !run.is_over() {
+        if stop() {
+            return interrupted();
+        }
+        match run.step() {
+            Ok(step) => chronicle.note(&run, &step),
+            Err(error) => return failed(error.to_string()),
+        }
+    }
+    let first_tear = chronicle.first_tear();
+    let largest_force_n = chronicle.largest_force_n();
+    let observed = Observed {
+        first_tear_s: first_tear.map(|first| first.event.time_s),
+        first_force_n: first_tear.and_then(|first| first.force_n),
+        torn_m: run.torn_length_m() - torn_before_m,
+        pieces: run.mesh().components().count(),
+        largest_force_n,
+        work_j: largest_force_n.map(|_| run.energy_balance().held_j),
+        visits: visits(&run),
+    };
+    ended(MemberStatus::Done, String::new(), Some(observed))
+}
+
+fn visits(run: &Run) -> u64 {
+    let visits = run.cloth().system().counters().visits;
+    visits.project + visits.force + visits.detect + visits.meter
+}
+
+/// A run of the subject on `mesh`, with its step divided.
+fn begin(subject: Subject<'_>, mesh: Mesh, step_divisor: NonZero<u32>) -> Result<Run, RunError> {
+    let scene = subject.scene.clone();
+    let mut run = Run::new(mesh, subject.positions, scene, subject.frame)?;
+    if let Some(strengths) = subject.strengths {
+        run = run.with_strengths(strengths.to_vec())?;
+    }
+    Ok(run.in_smaller_steps(step_divisor))
+}
+
+/// The difference of one member of an ensemble from the subject. It is public so that a program can
+/// repeat a single run and look at its steps.
+#[derive(Clone, Debug)]
+pub struct Disturbance {
+    /// The mesh with its faces in another order, each beginning with another corner. A torn mesh,
+    /// which cannot be built from its faces, stays as it is.
+    pub mesh: Mesh,
+    /// The displacement of each vertex for [`Run::displaced`], in metres: at most [`NOISE_M`] along
+    /// each axis.
+    pub offsets_m: Vec<Vector>,
+}
+
+impl Disturbance {
+    /// Creates the disturbance of a mesh by a seed.
+    #[must_use]
+    pub fn new(mesh: &Mesh, seed: u64) -> Disturbance {
+        let mut random = Random::new(seed);
+        let mesh = shuffled(mesh, &mut random);
+        let mut offset_m = || NOISE_M * (2.0 * random.next() - 1.0);
+        let offset = |_: VertexId| Vector::from_fn(|_, _| offset_m());
+        let offsets_m = mesh.vertices().map(offset).collect();
+        Disturbance { mesh, offsets_m }
+    }
+}
+
+fn shuffled(mesh: &Mesh, random: &mut Random) -> Mesh {
+    if mesh.half_edges().any(|h| mesh.ghost_pair(h).is_some()) {
+        return mesh.clone();
+    }
+    let mut faces = mesh.indices().as_chunks::<3>().0.to_vec();
+    for i in (1..faces.len()).rev() {
+        faces.swap(i, random.below(i + 1));
+    }
+    for face in &mut faces {
+        face.rotate_left(random.below(3));
+    }
+    Mesh::build(mesh.vertex_count(), &faces).unwrap_or_else(|_| mesh.clone())
+}
