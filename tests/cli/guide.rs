@@ -403,12 +403,22 @@ fn batches_by_gnu_parallel() {
     };
 
     play(charts, 0);
-    let whole = "tearmesh chart pareto --scene swing,hang --size 4 -o whole.svg --csv whole.csv";
+    let whole =
+        "tearmesh chart pareto --scene swing,hang --mesh grid,delaunay --size 4 -q --csv whole.csv";
     assert!(folder.run(whole).status.success());
-    for ending in ["svg", "csv"] {
-        let of = |name: &str| folder.read(&format!("{name}.{ending}"));
-        assert_eq!(of("p"), of("whole"));
-    }
+    // The header comes first, and the rows of the parts in the order of their files.
+    let [parts, whole] = ["pareto", "whole"].map(|name| folder.read(&format!("{name}.csv")));
+    assert_eq!(parts.lines().next(), whole.lines().next());
+    let sorted = |table: &str| {
+        let mut rows: Vec<_> = table.lines().map(str::to_owned).collect();
+        rows.sort();
+        rows
+    };
+    assert!(
+        sorted(&parts) == sorted(&whole),
+        "the parts are not the whole"
+    );
+    assert!(folder.read("pareto.svg").starts_with("<svg "));
 
     play(all, 0);
     check();

@@ -3,15 +3,11 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
-mod all_charts;
 mod cache;
-mod cascades;
+mod charts;
 mod check;
-mod choice;
 mod cut;
-mod cut_chart;
 mod edited;
-mod fig7;
 mod files;
 mod frames;
 mod full;
@@ -27,15 +23,10 @@ mod memory;
 mod numbers;
 mod odd;
 mod pages;
-mod pareto;
-mod parts;
 mod pictures;
 mod pieces;
 mod places;
-mod plane;
 mod shell;
-mod space;
-mod stability;
 mod step;
 mod tear;
 mod through;

@@ -19,8 +19,7 @@ use clap::{Parser, Subcommand};
 use crate::rays;
 
 pub(crate) use self::chart::{
-    AllArgs, ChartArgs, ChoiceArgs, CutChartArgs, DrawArgs, Fig7Args, ParetoArgs, PartsArgs,
-    PlaneArgs, SpaceArgs, StabilityArgs, TearChartArgs, What,
+    ChartArgs, CutChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What,
 };
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name};

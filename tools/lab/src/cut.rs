@@ -3,72 +3,36 @@
 //! Wavy sheets of random triangles are cut through along random lines, by every method and with several
 //! snaps. Every method cuts the same lines, each on a fresh copy of the sheet. The results are those of
 //! [`CutReport`], and the stable step of an explicit solver after the cut, which thin faces shorten. Times
-//! are those of cuts alone, per face of the sheet. So meshes of several sizes and records of other programs
-//! fit in one chart: see [`Rival`].
+//! are those of cuts alone, per face of the sheet. So sheets of several sizes and records of other programs
+//! ([`read_record`]) fit in one figure.
 
-mod csv;
-mod rival;
-mod svg;
+mod chart;
+mod record;
 #[cfg(test)]
 mod tests;
-mod words;
 
-pub use self::csv::csv;
-pub use self::rival::{NoRecord, Rival, rivals};
-pub use self::svg::svg;
-pub use self::words::summary;
+pub use self::record::read_record;
 
 use std::f64::consts::PI;
 use std::num::NonZero;
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tearmesh::{
     Cut, CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray, Scissor, Vector,
 };
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
-use crate::pareto::{SEED, delaunay};
-use crate::parts::Missing;
-use crate::pool::side_by_side;
-use crate::provenance::Provenance;
+use crate::experiment::{Bounds, Experiment, Status};
+use crate::pareto::list;
+use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
-/// A cut method with its settings.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way {
-    /// The name in tables.
-    pub name: &'static str,
-    /// The cut method, without its settings.
-    pub method: CutMethod,
-    /// The argument of [`Scissor::snap`], as a fraction of an edge; 0 for methods other than `exact`.
-    pub snap: f64,
-    /// The argument of [`Scissor::snap_move`]: whether a snapped vertex is moved onto the plane.
-    pub is_moved: bool,
-}
+/// The default numbers of cells along each side of the sheets.
+pub const CELLS: [u32; 2] = [64, 224];
 
-const fn way(name: &'static str, method: CutMethod, snap: f64, is_moved: bool) -> Way {
-    Way {
-        name,
-        method,
-        snap,
-        is_moved,
-    }
-}
-
-/// All methods and settings that are compared, in the order of tables.
-pub const WAYS: [Way; 10] = [
-    way("uniform", CutMethod::Uniform, 0.0, false),
-    way("alternating", CutMethod::Alternating, 0.0, false),
-    way("partition", CutMethod::Partition, 0.0, false),
-    way("exact 0", CutMethod::Exact, 0.0, false),
-    way("exact .02", CutMethod::Exact, 0.02, false),
-    way("exact .05", CutMethod::Exact, 0.05, false),
-    way("exact .1", CutMethod::Exact, 0.1, false),
-    way("exact .2", CutMethod::Exact, 0.2, false),
-    way("exact .05 moved", CutMethod::Exact, 0.05, true),
-    way("exact .2 moved", CutMethod::Exact, 0.2, true),
-];
+/// The default number of lines along which each sheet is cut.
+pub const CUTS: u32 = 40;
 
 /// The options of the experiment on cut methods.
 #[derive(Clone, Debug)]
@@ -77,276 +41,329 @@ pub struct Options {
     pub cells: Vec<u32>,
     /// The number of lines along which each sheet is cut, at least 1.
     pub cuts: u32,
-    /// The number of cuts to run at a time. Times are most accurate with 1.
-    pub threads: NonZero<usize>,
+    /// The rows of a record, which are appended to the table; empty for none.
+    pub record: Vec<Row>,
 }
 
-/// The results of the experiment on cut methods.
-#[derive(Clone, Debug, Serialize)]
-pub struct Study {
-    /// The name and version of the file format.
-    pub schema: &'static str,
-    /// The origin of the results.
-    pub provenance: Provenance,
-    /// The seed of the random sheets and lines.
-    pub seed: u64,
-    /// The number of lines along which each sheet was cut.
-    pub cuts: u32,
-    /// The results, ordered by sheet and then by method, as in [`WAYS`].
-    pub rows: Vec<Row>,
-    /// The results of other programs, read from a record.
-    pub rivals: Vec<Rival>,
-    /// The sheets and methods whose results are not there; empty for an experiment that was run to its end.
-    pub missing: Vec<Missing>,
+/// The experiment on cut methods.
+#[derive(Clone, Debug)]
+pub struct Cuts {
+    options: Options,
+    sheets: Vec<WavySheet>,
 }
 
-/// The results of one method on one sheet, over all lines.
-#[derive(Clone, Debug, Serialize)]
+/// A cut of a sheet by a method along a line; numbers are from 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    sheet: usize,
+    method: usize,
+    line: usize,
+}
+
+/// The measurements of a cut.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    report: CutReport,
+    cpu: Option<Duration>,
+    altitude_ratio: f64,
+    step_ratio: f64,
+}
+
+/// A method on a sheet, over all lines; or a row of a record, which has only a name, a number of faces, a time,
+/// a deviation and a processor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// The name of the method, as in [`Way::name`].
-    pub way: &'static str,
+    /// The name of the method with its settings, or the name in the record.
+    pub method: String,
     /// The number of faces of the sheet before a cut.
     pub faces: usize,
+    /// Whether the sheet was cut along every line. If not, there are no measurements.
+    pub status: Status,
+    /// The number of lines.
+    pub cuts: Option<usize>,
     /// The median CPU time of a cut in ns, divided by `faces`; `None` without a clock.
     pub ns_per_face: Option<f64>,
-    /// The median number of edits in the log of a cut: vertices inserted and vertices split.
-    pub edits: f64,
     /// The median over all lines of the largest distance of the seam from the plane, in mean edge lengths.
-    pub deviation_edges: f64,
+    pub deviation_edges: Option<f64>,
     /// The largest distance of any seam from its plane, in mean edge lengths.
-    pub deviation_edges_most: f64,
+    pub deviation_edges_most: Option<f64>,
     /// The median of the length of the seam divided by that of the slit.
-    pub length_ratio: f64,
+    pub length_ratio: Option<f64>,
     /// The largest ratio of the length of a seam to that of its slit.
-    pub length_ratio_most: f64,
+    pub length_ratio_most: Option<f64>,
     /// The number of lines along which the cut left the expected number of pieces.
-    pub divided: u32,
+    pub divided: Option<usize>,
     /// The mean number of pieces per cut beyond those expected.
-    pub crumbs: f64,
+    pub crumbs: Option<f64>,
     /// The mean number of pieces per cut that were expected and are missing.
-    pub lost: f64,
+    pub lost: Option<f64>,
     /// The median number of inserted vertices.
-    pub inserted: f64,
+    pub inserted: Option<f64>,
+    /// The median number of edits in the log of a cut: vertices inserted and vertices split.
+    pub edits: Option<f64>,
     /// The smallest angle of any face after any of the cuts, in degrees.
-    pub angle_min_deg: f64,
+    pub angle_min_deg: Option<f64>,
     /// The smallest altitude of any face after any of the cuts, divided by the smallest before them.
-    pub altitude_ratio: f64,
+    pub altitude_ratio: Option<f64>,
     /// The median of the stable step of springs after a cut, divided by that before it.
-    pub step_ratio: f64,
+    pub step_ratio: Option<f64>,
     /// The smallest ratio of the stable step after a cut to that before it.
-    pub step_ratio_least: f64,
+    pub step_ratio_least: Option<f64>,
+    /// The processor of a record; `None` for what the experiment measured.
+    pub processor: Option<String>,
+    /// The reason why there are no measurements.
+    pub why: String,
 }
 
-/// A sheet, waving, with what is known of it before any cut.
-struct Subject {
+/// All methods and settings that are compared, in the order of tables: the name, the method, and the arguments
+/// of [`Scissor::snap`] and [`Scissor::snap_move`].
+const METHODS: [(&str, CutMethod, f64, bool); 10] = [
+    ("uniform", CutMethod::Uniform, 0.0, false),
+    ("alternating", CutMethod::Alternating, 0.0, false),
+    ("partition", CutMethod::Partition, 0.0, false),
+    ("exact 0", CutMethod::Exact, 0.0, false),
+    ("exact .02", CutMethod::Exact, 0.02, false),
+    ("exact .05", CutMethod::Exact, 0.05, false),
+    ("exact .1", CutMethod::Exact, 0.1, false),
+    ("exact .2", CutMethod::Exact, 0.2, false),
+    ("exact .05 moved", CutMethod::Exact, 0.05, true),
+    ("exact .2 moved", CutMethod::Exact, 0.2, true),
+];
+
+/// The CPU time of a cut with all that is measured of it, in seconds per face, on the machine on which charts
+/// were first made.
+const FACE_S: f64 = 2e-6;
+
+impl Cuts {
+    /// Creates the experiment with its sheets.
+    ///
+    /// # Panics
+    ///
+    /// If `options.cuts` is 0, or a number of `options.cells` is 0 or more than a mesh can have.
+    #[must_use]
+    pub fn new(options: Options) -> Cuts {
+        assert!(options.cuts > 0, "a sheet is cut along one line at least");
+        let sheets = options.cells.iter().map(|&cells| WavySheet::new(cells));
+        Cuts {
+            sheets: sheets.collect(),
+            options,
+        }
+    }
+
+    fn faces(&self, key: &Key) -> usize {
+        self.sheets[key.sheet].mesh.face_count()
+    }
+}
+
+impl Experiment for Cuts {
+    type Key = Key;
+    type Outcome = Measured;
+    type Row = Row;
+
+    fn command(&self) -> String {
+        let Options {
+            cells,
+            cuts,
+            record,
+        } = &self.options;
+        let record = if record.is_empty() {
+            ""
+        } else {
+            " --record …"
+        };
+        let cells = list(cells);
+        format!("tearmesh chart cut --size {cells} --cuts {cuts}{record}")
+    }
+
+    fn is_timed(&self) -> bool {
+        true
+    }
+
+    fn threads(&self) -> NonZero<usize> {
+        // Cuts beside each other would wait for the same memory.
+        NonZero::<usize>::MIN
+    }
+
+    fn plan(&self) -> Vec<Vec<Key>> {
+        let lines = self.options.cuts as usize;
+        let of_sheet = |sheet| {
+            let keys = (0..METHODS.len() * lines).map(|i| Key {
+                sheet,
+                method: i / lines,
+                line: i % lines,
+            });
+            keys.collect()
+        };
+        (0..self.sheets.len()).map(of_sheet).collect()
+    }
+
+    fn name(&self, key: &Key) -> String {
+        let (name, ..) = METHODS[key.method];
+        format!("{name} of {} faces", self.faces(key))
+    }
+
+    fn guess_s(&self, key: &Key) -> f64 {
+        FACE_S * self.faces(key) as f64
+    }
+
+    fn run(&self, key: &Key, bounds: &Bounds<'_>) -> Option<Measured> {
+        Some(self.sheets[key.sheet].cut(key, bounds))
+    }
+
+    fn rows(&self, keys: &[Key], outcomes: Vec<Option<Measured>>) -> Vec<Row> {
+        let lines = self.options.cuts as usize;
+        let (faces, sheet) = (self.faces(&keys[0]), keys[0].sheet);
+        let of_methods = METHODS.iter().zip(outcomes.chunks(lines));
+        let rows = of_methods.map(|((name, ..), outcomes)| {
+            let cuts: Vec<&Measured> = outcomes.iter().flatten().collect();
+            if cuts.len() == lines {
+                return row(name, faces, &cuts);
+            }
+            Row {
+                status: Status::Interrupted,
+                why: format!("{} of {lines} lines were cut", cuts.len()),
+                ..row(name, faces, &[])
+            }
+        });
+        let mut rows: Vec<Row> = rows.collect();
+        // A record belongs to no sheet.
+        if sheet + 1 == self.sheets.len() {
+            rows.extend_from_slice(&self.options.record);
+        }
+        rows
+    }
+}
+
+/// The row of a method on a sheet. Without cuts, it has no measurements.
+fn row(method: &str, faces: usize, cuts: &[&Measured]) -> Row {
+    let all = |of: fn(&Measured) -> f64| cuts.iter().map(move |cut| of(cut));
+    let middle = |of| median(all(of).collect());
+    let most = |of| all(of).reduce(f64::max);
+    let least = |of| all(of).reduce(f64::min);
+    let number = (!cuts.is_empty()).then_some(cuts.len());
+    let mean = |of| number.map(|number| all(of).sum::<f64>() / number as f64);
+    let is_divided = |cut: &&&Measured| cut.report.crumbs + cut.report.lost == 0;
+    let times = cuts.iter().filter_map(|cut| cut.cpu);
+    let ns = median(times.map(|cpu| 1e9 * cpu.as_secs_f64()).collect());
+    Row {
+        method: method.to_owned(),
+        faces,
+        status: Status::Ok,
+        cuts: number,
+        ns_per_face: ns.map(|ns| ns / faces as f64),
+        deviation_edges: middle(|cut| cut.report.seam_deviation_max_edges),
+        deviation_edges_most: most(|cut| cut.report.seam_deviation_max_edges),
+        length_ratio: middle(|cut| cut.report.seam_length_ratio),
+        length_ratio_most: most(|cut| cut.report.seam_length_ratio),
+        divided: number.map(|_| cuts.iter().filter(is_divided).count()),
+        crumbs: mean(|cut| cut.report.crumbs as f64),
+        lost: mean(|cut| cut.report.lost as f64),
+        inserted: middle(|cut| cut.report.vertices_inserted as f64),
+        edits: middle(|cut| (cut.report.splits + cut.report.vertices_inserted) as f64),
+        angle_min_deg: least(|cut| cut.report.angle_min_deg),
+        altitude_ratio: least(|cut| cut.altitude_ratio),
+        step_ratio: middle(|cut| cut.step_ratio),
+        step_ratio_least: least(|cut| cut.step_ratio),
+        processor: None,
+        why: String::new(),
+    }
+}
+
+/// A wavy sheet, with its measurements before any cut.
+#[derive(Clone, Debug)]
+struct WavySheet {
     mesh: Mesh,
     positions: Positions,
     altitude_m: f64,
     step_s: f64,
 }
 
-/// What came of one cut.
-struct Done {
-    report: CutReport,
-    cpu: Option<Duration>,
-    step_s: f64,
-}
-
-/// Returns the number of cuts of the experiment.
-#[must_use]
-pub fn cuts(options: &Options) -> usize {
-    options.cells.len() * WAYS.len() * options.cuts as usize
-}
-
-/// Runs the experiment.
-///
-/// `clock` returns the CPU time of the calling thread. Without it there are no times, and the same options
-/// give the same study. `watch` is called after each cut with the name of its method. When `stop` returns true,
-/// no other cut is begun, and methods that have not cut a sheet along every line are missing for that sheet.
-/// Returns `None` if that leaves no row.
-///
-/// # Panics
-///
-/// If `options.cuts` is 0, or a number of `options.cells` is 0 or more than a mesh can have.
-#[must_use]
-pub fn study(
-    options: &Options,
-    provenance: Provenance,
-    rivals: Vec<Rival>,
-    clock: Option<&(dyn Fn() -> Duration + Sync)>,
-    stop: &(dyn Fn() -> bool + Sync),
-    mut watch: impl FnMut(&str),
-) -> Option<Study> {
-    let lines: Vec<u64> = (0..u64::from(options.cuts)).collect();
-    let (mut rows, mut missing) = (Vec::new(), Vec::new());
-    for &cells in &options.cells {
-        let subject = (!stop()).then(|| Subject::new(cells));
-        for way in &WAYS {
-            let made = subject.as_ref().and_then(|subject| {
-                let done = side_by_side(
-                    &lines,
-                    options.threads,
-                    |_| 1.0,
-                    |&line| (!stop()).then(|| subject.cut(way, line, clock)),
-                    |_| {
-                        watch(way.name);
-                    },
-                );
-                let done: Option<Vec<Done>> = done.into_iter().collect();
-                Some(subject.row(way, &done?))
-            });
-            match made {
-                Some(row) => rows.push(row),
-                None => {
-                    let name = format!("{} on {cells} cells", way.name);
-                    missing.push(Missing::interrupted(name));
-                }
-            }
-        }
-    }
-    if rows.is_empty() && !missing.is_empty() {
-        return None;
-    }
-    Some(Study {
-        schema: "tearmesh.chart.cut/1",
-        provenance,
-        seed: SEED,
-        cuts: options.cuts,
-        rows,
-        rivals,
-        missing,
-    })
-}
-
-impl Subject {
-    fn new(cells: u32) -> Subject {
-        let (mesh, positions) = sheet(cells);
-        let altitude_m = altitude_m(&mesh, &positions);
-        let step_s = step_s(&mesh, &positions);
-        Subject {
+impl WavySheet {
+    /// The Delaunay triangles of a grid whose inner points are moved at random, as a wave.
+    fn new(cells: u32) -> WavySheet {
+        let mut random = Random::new(SEED);
+        let width = cells + 1;
+        let points: Vec<[f64; 2]> = (0..width * width)
+            .map(|i| {
+                let place = [i % width, i / width];
+                let is_inner = place.iter().all(|i| ![0, cells].contains(i));
+                place.map(|i| {
+                    let moved = match is_inner {
+                        true => 0.8 * random.next() - 0.4,
+                        false => 0.0,
+                    };
+                    (f64::from(i) + moved) / f64::from(cells)
+                })
+            })
+            .collect();
+        let cell = 1.0 / f64::from(cells);
+        let mesh = delaunay(&points, 1e-9 * cell * cell);
+        let wave = points.iter();
+        let wave = wave.map(|&[x, y]| Point::new(x, y, 0.1 * (9.0 * x + 4.0 * y).sin()));
+        let positions = Positions::new(wave).expect("a sheet's coordinates are finite");
+        WavySheet {
+            altitude_m: altitude_m(&mesh, &positions),
+            step_s: step_s(&mesh, &positions),
             mesh,
             positions,
-            altitude_m,
-            step_s,
         }
     }
 
-    fn cut(&self, way: &Way, line: u64, clock: Option<&(dyn Fn() -> Duration + Sync)>) -> Done {
-        let scissor = through(line).snap(way.snap).snap_move(way.is_moved);
-        let fresh = || (self.mesh.clone(), self.positions.clone(), Edits::new());
-        let cpu = clock.map(|clock| {
-            let (mut mesh, mut positions, mut edits) = fresh();
+    /// Cuts a copy of the sheet twice: to time the cut alone, and to measure its result.
+    fn cut(&self, key: &Key, bounds: &Bounds<'_>) -> Measured {
+        let (_, method, snap, is_moved) = METHODS[key.method];
+        let scissor = scissor(key.line as u64).snap(snap).snap_move(is_moved);
+        let copy = || (self.mesh.clone(), self.positions.clone(), Edits::new());
+        let cpu = bounds.clock.map(|clock| {
+            let (mut mesh, mut positions, mut edits) = copy();
             let mut cut = Cut::default();
             let began = clock();
-            let made =
-                scissor.cut_into(way.method, &mut mesh, &mut positions, &mut edits, &mut cut);
-            let took = clock().saturating_sub(began);
-            made.expect("positions of their own are in step");
-            took
+            let made = scissor.cut_into(method, &mut mesh, &mut positions, &mut edits, &mut cut);
+            let cpu = clock().saturating_sub(began);
+            made.expect("a sheet has a position for each vertex");
+            cpu
         });
-        let (mut mesh, mut positions, mut edits) = fresh();
-        let made = scissor.cut_measured(way.method, &mut mesh, &mut positions, &mut edits);
-        let (_, report) = made.expect("positions of their own are in step");
+        let (mut mesh, mut positions, mut edits) = copy();
+        let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
+        let (_, report) = made.expect("a sheet has a position for each vertex");
         edits.replay(&mut positions);
-        Done {
+        Measured {
+            altitude_ratio: report.altitude_min / self.altitude_m,
+            step_ratio: step_s(&mesh, &positions) / self.step_s,
             report,
             cpu,
-            step_s: step_s(&mesh, &positions),
-        }
-    }
-
-    fn row(&self, way: &Way, done: &[Done]) -> Row {
-        let middle = |of: &dyn Fn(&Done) -> f64| {
-            median(done.iter().map(of).collect()).expect("a cut at least")
-        };
-        let most = |of: &dyn Fn(&Done) -> f64| done.iter().map(of).fold(f64::MIN, f64::max);
-        let mean = |of: &dyn Fn(&Done) -> usize| {
-            done.iter().map(of).sum::<usize>() as f64 / done.len() as f64
-        };
-        let faces = self.mesh.face_count();
-        let times = done.iter().filter_map(|one| one.cpu);
-        let times: Vec<f64> = times.map(|cpu| 1e9 * cpu.as_secs_f64()).collect();
-        let step = |one: &Done| one.step_s / self.step_s;
-        let deviation = |one: &Done| one.report.seam_deviation_max_edges;
-        let length = |one: &Done| one.report.seam_length_ratio;
-        let is_divided = |one: &&Done| one.report.crumbs + one.report.lost == 0;
-        Row {
-            way: way.name,
-            faces,
-            ns_per_face: median(times).map(|ns| ns / faces as f64),
-            edits: middle(&|one| (one.report.splits + one.report.vertices_inserted) as f64),
-            deviation_edges: middle(&deviation),
-            deviation_edges_most: most(&deviation),
-            length_ratio: middle(&length),
-            length_ratio_most: most(&length),
-            divided: done.iter().filter(is_divided).count() as u32,
-            crumbs: mean(&|one| one.report.crumbs),
-            lost: mean(&|one| one.report.lost),
-            inserted: middle(&|one| one.report.vertices_inserted as f64),
-            angle_min_deg: -most(&|one| -one.report.angle_min_deg),
-            altitude_ratio: -most(&|one| -one.report.altitude_min / self.altitude_m),
-            step_ratio: middle(&step),
-            step_ratio_least: -most(&|one| -step(one)),
         }
     }
 }
 
-/// The Delaunay triangles of a grid whose inner points are off their places at random, waving.
-fn sheet(cells: u32) -> (Mesh, Positions) {
-    let mut random = Random::new(SEED);
-    let width = cells + 1;
-    let points: Vec<[f64; 2]> = (0..width * width)
-        .map(|i| {
-            let place = [i % width, i / width];
-            let is_rim = place.iter().any(|i| [0, cells].contains(i));
-            place.map(|i| {
-                let off = if is_rim {
-                    0.0
-                } else {
-                    0.8 * random.next() - 0.4
-                };
-                (f64::from(i) + off) / f64::from(cells)
-            })
-        })
-        .collect();
-    let cell = 1.0 / f64::from(cells);
-    let mesh = delaunay(&points, 1e-9 * cell * cell);
-    let waving = points.iter();
-    let waving = waving.map(|&[x, y]| Point::new(x, y, 0.1 * (9.0 * x + 4.0 * y).sin()));
-    let positions = Positions::new(waving).expect("a sheet's coordinates are finite");
-    (mesh, positions)
-}
-
-/// From above right through the sheet, along a line at random.
-fn through(line: u64) -> Scissor {
+/// The scissor that cuts a sheet through from above, along a random line.
+fn scissor(line: u64) -> Scissor {
     let mut random = Random::new(SEED + 1000 * line);
     let [x, y] = [0, 1].map(|_| 0.25 + 0.5 * random.next());
     let (sin, cos) = (PI * random.next()).sin_cos();
     let ray = |along: f64| {
         let origin = Point::new(x + along * cos, y + along * sin, 5.0);
-        Ray::new(origin, -Vector::z()).expect("a direction")
+        Ray::new(origin, -Vector::z()).expect("the z axis is a direction")
     };
-    let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("two lines");
+    let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("the rays are on two lines");
     scissor.through(true)
 }
 
 /// The longest stable step by velocity Verlet of springs along the edges, in seconds.
 fn step_s(mesh: &Mesh, positions: &Positions) -> f64 {
-    let masses = Masses::area(mesh, positions, 0.15).expect("each face has an area");
+    let masses = Masses::area(mesh, positions, DENSITY_KG_PER_M2);
+    let masses = masses.expect("each face has an area");
     let cloth = Cloth::new(mesh, positions, masses, Fabric::new(1e3));
     let mut cloth = cloth.expect("each edge has a length");
     stable_step_s(cloth.system_mut(), 2.0)
 }
 
-/// The smallest altitude of all faces.
+/// The smallest altitude of all faces, in metres.
 fn altitude_m(mesh: &Mesh, positions: &Positions) -> f64 {
     let each = mesh.faces().map(|f| {
         let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
-        let longest = [b - a, c - b, a - c]
-            .iter()
-            .map(|side| side.norm())
-            .fold(0.0, f64::max);
-        (b - a).cross(&(c - a)).norm() / longest
+        let sides = [b - a, c - b, a - c].map(|side| side.norm());
+        (b - a).cross(&(c - a)).norm() / sides.into_iter().fold(0.0, f64::max)
     });
     each.fold(f64::INFINITY, f64::min)
 }

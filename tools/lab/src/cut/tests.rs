@@ -1,152 +1,10 @@
-//! What is known of cut methods holds, records are read, and the same options give the same study.
+//! Bounds that are proved for cuts, times by a clock of our own, and records.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
-
-fn options() -> Options {
-    Options {
-        cells: vec![24],
-        cuts: 6,
-        threads: NonZero::<usize>::MIN.saturating_add(1),
-    }
-}
-
-fn made() -> Study {
-    let study = study(
-        &options(),
-        Provenance::default(),
-        Vec::new(),
-        None,
-        &|| false,
-        |_| {},
-    );
-    study.expect("nobody stops it")
-}
-
-#[test]
-fn ways_are_as_far_off_as_their_snaps_allow_and_divide_where_that_is_proved() {
-    let study = made();
-    assert_eq!(study.rows.len(), WAYS.len());
-    let row = |name: &str| {
-        let found = study.rows.iter().find(|row| row.way == name);
-        found.unwrap_or_else(|| panic!("no {name}"))
-    };
-    for (name, snap) in [("exact .02", 0.02), ("exact .05", 0.05), ("exact .1", 0.1)] {
-        let row = row(name);
-        // At most the snap times the longest edge, which is some two and a half of the mean.
-        let most = row.deviation_edges_most;
-        assert!(most > 0.3 * snap && most < 2.5 * snap, "{name}: {most}");
-        // The theorem: r (1 − r) of its parent's altitude at least.
-        assert!(row.altitude_ratio >= snap * (1.0 - snap) * 0.999, "{name}");
-    }
-    assert!(row("exact 0").deviation_edges_most < 1e-11);
-    // What would lose its shape where it is moved stays where it was.
-    let [moved, stayed] = ["exact .05 moved", "exact .05"].map(row);
-    assert!(moved.deviation_edges < 1e-11, "{}", moved.deviation_edges);
-    assert!(moved.deviation_edges_most <= stayed.deviation_edges_most);
-    assert!((row("exact 0").length_ratio - 1.0).abs() < 1e-9);
-    for name in [
-        "partition",
-        "exact 0",
-        "exact .05",
-        "exact .2",
-        "exact .05 moved",
-    ] {
-        assert_eq!(row(name).divided, study.cuts, "{name}");
-    }
-    let uniform = row("uniform");
-    assert!(uniform.divided < study.cuts && uniform.inserted == 0.0 && uniform.length_ratio > 1.1);
-    // A cut that inserts nothing leaves the faces as they were, and one that snaps less leaves thinner ones.
-    assert_eq!(row("partition").altitude_ratio, 1.0);
-    let steps = ["exact .2", "exact .05", "exact 0"].map(|name| row(name).step_ratio);
-    assert!(steps.is_sorted_by(|a, b| a > b), "{steps:?}");
-    assert!(row("partition").step_ratio > 0.5 && row("partition").step_ratio <= 1.0 + 1e-6);
-}
-
-#[test]
-fn the_same_options_give_the_same_study() {
-    let studies = [made(), made()];
-    let [table, again] = studies.each_ref().map(csv);
-    assert_eq!(table, again);
-    assert_eq!(table.lines().count(), 1 + WAYS.len());
-    let columns = |line: &str| line.split(',').count();
-    assert!(table.lines().all(|line| columns(line) == 17), "{table}");
-    let chart = svg(&studies[0]).expect("a chart");
-    assert!(chart.contains("no times were taken") && chart.contains("exact .05 moved"));
-    assert!(summary(&studies[0]).contains("6 cuts of 1152 faces"));
-}
-
-#[test]
-fn times_are_of_each_face_by_the_clock_that_is_given() {
-    let calls = AtomicUsize::new(0);
-    // Each look at it is a microsecond later.
-    let clock = || Duration::from_micros(calls.fetch_add(1, Ordering::Relaxed) as u64);
-    let one = Options {
-        threads: NonZero::<usize>::MIN,
-        ..options()
-    };
-    let study = study(
-        &one,
-        Provenance::default(),
-        Vec::new(),
-        Some(&clock),
-        &|| false,
-        |_| {},
-    );
-    for row in study.expect("nobody stops it").rows {
-        assert!((row.ns_per_face.expect("a time") - 1000.0 / 1152.0).abs() < 1e-9);
-    }
-}
-
-#[test]
-fn it_ends_where_it_is_told_to() {
-    let asked = AtomicUsize::new(0);
-    let stop = || asked.fetch_add(1, Ordering::Relaxed) > 4;
-    let made = study(
-        &options(),
-        Provenance::default(),
-        Vec::new(),
-        None,
-        &stop,
-        |_| {},
-    );
-    assert!(made.is_none());
-    // Once for the sheet, and once for each cut.
-    assert_eq!(asked.load(Ordering::Relaxed), 1 + 6 * WAYS.len());
-}
-
-#[test]
-fn an_interrupted_study_has_the_ways_that_were_done_and_names_the_others() {
-    let two = Options {
-        cells: vec![24, 6],
-        ..options()
-    };
-    let heard = AtomicUsize::new(0);
-    // In the middle of the third way.
-    let stop = || heard.load(Ordering::SeqCst) > 12;
-    let watch = |_: &str| {
-        heard.fetch_add(1, Ordering::SeqCst);
-    };
-    let some = study(&two, Provenance::default(), Vec::new(), None, &stop, watch);
-    let (some, whole) = (some.expect("two ways"), made());
-    assert_eq!(
-        format!("{:?}", some.rows),
-        format!("{:?}", &whole.rows[..2])
-    );
-    let ways = |cells: u32| {
-        let name = move |way: &Way| format!("{} on {cells} cells", way.name);
-        WAYS.iter().map(name)
-    };
-    let others = ways(24).skip(2).chain(ways(6)).map(Missing::interrupted);
-    assert_eq!(some.missing, others.collect::<Vec<_>>());
-    let table = csv(&some);
-    assert_eq!(table.lines().count(), 1 + 2 * WAYS.len());
-    assert!(table.ends_with("exact .2 moved on 6 cells,,,,,,,,,,,,,,,,\"missing: interrupted\"\n"));
-    let columns = |line: &str| line.split(',').count();
-    assert!(table.lines().all(|line| columns(line) == 17), "{table}");
-    assert!(svg(&some).is_some_and(|chart| chart.contains("MISSING: partition on 24 cells")));
-}
+use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::plot::Layer;
 
 const RECORD: &str = "tearmesh-bench cut\n\
 commit    abc\n\
@@ -156,7 +14,7 @@ through cut of 50 vertices, 2000 faces; CPU time of 3 rounds\n\
 \x20                   ms  least ms  x best rival\n\
 \x20 exact, snap 0   4.00      3.00          2.27  in place\n\
 \x20 other           8.00      7.00          1.00  5.2.0: slice\n\
-\x20 untold          9.00      8.00          0.90  no measures\n\
+\x20 unmeasured      9.00      8.00          0.90  no deviation\n\
 \n\
 \x20                faces  seam  cracks  deviation  in edges    length\n\
 \x20 exact, snap 0   2100   543       0    4.4e-16   8.0e-14  1.000000\n\
@@ -166,21 +24,134 @@ through cut of 50 vertices, 2000 faces; CPU time of 3 rounds\n\
 \x20 snap  deviation\n\
 \x20 0       1.8e-14  (1e-15)\n";
 
+fn cuts(cells: &[u32]) -> Cuts {
+    Cuts::new(Options {
+        cells: cells.to_vec(),
+        cuts: 6,
+        record: read_record(RECORD),
+    })
+}
+
+/// The rows by a clock that is a microsecond later whenever it is read.
+fn measured(cuts: &Cuts) -> Vec<Row> {
+    let calls = AtomicU64::new(0);
+    let clock = || Duration::from_micros(calls.fetch_add(1, Ordering::Relaxed));
+    let bounds = Bounds {
+        clock: Some(&clock),
+        stop: &|| false,
+    };
+    conduct(cuts, &bounds, |_, _| {}).rows
+}
+
+#[test]
+fn snap_bounds_deviation_and_altitude_and_pieces_are_those_expected() {
+    let rows = measured(&cuts(&[24]));
+    assert_eq!(rows.len(), METHODS.len() + 2);
+    let of = |name: &str, number: fn(&Row) -> Option<f64>| {
+        let row = rows.iter().find(|row| row.method == name);
+        number(row.expect("a row for each method")).expect("a number for each row")
+    };
+    for (name, snap) in [("exact .02", 0.02), ("exact .05", 0.05), ("exact .1", 0.1)] {
+        // At most the snap times the longest edge, which is some two and a half of the mean.
+        let most = of(name, |row| row.deviation_edges_most);
+        assert!(most > 0.3 * snap && most < 2.5 * snap, "{name}: {most}");
+        // The theorem: r (1 − r) of its parent's altitude at least.
+        let altitude = of(name, |row| row.altitude_ratio);
+        assert!(altitude >= snap * (1.0 - snap) * 0.999, "{name}");
+    }
+    assert!(of("exact 0", |row| row.deviation_edges_most) < 1e-11);
+    assert!((of("exact 0", |row| row.length_ratio) - 1.0).abs() < 1e-9);
+    // A vertex stays off the plane if the move would spoil a face.
+    assert!(of("exact .05 moved", |row| row.deviation_edges) < 1e-11);
+    let [moved, unmoved] =
+        ["exact .05 moved", "exact .05"].map(|name| of(name, |row| row.deviation_edges_most));
+    assert!(moved <= unmoved);
+    for row in rows.iter().filter(|row| row.processor.is_none()) {
+        let is_proved = row.method == "partition" || row.method.starts_with("exact");
+        assert_eq!(row.divided == row.cuts, is_proved, "{}", row.method);
+        // One microsecond, by 2 · 24² faces.
+        let ns = row.ns_per_face.expect("a time for each row");
+        assert!((ns - 1000.0 / 1152.0).abs() < 1e-9, "{}: {ns}", row.method);
+    }
+    assert!(of("uniform", |row| row.length_ratio) > 1.1);
+    assert_eq!(of("uniform", |row| row.inserted), 0.0);
+    // A cut that inserts nothing leaves the faces as they were, and a smaller snap leaves thinner ones.
+    assert_eq!(of("partition", |row| row.altitude_ratio), 1.0);
+    let steps = ["partition", "exact .2", "exact .05", "exact 0"];
+    let steps = steps.map(|name| of(name, |row| row.step_ratio));
+    assert!(steps.is_sorted_by(|a, b| a > b), "{steps:?}");
+    assert!(steps[0] > 0.5 && steps[0] <= 1.0 + 1e-6);
+}
+
 #[test]
 fn records_are_read() {
-    let found = rivals(RECORD).expect("a record");
-    let told = found
-        .iter()
-        .map(|one| (&*one.name, one.faces, one.ns_per_face, one.deviation_edges));
+    let rows = read_record(RECORD);
+    let numbers = rows.iter().map(|row| {
+        (
+            &*row.method,
+            row.faces,
+            row.ns_per_face,
+            row.deviation_edges,
+        )
+    });
     assert_eq!(
-        told.collect::<Vec<_>>(),
+        numbers.collect::<Vec<_>>(),
         [
-            ("exact, snap 0", 2000, 2000.0, 8.0e-14),
-            ("other", 2000, 4000.0, 3.6e-4)
+            ("exact, snap 0", 2000, Some(2000.0), Some(8.0e-14)),
+            ("other", 2000, Some(4000.0), Some(3.6e-4))
         ]
     );
-    assert_eq!(found[0].processor, "A Processor (R) of two words");
+    let processor = rows[0].processor.as_deref();
+    assert_eq!(processor, Some("A Processor (R) of two words"));
     for text in ["", "through cut of 5 faces", "CPU x\n  a  1\n"] {
-        assert_eq!(rivals(text), Err(NoRecord));
+        assert_eq!(read_record(text), []);
     }
+}
+
+#[test]
+fn an_interrupted_table_has_a_row_for_each_method() {
+    let runs = AtomicU64::new(0);
+    // In the middle of a method of the first sheet.
+    let stop = || runs.fetch_add(1, Ordering::SeqCst) >= 15;
+    let bounds = Bounds {
+        clock: None,
+        stop: &stop,
+    };
+    let conducted = conduct(&cuts(&[8, 6]), &bounds, |_, _| {});
+    assert_eq!((conducted.done, conducted.planned), (15, 120));
+    let rows = conducted.rows;
+    assert_eq!(rows.len(), 2 * METHODS.len() + 2);
+    let whole = rows.iter().filter(|row| row.step_ratio.is_some());
+    assert!(whole.clone().all(|row| row.status == Status::Ok));
+    assert_eq!(whole.count(), 2);
+    let partial = rows.iter().filter(|row| row.why == "3 of 6 lines were cut");
+    assert_eq!(partial.count(), 1);
+    let interrupted = rows.iter().filter(|row| row.status == Status::Interrupted);
+    assert_eq!(interrupted.count(), 18);
+}
+
+#[test]
+fn figure_has_a_mark_for_each_row_and_survives_a_file() {
+    let cuts = cuts(&[6, 8]);
+    let rows = measured(&cuts);
+    let text = table(&rows).expect("a table");
+    let read: Vec<Row> = read_table(&text).expect("the same table");
+    assert_eq!(read, rows);
+    let [figure, again] = [&rows, &read].map(|rows| cuts.figure(rows, &Provenance::default()));
+    assert_eq!(crate::plot::svg(&figure), crate::plot::svg(&again));
+    assert!(!crate::plot::svg(&figure).contains("NaN"));
+    // All cuts take the same time by this clock.
+    let title = "An exact cut lies on its plane and takes 1 times as long as a partition.";
+    assert!(figure.title.starts_with(title), "{}", figure.title);
+    // Of two rows, one is off its plane, and one is in the strip of those that are on it.
+    let two = cuts.figure(&rows[2..4], &Provenance::default());
+    assert_eq!(rows[3].method, "exact 0");
+    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark { .. });
+    let marks = two
+        .panels
+        .iter()
+        .map(|panel| panel.layers.iter().filter(is_mark).count());
+    assert_eq!(marks.collect::<Vec<_>>(), [1, 2, 2, 2, 2, 2]);
+    let strip = two.panels[0].below.as_ref().expect("a strip");
+    assert_eq!(strip.marks.len(), 1);
 }

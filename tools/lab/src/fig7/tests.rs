@@ -1,218 +1,186 @@
-//! The ways to split against each other and against what was planted in them, and the times that are made
-//! of a clock.
+//! Implementations against each other and against splits by hand, and times by a clock of our own.
 
-use std::cell::Cell;
-use std::rc::Rc;
-use std::time::Duration;
+use std::sync::atomic::{AtomicU64, Ordering};
 
+use tearmesh::VertexId;
 use tearmesh::geometry::{Plane, Vector};
-use tearmesh::{Mesh, Point, VertexId, shapes};
 use tearmesh_cloth::statistics::Random;
 
-use super::way::Way;
 use super::*;
+use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::plot::Layer;
 
-/// A clock that goes a microsecond ahead each time it is looked at.
-fn ticking() -> impl Fn() -> Duration {
-    let ticks = Cell::new(0);
-    move || {
-        ticks.set(ticks.get() + 1);
-        Duration::from_micros(ticks.get())
-    }
-}
-
-#[test]
-fn all_ways_split_as_the_simulation_does() {
-    let study = study(&[6, 8], 2, Provenance::default(), &ticking(), |_, _| true);
-    let study = study
-        .expect("all have the same triangles")
-        .expect("nobody stops it");
-    for test in &study.tests {
-        assert!(test.splits > 0, "{}", test.cells);
-        assert!((1..=test.frames).contains(&test.frames_with_splits));
-        assert_eq!(test.frames, 180);
-        let names: Vec<&str> = test.ways.iter().map(|timed| timed.way).collect();
-        assert_eq!(
-            names,
-            [
-                "scan of all triangles",
-                "face lists of vertices",
-                "half-edge with ghost pairs"
-            ]
-        );
-        for timed in &test.ways {
-            // Each looks at the clock as often as who does nothing.
-            assert_eq!(timed.sums_s, [0.0; 2]);
-            assert_eq!(
-                [timed.mean_s, timed.median_s, timed.worst_frame_s],
-                [0.0; 3]
-            );
-        }
-    }
-    // A scene is played once, and gives the same chart each time.
-    let text = csv(&study);
-    assert_eq!(text.lines().count(), 1 + 2 * 3 * 2);
-    assert!(svg(&study).is_some());
-}
-
-#[test]
-fn an_interrupted_study_has_the_patches_that_were_done_and_names_the_others() {
-    let made = |last: usize| {
-        let watch = |patch, part| patch < last || part < 0.5;
-        let study = study(&[4, 5, 6], 1, Provenance::default(), &ticking(), watch);
-        study.expect("all have the same triangles")
+/// The rows of a rip, by a clock that goes on by a microsecond more each time it is read.
+fn measured(fig7: &Fig7) -> Vec<Row> {
+    let calls = AtomicU64::new(0);
+    let clock = || {
+        let calls = calls.fetch_add(1, Ordering::Relaxed);
+        Duration::from_micros(calls * calls)
     };
-    assert!(made(0).is_none());
-    let [some, whole] = [1, 3].map(|last| made(last).expect("a patch"));
-    assert_eq!(
-        format!("{:?}", some.tests),
-        format!("{:?}", &whole.tests[..1])
-    );
-    let missing = ["5 cells", "6 cells"].map(|name| Missing::interrupted(name.to_owned()));
-    assert_eq!(some.missing, missing);
-    let table = csv(&some);
-    assert!(table.ends_with("6 cells,,,,,,,missing,,,,,,\"interrupted\"\n"));
-    let columns = |line: &str| line.split(',').count();
-    assert!(table.lines().all(|line| columns(line) == 14), "{table}");
-    assert!(svg(&some).is_some_and(|chart| chart.contains("MISSING: 5 cells, 6 cells")));
+    let bounds = Bounds {
+        clock: Some(&clock),
+        stop: &|| false,
+    };
+    conduct(fig7, &bounds, |_, _| {}).rows
 }
 
-/// A way with a clock of its own: it takes as many microseconds as it is told to.
+#[test]
+fn figure_has_an_interval_for_each_patch_and_survives_a_file() {
+    let fig7 = Fig7 { cells: vec![4, 6] };
+    let rows = measured(&fig7);
+    assert_eq!(rows.len(), 2 * 3 * ROUNDS);
+    for row in &rows {
+        let [splits, frames] = [row.splits, row.frames_with_splits].map(Option::unwrap_or_default);
+        assert!(splits >= frames && frames > 0, "{row:?}");
+        assert_eq!(row.frames, Some(180));
+    }
+    let text = table(&rows).expect("a table");
+    let read: Vec<Row> = read_table(&text).expect("the same table");
+    assert_eq!(read, rows);
+    let [figure, again] = [&rows, &read].map(|rows| fig7.figure(rows, &Provenance::default()));
+    assert_eq!(crate::plot::svg(&figure), crate::plot::svg(&again));
+    assert!(!crate::plot::svg(&figure).contains("NaN"));
+    // Of one patch, a row of two implementations.
+    let two = [ROUNDS - 1, 3 * ROUNDS - 1].map(|i| rows[i].clone());
+    let two = fig7.figure(&two, &Provenance::default());
+    let is_interval = |layer: &&Layer| matches!(layer, Layer::Interval { .. });
+    for (panel, whole) in two.panels.iter().zip(&figure.panels) {
+        assert_eq!(panel.layers.iter().filter(is_interval).count(), 2);
+        assert_eq!(whole.layers.iter().filter(is_interval).count(), 6);
+    }
+    assert!(two.title.contains("at 32 faces"), "{}", two.title);
+}
+
+#[test]
+fn an_interrupted_table_has_a_row_for_each_patch() {
+    let steps = AtomicU64::new(0);
+    let stop = || steps.fetch_add(1, Ordering::SeqCst) >= 20;
+    let bounds = Bounds {
+        clock: None,
+        stop: &stop,
+    };
+    let fig7 = Fig7 { cells: vec![4, 5] };
+    let conducted = conduct(&fig7, &bounds, |_, _| {});
+    assert_eq!((conducted.done, conducted.planned), (0, 2));
+    let rows = conducted.rows;
+    assert_eq!(rows, [4, 5].map(interrupted));
+    let figure = fig7.figure(&rows, &Provenance::default());
+    assert!(!crate::plot::svg(&figure).contains("NaN"));
+}
+
+/// An implementation that moves its clock on by some microseconds.
 struct Slow {
-    clock: Rc<Cell<u64>>,
-    takes: u64,
+    clock: &'static AtomicU64,
+    micros: u64,
 }
 
-impl Way for Slow {
-    fn name(&self) -> &'static str {
-        "slow"
+impl Implementation for Slow {
+    fn split(&mut self, _: &Split, _: &[Point]) {
+        self.clock.fetch_add(self.micros, Ordering::Relaxed);
     }
 
-    fn split(&mut self, _: VertexId, _: &Plane, _: &[Point]) {
-        self.clock.set(self.clock.get() + self.takes);
-    }
-
-    fn indices(&self) -> Option<&[u32]> {
-        None
+    fn indices(&self) -> &[u32] {
+        &[]
     }
 }
 
 /// Sums, means, medians and the worst frame, by hand: two rounds, in which a split takes 3 and 5 µs
-/// beside a look at the clock of 1 µs.
+/// beside a reading of the clock of 1 µs.
 #[test]
-fn times_are_those_of_the_clock_beyond_what_it_takes_to_look_at_it() {
-    let now = Rc::new(Cell::new(0));
-    let clock = || {
-        now.set(now.get() + 1);
-        Duration::from_micros(now.get())
+fn times_are_those_beyond_the_overhead_of_the_clock() {
+    static CLOCK: AtomicU64 = AtomicU64::new(0);
+    let clock = || Duration::from_micros(CLOCK.fetch_add(1, Ordering::Relaxed));
+    let bounds = Bounds {
+        clock: Some(&clock),
+        stop: &|| false,
     };
-    let lane = |takes| Lane {
-        way: Box::new(Slow {
-            clock: now.clone(),
-            takes,
-        }),
-        sum: Duration::ZERO,
-        now: Duration::ZERO,
-        most: Duration::ZERO,
+    let trial = |micros| {
+        let clock = &CLOCK;
+        Trial {
+            implementation: Box::new(Slow { clock, micros }),
+            frames: Vec::new(),
+        }
     };
-    let mut stopwatch = Stopwatch {
-        clock: &clock,
-        lanes: vec![vec![lane(0), lane(0)], vec![lane(3), lane(5)]],
+    let mut trials = Trials {
+        of: vec![vec![trial(0), trial(0)], vec![trial(3), trial(5)]],
         frame: None,
-        frames_with_splits: 0,
     };
-    let plane = Plane::new(Point::origin(), Vector::x()).expect("a plane");
-    let vertex = VertexId::new(0).expect("a number");
-    let split = wanted::Split { vertex, plane };
+    let split = Split {
+        vertex: VertexId::new(0).expect("a number"),
+        plane: Plane::new(Point::origin(), Vector::x()).expect("a plane"),
+    };
     // Two splits in a step of frame 0, one in another step of it, and two in frame 7.
     for (splits, frame) in [(2, 0), (1, 0), (0, 3), (2, 7)] {
-        stopwatch.play(&vec![split; splits], &[], frame);
+        trials.split(&vec![split; splits], &[], frame, &bounds);
     }
-    assert_eq!(stopwatch.frames_with_splits, 2);
-    let [slow] = &stopwatch.times()[..] else {
-        panic!("one way beside nothing");
-    };
-    let micros = |seconds: f64| (1e6 * seconds).round();
-    assert_eq!(
-        slow.sums_s.iter().map(|s| micros(*s)).collect::<Vec<_>>(),
-        [15.0, 25.0]
-    );
-    assert_eq!(micros(slow.mean_s), 20.0);
-    assert_eq!(micros(slow.median_s), 20.0);
-    assert_eq!(slow.range_s.map(micros), [15.0, 25.0]);
+    let rows = trials.rows(&interrupted(1));
+    assert_eq!(rows[0].frames_with_splits, Some(2));
+    let micros = |seconds: Option<f64>| (1e6 * seconds.expect("a time")).round();
+    let times = rows
+        .iter()
+        .map(|row| [row.sum_s, row.mean_s, row.median_s, row.worst_frame_s].map(micros));
     // Three splits in frame 0, by 3 and 5 µs.
-    assert_eq!(micros(slow.worst_frame_s), 12.0);
-}
-
-#[test]
-fn a_way_that_splits_otherwise_is_noticed() {
-    let (mesh, _) = shapes::grid(2, 2);
-    let clock = ticking();
-    let mut stopwatch = Stopwatch::new(&mesh, 1, &clock);
-    assert_eq!(stopwatch.differs_from(mesh.indices()), None);
-    let mut other = mesh.indices().to_vec();
-    other.swap(0, 1);
     assert_eq!(
-        stopwatch.differs_from(&other),
-        Some("scan of all triangles")
+        times.collect::<Vec<_>>(),
+        [[15.0, 20.0, 20.0, 12.0], [25.0, 20.0, 20.0, 12.0]]
     );
 }
 
-/// Splits at random places by random planes, until most vertices have one face: after each, all ways
-/// have the same triangles.
+/// Splits at random places by random planes, until most vertices have one face: after each, all
+/// implementations have the same triangles.
 #[test]
-fn all_ways_agree_wherever_a_mesh_is_split() {
+fn all_implementations_agree_on_random_splits() {
     for seed in 0..20 {
         let mut random = Random::new(seed);
         let (mesh, positions) = shapes::grid(5, 5);
         let mut places = positions.as_slice().to_vec();
-        let makers = way::all();
-        let mut ways: Vec<_> = makers[1..].iter().map(|make| make(&mesh)).collect();
-        let mut splits = 0;
+        let mut all = IMPLEMENTATIONS[1..].iter().map(|(_, new)| new(&mesh));
+        let mut all: [Box<dyn Implementation>; 3] =
+            std::array::from_fn(|_| all.next().expect("three of them"));
         for _ in 0..600 {
-            let v = (random.next() * places.len() as f64) as usize;
+            let v = random.below(places.len());
             let normal = Vector::from_fn(|_, _| random.next() - 0.5);
-            let plane = Plane::new(places[v], normal).expect("a plane");
-            for way in &mut ways {
-                way.begin();
-                way.split(VertexId::new(v).expect("a number"), &plane, &places);
+            let split = Split {
+                vertex: VertexId::new(v).expect("a number"),
+                plane: Plane::new(places[v], normal).expect("a plane"),
+            };
+            for one in &mut all {
+                one.begin();
+                one.split(&split, &places);
             }
-            let of = |way: &dyn Way| way.indices().map(<[u32]>::to_vec);
-            let expected = of(&*ways[0]);
-            for way in &ways[1..] {
-                assert_eq!(of(&**way), expected, "{}, seed {seed}", way.name());
-            }
-            let most = expected.iter().flatten().max().copied().unwrap_or(0) as usize;
-            if most == places.len() {
+            let [first, second, third] = all.each_ref().map(|one| one.indices());
+            assert_eq!(first, second, "seed {seed}");
+            assert_eq!(first, third, "seed {seed}");
+            if first.iter().any(|v| *v as usize == places.len()) {
                 places.push(places[v]);
-                splits += 1;
             }
         }
-        assert!(splits > 50, "seed {seed}: {splits}");
+        assert!(places.len() > 36 + 50, "seed {seed}: {}", places.len());
     }
 }
 
-/// A vertex all of whose faces are on one side, or that has one face, is not split by any way.
+/// A vertex all of whose faces are on one side, or that has one face, is not split.
 #[test]
-fn no_way_splits_what_has_no_face_on_one_side() {
+fn no_implementation_splits_what_has_no_face_on_one_side() {
     let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a mesh");
-    let places =
-        [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| Point::new(x, y, 0.0));
-    let vertex = |v: usize| VertexId::new(v).expect("a number");
+    let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    let places = places.map(|[x, y]| Point::new(x, y, 0.0));
     let cases = [
-        (0, Vector::new(1.0, 1.0, 0.0), 4),
-        (1, Vector::new(0.0, -1.0, 0.0), 4),
-        (1, Vector::new(-1.0, -1.0, 0.0), 5),
+        (0, Vector::new(1.0, 1.0, 0.0), 3),
+        (1, Vector::new(0.0, -1.0, 0.0), 3),
+        (1, Vector::new(-1.0, -1.0, 0.0), 4),
     ];
-    for (v, normal, expected) in cases {
-        let plane = Plane::new(places[v], normal).expect("a plane");
-        for make in way::all().into_iter().skip(1) {
-            let mut way = make(&mesh);
-            way.begin();
-            way.split(vertex(v), &plane, &places);
-            let indices = way.indices().expect("triangles");
-            let most = indices.iter().max().copied();
-            assert_eq!(most, Some(expected - 1), "{} at {v}", way.name());
+    for (v, normal, last) in cases {
+        let split = Split {
+            vertex: VertexId::new(v).expect("a number"),
+            plane: Plane::new(places[v], normal).expect("a plane"),
+        };
+        for (name, new) in &IMPLEMENTATIONS[1..] {
+            let mut implementation = new(&mesh);
+            implementation.begin();
+            implementation.split(&split, &places);
+            let most = implementation.indices().iter().max().copied();
+            assert_eq!(most, Some(last), "{name} at {v}");
         }
     }
 }

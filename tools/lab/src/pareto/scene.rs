@@ -7,8 +7,8 @@ use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Implicit, Loads, Path, System};
 
-use super::mesh::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
 use super::observable::Observable::{self, *};
+use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ pub enum Start {
     /// A taut sheet in its frame without gravity, with edges longer than at rest by this fraction on
     /// average.
     Taut(f64),
-    /// The flat sheet, turned out of its plane by 30° about its upper edge.
+    /// The flat sheet, turned out of its plane by 30° around its upper edge.
     Turned,
     /// The flat sheet, scaled by this factor.
     Crushed(f64),
@@ -63,7 +63,7 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Held {
     /// No particles.
-    Nobody,
+    Nothing,
     /// The particles of the upper edge.
     Top,
     /// All particles of the boundary.
@@ -110,26 +110,14 @@ const G: f64 = 9.81;
 /// 1000 N/m.
 const SLOWEST_RAD_PER_S: f64 = PI / 2.0 * 81.649_658_092_772_6;
 
-/// What is asked where the slowest mode rings.
-const RINGING: &[Observable] = &[
+/// The observables of a motion or of rest.
+const MOTION: &[Observable] = &[
     Displacement,
     StrainRms,
-    Strain99,
     StrainLargest,
-    ForceRms,
-    Force99,
-    ForceLargest,
-    ReactionMean,
+    EdgeForceRms,
     ReactionLargest,
-    Decay,
-    Frequency,
 ];
-
-/// What is asked of a motion: all but the mode.
-const MOTION: &[Observable] = RINGING.split_at(9).0;
-
-/// What is asked where all comes to rest: reactions have a mean alone.
-const REST: &[Observable] = RINGING.split_at(8).0;
 
 const SWING: Scene = Scene {
     name: "swing",
@@ -155,7 +143,6 @@ pub const SCENES: [Scene; 11] = [
         drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
         start: Start::Flat,
         until: Until::Rest(2.0),
-        observables: REST,
         is_gated: false,
         ..SWING
     },
@@ -166,7 +153,6 @@ pub const SCENES: [Scene; 11] = [
         drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
         start: Start::Shuffled,
         until: Until::Rest(2.0),
-        observables: REST,
         is_gated: false,
         ..SWING
     },
@@ -199,7 +185,6 @@ pub const SCENES: [Scene; 11] = [
         drag_per_s: 2.0,
         start: Start::Taut(0.02),
         held: Held::Frame,
-        observables: RINGING,
         ..SWING
     },
     Scene {
@@ -217,7 +202,7 @@ pub const SCENES: [Scene; 11] = [
         gravity_m_per_s2: [0.0; 3],
         drag_per_s: 0.0,
         start: Start::Crushed(0.5),
-        held: Held::Nobody,
+        held: Held::Nothing,
         observables: &[EnergyMade, EnergyLost],
         is_gated: false,
         ..SWING
@@ -231,7 +216,6 @@ pub const SCENES: [Scene; 11] = [
         start: Start::Flat,
         held: Held::Frame,
         until: Until::Rest(2.0),
-        observables: REST,
         is_gated: false,
         ..SWING
     },
@@ -243,7 +227,7 @@ pub const SCENES: [Scene; 11] = [
         start: Start::Bulged(0.01),
         held: Held::Pulled(0.1),
         until: Until::Tears(0.5),
-        observables: &[TearTime, TearForce, ToughTime, ToughForce],
+        observables: &[TearTime, TearForce, ToughnessTime, ToughnessForce],
         ..SWING
     },
 ];
@@ -301,14 +285,7 @@ impl Case {
         case
     }
 
-    /// Returns the name of the case in lists of missing parts and in the names of files, such as
-    /// `swing-grid-16`.
-    #[must_use]
-    pub fn part_name(&self) -> String {
-        self.name().replace('/', "-")
-    }
-
-    /// Returns the name of the case, which is the first part of the names of its runs.
+    /// Returns the name of the case, such as `swing/grid-16`.
     #[must_use]
     pub fn name(&self) -> String {
         format!("{}/{}-{}", self.scene.name, self.mesh.name(), self.cells)
@@ -326,13 +303,13 @@ impl Case {
         self.sheet.edge_m() / self.speed_m_per_s()
     }
 
-    /// Whether a particle is held or led.
+    /// Whether the particle at this point of the flat sheet is held or led.
     pub(super) fn is_held(&self, p: &Point) -> bool {
         let side = self.scene.side_m;
         let (left, right) = (p.x == 0.0, p.x == side);
         let (bottom, top) = (p.y == 0.0, p.y == side);
         match self.scene.held {
-            Held::Nobody => false,
+            Held::Nothing => false,
             Held::Top => top,
             Held::Frame => left || right || bottom || top,
             Held::Pulled(_) => bottom || top,
@@ -405,7 +382,7 @@ impl Case {
     }
 }
 
-/// Where a particle starts that is at this point at rest.
+/// The starting position of a particle that is at this point at rest.
 fn placed(p: &Point, scene: &Scene) -> Point {
     let side = scene.side_m;
     match scene.start {
@@ -423,8 +400,8 @@ fn placed(p: &Point, scene: &Scene) -> Point {
     }
 }
 
-/// Where a system lies at rest without gravity: else it would ring from the start in ways that no
-/// reference resolves, as diagonals at random balance nowhere.
+/// The positions of a system at rest without gravity. Random diagonals are not balanced in the flat sheet, so
+/// it would ring from the start, in ways that no reference resolves.
 fn relaxed(mut system: System) -> Vec<Point> {
     let mut newton = Implicit::new(Settings {
         tolerance: Tolerance::Fixed(1e-10),
@@ -448,8 +425,8 @@ fn relaxed(mut system: System) -> Vec<Point> {
     system.positions().to_vec()
 }
 
-/// The particle nearest to the centre.
-fn middle(sheet: &Sheet) -> usize {
+/// The index of the particle nearest to the centre.
+pub(crate) fn middle(sheet: &Sheet) -> usize {
     let centre = Point::new(0.5, 0.5, 0.0) * sheet.side_m;
     let away = |p: &Point| (p - centre).norm_squared();
     let points = sheet.points.iter().enumerate();

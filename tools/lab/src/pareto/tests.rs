@@ -1,16 +1,21 @@
-//! Cases with known answers, the same bytes, and an end at once.
+//! Cases with known answers, the fronts of a record, and tables that do not depend on threads.
 
-mod fronts;
-
-use std::num::NonZero;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
 
 use tearmesh::Point;
 
-use super::scene::{Held, Scene, Start, Until};
 use super::*;
+use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::sheet::Sheet;
 
-/// A weight on a spring: ω = 20 rad/s for .6 s, pulled down by a tenth and let go.
+const UNBOUNDED: Bounds<'static> = Bounds {
+    clock: None,
+    stop: &|| false,
+};
+
+/// A weight on a spring: ω = 20 rad/s for 0.6 s, pulled down by a tenth and let go.
 fn oscillator() -> Case {
     let scene = Scene {
         name: "oscillator",
@@ -42,24 +47,16 @@ const OMEGA: f64 = 20.0;
 const SECONDS: f64 = 0.6;
 const AMPLITUDE: f64 = 0.1;
 
-fn bounds() -> Bounds<'static> {
-    Bounds {
-        visits_max: u64::MAX,
-        clock: None,
-        stop: &|| false,
-    }
-}
-
-fn assessed(case: &Case) -> CaseStudy {
+fn assessed(case: &Case) -> Vec<Row> {
     let plan = plan(case);
-    let outcomes: Vec<Outcome> = plan
-        .iter()
-        .map(|planned| planned.carry_out(case, &bounds()))
-        .collect();
-    assess(case, &plan, &outcomes)
+    let planned: Vec<&Planned> = plan.iter().collect();
+    let outcomes = plan.iter().map(|one| one.run(case, u64::MAX, &UNBOUNDED));
+    let mut rows = assess(case, &planned, &outcomes.collect::<Vec<_>>());
+    rank(&mut rows);
+    rows
 }
 
-/// Relative L2 of one weight, largest of ten checkpoints, of what moves as cos w t.
+/// The error of a weight that moves as cos wt: the largest of ten checkpoints.
 fn off(w: f64) -> f64 {
     let each = (1..=10).map(|i| {
         let t = SECONDS * f64::from(i) / 10.0;
@@ -70,11 +67,11 @@ fn off(w: f64) -> f64 {
 }
 
 #[test]
-fn verlet_is_off_by_what_theory_says_at_every_step() {
-    let study = assessed(&oscillator());
+fn error_of_plain_verlet_is_that_of_its_discrete_frequency_at_every_step() {
+    let rows = assessed(&oscillator());
     let mut count = 0;
-    for row in study.rows.iter().filter(|row| row.series == "verlet-plain") {
-        let Some(error) = row.error(Observable::Displacement) else {
+    for row in rows.iter().filter(|row| row.method == "verlet-plain") {
+        let Some(error) = row.error_total else {
             assert_eq!(row.status, Status::Refused, "{}", row.run);
             continue;
         };
@@ -82,12 +79,12 @@ fn verlet_is_off_by_what_theory_says_at_every_step() {
         let dt_s = row.dt_s.expect("it ran");
         let z = OMEGA * dt_s;
         let theory = off((1.0 - z * z / 2.0).acos() / dt_s);
-        let known = study.floors[0].floor.expect("two references");
+        let floor = row.error_floor.expect("two references");
+        let apart = (error - theory).abs();
         assert!(
-            (error.total - theory).abs() < 1e-3 * theory + 10.0 * known,
-            "{}: {} {theory}",
-            row.run,
-            error.total
+            apart < 1e-3 * theory + 10.0 * floor,
+            "{}: {error} {theory}",
+            row.run
         );
         count += 1;
     }
@@ -96,10 +93,10 @@ fn verlet_is_off_by_what_theory_says_at_every_step() {
 
 #[test]
 fn errors_of_an_oscillator_fall_at_the_orders_of_the_methods() {
-    let study = assessed(&oscillator());
-    // From twice this part to it; of RK4 where it is well above what the references know, and steps
-    // are long enough for the next order to show.
-    for (series, order, part) in [
+    let rows = assessed(&oscillator());
+    // From twice this fraction to it. For RK4 the error has to be well above what the references know, and
+    // steps have to be long enough for the next order to show.
+    for (method, order, fraction) in [
         ("verlet", 2.0, 0.0625),
         ("verlet-plain", 2.0, 0.0625),
         ("rk4", 4.0, 0.25),
@@ -108,49 +105,37 @@ fn errors_of_an_oscillator_fall_at_the_orders_of_the_methods() {
         ("euler-back-10", 1.0, 0.0625),
         ("bdf2-10", 2.0, 0.0625),
     ] {
-        let at = |part: f64| {
-            let mut rows = study.rows.iter();
-            let row = rows.find(|row| row.series == series && row.part == Some(part));
-            let row = row.expect("a row for each part");
-            let error = row.error(Observable::Displacement);
-            (row.dt_s.expect("it ran"), error.expect("it is known").total)
+        let at = |fraction: f64| {
+            let is_it = |row: &&Row| row.method == method && row.step_fraction == Some(fraction);
+            let row = rows.iter().find(is_it).expect("a row for each fraction");
+            (
+                row.dt_s.expect("it ran"),
+                row.error_total.expect("it is known"),
+            )
         };
-        let [(long, coarse), (short, fine)] = [at(2.0 * part), at(part)];
-        assert!((long / short - 2.0).abs() < 1e-9, "{series}");
+        let [(long, coarse), (short, fine)] = [at(2.0 * fraction), at(fraction)];
+        assert!((long / short - 2.0).abs() < 1e-9, "{method}");
         let found = (coarse / fine).log2();
-        let most = if series == "rk4" { 0.5 } else { 0.25 };
-        assert!((found - order).abs() < most, "{series}: order {found}");
+        let most = if method == "rk4" { 0.5 } else { 0.25 };
+        assert!((found - order).abs() < most, "{method}: order {found}");
     }
 }
 
 #[test]
-fn the_model_of_a_method_that_converges_is_the_truth_and_pbd_is_no_model() {
-    let study = assessed(&oscillator());
-    let finest = |series: &str| {
-        let mut rows = study.rows.iter();
-        let row = rows.find(|row| row.series == series && row.part == Some(0.0625));
-        *row.and_then(|row| row.error(Observable::Displacement))
-            .expect("it is known")
-    };
-    let known = study.floors[0].floor.expect("two references");
-    for series in ["verlet-plain", "rk4", "euler", "bdf2-10"] {
-        let error = finest(series);
-        let model = error.model.unwrap_or_else(|| panic!("{series}: no limit"));
-        assert!(
-            model < 0.1 * error.total + FLOORS * known,
-            "{series}: {error:?}"
-        );
-        let rest = error.discretisation.expect("a limit");
-        assert!(
-            (rest - error.total).abs() <= model * 1.001,
-            "{series}: {error:?}"
-        );
+fn model_error_vanishes_for_methods_that_converge_and_pbd_has_no_limit() {
+    let rows = assessed(&oscillator());
+    for method in ["verlet-plain", "rk4", "euler", "bdf2-10"] {
+        let is_it = |row: &&Row| row.method == method && row.step_fraction == Some(0.0625);
+        let row = rows.iter().find(is_it).expect("a row");
+        let floor = row.error_floor.expect("two references");
+        let [total, model, rest] = [row.error_total, row.error_model, row.error_discretisation]
+            .map(|error| error.unwrap_or_else(|| panic!("{method}: {row:?}")));
+        assert!(model < 0.1 * total + FLOORS * floor, "{row:?}");
+        assert!((rest - total).abs() <= model * 1.001, "{row:?}");
     }
     // A rigid spring does not swing, whatever its step: it snaps back, or flies apart.
-    for row in study.rows.iter().filter(|row| row.family == Family::Pbd) {
-        let error = row.error(Observable::Displacement);
-        let is_far = error.is_none_or(|error| error.total > 0.3);
-        assert!(is_far, "{}: {error:?}", row.run);
+    for row in rows.iter().filter(|row| row.family == Some(Family::Pbd)) {
+        assert!(row.error_total.is_none_or(|error| error > 0.3), "{row:?}");
     }
 }
 
@@ -160,105 +145,105 @@ fn options(scenes: &[&str], cells: u32) -> Options {
         scenes: named.copied().collect(),
         meshes: vec![MeshKind::Grid],
         cells: vec![cells],
+        stiffness_n_per_m: Vec::new(),
+        mass_ratios: Vec::new(),
         threads: NonZero::<usize>::MIN.saturating_add(1),
         visits_max: 3_000_000,
-        repeats: 0,
+        repeats: None,
     }
 }
 
-/// Of the table and the chart of two scenes on a small mesh. A commit that changes it says which
-/// figures moved, and why.
-const DIGEST: u64 = 0x47b4_e104_26bd_fe13;
+fn made(options: Options) -> Vec<Row> {
+    conduct(&Pareto::new(options), &UNBOUNDED, |_, _| {}).rows
+}
 
 #[test]
-fn a_small_chart_is_the_same_bytes_however_many_work_on_it() {
-    let made = |threads: usize| {
-        let options = Options {
-            threads: NonZero::new(threads).expect("one at least"),
-            ..options(&["swing", "crushed"], 6)
-        };
-        study(&options, Provenance::default(), None, &|| false, |_, _| {})
+fn table_and_figure_do_not_depend_on_threads_and_survive_a_file() {
+    let stiffer = |threads: usize| Options {
+        threads: NonZero::new(threads).expect("one at least"),
+        stiffness_n_per_m: vec![1e3, 1e4],
+        ..options(&["swing", "crushed"], 4)
     };
-    let study = made(2);
-    let text = csv(&study) + &svg(&study, By::Visits).expect("a chart");
-    let again = made(1);
-    assert_eq!(csv(&study), csv(&again));
-    let digest = text
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325, |digest: u64, byte| {
-            (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-        });
-    for case in &study.cases {
-        // None is left out, however it ended.
+    let experiment = Pareto::new(stiffer(2));
+    let rows = made(stiffer(2));
+    let text = table(&rows).expect("a table");
+    assert_eq!(text, table(&made(stiffer(1))).expect("a table"));
+    let read: Vec<Row> = read_table(&text).expect("the same table");
+    assert_eq!(read, rows);
+    let figure = |rows: &[Row]| crate::plot::svg(&experiment.figure(rows, &Provenance::default()));
+    assert_eq!(figure(&read), figure(&rows));
+    // No run is left out, however it ended.
+    let runs = METHODS.len() * STEP_FRACTIONS.len() + 5;
+    for case in rows.chunk_by(|a, b| a.case() == b.case()) {
+        let mut names: Vec<&str> = case
+            .iter()
+            .filter(|row| row.family.is_some())
+            .map(|row| row.run.as_str())
+            .collect();
+        names.dedup();
+        assert_eq!(names.len(), runs);
+        assert!(case.iter().any(|row| row.status == Status::Refused));
+    }
+    assert_eq!(rows.chunk_by(|a, b| a.case() == b.case()).count(), 4);
+}
+
+#[test]
+fn an_interrupted_table_has_a_row_for_each_run() {
+    let stop = || true;
+    let bounds = Bounds {
+        stop: &stop,
+        ..UNBOUNDED
+    };
+    let conducted = conduct(&Pareto::new(options(&["swing"], 4)), &bounds, |_, _| {});
+    assert_eq!(
+        (conducted.done, conducted.rows.len()),
+        (0, conducted.planned)
+    );
+    let mut rows = conducted.rows.iter();
+    assert!(rows.all(|row| row.status == Status::Interrupted && row.cost(false).is_none()));
+}
+
+/// The runs on each front by visits of edges, which are the same on every machine. So a change of a method
+/// that moves one has to say so. With `TEARMESH_BLESS` set, the record is written anew.
+#[test]
+fn fronts_are_those_of_the_record() {
+    let rows = made(Options {
+        meshes: MeshKind::ALL.to_vec(),
+        ..options(&["hang", "swing", "sliver", "taut", "strip"], 5)
+    });
+    let mut found = String::new();
+    for case in rows.chunk_by(|a, b| a.case() == b.case()) {
+        for observable in Observable::DRAWN {
+            let mut of = case
+                .iter()
+                .filter(|row| row.observable == Some(observable))
+                .peekable();
+            if of.peek().is_some_and(|row| row.error_floor.is_some()) {
+                let on: Vec<&str> = of
+                    .filter(|row| row.is_on_front)
+                    .map(|row| &*row.run)
+                    .collect();
+                let (scene, mesh) = (&case[0].scene, case[0].mesh.name());
+                writeln!(
+                    found,
+                    "{scene} on {mesh}, {}: {}",
+                    observable.name(),
+                    on.join(" ")
+                )
+                .expect("a string grows");
+            }
+        }
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pareto/tests/fronts.txt");
+    if std::env::var_os("TEARMESH_BLESS").is_some() {
+        fs::write(&path, &found).expect("a record that can be written");
+    }
+    let record = fs::read_to_string(&path).expect("a record");
+    for (found, record) in found.lines().zip(record.lines()) {
         assert_eq!(
-            case.rows.len(),
-            METHODS.len() * PARTS.len() + Named::all().len()
-        );
-        assert_eq!(case.rows.iter().filter(|row| row.is_default).count(), 1);
-        for row in &case.rows {
-            let is_ok = row.status == Status::Ok;
-            assert_eq!(is_ok, !row.errors.is_empty(), "{}", row.run);
-        }
-        let statuses: Vec<Status> = case.rows.iter().map(|row| row.status).collect();
-        assert!(statuses.contains(&Status::Refused) && statuses.contains(&Status::TooDear));
-    }
-    assert_eq!(digest, DIGEST, "{digest:#018x}");
-}
-
-#[test]
-fn an_interrupted_study_ends_within_a_step_of_each_run_and_leaves_no_gap() {
-    // Where it is first asked to go on is before its first run.
-    for patience in [0, 1000] {
-        let asked = AtomicU64::new(0);
-        let stop = || asked.fetch_add(1, Ordering::SeqCst) >= patience;
-        let options = options(&["swing"], 6);
-        let study = study(&options, Provenance::default(), None, &stop, |_, _| {});
-        assert!(study.is_interrupted);
-        assert_eq!(study.missing.len(), 1);
-        let why = &study.missing[0].why;
-        assert!(why.starts_with("interrupted after "), "{why}");
-        let runs = study.cases[0].rows.len() + study.cases[0].references.len();
-        // Once for each run, twice for those that were under way, and at the end.
-        let after = asked.load(Ordering::SeqCst) - patience;
-        assert!(after <= runs as u64 + 5, "{after} of {runs}");
-        let rows = study.cases[0].rows.iter();
-        assert!(rows.clone().any(|row| row.status == Status::Interrupted));
-        assert_eq!(
-            rows.count(),
-            METHODS.len() * PARTS.len() + Named::all().len()
-        );
-        assert!(
-            svg(&study, By::Visits)
-                .expect("a chart")
-                .contains("INTERRUPTED")
+            found, record,
+            "a front has moved; set TEARMESH_BLESS if it is meant to"
         );
     }
-}
-
-#[test]
-fn who_is_at_rest_is_so_in_any_order_of_edges_but_for_those_that_sweep() {
-    let options = Options {
-        visits_max: 30_000_000,
-        ..options(&["hang", "shuffled"], 6)
-    };
-    let study = study(&options, Provenance::default(), None, &|| false, |_, _| {});
-    let [hang, shuffled] = &study.cases[..] else {
-        panic!("two cases");
-    };
-    for (a, b) in hang.rows.iter().zip(&shuffled.rows) {
-        let both = [a, b].map(|row| row.error(Observable::StrainRms).map(|error| error.total));
-        let [Some(a_off), Some(b_off)] = both else {
-            continue;
-        };
-        match a.family {
-            Family::Pbd | Family::Xpbd => {}
-            _ => assert!(a_off.max(b_off) < 1e-4, "{}: {a_off} {b_off}", a.run),
-        }
-        if a.run.ends_with("xpbd-1@1") {
-            assert!(
-                a_off > 0.3 && b_off > 0.3,
-                "one sweep is soft: {a_off} {b_off}"
-            );
-        }
-    }
+    assert_eq!(found.lines().count(), record.lines().count());
 }

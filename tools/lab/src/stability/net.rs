@@ -1,96 +1,50 @@
-//! Small nets of springs at rest, and their largest frequency by a dense matrix that shares no code with
-//! the methods.
+//! Nets: small nets of springs, and their largest frequency from a dense matrix that shares no code with the
+//! methods.
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::System;
 
-use crate::pareto::{MeshKind, Sheet};
+use crate::pareto::middle;
+use crate::sheet::{MeshKind, Sheet};
 
-/// A net that rests without loads.
+/// A net of springs that is at rest without loads.
 #[derive(Clone, Debug)]
 pub(super) struct Net {
     points: Vec<Point>,
     masses: Vec<f64>,
-    /// The ends of each spring, and its length at rest in metres.
+    /// The ends of each spring, and its rest length in metres.
     springs: Vec<([usize; 2], f64)>,
     held: Vec<bool>,
 }
 
-/// The kinds of nets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NetKind {
-    /// A chain of 16 links, held at one end.
-    Chain,
-    /// A chain of 16 links between two nails, 5 % longer than at rest.
-    String,
-    /// A grid of 6 × 6 cells, held along its whole boundary, 2 % longer than at rest.
-    Frame,
-    /// A Delaunay mesh of a square, with as many particles as a grid of 6 × 6 cells, held by its upper edge.
-    Sheet,
-    /// The net of [`Sheet`](NetKind::Sheet), with the mass of its middle particle divided by 100.
-    Sliver,
-    /// The net of [`Sheet`](NetKind::Sheet), with the mass of its middle particle divided by 1024.
-    Halved,
-}
+/// A kind of nets: its name in tables, and the function that builds it.
+pub(super) type NetKind = (&'static str, fn() -> Net);
 
-/// The cells a side of nets of two dimensions.
+/// All kinds of nets, in the order of tables:
+///
+/// * a chain of 16 links, held at one end;
+/// * the same between two nails, 5 % longer than at rest;
+/// * a grid that is held along its whole border, 2 % longer than at rest;
+/// * a Delaunay mesh of a square, held by its upper edge;
+/// * the same with the mass of its middle particle divided by 100;
+/// * the same with that mass halved ten times.
+pub(super) static NETS: [NetKind; 6] = [
+    ("chain", || row(1.0, false)),
+    ("string", || row(1.05, true)),
+    ("frame", || frame(1.02)),
+    ("sheet", || sheet(1.0)),
+    ("sliver", || sheet(100.0)),
+    ("halved", || sheet(1024.0)),
+];
+
+/// The number of cells along each side of two-dimensional nets.
 const CELLS: u32 = 6;
 
-/// The links of those of one.
+/// The number of links of one-dimensional nets.
 const LINKS: usize = 16;
 
-impl NetKind {
-    /// All kinds, in the order of charts.
-    pub const ALL: [NetKind; 6] = [
-        NetKind::Chain,
-        NetKind::String,
-        NetKind::Frame,
-        NetKind::Sheet,
-        NetKind::Sliver,
-        NetKind::Halved,
-    ];
-
-    /// Returns the name of the net in tables and captions.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            NetKind::Chain => "chain",
-            NetKind::String => "string",
-            NetKind::Frame => "frame",
-            NetKind::Sheet => "sheet",
-            NetKind::Sliver => "sliver",
-            NetKind::Halved => "halved",
-        }
-    }
-
-    /// Returns a short description of the net.
-    #[must_use]
-    pub fn about(self) -> &'static str {
-        match self {
-            NetKind::Chain => "16 links held by one end",
-            NetKind::String => "16 links between nails, 5 % taut",
-            NetKind::Frame => "a grid held all round, 2 % taut",
-            NetKind::Sheet => "a Delaunay sheet held by one edge",
-            NetKind::Sliver => "the sheet with one mass divided by 100",
-            NetKind::Halved => "the sheet with one mass halved ten times",
-        }
-    }
-}
-
 impl Net {
-    /// Of a kind.
-    pub(super) fn new(kind: NetKind) -> Net {
-        match kind {
-            NetKind::Chain => row(1.0, 1),
-            NetKind::String => row(1.05, 2),
-            NetKind::Frame => frame(1.02),
-            NetKind::Sheet => sheet(1.0),
-            NetKind::Sliver => sheet(100.0),
-            NetKind::Halved => sheet(1024.0),
-        }
-    }
-
-    /// It as a system, with springs of this stiffness in N/m.
+    /// Returns the net as a system, with springs of this stiffness in N/m.
     pub(super) fn system(&self, stiffness_n_per_m: f64) -> System {
         let system = System::new(self.points.iter().copied(), self.masses.clone());
         let mut system = system.expect("a net has usable points and masses");
@@ -106,13 +60,13 @@ impl Net {
         system
     }
 
-    /// Which particles are free.
+    /// Returns the free particles.
     pub(super) fn free(&self) -> impl Iterator<Item = usize> + '_ {
         let particles = self.held.iter().enumerate();
         particles.filter(|(_, held)| !**held).map(|(i, _)| i)
     }
 
-    /// The mean length of springs as they lie, in metres.
+    /// Returns the mean present length of the springs, in metres.
     pub(super) fn edge_m(&self) -> f64 {
         let lengths = self
             .springs
@@ -121,10 +75,10 @@ impl Net {
         lengths.sum::<f64>() / self.springs.len() as f64
     }
 
-    /// The step in seconds that suits velocity Verlet with its guards, by its definition: √(2μ/r), μ = .65,
-    /// where r is the sum of stiffness at a particle over its mass, and no more than a tenth of the particles
-    /// have a larger one.
-    pub(super) fn suited_s(&self, stiffness_n_per_m: f64) -> f64 {
+    /// Returns the recommended step of velocity Verlet with its guards in seconds, by its definition: √(2μ/r)
+    /// with μ = 0.65. A particle's r is the sum of the stiffness of its springs over its mass, and the one that
+    /// counts is that which no more than a tenth of the particles exceed.
+    pub(super) fn recommended_step_s(&self, stiffness_n_per_m: f64) -> f64 {
         let touching = |i: usize| {
             self.springs
                 .iter()
@@ -141,10 +95,12 @@ impl Net {
         self.points[b] - self.points[a]
     }
 
-    /// The largest frequency with springs of 1 N/m, in rad/s: the root of the largest eigenvalue λ of
-    /// M^-½ K M^-½. λ' is above all eigenvalues if and only if λ' − M^-½ K M^-½ has a Cholesky
-    /// factor, and so λ is found by bisection to the last digits: as simple as can be, and nothing has to
-    /// converge. Cubic in the particles.
+    /// Returns the largest frequency with springs of 1 N/m in rad/s: the root of the largest eigenvalue of
+    /// A = M^-½ K M^-½.
+    ///
+    /// A number λ is above all eigenvalues if and only if λ − A has a Cholesky factor. So the largest is found
+    /// by bisection to the last digits, without an iteration that might not converge. The cost is cubic in the
+    /// number of particles.
     pub(super) fn omega_rad_per_s(&self) -> f64 {
         let matrix = self.matrix();
         let sums = matrix.iter().map(|row| row.iter().map(|x| x.abs()).sum());
@@ -162,7 +118,7 @@ impl Net {
         above.sqrt()
     }
 
-    /// M^-½ K M^-½ over the free particles, with K the second derivatives of ½ (l − L)², which are
+    /// M^-½ K M^-½ over the free particles. K has the second derivatives of ½ (l − L)², which are
     /// n nᵀ + (1 − L/l)(1 − n nᵀ) for a spring along n.
     fn matrix(&self) -> Vec<Vec<f64>> {
         let mut place = vec![None; self.points.len()];
@@ -216,13 +172,13 @@ fn is_above(number: f64, matrix: &[Vec<f64>]) -> bool {
     true
 }
 
-/// Links in a row between so many nails, so many times as long as at rest.
-fn row(taut: f64, nails: usize) -> Net {
+/// Links in a row, `taut` times as long as at rest. The first particle is held, and the last too if asked.
+fn row(taut: f64, is_last_held: bool) -> Net {
     let apart_m = 0.1;
     let points = (0..=LINKS).map(|i| Point::new(apart_m * i as f64, 0.0, 0.0));
     let mut held = vec![false; LINKS + 1];
     held[0] = true;
-    held[LINKS] = nails > 1;
+    held[LINKS] = is_last_held;
     Net {
         points: points.collect(),
         masses: vec![0.01; LINKS + 1],
@@ -231,7 +187,8 @@ fn row(taut: f64, nails: usize) -> Net {
     }
 }
 
-/// A grid with all diagonals in one direction, so that its tension balances at each particle.
+/// A grid, `taut` times as long as at rest. All diagonals lie in one direction, so that tension balances at
+/// each particle.
 fn frame(taut: f64) -> Net {
     let n = CELLS as usize;
     let at = |i: usize, j: usize| j * (n + 1) + i;
@@ -267,21 +224,17 @@ fn frame(taut: f64) -> Net {
     }
 }
 
-/// A sheet that hangs by its upper edge, with the mass of the particle in its middle divided.
-fn sheet(lighter: f64) -> Net {
-    let sheet = Sheet::new(MeshKind::Delaunay, CELLS, 1.0);
-    let centre = Point::new(0.5, 0.5, 0.0);
-    let away = |i: &usize| (sheet.points[*i] - centre).norm_squared();
-    let near = |i: &usize, j: &usize| away(i).total_cmp(&away(j));
-    let middle = (0..sheet.points.len()).min_by(near);
-    let mut masses = sheet.masses.clone();
-    masses[middle.expect("a sheet has particles")] /= lighter;
+/// A sheet that is held by its upper edge, with the mass of its middle particle divided by a number.
+fn sheet(divisor: f64) -> Net {
+    let mut sheet = Sheet::new(MeshKind::Delaunay, CELLS, 1.0);
+    let middle = middle(&sheet);
+    sheet.masses[middle] /= divisor;
     let springs = sheet.edges.iter().map(|&ends| (ends, sheet.length_m(ends)));
     Net {
         springs: springs.collect(),
         held: sheet.points.iter().map(|p| p.y == 1.0).collect(),
         points: sheet.points,
-        masses,
+        masses: sheet.masses,
     }
 }
 
@@ -289,33 +242,29 @@ fn sheet(lighter: f64) -> Net {
 mod tests {
     use super::*;
 
-    /// A chain of n links that is held by one end has 2√(k/m) sin((2n − 1)π/(2(2n + 1))) as its largest
-    /// frequency, and one between nails with tension, along which it swings as without, 2√(k/m) sin((n −
-    /// 1)π/(2n)).
+    /// A chain of n links that is held at one end has the largest frequency 2√(k/m) sin((2n − 1)π/(2(2n + 1))).
+    /// Between two nails, along which it swings as without tension, it has 2√(k/m) sin((n − 1)π/(2n)).
     #[test]
     fn chains_have_the_frequencies_of_books() {
         let n = LINKS as f64;
         let unit = 2.0 * 100.0_f64.sqrt();
-        let books = [
-            (NetKind::Chain, (2.0 * n - 1.0) / (2.0 * (2.0 * n + 1.0))),
-            (NetKind::String, (n - 1.0) / (2.0 * n)),
-        ];
-        for (kind, part) in books {
-            let known = unit * (std::f64::consts::PI * part).sin();
-            let found = Net::new(kind).omega_rad_per_s();
+        let chain = (2.0 * n - 1.0) / (2.0 * (2.0 * n + 1.0));
+        let string = (n - 1.0) / (2.0 * n);
+        for ((name, build), fraction) in [(NETS[0], chain), (NETS[1], string)] {
+            let known = unit * (std::f64::consts::PI * fraction).sin();
+            let found = build().omega_rad_per_s();
             assert!(
                 (found / known - 1.0).abs() < 1e-10,
-                "{kind:?} {found} {known}"
+                "{name} {found} {known}"
             );
         }
     }
 
-    /// Halved once, a mass raises a frequency by no more than √2; and a thousandth of a mass in a net
-    /// swings as it does between walls, so that ω² is next to 2^10 times what it was for that particle alone.
+    /// Dividing a mass by 10.24 raises a frequency by at most √10.24, and a particle of a thousandth of the
+    /// mass swings as between walls: its ω² is nearly 2^10 times what it was for that particle alone.
     #[test]
     fn halving_a_mass_raises_the_frequency_within_bounds() {
-        let [sheet, sliver, halved] = [NetKind::Sheet, NetKind::Sliver, NetKind::Halved]
-            .map(|kind| Net::new(kind).omega_rad_per_s());
+        let [sheet, sliver, halved] = [3, 4, 5].map(|i| (NETS[i].1)().omega_rad_per_s());
         assert!(sliver > sheet && sliver < 10.0 * sheet, "{sheet} {sliver}");
         assert!(halved > sliver && halved < sliver * 10.24_f64.sqrt() * (1.0 + 1e-9));
         assert!(

@@ -1,19 +1,18 @@
-//! Scenes in which some method fails, each played by all: what should come of it, what does, and what a
-//! user is told.
+//! Trials: scenes in which some method fails, each played by all methods.
 
 use std::num::NonZero;
 
-use serde::Serialize;
 use tearmesh::{Mesh, Point, Positions, Ray, Vector, shapes};
 use tearmesh_cloth::implicit::Jacobian;
 use tearmesh_cloth::scene::{
     Axis, FRAME_S, Frame, HeldVertices, Method, Region, Run, Scene, SwayingWind, TimedCut,
 };
-use tearmesh_cloth::{Wind, energy};
+use tearmesh_cloth::{StepError, Wind, energy};
 
-use super::limit;
-use super::told::{Class, Teller, Told};
-use crate::pareto::Named;
+use super::outcome::Class::{self, Fine, Refused, Wrong};
+use super::outcome::{Messages, Row, RowKind};
+use crate::experiment::Status;
+use crate::method::DefaultMethod;
 
 /// A scene, with the expected outcome of each method.
 #[derive(Clone, Copy, Debug)]
@@ -24,57 +23,46 @@ pub struct Trial {
     pub about: &'static str,
     judge: Judge,
     set: fn(&mut Stage),
-    /// The expected outcomes, in the order of [`METHODS`].
+    /// The expected outcomes, in the order of [`DefaultMethod::all`].
     pub expected: [Class; 5],
 }
 
-/// The names of the methods, in the order of [`Named::all`].
-pub const METHODS: [&str; 5] = ["verlet", "xpbd", "implicit", "pbd", "provot"];
-
-/// What tells right from wrong.
+/// The criteria of a right result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Judge {
-    /// No edge is strained by more than [`NEXT_TO_NOTHING`].
+    /// No edge is strained by more than [`STRAIN_MAX`].
     Unstrained,
-    /// Vertices are where a reference has them, by [`OFF_MAX`].
+    /// Positions differ from those of a reference by at most [`POSITION_ERROR_MAX`].
     Place,
-    /// There is no more energy than [`MADE_MAX`] beyond what there was.
+    /// Energy grows by at most [`ENERGY_GAIN_MAX`].
     Energy,
-    /// It comes to its end.
+    /// The run reaches its end.
     Ends,
 }
 
 /// The largest position error that counts as right, as a fraction of the displacement; both are rms values.
-pub const OFF_MAX: f64 = 0.1;
+pub const POSITION_ERROR_MAX: f64 = 0.1;
 
 /// The largest gain of energy that counts as right, as a fraction of the energy at the start.
-pub const MADE_MAX: f64 = 0.25;
+pub const ENERGY_GAIN_MAX: f64 = 0.25;
 
-/// The strain of what is not strained: rounding, and what the tolerance of implicit steps leaves.
-const NEXT_TO_NOTHING: f64 = 1e-5;
+/// The largest strain of an unstrained edge: rounding, and the tolerance of implicit steps.
+const STRAIN_MAX: f64 = 1e-5;
 
-/// A scene that is being set.
-struct Stage {
-    mesh: Mesh,
-    positions: Positions,
-    frame: Frame,
-    scene: Scene,
-    /// Where a vertex starts that is at this point at rest.
-    start: fn(Point) -> Point,
-    /// Where it lies without loads.
-    unloaded: fn(Point) -> Point,
-}
-
-/// The cells a side of the sheet, which measures a metre.
+/// The number of cells along each side of the sheet, which measures a metre.
 const CELLS: u32 = 8;
 
-use Class::{Fine, Refused, Wrong};
+/// The number of moments at which positions are compared.
+const MOMENTS: u64 = 10;
+
+/// The number by which references divide the recommended step of Verlet.
+const FINER: NonZero<u32> = NonZero::<u32>::MIN.saturating_add(3);
 
 /// All scenes, in the order of tables.
-pub const TRIALS: [Trial; 12] = [
+pub static TRIALS: [Trial; 12] = [
     Trial {
         name: "free fall",
-        about: "a flat sheet falls freely for half a second: its strain stays nothing",
+        about: "a flat sheet falls freely for half a second; nothing may strain it",
         judge: Judge::Unstrained,
         set: |stage| {
             stage.scene.duration_s = 0.5;
@@ -84,14 +72,14 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "hang",
-        about: "hangs at rest at four times its weight: sweeps are no stiffness",
+        about: "a sheet hangs at rest at four times its weight; the number of sweeps is no stiffness",
         judge: Judge::Place,
         set: hang,
         expected: [Fine, Wrong, Fine, Wrong, Fine],
     },
     Trial {
         name: "long steps",
-        about: "the same at steps of 1/60 s",
+        about: "the hanging sheet at steps of 1/60 s",
         judge: Judge::Place,
         set: |stage| {
             hang(stage);
@@ -101,7 +89,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "short steps",
-        about: "the same at steps of 1/15360 s: PBD has no limit, and gets rigid",
+        about: "the hanging sheet at steps of 1/15360 s; PBD does not converge, and becomes rigid",
         judge: Judge::Place,
         set: |stage| {
             hang(stage);
@@ -112,7 +100,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "pretension",
-        about: "a frame with 2 % of pretension sags: what sweeps leave is more than the load",
+        about: "a frame with 2 % of pretension sags; errors that sweeps leave exceed the load",
         judge: Judge::Place,
         set: |stage| {
             taut(stage);
@@ -123,7 +111,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "ringing",
-        about: "the same frame rings without drag: what damps it is the method",
+        about: "the same frame rings without drag; only the method damps it",
         judge: Judge::Place,
         set: |stage| {
             taut(stage);
@@ -133,7 +121,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "crushed",
-        about: "let go at half its size, without a limiter: energy that nobody put in",
+        about: "a sheet is let go at half its size; Provot without its limiter makes energy",
         judge: Judge::Energy,
         set: |stage| {
             crushed(stage);
@@ -145,7 +133,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "compression",
-        about: "the same with a limiter, and by implicit steps that take no indefinite matrix",
+        about: "the same with the limiter; the exact matrix of implicit steps is indefinite",
         judge: Judge::Energy,
         set: |stage| {
             crushed(stage);
@@ -157,7 +145,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "wind",
-        about: "a gale at a light cloth, at steps of 1/240 s: all take wind in by velocities before",
+        about: "a gale at a light cloth at steps of 1/240 s; all methods take wind explicitly",
         judge: Judge::Ends,
         set: |stage| {
             hang(stage);
@@ -176,24 +164,22 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "sliver",
-        about: "hangs with a vertex of a 600th of the mass, at the step of the sheet without it",
+        about: "the hanging sheet with a vertex of a 600th of the mass, at the step without it",
         judge: Judge::Place,
         set: |stage| {
             hang(stage);
-            let run = stage.run().expect("a scene of our own");
-            stage.scene.step_s = Some(run.step_s());
+            stage.scene.step_s = Some(stage.run().step_s());
             (stage.mesh, stage.positions) = eared();
         },
         expected: [Fine, Wrong, Fine, Wrong, Refused],
     },
     Trial {
         name: "cut",
-        about: "cut as it hangs, at the longest step it has before: slivers are made",
+        about: "the hanging sheet is cut at the step it had before, which makes slivers",
         judge: Judge::Ends,
         set: |stage| {
             hang(stage);
-            let run = stage.run().expect("a scene of our own");
-            stage.scene.step_s = Some(run.step_s());
+            stage.scene.step_s = Some(stage.run().step_s());
             let ray = |along: f64| Ray::new(Point::new(0.437, along, 1.0), -Vector::z());
             let rays = [ray(-0.5), ray(0.62)].map(|ray| ray.expect("a direction"));
             stage.scene.cuts = vec![TimedCut {
@@ -207,7 +193,7 @@ pub const TRIALS: [Trial; 12] = [
     },
     Trial {
         name: "too far apart",
-        about: "a frame a third larger than its sheet sags: no limiter can hold a tenth",
+        about: "a frame a third larger than its sheet sags; no limiter can keep edges within a tenth",
         judge: Judge::Place,
         set: |stage| {
             taut(stage);
@@ -220,54 +206,52 @@ pub const TRIALS: [Trial; 12] = [
     },
 ];
 
-/// By the upper edge, at four times the weight, with drag that brings it to rest in a second.
+/// Holds the upper edge, at four times the weight, with drag that brings the sheet to rest in a second.
 fn hang(stage: &mut Stage) {
-    let upper = Region::Patch {
-        across: [0.0, 1.0],
-        along: [0.99, 1.0],
-    };
-    stage.scene.holds = vec![HeldVertices::still(upper)];
+    stage.hold(&[[0.0, 1.0, 0.99, 1.0]]);
     stage.scene.gravity_m_per_s2 *= 4.0;
     stage.scene.drag_per_s = 60.0;
     stage.scene.duration_s = 0.5;
 }
 
-/// Held all round, 2 % longer than at rest, without loads.
+/// Holds the whole border, 2 % larger than at rest, without loads.
 fn taut(stage: &mut Stage) {
-    let patch = |across, along| HeldVertices::still(Region::Patch { across, along });
-    stage.scene.holds = vec![
-        patch([0.0, 1.0], [0.0, 0.01]),
-        patch([0.0, 1.0], [0.99, 1.0]),
-        patch([0.0, 0.01], [0.0, 1.0]),
-        patch([0.99, 1.0], [0.0, 1.0]),
-    ];
-    stage.scene.gravity_m_per_s2 = Vector::zeros();
-    stage.scene.drag_per_s = 0.0;
-    stage.scene.duration_s = 0.5;
+    stage.hold(&[
+        [0.0, 1.0, 0.0, 0.01],
+        [0.0, 1.0, 0.99, 1.0],
+        [0.0, 0.01, 0.0, 1.0],
+        [0.99, 1.0, 0.0, 1.0],
+    ]);
+    free(stage);
     stage.start = |p| bulged(p, 1.02, 0.0);
     stage.unloaded = stage.start;
 }
 
-/// Free, at half its size, without loads.
+/// Starts at half the size, held by nothing and without loads.
 fn crushed(stage: &mut Stage) {
-    stage.scene.gravity_m_per_s2 = Vector::zeros();
-    stage.scene.drag_per_s = 0.0;
-    stage.scene.duration_s = 0.5;
+    free(stage);
     stage.start = |p| bulged(p, 0.5, 0.01);
 }
 
-/// So many times as large, and out of its plane by up to so many metres.
-fn bulged(p: Point, times: f64, by_m: f64) -> Point {
-    let [x, y] = [p.x, p.y].map(|x| 4.0 * x * (1.0 - x));
-    Point::new(p.x * times, p.y * times, by_m * x * y)
+/// Removes all loads.
+fn free(stage: &mut Stage) {
+    stage.scene.gravity_m_per_s2 = Vector::zeros();
+    stage.scene.drag_per_s = 0.0;
+    stage.scene.duration_s = 0.5;
 }
 
-/// The sheet: diagonals in turn, so that tension balances at each vertex.
+/// A point of the sheet scaled by a factor, and moved out of its plane by up to so many metres.
+fn bulged(p: Point, factor: f64, height_m: f64) -> Point {
+    let [x, y] = [p.x, p.y].map(|x| 4.0 * x * (1.0 - x));
+    Point::new(p.x * factor, p.y * factor, height_m * x * y)
+}
+
+/// The sheet. Its diagonals alternate, so that tension balances at each vertex.
 fn square() -> (Mesh, Positions) {
     shapes::grid_with_diagonals(CELLS, CELLS, |i, j| (i + j) % 2 == 0)
 }
 
-/// The same with a triangle at its lower edge that is a hundredth of a cell high.
+/// The sheet with one more triangle at its lower edge, which is a hundredth of a cell high.
 fn eared() -> (Mesh, Positions) {
     let (mesh, positions) = square();
     let mut faces = mesh.indices().as_chunks::<3>().0.to_vec();
@@ -278,6 +262,18 @@ fn eared() -> (Mesh, Positions) {
     faces.push([4, 3, ear]);
     let mesh = Mesh::build(points.len(), &faces).expect("a triangle more at the border");
     (mesh, Positions::new(points).expect("finite coordinates"))
+}
+
+/// A scene that is being set.
+struct Stage {
+    mesh: Mesh,
+    positions: Positions,
+    frame: Frame,
+    scene: Scene,
+    /// The position at the start of a vertex that is at this point at rest.
+    start: fn(Point) -> Point,
+    /// Its position without loads.
+    unloaded: fn(Point) -> Point,
 }
 
 impl Stage {
@@ -300,211 +296,150 @@ impl Stage {
         }
     }
 
-    /// The scene, about to begin; `None` where it is none, which would be our bug.
-    fn run(&self) -> Option<Run> {
-        let scene = self.scene.clone();
-        let run = Run::new(self.mesh.clone(), &self.positions, scene, &self.frame).ok()?;
-        let points = self.positions.as_slice();
-        let by_m = |v: tearmesh::VertexId| {
-            let p = points[v.index()];
-            (self.start)(p) - p
-        };
-        run.displaced(by_m).ok()
-    }
-}
-
-/// The outcome of a scene by one method.
-#[derive(Clone, Debug, Serialize)]
-pub struct Verdict {
-    /// The name of the scene.
-    pub trial: &'static str,
-    /// The name of the method, as in [`METHODS`].
-    pub method: &'static str,
-    /// The step, in seconds.
-    pub dt_s: f64,
-    /// The expected outcome.
-    pub expected: Class,
-    /// The measured outcome.
-    pub measured: Class,
-    /// The largest strain, the relative position error, or the largest energy divided by that at the start,
-    /// depending on the scene. Smaller is better. `None` if the run failed, or if the scene only has to end.
-    pub measure: Option<f64>,
-    /// The messages about the run.
-    pub told: Vec<Told>,
-}
-
-impl Verdict {
-    /// Returns whether the method failed without a message.
-    #[must_use]
-    pub fn is_silent(&self) -> bool {
-        self.measured != Fine && self.told.is_empty()
-    }
-}
-
-/// How a run went.
-struct Trace {
-    /// Where vertices were at ten moments; fewer where it failed.
-    places: Vec<Vec<Point>>,
-    /// The most energy as a part of that at the start.
-    energy: f64,
-    failed: Option<Class>,
-}
-
-/// The moments at which places are compared.
-const MOMENTS: u64 = 10;
-
-/// References divide the step that suits Verlet by so much.
-const FINER: u32 = 4;
-
-impl Trial {
-    /// Plays it by each method, and its reference. `None` if `stop` says so.
-    pub(super) fn judge(
-        &self,
-        teller: &dyn Teller,
-        stop: &dyn Fn() -> bool,
-    ) -> Option<Vec<Verdict>> {
-        let reference = match self.judge {
-            Judge::Place => Some(self.reference(stop)?),
-            _ => None,
-        };
-        let each = Named::all().into_iter().zip(self.expected);
-        let each = each.map(|(named, expected)| {
-            let mut stage = Stage::new(named.settings());
-            (self.set)(&mut stage);
-            let mut run = stage.run().expect("a scene of our own");
-            let (trace, told) = trace(&mut run, &stage.frame, Some(teller), stop)?;
-            let measure = match (trace.failed, self.judge) {
-                (Some(_), _) => None,
-                (None, judge) => judge.measure(&stage, &run, &trace, reference.as_ref()),
-            };
-            // Written so that what is no number is wrong.
-            let is_right = measure.is_none_or(|measure| measure <= self.judge.most());
-            let ended = if is_right { Fine } else { Wrong };
-            Some(Verdict {
-                trial: self.name,
-                method: named.name,
-                dt_s: run.step_s(),
-                expected,
-                measured: trace.failed.unwrap_or(ended),
-                measure,
-                told,
+    /// Holds patches, given from left to right and from bottom to top.
+    fn hold(&mut self, patches: &[[f64; 4]]) {
+        let held = patches.iter().map(|&[left, right, bottom, top]| {
+            HeldVertices::still(Region::Patch {
+                across: [left, right],
+                along: [bottom, top],
             })
         });
-        each.collect()
+        self.scene.holds = held.collect();
     }
 
-    /// The same scene by Verlet's method, at a part of the step that suits it.
-    fn reference(&self, stop: &dyn Fn() -> bool) -> Option<Trace> {
-        self.again(Method::Verlet, FINER, stop)
+    fn run(&self) -> Run {
+        let scene = self.scene.clone();
+        let run = Run::new(self.mesh.clone(), &self.positions, scene, &self.frame);
+        let points = self.positions.as_slice();
+        let run = run.expect("a trial is a scene that can be played");
+        let run = run.displaced(|v| (self.start)(points[v.index()]) - points[v.index()]);
+        run.expect("a trial starts at finite positions")
     }
+}
 
-    /// What Newton's method of second order is off by from that.
-    #[cfg(test)]
-    pub(super) fn off_by_newton(&self, stop: &dyn Fn() -> bool) -> Option<f64> {
-        use tearmesh_cloth::implicit;
+/// A scene that was played.
+struct Played {
+    stage: Stage,
+    run: Run,
+    /// The error that ended the run; `None` if it reached its end.
+    error: Option<StepError>,
+    /// The positions of vertices at [`MOMENTS`] moments; fewer if the run failed.
+    positions: Vec<Vec<Point>>,
+    /// The largest energy as a multiple of that at the start.
+    energy: f64,
+}
 
-        let settings = implicit::Settings {
-            method: implicit::Method::Bdf2,
-            tolerance: implicit::Tolerance::Tied(1.0),
-            newton_iterations_max: 20,
-            ..implicit::Settings::default()
+impl Trial {
+    /// Plays the scene by each method, and returns a row for each. `None` if it was interrupted.
+    pub(super) fn rows(
+        &self,
+        messages: &dyn Messages,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<Vec<Row>> {
+        let reference = match self.judge {
+            Judge::Place => Some(self.play(Method::Verlet, Some(FINER), stop)?),
+            _ => None,
         };
-        let trace = self.again(Method::Implicit(settings), 16, stop)?;
-        let mut stage = Stage::new(Method::Verlet);
-        (self.set)(&mut stage);
-        let run = stage.run().expect("a scene of our own");
-        self.judge
-            .measure(&stage, &run, &trace, Some(&self.reference(stop)?))
+        let methods = DefaultMethod::all().into_iter().zip(self.expected);
+        let rows = methods.map(|(method, expected)| {
+            let played = self.play(method.settings, None, stop)?;
+            let Played { run, error, .. } = &played;
+            let (measure, measure_max) = self.judge.measure(&played, reference.as_ref());
+            let measure = measure.filter(|_| error.is_none());
+            let measured = match error {
+                Some(error) => Class::of(error),
+                // Written so that NaN is wrong.
+                None if measure.is_none_or(|measure| measure <= measure_max) => Fine,
+                None => Wrong,
+            };
+            let said = messages.of_run(run, &played.stage.frame, error.as_ref());
+            let row = Row {
+                dt_s: Some(run.step_s()),
+                expected: Some(expected),
+                measured: Some(measured),
+                measure,
+                agrees: Some(measured == expected),
+                is_silent: Some(measured != Fine && said.is_empty()),
+                status: Status::Ok,
+                ..Row::new(RowKind::Scene, self.name, method.name)
+            };
+            Some(row.with_messages(&said))
+        });
+        rows.collect()
     }
 
-    fn again(&self, method: Method, finer: u32, stop: &dyn Fn() -> bool) -> Option<Trace> {
+    /// Plays the scene by a method, at the step of the scene or at a fraction of the recommended step. `None`
+    /// is an interruption.
+    fn play(
+        &self,
+        method: Method,
+        finer: Option<NonZero<u32>>,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<Played> {
         let mut stage = Stage::new(method);
         (self.set)(&mut stage);
-        stage.scene.step_s = None;
-        let finer = NonZero::new(finer).expect("a part");
-        let run = stage.run().expect("a scene of our own");
-        let (trace, _) = trace(&mut run.in_smaller_steps(finer), &stage.frame, None, stop)?;
-        Some(trace)
+        let mut run = match finer {
+            None => stage.run(),
+            Some(finer) => {
+                stage.scene.step_s = None;
+                stage.run().in_smaller_steps(finer)
+            }
+        };
+        let start_j = mechanical_j(&run);
+        let (mut error, mut positions, mut energy) = (None, Vec::new(), 1.0_f64);
+        while error.is_none() && !run.is_over() {
+            if stop() {
+                return None;
+            }
+            if let Err(failed) = run.step() {
+                error = Some(failed);
+                continue;
+            }
+            let (steps, planned) = (run.tally().steps, run.steps_planned());
+            if steps * MOMENTS / planned > (steps - 1) * MOMENTS / planned {
+                positions.push(run.cloth().positions().to_vec());
+            }
+            energy = energy.max(mechanical_j(&run) / start_j);
+        }
+        Some(Played {
+            stage,
+            run,
+            error,
+            positions,
+            energy,
+        })
     }
 }
 
 impl Judge {
-    /// What is measured of a run that came to its end.
-    fn measure(
-        self,
-        stage: &Stage,
-        run: &Run,
-        trace: &Trace,
-        reference: Option<&Trace>,
-    ) -> Option<f64> {
+    /// The measure of a run, and the largest value that is right.
+    fn measure(self, played: &Played, reference: Option<&Played>) -> (Option<f64>, f64) {
         match self {
-            Judge::Ends => None,
-            Judge::Unstrained => Some(strain(run)),
-            Judge::Energy => Some(trace.energy),
+            Judge::Ends => (None, f64::INFINITY),
+            Judge::Unstrained => (Some(strain(&played.run)), STRAIN_MAX),
+            Judge::Energy => (Some(played.energy), 1.0 + ENERGY_GAIN_MAX),
             Judge::Place => {
-                let points = stage.positions.as_slice().iter();
-                let unloaded: Vec<Point> = points.map(|&p| (stage.unloaded)(p)).collect();
-                Some(off(trace, reference?, &unloaded))
+                let error = reference.map(|reference| position_error(played, reference));
+                (error, POSITION_ERROR_MAX)
             }
         }
     }
-
-    /// The most of it that is right.
-    fn most(self) -> f64 {
-        match self {
-            Judge::Unstrained => NEXT_TO_NOTHING,
-            Judge::Energy => 1.0 + MADE_MAX,
-            Judge::Place | Judge::Ends => OFF_MAX,
-        }
-    }
 }
 
-/// A run to its end, and what is said of it. `None` is an interruption.
-fn trace(
-    run: &mut Run,
-    frame: &Frame,
-    teller: Option<&dyn Teller>,
-    stop: &dyn Fn() -> bool,
-) -> Option<(Trace, Vec<Told>)> {
-    let began_j = mechanical_j(run);
-    let mut trace = Trace {
-        places: Vec::new(),
-        energy: 1.0,
-        failed: None,
-    };
-    let mut error = None;
-    while !run.is_over() {
-        if stop() {
-            return None;
-        }
-        if let Err(failed) = run.step() {
-            trace.failed = Some(limit::class(&failed));
-            error = Some(failed);
-            break;
-        }
-        let (steps, planned) = (run.tally().steps, run.steps_planned());
-        if steps * MOMENTS / planned > (steps - 1) * MOMENTS / planned {
-            trace.places.push(run.cloth().positions().to_vec());
-        }
-        trace.energy = trace.energy.max(mechanical_j(run) / began_j);
-    }
-    let told = teller.map(|teller| teller.run(run, frame, error.as_ref()));
-    Some((trace, told.unwrap_or_default()))
-}
-
-/// Energy of motion and strain, in joules; of motion alone by methods that leave lengths for which they
-/// have no force.
+/// The kinetic and elastic energy in joules. It is the kinetic energy alone for methods that sweep, since the
+/// lengths that sweeps leave belong to no force.
 fn mechanical_j(run: &Run) -> f64 {
     let system = run.cloth().system();
     let is_swept = matches!(run.scene().solver, Method::Xpbd(_) | Method::Pbd(_));
     let has_begun = run.tally().steps > 0;
-    let strain_j = match is_swept && has_begun {
+    let elastic_j = match is_swept && has_begun {
         true => 0.0,
         false => energy::elastic_j(system),
     };
-    strain_j + energy::kinetic_j(system)
+    elastic_j + energy::kinetic_j(system)
 }
 
+/// The largest strain of an edge.
 fn strain(run: &Run) -> f64 {
     let system = run.cloth().system();
     let (springs, x) = (system.stretches(), system.positions());
@@ -516,16 +451,50 @@ fn strain(run: &Run) -> f64 {
     strains.fold(0.0, f64::max)
 }
 
-/// The rms of what vertices are off by, over that of how far the reference has them from where they lie
-/// without loads.
-fn off(trace: &Trace, reference: &Trace, unloaded: &[Point]) -> f64 {
+/// The rms distance of vertices from the reference, divided by that of the reference from the positions without
+/// loads.
+fn position_error(played: &Played, reference: &Played) -> f64 {
+    let points = played.stage.positions.as_slice().iter();
+    let unloaded: Vec<Point> = points.map(|&p| (played.stage.unloaded)(p)).collect();
     let square = |ps: &[Point], qs: &[Point]| {
         let pairs = ps.iter().zip(qs);
         pairs.map(|(p, q)| (p - q).norm_squared()).sum::<f64>()
     };
-    let moments = trace.places.iter().zip(&reference.places);
-    let sum = moments.fold([0.0; 2], |[off, way], (places, known)| {
-        [off + square(places, known), way + square(known, unloaded)]
+    let moments = played.positions.iter().zip(&reference.positions);
+    let [error, displacement] = moments.fold([0.0; 2], |[error, displacement], (own, known)| {
+        [
+            error + square(own, known),
+            displacement + square(known, &unloaded),
+        ]
     });
-    (sum[0] / sum[1]).sqrt()
+    (error / displacement).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+
+    use super::*;
+
+    /// References are Verlet's, so the scenes are played again by Newton's method of second order.
+    #[test]
+    fn references_agree_with_another_method() {
+        let newton = Method::Implicit(Settings {
+            method: implicit::Method::Bdf2,
+            tolerance: Tolerance::Tied(1.0),
+            newton_iterations_max: 20,
+            ..Settings::default()
+        });
+        for (name, error_max) in [("hang", 0.01), ("pretension", 0.03), ("ringing", 0.03)] {
+            let trial = TRIALS.iter().find(|trial| trial.name == name);
+            let play = |method: &Method, finer: u32| {
+                let played = trial?.play(method.clone(), NonZero::new(finer), &|| false);
+                played.filter(|played| played.error.is_none())
+            };
+            let [verlet, newton] = [(&Method::Verlet, FINER.get()), (&newton, 16)]
+                .map(|(method, finer)| play(method, finer).expect("it reaches its end"));
+            let error = position_error(&newton, &verlet);
+            assert!(error < error_max, "{name}: {error}");
+        }
+    }
 }

@@ -1,0 +1,400 @@
+//! `chart`: each experiment is run, drawn and tabled, and its table is drawn again.
+
+use crate::harness::{Folder, root, seen};
+
+/// A small chart: its name, the options that decide the numbers, how many runs it announces, the numbers of
+/// threads that leave the same bytes; and between bars how some rows begin, and what the chart and the summary have.
+struct Chart([&'static str; 2], usize, &'static [u32], [&'static str; 3]);
+
+/// The fields of each line of a table.
+fn fields(table: &str) -> Vec<Vec<String>> {
+    let of = |line: &str| {
+        let mut fields = vec![String::new()];
+        let mut is_quoted = false;
+        for c in line.chars() {
+            match c {
+                '"' => is_quoted = !is_quoted,
+                ',' if !is_quoted => fields.push(String::new()),
+                _ => fields.last_mut().expect("a field").push(c),
+            }
+        }
+        assert!(!is_quoted, "{line}");
+        fields
+    };
+    table.lines().map(of).collect()
+}
+
+/// The fields of a column, by its name.
+fn column<'a>(table: &'a [Vec<String>], name: &str) -> Vec<&'a str> {
+    let at = table[0].iter().position(|field| field == name);
+    let at = at.unwrap_or_else(|| panic!("no {name} in {:?}", table[0]));
+    table[1..].iter().map(|row| row[at].as_str()).collect()
+}
+
+/// A chart but for the line that tells its origin.
+fn without_origin(chart: &str) -> Vec<&str> {
+    let (origin, rest): (Vec<_>, _) = chart.lines().partition(|line| line.contains(", commit "));
+    assert_eq!(origin.len(), 1, "{origin:?}");
+    rest
+}
+
+impl Chart {
+    /// Makes a chart in all ways, holds them against each other, and returns its table and what was printed.
+    fn hold(&self, folder: &Folder) -> (Vec<Vec<String>>, String) {
+        let Chart([name, options], runs, threads, [rows, words @ ..]) = *self;
+        let command = format!("tearmesh chart {name} {options}");
+        let typed = command.replace('…', "record.txt");
+        let first = threads[0];
+        let line = format!("{typed} --threads {first} -o a.svg --csv a.csv --json a.json");
+        let output = folder.run(&line);
+        let said = seen(&output);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        let begin = String::from_utf8_lossy(&output.stderr);
+        let begun = format!("{runs} runs, about ");
+        let end = " (Ctrl-C stops and keeps finished runs)\n";
+        assert!(begin.starts_with(&begun) && begin.ends_with(end), "{begin}");
+        assert_eq!(begin.lines().count(), 1, "{begin}");
+        assert!(said.ends_with("\nwrote a.svg, a.csv, a.json\n"), "{said}");
+
+        let [chart, text] = ["a.svg", "a.csv"].map(|name| folder.read(name));
+        assert!(chart.starts_with("<svg ") && chart.contains(&command));
+        for (all, words) in [&chart, &said].into_iter().zip(words) {
+            for word in words.split('|') {
+                assert!(all.contains(word), "no {word}\n{all}");
+            }
+        }
+        for row in rows.split('|') {
+            let is_there = text.lines().any(|line| line.starts_with(row));
+            assert!(is_there, "no {row}\n{text}");
+        }
+        let table = fields(&text);
+        assert!(table.iter().all(|row| row.len() == table[0].len()));
+        assert!(!column(&table, "status").contains(&"interrupted"));
+        let json: serde_json::Value = serde_json::from_str(&folder.read("a.json")).expect("JSON");
+        assert_eq!(json["provenance"]["command"], command);
+        let count = json["rows"].as_array().map(Vec::len);
+        assert_eq!(count, Some(table.len() - 1));
+
+        // From its table it is drawn and told in the same way, and nothing is run.
+        let line = format!("tearmesh chart {name} --from a.csv -o b.svg --csv b.csv");
+        let again = folder.run(&line);
+        assert_eq!(again.status.code(), Some(0), "{}", seen(&again));
+        let told = said.strip_prefix(&*begin).expect("a summary");
+        let told = told.replace("wrote a.svg, a.csv, a.json", "wrote b.svg, b.csv");
+        assert_eq!(seen(&again), told);
+        let drawn = folder.read("b.svg");
+        assert!(drawn.contains("drawn from a.csv"));
+        assert_eq!(without_origin(&drawn), without_origin(&chart));
+        assert_eq!(folder.read("b.csv"), text);
+
+        for threads in &threads[1..] {
+            let line = format!("{typed} --threads {threads} -q -o - --csv c.csv");
+            let again = folder.run(&line);
+            assert_eq!(String::from_utf8_lossy(&again.stderr), "");
+            assert!(folder.read("c.csv") == text, "{threads} threads differ");
+            assert!(again.stdout == chart.as_bytes(), "{threads} threads differ");
+        }
+        (table, said)
+    }
+}
+
+#[test]
+fn guide() {
+    let chart = Chart(
+        ["guide", "--size 8 --seeds 2 --diagonals 2"],
+        253,
+        &[2],
+        [
+            "hang,8,|flag,8,|rip,8,|trouser,8,|aftermath,8,",
+            "hang|trouser",
+            "Which method for my scene?|It fails when: ",
+        ],
+    );
+    chart.hold(&Folder::new());
+}
+
+#[test]
+fn pareto() {
+    let chart = Chart(
+        [
+            "pareto",
+            "--scene swing --mesh grid --size 3 --visits-max 100000",
+        ],
+        163,
+        &[1, 2],
+        [
+            "swing,grid,3,1000.0,1.0,verlet@default,verlet,|swing,grid,3,1000.0,1.0,rk4@2,|swing,grid,3,1000.0,1.0,gate,",
+            "default|--scene swing",
+            "swing S2: |verlet    at its defaults: cost 1.00,",
+        ],
+    );
+    let (table, _) = chart.hold(&Folder::new());
+    // No time is measured that nobody asked for.
+    assert!(
+        column(&table, "cpu_median_s")
+            .iter()
+            .all(|time| time.is_empty())
+    );
+}
+
+#[test]
+fn times_are_measured_if_they_are_asked_for() {
+    let folder = Folder::new();
+    let line = "tearmesh chart pareto --scene swing --size 2 --visits-max 20000 --time --repeats 1";
+    let output = folder.run(&format!("{line} -q --csv p.csv -o p.svg"));
+    assert_eq!(seen(&output), "");
+    assert!(folder.read("p.svg").contains("CPU time"));
+    let table = fields(&folder.read("p.csv"));
+    let times = column(&table, "cpu_median_s").into_iter();
+    let of = column(&table, "run").into_iter().zip(times);
+    let default: Vec<_> = of.filter(|(run, _)| *run == "verlet@default").collect();
+    assert!(!default.is_empty());
+    for (_, time) in default {
+        assert!(
+            time.parse::<f64>().is_ok_and(|seconds| seconds > 0.0),
+            "{time}"
+        );
+    }
+}
+
+#[test]
+fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_code() {
+    let chart = Chart(
+        ["stability", "--stiffness 1000"],
+        66,
+        &[2, 1],
+        [
+            "limit,halved,1000.0,RK4,|step,sheet,1000.0,PBD,1000.0,|scene,wind,,provot,",
+            "W-SIM-ENERGY",
+            "No method failed silently: 0 of 54 limits differ from theory, 0 of 60 runs of scenes",
+        ],
+    );
+    let (table, said) = chart.hold(&Folder::new());
+    assert!(
+        !said.contains("is silent: ") && !said.contains(", expected "),
+        "{said}"
+    );
+    assert!(!column(&table, "is_silent").contains(&"true"));
+    assert!(!column(&table, "agrees").contains(&"false"));
+    let [what, places, methods, codes] =
+        ["what", "where", "method", "codes"].map(|name| column(&table, name));
+    let codes = |scene: &str, method: &str| {
+        let is = |i: &usize| what[*i] == "scene" && places[*i] == scene && methods[*i] == method;
+        let row = (0..what.len()).find(is).expect("a row");
+        codes[row]
+            .split(" | ")
+            .filter(|code| !code.is_empty())
+            .collect::<Vec<_>>()
+    };
+    for (scene, method, code) in [
+        ("hang", "xpbd", "W-SIM-SOFT"),
+        ("hang", "pbd", "W-SIM-RIGID"),
+        ("long steps", "pbd", "W-SIM-COARSE"),
+        ("long steps", "verlet", "E-SIM-UNSTABLE"),
+        ("short steps", "pbd", "W-SIM-RIGID"),
+        ("ringing", "implicit", "W-SIM-DAMPED"),
+        ("crushed", "provot", "W-SIM-ENERGY"),
+        ("compression", "implicit", "E-SIM-UNSOLVED"),
+        ("wind", "implicit", "E-SIM-UNSTABLE"),
+        ("too far apart", "provot", "W-SIM-LIMIT"),
+    ] {
+        let codes = codes(scene, method);
+        assert!(codes.contains(&code), "{scene}, {method}: {codes:?}");
+    }
+    assert_eq!(codes("short steps", "verlet"), Vec::<&str>::new());
+}
+
+#[test]
+fn tear() {
+    let chart = Chart(
+        [
+            "tear",
+            "--strips 4,6 --scene rip --method implicit,pbd --seeds 2 --size 6",
+        ],
+        16,
+        &[2, 1],
+        [
+            "largest,trouser,4,ok,stretch,|first,trouser,6,ok,toughness,|run,rip,6,ok,,,,,,pbd,4,",
+            "--seeds 2",
+            "rip of 6 cells, torn length, m; |half the step: ",
+        ],
+    );
+    let (table, _) = chart.hold(&Folder::new());
+    let runs = column(&table, "what")
+        .into_iter()
+        .filter(|what| *what == "run");
+    assert_eq!(runs.count(), 12);
+}
+
+#[test]
+fn tear_without_seeds_has_strips_alone() {
+    let folder = Folder::new();
+    let output = folder.run("tearmesh chart tear --strips 4,6 --seeds 0 -q --json t.json");
+    assert_eq!(seen(&output), "");
+    let json: serde_json::Value = serde_json::from_str(&folder.read("t.json")).expect("JSON");
+    let rows = json["rows"].as_array().expect("rows");
+    let count = |what: &str| rows.iter().filter(|row| row["what"] == what).count();
+    assert_eq!(["largest", "run"].map(count), [4, 0]);
+}
+
+#[test]
+fn cut_beside_the_record_of_the_project() {
+    let folder = Folder::new();
+    let records = std::fs::read_dir(root().join("tools/bench/record")).expect("records");
+    let records = records.map(|entry| entry.expect("an entry").path().join("cut.txt"));
+    let record = records
+        .filter(|path| path.exists())
+        .min()
+        .expect("a record");
+    folder.write("record.txt", std::fs::read(record).expect("a record"));
+    let chart = Chart(
+        ["cut", "--size 8,12 --cuts 3 --record …"],
+        60,
+        &[1],
+        [
+            "uniform,128,ok,3,|exact .05 moved,288,ok,3,|\"exact, snap 0\",|partition,999698,|meshlib,|trimesh,|vtk-plane,|vtk-clip,",
+            "meshlib|exact .05 moved",
+            " 128  uniform | 288  exact .2 moved ",
+        ],
+    );
+    let (table, _) = chart.hold(&folder);
+    let cuts = column(&table, "cuts")
+        .into_iter()
+        .filter(|cuts| *cuts == "3");
+    assert_eq!(cuts.count(), 20);
+    let mut times = column(&table, "ns_per_face").into_iter();
+    assert!(times.all(|time| time.parse::<f64>().is_ok_and(|ns| ns > 0.0)));
+}
+
+#[test]
+fn fig7() {
+    let chart = Chart(
+        ["fig7", "--size 4,8"],
+        2,
+        &[1],
+        [
+            "4,25,32,|8,81,128,",
+            "ghost pairs",
+            "8 × 8 cells, half-edge with ghost pairs: ",
+        ],
+    );
+    let (table, _) = chart.hold(&Folder::new());
+    assert_eq!(table.len(), 1 + 2 * 3 * 10);
+    assert!(!column(&table, "splits").contains(&"0"));
+}
+
+/// What is refused of each chart, between bars.
+const REFUSED: &str = "\
+guide|--size 4 -o x|--seeds 1 -o x|--diagonals 1 -o x|--quick --size 8 -o x
+pareto|--scene nowhere -o x|--size 1 -o x|--threads 0 -o x|--repeats 3 -o x|--mass-ratio 0 -o x
+pareto|--scene swing|--csv -|-o ./x --csv x|--time-chart y -o x|--plan -o x|--gather y -o x
+stability|--stiffness=0 -o x|--stiffness=-1 -o x|--stiffness=nan -o x|--stiffness=1e10 -o x
+stability|--stiffness=much -o x
+tear|--scene swing -o x|--scene hang -o x|--method rk4 -o x|--seeds -1 -o x|--size 3 -o x
+tear|--strips 8 -o x|--strips 4,5 -o x|--runs y -o x|--time -o x|--no-strips --strips 4,6 -o x
+cut|--cuts 0 -o x|--size 3 -o x|-o x --record
+fig7|--size 1 -o x|--size 8 -o x --csv x|--scene rip -o x
+choice|-o x
+plane|-o x
+space|-o x
+all|-o x";
+
+#[test]
+fn what_makes_no_chart_is_refused() {
+    let folder = Folder::new();
+    let files = folder.names();
+    for line in REFUSED.lines() {
+        let (chart, refused) = line.split_once('|').expect("a bar");
+        for options in refused.split('|') {
+            let said = seen(&folder.run(&format!("tearmesh chart {chart} {options}")));
+            assert!(said.ends_with("(exit 2)\n"), "{chart} {options}\n{said}");
+        }
+    }
+    assert_eq!(folder.names(), files);
+}
+
+#[test]
+fn what_is_no_record_and_no_table_is_refused_before_any_run() {
+    let folder = Folder::new();
+    folder.write("no.txt", "through cut of nothing\n");
+    let line = "tearmesh chart fig7 --size 4 -q --csv fig7.csv";
+    assert_eq!(seen(&folder.run(line)), "");
+    let table = folder.read("fig7.csv");
+    folder.write("short.csv", &table[..table.len() - 9]);
+    folder.write("words.csv", table.replace(",ok,", ",fine,"));
+    let files = folder.names();
+    for (options, code) in [
+        ("cut --record no.txt", "E-CHART-RECORD"),
+        ("cut --record nowhere.txt", "E-IO-READ"),
+        ("cut --from nowhere.csv", "E-IO-READ"),
+        ("pareto --from fig7.csv", "E-CHART-TABLE"),
+        ("fig7 --from short.csv", "E-CHART-TABLE"),
+        ("fig7 --from words.csv", "E-CHART-TABLE"),
+    ] {
+        let said = seen(&folder.run(&format!("tearmesh chart {options} -o x.svg")));
+        let is_refused = said.contains(code) && said.ends_with("(exit 3)\n");
+        assert!(
+            is_refused && !said.contains(" runs, about "),
+            "{options}\n{said}"
+        );
+    }
+    assert_eq!(folder.names(), files);
+}
+
+#[test]
+fn a_text_without_the_columns_of_a_table_is_none() {
+    let folder = Folder::new();
+    for text in ["", "through cut of nothing\n"] {
+        folder.write("no.csv", text);
+        let said = seen(&folder.run("tearmesh chart pareto --from no.csv -o x.svg"));
+        assert!(said.contains("E-CHART-TABLE"), "{text:?}\n{said}");
+        assert!(said.ends_with("(exit 3)\n"), "{text:?}\n{said}");
+    }
+}
+
+/// All of it would take hours.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_chart_ends_at_once_with_what_was_done() {
+    use std::io::{BufRead as _, BufReader, Read as _};
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let folder = Folder::new();
+    let mut command = folder.command();
+    let line =
+        "chart pareto --scene undamped --size 3,32 --visits-max 100000000000 -o p.svg --csv p.csv";
+    command
+        .args(line.split(' '))
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null());
+    let mut child = command.spawn().expect("a run");
+    let mut words = BufReader::new(child.stderr.take().expect("words"));
+    let mut said = String::new();
+    words.read_line(&mut said).expect("how long it will take");
+    // The small mesh is done by then, and nothing of the other.
+    std::thread::sleep(Duration::from_secs(4));
+    let begun = Instant::now();
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(killed.expect("kill runs").success());
+    let status = child.wait().expect("an end");
+    assert!(
+        begun.elapsed() < Duration::from_secs(30),
+        "{:?}",
+        begun.elapsed()
+    );
+    words.read_to_string(&mut said).expect("the rest");
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(said.contains("W-CHART-INTERRUPTED"), "{said}");
+    let table = fields(&folder.read("p.csv"));
+    let of = |status: &str| {
+        column(&table, "status")
+            .into_iter()
+            .filter(|is| *is == status)
+            .count()
+    };
+    assert!(of("interrupted") > 100 && of("ok") > 0, "{said}");
+    assert!(folder.read("p.svg").contains("INTERRUPTED"));
+}

@@ -1,0 +1,240 @@
+//! Experiments: a plan of runs, a table with a row for each, and a figure of the table.
+//!
+//! An [`Experiment`] lists the keys of its runs, in groups that are assessed together, and carries out a run by
+//! its key. [`conduct`] does all runs of a plan on a pool of threads, group by group. A run that failed, or that
+//! an interruption left out, is a row with a status. [`table`] writes the rows as CSV; what is drawn is drawn
+//! from the rows alone, so a table that was read back gives the same figure.
+
+use std::num::NonZero;
+use std::time::Duration;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::plot::Figure;
+use crate::pool::side_by_side;
+
+/// An experiment: what is run, what is written down of it, and what is drawn.
+pub trait Experiment: Sync {
+    /// What distinguishes a run from the others of the plan.
+    type Key: Sync;
+    /// What a run leaves.
+    type Outcome: Send;
+    /// A line of the table.
+    type Row: Serialize + DeserializeOwned;
+
+    /// Returns the command line with every option that decides the numbers.
+    fn command(&self) -> String;
+
+    /// Returns whether the experiment measures CPU time.
+    fn is_timed(&self) -> bool {
+        false
+    }
+
+    /// Returns the number of runs that may go on at a time.
+    fn threads(&self) -> NonZero<usize>;
+
+    /// Returns the keys of all runs, in groups that are assessed together.
+    fn plan(&self) -> Vec<Vec<Self::Key>>;
+
+    /// Returns the name of a run.
+    fn name(&self, key: &Self::Key) -> String;
+
+    /// Returns an estimate of the CPU time of a run, in seconds.
+    fn guess_s(&self, key: &Self::Key) -> f64;
+
+    /// Returns the round of a run. Runs of a round begin when those of all rounds before it have begun, so that
+    /// repeated runs are not next to each other.
+    fn round(&self, _key: &Self::Key) -> u32 {
+        0
+    }
+
+    /// Carries out a run. Returns `None` if it was interrupted.
+    fn run(&self, key: &Self::Key, bounds: &Bounds<'_>) -> Option<Self::Outcome>;
+
+    /// Returns the rows of a group, with at least one for each key. `outcomes` is in the order of `keys`; `None`
+    /// stands for a run that was interrupted.
+    fn rows(&self, keys: &[Self::Key], outcomes: Vec<Option<Self::Outcome>>) -> Vec<Self::Row>;
+}
+
+/// An experiment that is drawn and summed up in words, from its table alone.
+pub trait Chart: Experiment {
+    /// Returns the figure of a table.
+    fn figure(&self, rows: &[Self::Row], provenance: &Provenance) -> Figure;
+
+    /// Returns a summary of a table in words.
+    fn summary(&self, rows: &[Self::Row]) -> String;
+}
+
+/// The means that a run is given from outside.
+#[derive(Clone, Copy)]
+pub struct Bounds<'a> {
+    /// The function that returns the CPU time of the calling thread; `None` to measure no times.
+    pub clock: Option<&'a (dyn Fn() -> Duration + Sync)>,
+    /// The function that returns whether all runs must end.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl std::fmt::Debug for Bounds<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Bounds").finish_non_exhaustive()
+    }
+}
+
+impl Bounds<'_> {
+    /// Returns the CPU time of the calling thread; zero without a clock.
+    #[must_use]
+    pub fn now(&self) -> Duration {
+        self.clock.map_or(Duration::ZERO, |clock| clock())
+    }
+}
+
+/// The table of an experiment, and how many runs of the plan reached an end.
+#[derive(Clone, Debug)]
+pub struct Conducted<R> {
+    /// The rows, in the order of the plan.
+    pub rows: Vec<R>,
+    /// The number of runs that were not interrupted.
+    pub done: usize,
+    /// The number of runs of the plan.
+    pub planned: usize,
+}
+
+/// A time that no run takes, in seconds: rounds are this far apart in the order of runs.
+const ROUND_S: f64 = 1e9;
+
+/// Carries out the plan of an experiment.
+///
+/// `watch` is called after each run with its name and the estimated fraction of all work that is done. Once
+/// `bounds.stop` returns true, no other run is begun.
+pub fn conduct<E: Experiment>(
+    experiment: &E,
+    bounds: &Bounds<'_>,
+    mut watch: impl FnMut(&str, f64),
+) -> Conducted<E::Row> {
+    let plan = experiment.plan();
+    let whole_s = guess_s(experiment, &plan);
+    let mut conducted = Conducted {
+        rows: Vec::new(),
+        done: 0,
+        planned: plan.iter().map(Vec::len).sum(),
+    };
+    let mut done_s = 0.0;
+    for keys in &plan {
+        let outcomes = side_by_side(
+            keys,
+            experiment.threads(),
+            // The costliest run of a round first, since the last ones may leave a thread idle.
+            |key| experiment.guess_s(key) - ROUND_S * f64::from(experiment.round(key)),
+            |key| match (bounds.stop)() {
+                true => None,
+                false => experiment.run(key, bounds),
+            },
+            |i| {
+                done_s += experiment.guess_s(&keys[i]);
+                watch(&experiment.name(&keys[i]), done_s / whole_s);
+            },
+        );
+        conducted.done += outcomes.iter().filter(|outcome| outcome.is_some()).count();
+        conducted.rows.extend(experiment.rows(keys, outcomes));
+    }
+    conducted
+}
+
+/// Returns an estimate of the CPU time of a plan, in seconds.
+pub fn guess_s<E: Experiment>(experiment: &E, plan: &[Vec<E::Key>]) -> f64 {
+    let keys = plan.iter().flatten();
+    keys.map(|key| experiment.guess_s(key)).sum()
+}
+
+/// Returns rows as CSV: a header with the names of the columns, and a line per row.
+///
+/// # Errors
+///
+/// [`csv::Error`] if a row has other columns than the first.
+pub fn table<R: Serialize>(rows: &[R]) -> Result<String, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Reads rows from CSV, as [`table`] writes them.
+///
+/// # Errors
+///
+/// [`csv::Error`] with the line of the first row that is not one.
+pub fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error> {
+    csv::Reader::from_reader(text.as_bytes())
+        .deserialize()
+        .collect()
+}
+
+/// The ways in which a run ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// The run reached its end.
+    Ok,
+    /// A step was refused, at the start or later.
+    Refused,
+    /// The energy grew without bound, or a number was infinite, NaN or too large.
+    BlownUp,
+    /// The equations of an implicit step were not solved.
+    Unsolved,
+    /// The time of the scene passed before what it waits for.
+    Restless,
+    /// The run exceeded its limit of visits of edges.
+    TooDear,
+    /// The run could not be begun, or failed for another reason.
+    Failed,
+    /// The experiment was interrupted before the run was done.
+    Interrupted,
+}
+
+impl Status {
+    /// Returns the name of the status in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Ok => "ok",
+            Status::Refused => "refused",
+            Status::BlownUp => "blown-up",
+            Status::Unsolved => "unsolved",
+            Status::Restless => "restless",
+            Status::TooDear => "too-dear",
+            Status::Failed => "failed",
+            Status::Interrupted => "interrupted",
+        }
+    }
+}
+
+/// The origin of a chart: the program, the commit and the machine that produced it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// The command line that produced the chart.
+    pub command: String,
+    /// The version of the program.
+    pub version: String,
+    /// The commit from which the program was built.
+    pub commit: String,
+    /// The compiler that built the program.
+    pub compiler: String,
+    /// The processor on which times were measured; `None` if no times were measured.
+    pub processor: Option<String>,
+}
+
+impl Provenance {
+    /// Returns the provenance as the footer of a figure.
+    #[must_use]
+    pub fn footer(&self) -> String {
+        let processor = self.processor.as_ref();
+        let processor = processor.map_or(String::new(), |name| format!(" · {name}"));
+        format!(
+            "{} · version {}, commit {} · {}{processor}",
+            self.command, self.version, self.commit, self.compiler
+        )
+    }
+}

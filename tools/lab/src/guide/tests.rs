@@ -1,0 +1,82 @@
+//! Errors against answers worked out by hand, and a page that has a row for every run.
+
+use super::*;
+use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::pool::workers;
+
+fn guide() -> Guide {
+    Guide::new(Options {
+        cells: 8,
+        seeds: 2,
+        diagonals: 2,
+        threads: workers(),
+    })
+}
+
+#[test]
+fn page_has_all_topics_and_survives_a_file() {
+    let bounds = Bounds {
+        clock: None,
+        stop: &|| false,
+    };
+    let guide = guide();
+    let conducted = conduct(&guide, &bounds, |_, _| {});
+    let rows = conducted.rows;
+    assert_eq!(
+        (conducted.done, rows.len()),
+        (conducted.planned, conducted.planned)
+    );
+    let read: Vec<Row> = read_table(&table(&rows).expect("a table")).expect("the same table");
+    assert_eq!(read, rows);
+    let figure = guide.figure(&rows, &Provenance::default());
+    assert_eq!(figure.panels.len(), 6);
+    assert!(!crate::plot::svg(&figure).contains("NaN"));
+    // At rest there is one shape, whatever finds it, but for methods whose sweeps are soft.
+    let error = |method: &str| {
+        let is_it = |row: &&Row| {
+            row.topic == Topic::Hang
+                && row.role == Role::Method
+                && row.cells == 8
+                && row.method == method
+        };
+        let row = rows
+            .iter()
+            .filter(is_it)
+            .find(|row| row.step_multiple.is_none());
+        row.and_then(|row| row.error).expect("it is known")
+    };
+    for method in ["verlet", "implicit", "provot"] {
+        assert!(error(method) < 1e-3, "{method}: {}", error(method));
+    }
+    assert!(error("xpbd") > 0.1, "{}", error("xpbd"));
+}
+
+#[test]
+fn an_interrupted_page_has_a_row_for_each_run() {
+    let bounds = Bounds {
+        clock: None,
+        stop: &|| true,
+    };
+    let conducted = conduct(&guide(), &bounds, |_, _| {});
+    assert_eq!(
+        (conducted.done, conducted.rows.len()),
+        (0, conducted.planned)
+    );
+    assert!(
+        conducted
+            .rows
+            .iter()
+            .all(|row| row.status == Status::Interrupted)
+    );
+}
+
+#[test]
+fn interval_of_equal_members_is_their_error_and_of_none_nothing() {
+    let members = vec![Measured::default(); 5];
+    assert_eq!(
+        resampled(&members, |of| Some(of.len() as f64)),
+        Some([5.0; 3])
+    );
+    assert_eq!(resampled(&members[..1], |_| Some(0.25)), Some([0.25; 3]));
+    assert_eq!(resampled(&members, |_| None), None);
+}

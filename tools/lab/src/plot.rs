@@ -1,0 +1,230 @@
+//! Plots: figures of panels, described as data and drawn as SVG.
+//!
+//! A [`Figure`] has a title that says the finding, panels side by side, at most one legend, and a footer with
+//! the provenance. A [`Panel`] has two [`Axis`]es and [`Layer`]s: lines, marks, bars with intervals, bands,
+//! rules, cells of a heat map, and labels. Axes are fitted to what is drawn unless they have a range. Labels
+//! are moved apart, so that none stands on another. The same figure gives the same bytes.
+//!
+//! This is our own drawing and not a library's, since with axes, marks and labels described here a library
+//! has nothing left to do but to map points to pixels; and the one that served before (plotters) sets text
+//! at 1/1.24 of the size that it is asked for, and has no halo for text that crosses a line, no dashes and
+//! no words to hover over.
+
+mod axis;
+mod draw;
+mod number;
+
+pub use self::axis::{Axis, Scale};
+pub use self::draw::svg;
+pub use self::number::short;
+
+use std::ops::Range;
+
+/// A colour as `[red, green, blue]`.
+pub type Colour = [u8; 3];
+
+/// The colour of text.
+pub const INK: Colour = [0x22, 0x22, 0x22];
+/// The colour of remarks, rules and axes.
+pub const GREY: Colour = [0x60, 0x60, 0x60];
+/// The colour of bands.
+pub const PALE: Colour = [0xec, 0xec, 0xe6];
+/// The colour of strips in which failures stand.
+pub const PINK: Colour = [0xfb, 0xee, 0xea];
+/// Colours that are told apart with most kinds of colour blindness (Okabe and Ito).
+pub const COLOURS: [Colour; 6] = [
+    [0x00, 0x72, 0xb2],
+    [0xd5, 0x5e, 0x00],
+    [0x00, 0x9e, 0x73],
+    [0xcc, 0x79, 0xa7],
+    [0xc9, 0x8a, 0x00],
+    [0x56, 0xb4, 0xe9],
+];
+
+/// A figure: panels under one title.
+#[derive(Clone, Debug, Default)]
+pub struct Figure {
+    /// The title, which says what the data show.
+    pub title: String,
+    /// How the figure is to be read.
+    pub about: String,
+    /// The entries of the legend; empty where labels stand beside what they name.
+    pub legend: Vec<(Mark, String)>,
+    /// The number of panels in a row.
+    pub columns: usize,
+    /// The width and height of a panel in pixels, with its title and axes.
+    pub panel_size: [f64; 2],
+    /// The panels, row by row.
+    pub panels: Vec<Panel>,
+    /// The provenance, and what else has to be known; a paragraph each.
+    pub footer: Vec<String>,
+}
+
+/// A plot of a figure.
+#[derive(Clone, Debug, Default)]
+pub struct Panel {
+    /// The title.
+    pub title: String,
+    /// A remark under the title.
+    pub about: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn, from back to front.
+    pub layers: Vec<Layer>,
+    /// A strip above the vertical axis, as for runs that failed.
+    pub above: Option<Strip>,
+    /// A strip below the vertical axis, as for what is too small for it.
+    pub below: Option<Strip>,
+    /// Paragraphs under the panel.
+    pub words: Vec<String>,
+}
+
+/// A strip at the upper or lower end of the vertical axis, whose marks have no place along it.
+#[derive(Clone, Debug, Default)]
+pub struct Strip {
+    /// The words in the strip.
+    pub label: String,
+    /// The marks by their place along the horizontal axis, each with words to hover over.
+    pub marks: Vec<(f64, Mark, String)>,
+}
+
+/// What is drawn in a panel.
+#[derive(Clone, Debug)]
+pub enum Layer {
+    /// A band over the whole width.
+    Band {
+        /// The ends along the vertical axis. Ends beyond the axis are cut off.
+        y: Range<f64>,
+        /// The colour.
+        colour: Colour,
+    },
+    /// A dashed vertical line over the whole height, with a label at its upper end.
+    Rule {
+        /// The place along the horizontal axis.
+        x: f64,
+        /// The label.
+        label: String,
+    },
+    /// A line from point to point.
+    Line {
+        /// The points.
+        points: Vec<[f64; 2]>,
+        /// The colour.
+        colour: Colour,
+        /// The width in pixels.
+        width: f64,
+    },
+    /// A mark at a point.
+    Mark {
+        /// The point.
+        at: [f64; 2],
+        /// The mark.
+        mark: Mark,
+        /// Words to hover over; empty for none.
+        hover: String,
+    },
+    /// A ring around a mark.
+    Ring {
+        /// The point.
+        at: [f64; 2],
+        /// The colour.
+        colour: Colour,
+        /// Words to hover over; empty for none.
+        hover: String,
+    },
+    /// An interval with its middle, at a place along the horizontal axis.
+    Interval {
+        /// The place along the horizontal axis.
+        x: f64,
+        /// The lower end, the middle and the upper end.
+        y: [f64; 3],
+        /// The colour.
+        colour: Colour,
+    },
+    /// A cell of a heat map: one unit wide and high, with words in it.
+    Cell {
+        /// The place along both axes of its corner with the smaller numbers.
+        at: [f64; 2],
+        /// The colour.
+        colour: Colour,
+        /// The lines of text in the cell.
+        lines: Vec<String>,
+        /// Whether the cell has a red border.
+        is_marked: bool,
+    },
+    /// A label beside a point, moved up or down where another would be hit.
+    Label {
+        /// The point.
+        at: [f64; 2],
+        /// The text.
+        text: String,
+        /// The colour.
+        colour: Colour,
+    },
+}
+
+/// A mark at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// The shape.
+    pub shape: Shape,
+    /// The colour.
+    pub colour: Colour,
+    /// Half of the height, in pixels.
+    pub size: f64,
+    /// Whether the mark is an outline.
+    pub is_hollow: bool,
+}
+
+impl Mark {
+    /// Returns a filled mark of the usual size.
+    #[must_use]
+    pub const fn new(shape: Shape, colour: Colour) -> Mark {
+        Mark {
+            shape,
+            colour,
+            size: 4.5,
+            is_hollow: false,
+        }
+    }
+
+    /// Returns the mark as an outline.
+    #[must_use]
+    pub const fn hollow(self) -> Mark {
+        Mark {
+            is_hollow: true,
+            ..self
+        }
+    }
+
+    /// Returns the mark in another size.
+    #[must_use]
+    pub const fn sized(self, size: f64) -> Mark {
+        Mark { size, ..self }
+    }
+}
+
+/// The shape of a mark.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// A disc.
+    Disc,
+    /// A square.
+    Square,
+    /// A square on its corner.
+    Diamond,
+    /// A triangle that points up.
+    Up,
+    /// A triangle that points down.
+    Down,
+    /// A triangle that points to the left.
+    Left,
+    /// A triangle that points to the right.
+    Right,
+    /// Two crossed diagonal strokes.
+    Cross,
+    /// Two crossed strokes along the axes.
+    Plus,
+}

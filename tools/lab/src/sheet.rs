@@ -1,0 +1,163 @@
+//! Sheets: a grid whose diagonals lie at random, and Delaunay triangles of as many random points.
+
+use serde::{Deserialize, Serialize};
+use tearmesh::{Masses, Mesh, Point, Positions, shapes};
+use tearmesh_cloth::statistics::Random;
+
+/// The mass of a square metre of a sheet, in kg.
+pub(crate) const DENSITY_KG_PER_M2: f64 = 0.15;
+
+/// The seed of the meshes and of all other random numbers of the experiments.
+pub const SEED: u64 = 1;
+
+/// The kinds of meshes of a sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MeshKind {
+    /// Square cells with diagonals in random directions.
+    Grid,
+    /// Delaunay triangles of random points that keep a minimum distance from each other.
+    Delaunay,
+}
+
+impl MeshKind {
+    /// All kinds of meshes.
+    pub const ALL: [MeshKind; 2] = [MeshKind::Grid, MeshKind::Delaunay];
+
+    /// Returns the name of the kind, as part of the names of cases.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            MeshKind::Grid => "grid",
+            MeshKind::Delaunay => "delaunay",
+        }
+    }
+}
+
+/// The particles and edges of a flat square sheet, in the order of its mesh.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// The positions of the particles at rest, in metres: x to the right, y up, from a corner at the origin.
+    pub points: Vec<Point>,
+    /// The masses of the particles, in kg.
+    pub masses: Vec<f64>,
+    /// The two ends of each edge, as indices into `points`.
+    pub edges: Vec<[usize; 2]>,
+    /// The length of a side, in metres.
+    pub side_m: f64,
+}
+
+impl Sheet {
+    /// Creates a sheet of (`cells` + 1)² particles with sides of `side_m` metres.
+    ///
+    /// # Panics
+    ///
+    /// If `cells` is 0 or more than a mesh can have, or if `side_m` is 0 or not finite.
+    #[must_use]
+    pub fn new(kind: MeshKind, cells: u32, side_m: f64) -> Sheet {
+        let mut random = Random::new(SEED);
+        let (mesh, positions) = match kind {
+            MeshKind::Grid => shapes::grid_with_diagonals(cells, cells, |_, _| random.next() < 0.5),
+            MeshKind::Delaunay => scattered(cells, &mut random),
+        };
+        let scaled = positions.as_slice().iter();
+        let scaled = scaled.map(|p| Point::new(p.x * side_m, p.y * side_m, 0.0));
+        let positions = Positions::new(scaled).expect("a sheet's coordinates are finite");
+        let masses = Masses::area(&mesh, &positions, DENSITY_KG_PER_M2);
+        let masses = masses.expect("each face of a sheet has an area");
+        let ends = |h| [mesh.origin(h), mesh.target(h)].map(|v| v.index());
+        Sheet {
+            points: positions.as_slice().to_vec(),
+            masses: mesh.vertices().map(|v| masses.at(v)).collect(),
+            edges: mesh.edges().map(ends).collect(),
+            side_m,
+        }
+    }
+
+    /// Returns the rest length of an edge in metres, given its two ends as indices into `points`.
+    #[must_use]
+    pub fn length_m(&self, [a, b]: [usize; 2]) -> f64 {
+        (self.points[b] - self.points[a]).norm()
+    }
+
+    /// Returns the mean rest length of the edges, in metres.
+    #[must_use]
+    pub fn edge_m(&self) -> f64 {
+        let lengths = self.edges.iter().map(|&ends| self.length_m(ends));
+        lengths.sum::<f64>() / self.edges.len() as f64
+    }
+}
+
+/// The Delaunay triangles of as many points as a grid has: evenly along the border, and elsewhere at random
+/// places that are no nearer to each other than seven tenths of a cell.
+fn scattered(cells: u32, random: &mut Random) -> (Mesh, Positions) {
+    let h = 1.0 / f64::from(cells);
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for i in 0..cells {
+        let along = f64::from(i) * h;
+        points.extend([
+            [along, 0.0],
+            [1.0, along],
+            [1.0 - along, 1.0],
+            [0.0, 1.0 - along],
+        ]);
+    }
+    let count = (cells as usize + 1) * (cells as usize + 1);
+    let near = (0.7 * h) * (0.7 * h);
+    while points.len() < count {
+        // A point close to the border would make a needle there.
+        let mut along = || 0.4 * h + (1.0 - 0.8 * h) * random.next();
+        let p = [along(), along()];
+        let square = |q: &[f64; 2]| {
+            let (x, y) = (q[0] - p[0], q[1] - p[1]);
+            x * x + y * y
+        };
+        if points.iter().all(|q| square(q) > near) {
+            points.push(p);
+        }
+    }
+    let mesh = delaunay(&points, 1e-9 * h * h);
+    let positions = Positions::new(points.iter().map(|&[x, y]| Point::new(x, y, 0.0)));
+    (mesh, positions.expect("a sheet's coordinates are finite"))
+}
+
+/// The Delaunay triangles of some points, without those of which twice the area is at most `area_min`, as
+/// points in a row on the border may leave.
+pub(crate) fn delaunay(points: &[[f64; 2]], area_min: f64) -> Mesh {
+    let named: Vec<delaunator::Point> = points.iter().map(|&p| p.into()).collect();
+    let triangles = delaunator::triangulate(&named).triangles;
+    let triangles = triangles.chunks_exact(3).filter_map(|t| {
+        let [a, b, c] = [points[t[0]], points[t[1]], points[t[2]]];
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        (area.abs() > area_min).then(|| {
+            let [a, b, c] = [t[0] as u32, t[1] as u32, t[2] as u32];
+            if area > 0.0 { [a, b, c] } else { [a, c, b] }
+        })
+    });
+    let triangles: Vec<[u32; 3]> = triangles.collect();
+    Mesh::build(points.len(), &triangles).expect("Delaunay triangles are a manifold")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sheets_have_the_mass_of_their_area_and_no_needles() {
+        for kind in MeshKind::ALL {
+            for cells in [4, 8, 16] {
+                let sheet = Sheet::new(kind, cells, 2.0);
+                let count = (cells as usize + 1) * (cells as usize + 1);
+                assert_eq!(sheet.points.len(), count);
+                let mass = sheet.masses.iter().sum::<f64>();
+                assert!((mass - 4.0 * DENSITY_KG_PER_M2).abs() < 1e-12, "{mass}");
+                // Euler: V − E + F = 1, and 3F = 2E − B with 4n edges on the border.
+                let edges = 3 * count - 3 - 4 * cells as usize;
+                assert_eq!(sheet.edges.len(), edges, "{kind:?} {cells}");
+                let shortest = sheet.edges.iter().map(|&ends| sheet.length_m(ends));
+                let shortest = shortest.fold(f64::INFINITY, f64::min);
+                assert!(shortest > 0.39 * 2.0 / f64::from(cells), "{kind:?} {cells}");
+            }
+        }
+    }
+}

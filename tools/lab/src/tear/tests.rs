@@ -1,0 +1,121 @@
+//! Strips depend on the mesh as theory says, two methods agree on first tears, and references are found where
+//! methods agree.
+
+use super::*;
+use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::pool::workers;
+
+fn options(strips: &[u32], seeds: u64) -> Options {
+    Options {
+        strips: strips.to_vec(),
+        scenes: vec![EnsembleScene::Rip],
+        cells: vec![6],
+        methods: vec!["implicit".to_owned(), "provot".to_owned()],
+        seeds,
+        threads: workers(),
+    }
+}
+
+fn made(strips: &[u32], seeds: u64) -> Vec<Row> {
+    let bounds = Bounds {
+        clock: None,
+        stop: &|| false,
+    };
+    conduct(&Tear::new(options(strips, seeds)), &bounds, |_, _| {}).rows
+}
+
+/// The force at which an edge tears is k ε h by stretch and √(2 k G h) by toughness: slopes of one and of a half
+/// for one edge, and less by toughness where the tear takes many.
+#[test]
+fn force_is_proportional_to_the_edge_by_stretch_and_two_methods_agree_on_the_first_tear() {
+    let rows = made(&[8, 24], 0);
+    let slope = |rule| chart::slope(&rows, rule, What::Largest).expect("two strips");
+    let [stretch, toughness] = ["stretch", "toughness"].map(slope);
+    assert!((0.6..1.2).contains(&stretch), "{stretch}");
+    assert!(
+        toughness.abs() < 0.6 && toughness < stretch - 0.3,
+        "{toughness}"
+    );
+    for rule in ["stretch", "toughness"] {
+        let spreads = chart::first_tear_spreads(&rows, rule);
+        assert_eq!(spreads.len(), 2);
+        assert!(
+            spreads.iter().all(|spread| *spread < chart::AGREEMENT),
+            "{spreads:?}"
+        );
+    }
+}
+
+#[test]
+fn table_and_figure_have_a_row_for_every_run_and_survive_a_file() {
+    let rows = made(&[4, 6], 2);
+    let runs = rows.iter().filter(|row| row.what == What::Run);
+    assert_eq!(runs.count(), 2 * 3 * 2);
+    let read: Vec<Row> = read_table(&table(&rows).expect("a table")).expect("the same table");
+    assert_eq!(read, rows);
+    let experiment = Tear::new(options(&[4, 6], 2));
+    let figure = |rows: &[Row]| crate::plot::svg(&experiment.figure(rows, &Provenance::default()));
+    assert_eq!(figure(&read), figure(&rows));
+    assert!(!figure(&read).contains("NaN"));
+}
+
+#[test]
+fn interrupted_keys_are_rows_with_that_status() {
+    let bounds = Bounds {
+        clock: None,
+        stop: &|| true,
+    };
+    let conducted = conduct(&Tear::new(options(&[4, 6], 2)), &bounds, |_, _| {});
+    assert_eq!((conducted.done, conducted.rows.len()), (0, 4 + 12));
+    assert!(
+        conducted
+            .rows
+            .iter()
+            .all(|row| row.status == Status::Interrupted)
+    );
+}
+
+/// Sixteen runs by a method at each step, whose torn lengths are around these medians.
+fn torn(method: &str, medians_m: [f64; 3]) -> Vec<Row> {
+    let steps = [1, 2, 4].into_iter().zip(medians_m);
+    steps
+        .flat_map(|(divisor, median_m)| {
+            (1..=16).map(move |seed| {
+                (
+                    divisor,
+                    median_m * (0.99 + 0.002 * (seed % 11) as f64),
+                    seed,
+                )
+            })
+        })
+        .map(|(divisor, torn_m, seed)| Row {
+            method: Some(method.to_owned()),
+            step_divisor: Some(divisor),
+            seed: Some(seed),
+            torn_m: Some(torn_m),
+            ..Row::empty(What::Run, EnsembleScene::Rip, 4, Status::Ok)
+        })
+        .collect()
+}
+
+#[test]
+fn reference_is_the_pair_of_converged_methods_that_agree() {
+    let reference = |rows: &[Row]| {
+        let ensembles = chart::ensembles(rows);
+        let found = ensembles[0].reference(("torn length, m", |row| row.torn_m));
+        found.map(|found| found.methods)
+    };
+    let mut rows = torn("verlet", [2.0; 3]);
+    rows.extend(torn("pbd", [4.0, 8.0, 16.0]));
+    assert_eq!(reference(&rows), None);
+    // XPBD agrees at its finest step by chance: it still changes with the step.
+    rows.extend(torn("xpbd", [4.0, 3.0, 2.0]));
+    assert_eq!(reference(&rows), None);
+    rows.extend(torn("implicit", [3.0, 2.2, 2.1]));
+    assert_eq!(reference(&rows), Some(["verlet", "implicit"]));
+    // If a run failed, those that are left are not a random choice.
+    for row in rows.iter_mut().filter(|row| row.seed == Some(3)) {
+        row.torn_m = None;
+    }
+    assert_eq!(reference(&rows), None);
+}
