@@ -8,8 +8,6 @@
 
 mod chart;
 mod record;
-#[cfg(test)]
-mod tests;
 
 pub use self::record::read_record;
 
@@ -367,3 +365,6 @@ fn altitude_m(mesh: &Mesh, positions: &Positions) -> f64 {
     });
     each.fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+mod tests;

@@ -17,8 +17,6 @@
 mod chart;
 mod implementations;
 mod splits;
-#[cfg(test)]
-mod tests;
 
 use std::num::NonZero;
 use std::time::Duration;
@@ -276,3 +274,6 @@ fn beyond_s(trials: &[Trial], idle: &[Trial], time: fn(&Trial) -> Duration) -> V
         .map(|trial| (seconds(trial) - idle_s).max(0.0));
     beyond.collect()
 }
+
+#[cfg(test)]
+mod tests;

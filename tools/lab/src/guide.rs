@@ -13,8 +13,6 @@
 
 mod chart;
 mod play;
-#[cfg(test)]
-mod tests;
 
 pub use self::play::{Role, Topic};
 
@@ -375,3 +373,6 @@ fn resampled(
     let at = |fraction: f64| quantile(&errors, fraction);
     Some([at(0.1)?, at(0.5)?, at(0.9)?])
 }
+
+#[cfg(test)]
+mod tests;

@@ -24,8 +24,6 @@ mod observe;
 mod plan;
 mod run;
 mod scene;
-#[cfg(test)]
-mod tests;
 
 pub use self::observable::Observable;
 pub use self::observe::Records;
@@ -569,3 +567,6 @@ fn rank(rows: &mut [Row]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

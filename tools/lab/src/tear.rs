@@ -16,8 +16,6 @@
 
 mod chart;
 mod strip;
-#[cfg(test)]
-mod tests;
 
 pub use self::strip::{STRIP_M, StripTest, TIP};
 
@@ -529,3 +527,6 @@ fn run_row(scene: EnsembleScene, cells: u32, member: Option<Member>) -> Row {
         ..Row::empty(What::Run, scene, cells, status)
     }
 }
+
+#[cfg(test)]
+mod tests;
