@@ -22,8 +22,8 @@ use tearmesh::{
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
+use crate::experiment::list;
 use crate::experiment::{Bounds, Experiment, Status};
-use crate::pareto::list;
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
 /// The default numbers of cells along each side of the sheets.

@@ -141,6 +141,12 @@ pub fn conduct<E: Experiment>(
     conducted
 }
 
+/// A list as it is typed in a command.
+pub(crate) fn list<T: ToString>(items: impl IntoIterator<Item = T>) -> String {
+    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
+    items.join(",")
+}
+
 /// Returns an estimate of the CPU time of a plan, in seconds.
 pub fn guess_s<E: Experiment>(experiment: &E, plan: &[Vec<E::Key>]) -> f64 {
     let keys = plan.iter().flatten();

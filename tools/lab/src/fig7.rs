@@ -28,8 +28,8 @@ use tearmesh_cloth::statistics::median;
 
 use self::implementations::{IMPLEMENTATIONS, Implementation};
 use self::splits::{Replica, Split};
+use crate::experiment::list;
 use crate::experiment::{Bounds, Experiment, Status};
-use crate::pareto::list;
 
 /// The default numbers of cells along each side of the patches.
 pub const CELLS: [u32; 4] = [8, 16, 32, 64];

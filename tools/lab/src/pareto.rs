@@ -42,7 +42,7 @@ use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::statistics::median;
 
 use self::observe::{apart_m, distance, error};
-use crate::experiment::{Bounds, Experiment, Status};
+use crate::experiment::{Bounds, Experiment, Status, list};
 use crate::front::{FLOORS, Point, converged, front, rising};
 use crate::method::{DEFAULT, Family, METHODS, STEP_FRACTIONS};
 use crate::sheet::MeshKind;
@@ -349,12 +349,6 @@ impl Experiment for Pareto {
         rank(&mut rows);
         rows
     }
-}
-
-/// A list as it is typed in a command.
-pub(crate) fn list<T: ToString>(items: impl IntoIterator<Item = T>) -> String {
-    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
-    items.join(",")
 }
 
 /// Computes the rows of a case from its runs, without fronts. `outcomes` must be in the order of `plan`.

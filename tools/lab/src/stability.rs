@@ -25,8 +25,8 @@ use std::num::NonZero;
 
 use self::limit::LIMITED;
 use self::net::NETS;
+use crate::experiment::list;
 use crate::experiment::{Bounds, Experiment};
-use crate::pareto::list;
 
 /// The options of the experiment on stability.
 #[derive(Clone, Debug)]

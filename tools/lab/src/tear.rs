@@ -27,9 +27,9 @@ use tearmesh_cloth::scene::ensemble::{self, Member, MemberStatus, Subject};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
+use crate::experiment::list;
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::DefaultMethod;
-use crate::pareto::list;
 
 /// The default numbers of cells across the strips.
 pub const CELLS: [u32; 5] = [8, 12, 16, 24, 32];

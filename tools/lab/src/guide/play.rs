@@ -13,6 +13,7 @@ use tearmesh_cloth::statistics::{Random, median};
 use crate::experiment::{Bounds, Status};
 use crate::method::DefaultMethod;
 use crate::pareto::status_of;
+use crate::tear::STRIP_M;
 
 /// The topic of a panel: a scene, and what is asked about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -90,9 +91,6 @@ impl Topic {
 /// The time for which a method holds the shape at rest of the reference, in seconds. The mean of the second half
 /// is compared.
 const REST_S: f64 = 3.0;
-
-/// The width and the height of the strip of the trouser test, in metres.
-const STRIP_M: [f64; 2] = [0.1, 0.2];
 
 /// The purpose of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
