@@ -3,8 +3,7 @@
 use std::cmp::Reverse;
 use std::fmt::Write as _;
 
-use super::Cuts;
-use super::{METHODS, Row};
+use super::{Cuts, METHODS, Row};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::plot::{Axis, COLOURS, Figure, GREY, Layer, Mark, PALE, Panel, Shape, Strip, short};
 

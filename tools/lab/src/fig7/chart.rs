@@ -2,9 +2,8 @@
 
 use tearmesh_cloth::scene::FRAME_S;
 
-use super::Fig7;
 use super::implementations::{GHOST_PAIRS, IMPLEMENTATIONS, SCAN};
-use super::{ROUNDS, Row};
+use super::{Fig7, ROUNDS, Row};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::plot::{Axis, COLOURS, Figure, Layer, Panel, short};
 

@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use tearmesh_cloth::statistics::{median, spread};
 
-use super::Guide;
-use super::{Role, Row, Topic};
+use super::{Guide, Role, Row, Topic};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::front::FLOORS;
 use crate::method::{DEFAULT, DefaultMethod};

@@ -3,8 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::Pareto;
-use super::{AMPLIFICATION_MAX, COARSE, FINE, Observable, Row};
+use super::{AMPLIFICATION_MAX, COARSE, FINE, Observable, Pareto, Row};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::front::FLOORS;
 use crate::method::{DEFAULT, Family};

@@ -2,15 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::Stability;
 use super::limit::{LIMITED, Theory};
 use super::trial::TRIALS;
-use super::{Class, Row, RowKind};
+use super::{Class, Messages, Row, RowKind, Stability};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::method::{DefaultMethod, Method};
 use crate::plot::{Axis, Colour, Figure, Layer, Panel, short};
 
-impl<M: super::Messages> Chart for Stability<M> {
+impl<M: Messages> Chart for Stability<M> {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
         figure(rows, provenance)
     }

@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
-use super::Tear;
-use super::{Row, What};
+use super::{Row, Tear, What};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::method::{DefaultMethod, Family};
 use crate::plot::{Axis, COLOURS, Colour, Figure, Layer, Mark, PALE, Panel, Shape, short};
