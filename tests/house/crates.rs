@@ -1,544 +1,251 @@
-//! Which file of a crate uses what which other file defines, read off the code itself.
+//! Which file of a crate names which other, as a reader sees it.
 //!
-//! An edge is every path to an item of another file: in a `use`, inline (`cut::run(…)`), in a type,
-//! a pattern or the tokens of a macro. It leads to the file that *defines* the item, through however
-//! many `pub use`, which are no edges themselves, as `mod` is none. `Type::function` also leads to
-//! the file whose `impl` has the function. What is under `#[cfg(test)]` does not count.
+//! An arrow is a path in a `use`, or one that begins with `crate::`, `super::` or a module of the
+//! file, anywhere in its code. It leads to the file of the last module in the path; where that file
+//! only hands the name on from elsewhere, it leads there all the same. A `pub use` of what lies in a
+//! module of the file itself is a door and no arrow, unless the file has the name in its own code
+//! too. What a crate's first file hands on is that of the file it comes from. Comments, strings and
+//! tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
-use proc_macro2::{TokenStream, TokenTree};
-use syn::visit::{self, Visit};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// The files of a crate and the edges between them.
+/// The files of a crate and the arrows between them.
 #[derive(Debug)]
 pub(crate) struct Files {
     /// The paths of the files, as from the folder of the crate's root.
     pub(crate) names: Vec<String>,
-    /// From a file to another, with a path that led there.
+    /// From a file to another, with a path that leads there.
     pub(crate) edges: BTreeMap<(usize, usize), String>,
 }
 
 impl Files {
-    /// Reads a crate. `read` gives the text of a file by its path, if there is such a file.
-    pub(crate) fn of(root: &str, read: &dyn Fn(&str) -> Option<String>) -> Files {
-        let mut tree = Tree::default();
-        let text = read(root).unwrap_or_else(|| panic!("no file {root}"));
-        let folder = Path::new(root).parent().map_or(String::new(), folder_name);
-        tree.add_file(root, &folder, &text, None, read);
-        tree.collect_functions();
-        let mut files = Files {
-            names: tree.names.clone(),
-            edges: BTreeMap::new(),
-        };
-        for module in 0..tree.modules.len() {
-            let from = tree.modules[module].file;
-            for path in &tree.modules[module].paths {
-                for to in tree.files_of(module, path) {
-                    if to != from {
-                        let said = || path.segments.join("::");
-                        files.edges.entry((from, to)).or_insert_with(said);
-                    }
+    /// Reads a crate: the names of its files, the first file of all before the others, and their text.
+    pub(crate) fn of(files: Vec<(String, String)>) -> Files {
+        let (names, texts): (Vec<String>, Vec<String>) = files.into_iter().unzip();
+        let places: Vec<Vec<String>> = names.iter().map(|name| place(name)).collect();
+        let codes: Vec<Code> = texts.iter().map(|text| Code::of(text)).collect();
+        let handed_on = codes[0].paths.iter().filter(|path| path.is_door);
+        let handed_on =
+            handed_on.filter_map(|path| Some((path.words.last()?.clone(), path.clone())));
+        let handed_on: BTreeMap<String, Path> = handed_on.collect();
+        let mut edges = BTreeMap::new();
+        for (from, code) in codes.iter().enumerate() {
+            for path in &code.paths {
+                let mut words = whole(path, &places[from], code);
+                if let [first] = &words[..] {
+                    words = handed_on
+                        .get(first)
+                        .map_or(words.clone(), |path| path.words.clone());
+                }
+                let lengths = (1..=words.len()).rev();
+                let mut found =
+                    lengths.filter_map(|n| places.iter().position(|place| place == &words[..n]));
+                let Some(to) = found.next().filter(|&to| to != from && from != 0) else {
+                    continue;
+                };
+                let is_below = places[to].starts_with(&places[from]);
+                let name = path.words.last().expect("a path has a name");
+                if !(path.is_door && is_below && code.count(name) < 2) {
+                    edges
+                        .entry((from, to))
+                        .or_insert_with(|| path.words.join("::"));
                 }
             }
         }
-        files
+        Files { names, edges }
     }
 
-    /// The sets of files that use each other in a circle, each told as one way round.
+    /// The sets of files that use each other in a circle, each with the arrows among them.
     pub(crate) fn circles(&self) -> Vec<String> {
         let reach: Vec<BTreeSet<usize>> = (0..self.names.len()).map(|i| self.reach(i)).collect();
-        let mut told = BTreeSet::new();
-        let mut circles = Vec::new();
-        for i in 0..self.names.len() {
-            if !reach[i].contains(&i) || told.contains(&i) {
-                continue;
-            }
-            let with: BTreeSet<usize> = reach[i]
-                .iter()
-                .copied()
-                .filter(|&j| reach[j].contains(&i))
-                .collect();
-            let among = |(from, to): &(usize, usize)| with.contains(from) && with.contains(to);
-            let arrows: Vec<String> = self
+        let with = |i: usize| -> BTreeSet<usize> {
+            let both = reach[i].iter().filter(|&&j| reach[j].contains(&i));
+            both.copied().collect()
+        };
+        let sets: BTreeSet<BTreeSet<usize>> = (0..self.names.len()).map(with).collect();
+        let circles = sets.iter().filter(|set| !set.is_empty());
+        let arrows = circles.map(|set| {
+            let among = self
                 .edges
                 .iter()
-                .filter(|(edge, _)| among(edge))
-                .map(|(&(from, to), path)| {
-                    format!("{} -> {} ({path})", self.names[from], self.names[to])
-                })
-                .collect();
-            circles.push(arrows.join("\n    "));
-            told.extend(with);
-        }
-        circles
+                .filter(|((from, to), _)| set.contains(from) && set.contains(to));
+            let arrow = |(&(from, to), path): (&(usize, usize), &String)| {
+                format!("{} -> {} ({path})", self.names[from], self.names[to])
+            };
+            among.map(arrow).collect::<Vec<_>>().join("\n    ")
+        });
+        arrows.collect()
     }
 
     /// The files that a file uses, directly or not.
     fn reach(&self, from: usize) -> BTreeSet<usize> {
-        let mut reached = BTreeSet::new();
-        let mut left = vec![from];
+        let (mut reached, mut left) = (BTreeSet::new(), vec![from]);
         while let Some(i) = left.pop() {
-            for &(_, to) in self.edges.range((i, 0)..(i + 1, 0)).map(|(edge, _)| edge) {
-                if reached.insert(to) {
-                    left.push(to);
-                }
-            }
+            let next = self.edges.range((i, 0)..(i + 1, 0));
+            left.extend(
+                next.map(|(&(_, to), _)| to)
+                    .filter(|&to| reached.insert(to)),
+            );
         }
         reached
     }
 }
 
-fn folder_name(path: &Path) -> String {
-    path.to_string_lossy().into_owned()
+/// The modules that lead to a file: none for the first file of a crate.
+fn place(name: &str) -> Vec<String> {
+    let name = name.trim_end_matches(".rs").trim_end_matches("/mod");
+    let words = name.split('/').map(str::to_owned);
+    words
+        .filter(|word| !["lib", "main"].contains(&&**word))
+        .collect()
 }
 
-fn join(folder: &str, name: &str) -> String {
-    if folder.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{folder}/{name}")
+/// A path, from the file in which it stands.
+#[derive(Clone, Debug)]
+struct Path {
+    words: Vec<String>,
+    is_door: bool,
+}
+
+/// The words of a path from the root of the crate; none for a path into another crate.
+fn whole(path: &Path, place: &[String], code: &Code) -> Vec<String> {
+    let ups = path
+        .words
+        .iter()
+        .take_while(|word| *word == "super")
+        .count();
+    let rest = &path.words[ups..];
+    match rest.first().map(String::as_str) {
+        _ if ups > 0 => [&place[..place.len().saturating_sub(ups)], rest].concat(),
+        Some("crate") => rest[1..].to_vec(),
+        Some("self") => [place, &rest[1..]].concat(),
+        Some(first) if code.modules.contains(first) => [place, rest].concat(),
+        _ => Vec::new(),
     }
 }
 
-/// What a name stands for in a module.
-#[derive(Clone, Debug)]
-enum Meaning {
-    /// An item that the module defines.
-    Item,
-    Module(usize),
-    Import(Written),
+/// What counts of the text of a file.
+struct Code {
+    words: Vec<String>,
+    modules: BTreeSet<String>,
+    paths: Vec<Path>,
 }
 
-/// A path as it stands in the code.
-#[derive(Clone, Debug)]
-struct Written {
-    segments: Vec<String>,
-    /// Inside `impl Type`, the type that `Self` is.
-    of_type: Option<Vec<String>>,
-}
-
-#[derive(Debug)]
-struct Module {
-    file: usize,
-    parent: Option<usize>,
-    names: BTreeMap<String, Vec<Meaning>>,
-    /// What `use path::*` brings in.
-    globs: Vec<Vec<String>>,
-    /// Every path in the module that may be an edge.
-    paths: Vec<Written>,
-    /// The functions and constants of `impl Type` blocks.
-    functions: Vec<(Vec<String>, String)>,
-}
-
-#[derive(Debug, Default)]
-struct Tree {
-    names: Vec<String>,
-    modules: Vec<Module>,
-    /// The files that implement `Type::function`, by the module that defines the type.
-    functions: BTreeMap<(usize, String, String), BTreeSet<usize>>,
-}
-
-/// What a path ends at: the module that defines it, and its name there.
-type Found = (usize, String);
-
-impl Tree {
-    fn add_file(
-        &mut self,
-        name: &str,
-        folder: &str,
-        text: &str,
-        parent: Option<usize>,
-        read: &dyn Fn(&str) -> Option<String>,
-    ) -> usize {
-        let file = self.names.len();
-        self.names.push(name.to_owned());
-        let parsed = syn::parse_file(text).unwrap_or_else(|error| panic!("{name}: {error}"));
-        self.add_module(file, folder, &parsed.items, parent, read)
-    }
-
-    fn add_module(
-        &mut self,
-        file: usize,
-        folder: &str,
-        items: &[syn::Item],
-        parent: Option<usize>,
-        read: &dyn Fn(&str) -> Option<String>,
-    ) -> usize {
-        let this = self.modules.len();
-        self.modules.push(Module {
-            file,
-            parent,
-            names: BTreeMap::new(),
-            globs: Vec::new(),
+impl Code {
+    fn of(text: &str) -> Code {
+        let mut words = Vec::new();
+        let tokens: TokenStream = text.parse().expect("a file of Rust");
+        add_words(tokens, false, &mut words);
+        let after = |at: usize, ahead: usize| words.get(at + ahead).map_or("", String::as_str);
+        let is_module = |at: &usize| words[*at] == "mod" && after(*at, 2) == ";";
+        let modules = (0..words.len()).filter(is_module);
+        let modules = modules.map(|at| words[at + 1].clone()).collect();
+        let mut code = Code {
+            words: Vec::new(),
+            modules,
             paths: Vec::new(),
-            functions: Vec::new(),
-        });
-        for item in items.iter().filter(|item| !is_for_tests(attributes(item))) {
-            if let syn::Item::Mod(child) = item {
-                let name = child.ident.to_string();
-                let inside = join(folder, &name);
-                let child = if let Some((_, items)) = &child.content {
-                    self.add_module(file, &inside, items, Some(this), read)
-                } else {
-                    let named = named_path(&child.attrs).map(|name| join(folder, &name));
-                    let usual = [format!("{inside}.rs"), format!("{inside}/mod.rs")];
-                    let found = named
-                        .into_iter()
-                        .chain(usual)
-                        .find_map(|name| Some((read(&name)?, name)));
-                    let (text, name) = found.unwrap_or_else(|| panic!("no file for {inside}"));
-                    self.add_file(&name, &inside, &text, Some(this), read)
-                };
-                self.name(this, &name, Meaning::Module(child));
-                continue;
+        };
+        let mut at = 0;
+        while at < words.len() {
+            if words[at] == "use" {
+                let is_door = at > 0 && ["pub", ")"].contains(&&*words[at - 1]);
+                at = code.add_tree(&words, at + 1, &[], is_door);
+            } else if words[at] == "in" && at > 0 && words[at - 1] == "(" {
+                // `pub(in crate::scissor)` says who may look in, and uses nothing.
+                at += words[at..].iter().position(|word| word == ")").unwrap_or(0);
+            } else if after(at, 1) == "::" {
+                let mut path = vec![words[at].clone()];
+                while after(at, 1) == "::" {
+                    path.push(after(at, 2).to_owned());
+                    at += 2;
+                }
+                code.paths.push(Path {
+                    words: path,
+                    is_door: false,
+                });
             }
-            if let syn::Item::Use(item) = item {
-                let is_public = !matches!(item.vis, syn::Visibility::Inherited);
-                self.add_use(this, &item.tree, &mut Vec::new(), is_public);
-                continue;
-            }
-            if let Some(name) = name_of(item) {
-                self.name(this, &name, Meaning::Item);
-            }
-            let mut reader = Reader {
-                module: &mut self.modules[this],
-                of_type: None,
-                uses: Vec::new(),
-            };
-            reader.visit_item(item);
-            // What a function brings in is taken for what its module does.
-            let inside = reader.uses;
-            for item in inside {
-                self.add_use(this, &item.tree, &mut Vec::new(), false);
-            }
+            at += 1;
         }
-        this
+        code.words = words;
+        code
     }
 
-    fn name(&mut self, module: usize, name: &str, meaning: Meaning) {
-        let names = &mut self.modules[module].names;
-        names.entry(name.to_owned()).or_default().push(meaning);
-    }
-
-    fn add_use(
+    /// Adds the paths of a `use`, whose tree begins at a word. Returns the word after it.
+    fn add_tree(
         &mut self,
-        module: usize,
-        tree: &syn::UseTree,
-        before: &mut Vec<String>,
-        is_public: bool,
-    ) {
-        match tree {
-            syn::UseTree::Path(path) => {
-                before.push(path.ident.to_string());
-                self.add_use(module, &path.tree, before, is_public);
-                before.pop();
-            }
-            syn::UseTree::Group(group) => {
-                for tree in &group.items {
-                    self.add_use(module, tree, before, is_public);
-                }
-            }
-            syn::UseTree::Glob(_) => self.modules[module].globs.push(before.clone()),
-            syn::UseTree::Name(name) => {
-                let name = name.ident.to_string();
-                self.import(module, before, &name, &name, is_public);
-            }
-            syn::UseTree::Rename(renamed) => {
-                let (name, to) = (renamed.ident.to_string(), renamed.rename.to_string());
-                self.import(module, before, &name, &to, is_public);
-            }
-        }
-    }
-
-    fn import(&mut self, module: usize, before: &[String], name: &str, to: &str, is_public: bool) {
-        let mut segments = before.to_vec();
-        if name != "self" {
-            segments.push(name.to_owned());
-        }
-        let to = match (to, segments.last()) {
-            ("self", Some(last)) => last.clone(),
-            _ => to.to_owned(),
-        };
-        let path = Written {
-            segments,
-            of_type: None,
-        };
-        if !is_public {
-            self.modules[module].paths.push(path.clone());
-        }
-        self.name(module, &to, Meaning::Import(path));
-    }
-
-    /// Which file has which `Type::function`.
-    fn collect_functions(&mut self) {
-        for module in 0..self.modules.len() {
-            for (of_type, function) in self.modules[module].functions.clone() {
-                for (home, name) in self.resolve(module, &of_type, 0).0 {
-                    let files = self.functions.entry((home, name, function.clone()));
-                    files.or_default().insert(self.modules[module].file);
-                }
-            }
-        }
-    }
-
-    /// The files that a path leads to.
-    fn files_of(&self, module: usize, path: &Written) -> BTreeSet<usize> {
-        let mut segments = path.segments.clone();
-        if segments[0] == "Self" {
-            let Some(of_type) = &path.of_type else {
-                return BTreeSet::new();
-            };
-            segments.splice(..1, of_type.iter().cloned());
-        }
-        let (found, after) = self.resolve(module, &segments, 0);
-        let mut files = BTreeSet::new();
-        for (home, name) in found {
-            files.insert(self.modules[home].file);
-            if let Some(function) = after.and_then(|after| segments.get(after)) {
-                let implemented = self.functions.get(&(home, name, function.clone()));
-                files.extend(implemented.into_iter().flatten());
-            }
-        }
-        files
-    }
-
-    /// The items at the end of a path, and which of its segments comes behind them.
-    fn resolve(
-        &self,
-        module: usize,
-        segments: &[String],
-        depth: u32,
-    ) -> (Vec<Found>, Option<usize>) {
-        let mut at = module;
-        for (i, segment) in segments.iter().enumerate() {
-            match segment.as_str() {
-                "crate" => at = 0,
-                "self" => {}
-                "super" => at = self.modules[at].parent.expect("a module above"),
-                name => {
-                    // A name that no import brought, behind the first: an item of that module.
-                    let meanings = self.meanings(at, name, depth);
-                    let items: Vec<Found> = meanings.items;
-                    let last = i + 1 == segments.len();
-                    match meanings.module {
-                        Some(module) if !last => at = module,
-                        _ if !items.is_empty() => return (items, Some(i + 1)),
-                        _ => return (Vec::new(), None),
+        words: &[String],
+        mut at: usize,
+        before: &[String],
+        is_door: bool,
+    ) -> usize {
+        let mut path = before.to_vec();
+        loop {
+            match &*words[at] {
+                "::" => {}
+                "{" => loop {
+                    at = self.add_tree(words, at + 1, &path, is_door);
+                    if words[at] == "}" {
+                        return at + 1;
                     }
-                }
-            }
-        }
-        (Vec::new(), None)
-    }
-
-    fn meanings(&self, module: usize, name: &str, depth: u32) -> Meanings {
-        let mut all = Meanings::default();
-        if depth > 20 {
-            return all; // Globs that bring in each other.
-        }
-        for meaning in self.modules[module].names.get(name).into_iter().flatten() {
-            match meaning {
-                Meaning::Item => all.items.push((module, name.to_owned())),
-                Meaning::Module(child) => all.module = Some(*child),
-                // `use serde;` names a crate, and `use a::a;` an item of the module `a`.
-                Meaning::Import(path) if path.segments[0] == name => {
-                    if let Some(child) = self.child(module, name) {
-                        let rest = &path.segments[1..];
-                        all.items.extend(self.resolve(child, rest, depth + 1).0);
+                },
+                "," | "}" | ";" => {
+                    if path.len() > before.len() {
+                        path.retain(|word| word != "*");
+                        self.paths.push(Path {
+                            words: path,
+                            is_door,
+                        });
                     }
+                    return at;
                 }
-                Meaning::Import(path) => {
-                    let found = self.resolve(module, &path.segments, depth + 1).0;
-                    all.items.extend(found);
-                    let imported = self.module_at(module, &path.segments, depth + 1);
-                    all.module = all.module.or(imported);
-                }
+                "as" => at += 1,
+                word => path.push(word.to_owned()),
             }
+            at += 1;
         }
-        if all.items.is_empty() && all.module.is_none() {
-            for glob in &self.modules[module].globs {
-                if let Some(from) = self.module_at(module, glob, depth + 1) {
-                    let brought = self.meanings(from, name, depth + 1);
-                    all.items.extend(brought.items);
-                    all.module = all.module.or(brought.module);
+    }
+
+    /// How often a name stands in the code.
+    fn count(&self, name: &str) -> usize {
+        self.words.iter().filter(|word| *word == name).count()
+    }
+}
+
+/// Adds the names and signs of some code without its tests. In a module that has its body in the same
+/// file, what is above it is that file.
+fn add_words(tokens: TokenStream, is_inside: bool, words: &mut Vec<String>) {
+    let mut tokens = tokens.into_iter().peekable();
+    while let Some(token) = tokens.next() {
+        match token {
+            TokenTree::Ident(name) if is_inside && name == "super" => words.push("self".to_owned()),
+            TokenTree::Ident(name) => words.push(name.to_string()),
+            TokenTree::Literal(_) => {}
+            TokenTree::Punct(sign) => match (sign.as_char(), tokens.peek()) {
+                (':', Some(TokenTree::Punct(next))) if next.as_char() == ':' => {
+                    tokens.next();
+                    words.push("::".to_owned());
                 }
-            }
-        }
-        all
-    }
-
-    /// The module inside a module.
-    fn child(&self, module: usize, name: &str) -> Option<usize> {
-        let meanings = self.modules[module].names.get(name)?;
-        meanings.iter().find_map(|meaning| match meaning {
-            Meaning::Module(child) => Some(*child),
-            _ => None,
-        })
-    }
-
-    /// The module that a path names.
-    fn module_at(&self, module: usize, segments: &[String], depth: u32) -> Option<usize> {
-        let mut at = module;
-        for segment in segments {
-            at = match segment.as_str() {
-                "crate" => 0,
-                "self" => at,
-                "super" => self.modules[at].parent?,
-                name => self.meanings(at, name, depth + 1).module?,
-            };
-        }
-        Some(at)
-    }
-}
-
-#[derive(Default)]
-struct Meanings {
-    items: Vec<Found>,
-    module: Option<usize>,
-}
-
-/// Collects the paths of an item.
-struct Reader<'m, 'ast> {
-    module: &'m mut Module,
-    of_type: Option<Vec<String>>,
-    /// Those inside functions.
-    uses: Vec<&'ast syn::ItemUse>,
-}
-
-impl Reader<'_, '_> {
-    fn note(&mut self, segments: Vec<String>) {
-        let of_type = self.of_type.clone();
-        self.module.paths.push(Written { segments, of_type });
-    }
-
-    /// The paths among the tokens of a macro: names joined by `::`, and not fields or methods.
-    fn tokens(&mut self, tokens: TokenStream) {
-        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-        let is = |i: usize, c: char| matches!(tokens.get(i), Some(TokenTree::Punct(p)) if p.as_char() == c);
-        let mut i = 0;
-        while i < tokens.len() {
-            match &tokens[i] {
-                TokenTree::Group(group) => self.tokens(group.stream()),
-                TokenTree::Ident(first) if i == 0 || !is(i - 1, '.') => {
-                    let mut segments = vec![first.to_string()];
-                    while is(i + 1, ':')
-                        && is(i + 2, ':')
-                        && let Some(TokenTree::Ident(next)) = tokens.get(i + 3)
-                    {
-                        segments.push(next.to_string());
-                        i += 3;
-                    }
-                    self.note(segments);
-                }
-                _ => {}
-            }
-            i += 1;
-        }
-    }
-}
-
-impl<'ast> Visit<'ast> for Reader<'_, 'ast> {
-    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
-        self.uses.push(item);
-    }
-
-    fn visit_path(&mut self, path: &'ast syn::Path) {
-        self.note(path.segments.iter().map(|s| s.ident.to_string()).collect());
-        visit::visit_path(self, path);
-    }
-
-    fn visit_macro(&mut self, called: &'ast syn::Macro) {
-        self.tokens(called.tokens.clone());
-        visit::visit_macro(self, called);
-    }
-
-    fn visit_item_macro(&mut self, item: &'ast syn::ItemMacro) {
-        self.tokens(item.mac.tokens.clone());
-    }
-
-    fn visit_item_impl(&mut self, item: &'ast syn::ItemImpl) {
-        if let syn::Type::Path(of) = &*item.self_ty {
-            let segments: Vec<String> = of
-                .path
-                .segments
-                .iter()
-                .map(|s| s.ident.to_string())
-                .collect();
-            if item.trait_.is_none() {
-                for member in &item.items {
-                    let name = match member {
-                        syn::ImplItem::Fn(function) => &function.sig.ident,
-                        syn::ImplItem::Const(constant) => &constant.ident,
-                        _ => continue,
+                ('#', Some(TokenTree::Group(group))) if group.to_string() == "[cfg (test)]" => {
+                    let is_last = |token: &TokenTree| match token {
+                        TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+                        token => token.to_string() == ";",
                     };
-                    self.module
-                        .functions
-                        .push((segments.clone(), name.to_string()));
+                    tokens.find(is_last);
                 }
+                (sign, _) => words.push(sign.to_string()),
+            },
+            TokenTree::Group(group) => {
+                let [open, close] = match group.delimiter() {
+                    Delimiter::Brace => ["{", "}"],
+                    _ => ["(", ")"],
+                };
+                let is_module = words.len() > 1 && words[words.len() - 2] == "mod" && open == "{";
+                words.push(open.to_owned());
+                add_words(group.stream(), is_inside || is_module, words);
+                words.push(close.to_owned());
             }
-            self.of_type = Some(segments);
         }
-        visit::visit_item_impl(self, item);
-        self.of_type = None;
-    }
-}
-
-fn attributes(item: &syn::Item) -> &[syn::Attribute] {
-    match item {
-        syn::Item::Const(item) => &item.attrs,
-        syn::Item::Enum(item) => &item.attrs,
-        syn::Item::Fn(item) => &item.attrs,
-        syn::Item::Impl(item) => &item.attrs,
-        syn::Item::Macro(item) => &item.attrs,
-        syn::Item::Mod(item) => &item.attrs,
-        syn::Item::Static(item) => &item.attrs,
-        syn::Item::Struct(item) => &item.attrs,
-        syn::Item::Trait(item) => &item.attrs,
-        syn::Item::Type(item) => &item.attrs,
-        syn::Item::Use(item) => &item.attrs,
-        _ => panic!("a kind of item that this does not know"),
-    }
-}
-
-fn name_of(item: &syn::Item) -> Option<String> {
-    let name = match item {
-        syn::Item::Const(item) => &item.ident,
-        syn::Item::Enum(item) => &item.ident,
-        syn::Item::Fn(item) => &item.sig.ident,
-        syn::Item::Static(item) => &item.ident,
-        syn::Item::Struct(item) => &item.ident,
-        syn::Item::Trait(item) => &item.ident,
-        syn::Item::Type(item) => &item.ident,
-        syn::Item::Macro(item) => item.ident.as_ref()?,
-        _ => return None,
-    };
-    Some(name.to_string())
-}
-
-/// Whether something is there for tests alone: `#[cfg(test)]`, `#[cfg(doctest)]`.
-fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
-    let mut found = attributes
-        .iter()
-        .filter(|attribute| attribute.path().is_ident("cfg"))
-        .map(|attribute| attribute.parse_args::<syn::Path>());
-    found.any(|cfg| cfg.is_ok_and(|cfg| cfg.is_ident("test") || cfg.is_ident("doctest")))
-}
-
-/// The file of `#[path = "…"] mod …;`.
-fn named_path(attributes: &[syn::Attribute]) -> Option<String> {
-    let attribute = attributes
-        .iter()
-        .find(|attribute| attribute.path().is_ident("path"))?;
-    let syn::Meta::NameValue(pair) = &attribute.meta else {
-        return None;
-    };
-    match &pair.value {
-        syn::Expr::Lit(syn::ExprLit {
-            lit: syn::Lit::Str(name),
-            ..
-        }) => Some(name.value()),
-        _ => None,
     }
 }

@@ -29,7 +29,7 @@ use std::fmt;
 use super::joined_sets;
 use expected::Expected;
 pub(crate) use expected::{is_generic, least_fraction};
-pub(crate) use surface::{Cut, Flat, Surface, cross, dot, length, minus, on_the_way};
+pub(crate) use surface::{Cut, Surface, cross, dot, length, minus, on_the_way};
 use surface::{bits, place};
 
 /// How far a seam vertex may be off the plane or outside the strip, in edges.

@@ -3,8 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::surface::bits;
-use super::{Cut, Flat, Surface, length, minus, on_the_way};
+use super::surface::{Cut, Flat, Surface, bits, cross, length, minus, on_the_way};
 use crate::oracle::joined_sets;
 
 /// How far a generic cut stays away from every special case, in edges.
@@ -199,7 +198,7 @@ pub(crate) fn is_generic(before: &Surface, cut: &Cut) -> bool {
 fn is_inside(before: &Surface, face: &[u32; 3], p: [f64; 3], margin: f64) -> bool {
     let [a, b, c] = before.corners(face);
     [(a, b), (b, c), (c, a)].iter().all(|&(a, b)| {
-        let across = super::cross(minus(b, a), minus(p, a));
+        let across = cross(minus(b, a), minus(p, a));
         length(across) > margin * length(minus(b, a))
     })
 }

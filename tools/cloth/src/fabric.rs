@@ -4,7 +4,7 @@
 use tearmesh::geometry::Vector;
 
 use crate::bend::Buckling;
-use crate::sheet::ClothError;
+use crate::sheet::error::ClothError;
 
 /// The material of a cloth, and the rules for its constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,7 @@
 //! A cloth follows the log: splits, insertions and merges change particles, constraints, triangles
 //! and the bound of frequencies where they are, and nowhere else.
 
-mod room;
-
-pub(crate) use room::Room;
+pub(crate) mod room;
 
 use tearmesh::geometry::between;
 use tearmesh::{

@@ -22,7 +22,8 @@
 //! is why that is divided. Where it is beyond, steps are divided too.
 
 use crate::carry::{Carry, Net};
-use crate::system::{Counters, Model};
+use crate::system::counters::Counters;
+use crate::system::model::Model;
 
 /// μ: a quarter of the largest Δt² λ.
 const SHARE: f64 = 0.65;

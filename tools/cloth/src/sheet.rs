@@ -1,6 +1,6 @@
 //! A cloth: a system that is made from a mesh, and follows the mesh's log while the mesh tears.
 
-mod error;
+pub(crate) mod error;
 
 pub use error::ClothError;
 
@@ -9,7 +9,7 @@ use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
-use crate::follow::Room;
+use crate::follow::room::Room;
 use crate::frequency;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::step::Observer;

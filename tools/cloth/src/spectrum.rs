@@ -31,7 +31,8 @@
 use tearmesh::geometry::{Point, Vector, dot};
 
 use crate::element::{Busiest, Slope};
-use crate::system::{Counters, Model};
+use crate::system::counters::Counters;
+use crate::system::model::Model;
 
 /// An estimate of the largest natural frequency of a system, in rad/s, and how good it is.
 #[derive(Clone, Copy, Debug, PartialEq)]

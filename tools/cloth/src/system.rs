@@ -5,9 +5,9 @@
 //! triangles of particles that resist stretch and shear. A chain, a net or a cloth is one. Units
 //! are SI throughout: metres, kilograms, seconds, newtons.
 
-mod counters;
+pub(crate) mod counters;
 mod error;
-mod model;
+pub(crate) mod model;
 
 pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::SystemError;

@@ -24,13 +24,12 @@ mod reader;
 mod record;
 mod scan;
 mod tally;
-mod text;
+pub(crate) mod text;
 mod usual;
 mod words;
 
 #[cfg(feature = "obj-rs")]
 pub(crate) use self::face::ARITY_MAX;
-pub(crate) use self::text::{attached_length, statements};
 
 use std::io::Read;
 

@@ -10,7 +10,6 @@ use tearmesh::Point;
 
 use crate::slides::Slides;
 use crate::store::push;
-pub(crate) use crate::torn::SplitOff;
 
 /// How the first and the last line of a record begin, and those between.
 pub(crate) const HEADER: &[u8] = b"#tearmesh record";
@@ -39,6 +38,15 @@ pub(crate) struct Record {
     /// The `v` of the file that were copies, by their numbers there, and the vertices that they are;
     /// ascending.
     pub(crate) copies: Vec<[u32; 2]>,
+}
+
+/// A split-off vertex, as the record names it: it was one with `from`, a lower
+/// vertex of its root, until `cut`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SplitOff {
+    pub(crate) vertex: u32,
+    pub(crate) from: u32,
+    pub(crate) cut: u32,
 }
 
 /// The runs of ascending numbers.

@@ -26,7 +26,7 @@ use tearmesh::{BuildError, Defect, FaceId, Fans, Mesh, VertexId};
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
 use crate::polygons::Polygons;
-use crate::read::attached_length;
+use crate::read::text::attached_length;
 use crate::said::Said;
 use crate::store::{Kind, Layout, Run, extend, push};
 

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use crate::document::Document;
 use crate::keyword::is_said_of_vertex;
-use crate::read::{attached_length, statements};
+use crate::read::text::{attached_length, statements};
 use crate::store::{Kind, Run};
 
 /// What is said of vertices.

@@ -11,7 +11,7 @@
 
 use crate::document::Document;
 use crate::keyword::may_have_indices;
-use crate::read::statements;
+use crate::read::text::statements;
 use crate::store::Kind;
 
 /// Where the sections of vertices, of texture coordinates and of normals end.

@@ -15,7 +15,6 @@ mod removal;
 mod slots;
 mod turns;
 
-pub(crate) use self::ancestry::SplitOff;
 pub(crate) use self::removal::Removal;
 pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
@@ -29,7 +28,7 @@ use self::ancestry::Ancestry;
 use self::corners::Corners;
 use self::extras::Extras;
 use crate::document::Document;
-use crate::record::{Apart, At, Inserted, Parent, Record, is_in, is_same_point};
+use crate::record::{Apart, At, Inserted, Parent, Record, SplitOff, is_in, is_same_point};
 use crate::slides::Slides;
 use crate::store::Rows;
 

@@ -44,7 +44,7 @@ pub use self::piece::{PieceNames, PieceWriter};
 pub(crate) use self::prepare::Prepared;
 use self::record::write_record;
 use crate::document::Document;
-use crate::read::attached_length;
+use crate::read::text::attached_length;
 use crate::record::Hash;
 use crate::said;
 use crate::store::{Kind, Run};

@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use tearmesh::geometry::{Point, Vector};
 
-use super::Counters;
+use super::counters::Counters;
 use crate::bend::Buckling;
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::carry::Carry;

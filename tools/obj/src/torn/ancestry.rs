@@ -12,17 +12,10 @@
 
 use tearmesh::DisjointSets;
 
+use crate::record::SplitOff;
+
 /// Not younger than any cut: vertices that are one are apart since then.
 pub(super) const NEVER: u32 = u32::MAX;
-
-/// A split-off vertex, as the record names it: it was one with `from`, a lower
-/// vertex of its root, until `cut`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SplitOff {
-    pub(crate) vertex: u32,
-    pub(crate) from: u32,
-    pub(crate) cut: u32,
-}
 
 /// The trees of all roots.
 #[derive(Clone, Debug)]

@@ -16,7 +16,7 @@ use super::number::write_integer;
 use super::output::Output;
 use super::separate::Separated;
 use crate::document::Document;
-use crate::read::statements;
+use crate::read::text::statements;
 use crate::store::Kind;
 use crate::torn::TornDocument;
 

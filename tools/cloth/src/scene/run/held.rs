@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use tearmesh::geometry::Point;
 use tearmesh::{Edit, Edits, Mesh, VertexId};
 
-use super::{Names, RunError};
+use super::error::{Names, RunError};
 use crate::balance::Balance;
 use crate::load::Path;
 use crate::scene::{Frame, HeldVertices, Region};
