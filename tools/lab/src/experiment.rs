@@ -31,8 +31,11 @@ pub trait Experiment: Sync {
         false
     }
 
-    /// Returns the number of runs that may go on at a time.
-    fn threads(&self) -> NonZero<usize>;
+    /// Returns the number of runs that may go on at a time; 1 where runs beside each other would wait for the same
+    /// memory, or share the processor's cache.
+    fn threads(&self) -> NonZero<usize> {
+        NonZero::<usize>::MIN
+    }
 
     /// Returns the keys of all runs, in groups that are assessed together.
     fn plan(&self) -> Vec<Vec<Self::Key>>;
@@ -179,7 +182,7 @@ pub fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error>
 }
 
 /// The ways in which a run ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// The run reached its end.
@@ -197,6 +200,7 @@ pub enum Status {
     /// The run could not be begun, or failed for another reason.
     Failed,
     /// The experiment was interrupted before the run was done.
+    #[default]
     Interrupted,
 }
 

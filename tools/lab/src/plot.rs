@@ -165,6 +165,31 @@ pub enum Layer {
     },
 }
 
+impl Layer {
+    /// Returns a line from point to point.
+    #[must_use]
+    pub fn line(points: Vec<[f64; 2]>, colour: Colour, width: f64) -> Layer {
+        Layer::Line {
+            points,
+            colour,
+            width,
+        }
+    }
+
+    /// Returns a mark at a point, with words to hover over, or none if `hover` is empty.
+    #[must_use]
+    pub fn mark(at: [f64; 2], mark: Mark, hover: String) -> Layer {
+        Layer::Mark { at, mark, hover }
+    }
+
+    /// Returns a label beside a point.
+    #[must_use]
+    pub fn label(at: [f64; 2], text: impl Into<String>, colour: Colour) -> Layer {
+        let text = text.into();
+        Layer::Label { at, text, colour }
+    }
+}
+
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
