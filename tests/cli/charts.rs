@@ -249,12 +249,12 @@ fn cut_beside_the_record_of_the_project() {
     folder.write("record.txt", std::fs::read(record).expect("a record"));
     let chart = Chart(
         ["cut", "--size 8,12 --cuts 3 --record …"],
-        60,
+        20,
         &[1],
         [
             "uniform,128,ok,3,|exact .05 moved,288,ok,3,|\"exact, snap 0\",|partition,999698,|meshlib,|trimesh,|vtk-plane,|vtk-clip,",
             "meshlib|exact .05 moved",
-            " 128  uniform | 288  exact .2 moved ",
+            "uniform              128 |exact .2 moved       288 ",
         ],
     );
     let (table, _) = chart.hold(&folder);

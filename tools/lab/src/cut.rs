@@ -12,13 +12,10 @@ mod record;
 pub use self::record::read_record;
 
 use std::f64::consts::PI;
-use std::num::NonZero;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{
-    Cut, CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray, Scissor, Vector,
-};
+use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray, Scissor, Vector};
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
@@ -50,26 +47,16 @@ pub struct Cuts {
     sheets: Vec<WavySheet>,
 }
 
-/// A cut of a sheet by a method along a line; numbers are from 0.
+/// A method on a sheet, along all lines; numbers are from 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
     sheet: usize,
     method: usize,
-    line: usize,
-}
-
-/// The measurements of a cut.
-#[derive(Clone, Debug)]
-pub struct Measured {
-    report: CutReport,
-    cpu: Option<Duration>,
-    altitude_ratio: f64,
-    step_ratio: f64,
 }
 
 /// A method on a sheet, over all lines; or a row of a record, which has only a name, a number of faces, a time,
 /// a deviation and a processor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The name of the method with its settings, or the name in the record.
     pub method: String,
@@ -79,7 +66,7 @@ pub struct Row {
     pub status: Status,
     /// The number of lines.
     pub cuts: Option<usize>,
-    /// The median CPU time of a cut in ns, divided by `faces`; `None` without a clock.
+    /// The median CPU time of a cut in ns, divided by `faces`; 0 without a clock.
     pub ns_per_face: Option<f64>,
     /// The median over all lines of the largest distance of the seam from the plane, in mean edge lengths.
     pub deviation_edges: Option<f64>,
@@ -91,26 +78,14 @@ pub struct Row {
     pub length_ratio_most: Option<f64>,
     /// The number of lines along which the cut left the expected number of pieces.
     pub divided: Option<usize>,
-    /// The mean number of pieces per cut beyond those expected.
-    pub crumbs: Option<f64>,
-    /// The mean number of pieces per cut that were expected and are missing.
-    pub lost: Option<f64>,
-    /// The median number of inserted vertices.
-    pub inserted: Option<f64>,
-    /// The median number of edits in the log of a cut: vertices inserted and vertices split.
-    pub edits: Option<f64>,
     /// The smallest angle of any face after any of the cuts, in degrees.
     pub angle_min_deg: Option<f64>,
-    /// The smallest altitude of any face after any of the cuts, divided by the smallest before them.
-    pub altitude_ratio: Option<f64>,
     /// The median of the stable step of springs after a cut, divided by that before it.
     pub step_ratio: Option<f64>,
     /// The smallest ratio of the stable step after a cut to that before it.
     pub step_ratio_least: Option<f64>,
     /// The processor of a record; `None` for what the experiment measured.
     pub processor: Option<String>,
-    /// The reason why there are no measurements.
-    pub why: String,
 }
 
 /// All methods and settings that are compared, in the order of tables: the name, the method, and the arguments
@@ -148,28 +123,29 @@ impl Cuts {
         }
     }
 
-    fn faces(&self, key: &Key) -> usize {
-        self.sheets[key.sheet].mesh.face_count()
+    /// The row of a run before any measurement.
+    fn row(&self, key: &Key) -> Row {
+        let (method, ..) = METHODS[key.method];
+        Row {
+            method: method.to_owned(),
+            faces: self.sheets[key.sheet].mesh.face_count(),
+            ..Row::default()
+        }
     }
 }
 
 impl Experiment for Cuts {
     type Key = Key;
-    type Outcome = Measured;
+    type Outcome = Row;
     type Row = Row;
 
     fn command(&self) -> String {
-        let Options {
-            cells,
-            cuts,
-            record,
-        } = &self.options;
-        let record = if record.is_empty() {
-            ""
-        } else {
-            " --record …"
+        let cells = list(&self.options.cells);
+        let record = match self.options.record.is_empty() {
+            true => "",
+            false => " --record …",
         };
-        let cells = list(cells);
+        let cuts = self.options.cuts;
         format!("tearmesh chart cut --size {cells} --cuts {cuts}{record}")
     }
 
@@ -177,102 +153,74 @@ impl Experiment for Cuts {
         true
     }
 
-    fn threads(&self) -> NonZero<usize> {
-        // Cuts beside each other would wait for the same memory.
-        NonZero::<usize>::MIN
-    }
-
     fn plan(&self) -> Vec<Vec<Key>> {
-        let lines = self.options.cuts as usize;
-        let of_sheet = |sheet| {
-            let keys = (0..METHODS.len() * lines).map(|i| Key {
-                sheet,
-                method: i / lines,
-                line: i % lines,
-            });
-            keys.collect()
-        };
-        (0..self.sheets.len()).map(of_sheet).collect()
+        let sheets = 0..self.sheets.len();
+        let keys =
+            sheets.flat_map(|sheet| (0..METHODS.len()).map(move |method| Key { sheet, method }));
+        vec![keys.collect()]
     }
 
     fn name(&self, key: &Key) -> String {
-        let (name, ..) = METHODS[key.method];
-        format!("{name} of {} faces", self.faces(key))
+        let row = self.row(key);
+        format!("{} of {} faces", row.method, row.faces)
     }
 
     fn guess_s(&self, key: &Key) -> f64 {
-        FACE_S * self.faces(key) as f64
+        FACE_S * f64::from(self.options.cuts) * self.row(key).faces as f64
     }
 
-    fn run(&self, key: &Key, bounds: &Bounds<'_>) -> Option<Measured> {
-        Some(self.sheets[key.sheet].cut(key, bounds))
-    }
-
-    fn rows(&self, keys: &[Key], outcomes: Vec<Option<Measured>>) -> Vec<Row> {
-        let lines = self.options.cuts as usize;
-        let (faces, sheet) = (self.faces(&keys[0]), keys[0].sheet);
-        let of_methods = METHODS.iter().zip(outcomes.chunks(lines));
-        let rows = of_methods.map(|((name, ..), outcomes)| {
-            let cuts: Vec<&Measured> = outcomes.iter().flatten().collect();
-            if cuts.len() == lines {
-                return row(name, faces, &cuts);
-            }
-            Row {
-                status: Status::Interrupted,
-                why: format!("{} of {lines} lines were cut", cuts.len()),
-                ..row(name, faces, &[])
-            }
+    fn run(&self, key: &Key, bounds: &Bounds<'_>) -> Option<Row> {
+        let lines = (0..self.options.cuts).map(|line| match (bounds.stop)() {
+            true => None,
+            false => Some(self.sheets[key.sheet].cut(key.method, line, bounds)),
         });
-        let mut rows: Vec<Row> = rows.collect();
-        // A record belongs to no sheet.
-        if sheet + 1 == self.sheets.len() {
-            rows.extend_from_slice(&self.options.record);
-        }
-        rows
+        let cuts = lines.collect::<Option<Vec<Measured>>>()?;
+        Some(measured(self.row(key), &cuts))
+    }
+
+    fn rows(&self, keys: &[Key], outcomes: Vec<Option<Row>>) -> Vec<Row> {
+        let rows = keys.iter().zip(outcomes);
+        let rows = rows.map(|(key, row)| row.unwrap_or_else(|| self.row(key)));
+        rows.chain(self.options.record.iter().cloned()).collect()
     }
 }
 
-/// The row of a method on a sheet. Without cuts, it has no measurements.
-fn row(method: &str, faces: usize, cuts: &[&Measured]) -> Row {
-    let all = |of: fn(&Measured) -> f64| cuts.iter().map(move |cut| of(cut));
+/// The measurements of a cut.
+struct Measured {
+    report: CutReport,
+    cpu: Duration,
+    step_ratio: f64,
+}
+
+/// A row with the measurements of its cuts.
+fn measured(row: Row, cuts: &[Measured]) -> Row {
+    let all = |of: fn(&Measured) -> f64| cuts.iter().map(of);
     let middle = |of| median(all(of).collect());
     let most = |of| all(of).reduce(f64::max);
     let least = |of| all(of).reduce(f64::min);
-    let number = (!cuts.is_empty()).then_some(cuts.len());
-    let mean = |of| number.map(|number| all(of).sum::<f64>() / number as f64);
-    let is_divided = |cut: &&&Measured| cut.report.crumbs + cut.report.lost == 0;
-    let times = cuts.iter().filter_map(|cut| cut.cpu);
-    let ns = median(times.map(|cpu| 1e9 * cpu.as_secs_f64()).collect());
+    let is_divided = |cut: &&Measured| cut.report.crumbs + cut.report.lost == 0;
+    let ns = middle(|cut| 1e9 * cut.cpu.as_secs_f64());
     Row {
-        method: method.to_owned(),
-        faces,
         status: Status::Ok,
-        cuts: number,
-        ns_per_face: ns.map(|ns| ns / faces as f64),
+        cuts: Some(cuts.len()),
+        ns_per_face: ns.map(|ns| ns / row.faces as f64),
         deviation_edges: middle(|cut| cut.report.seam_deviation_max_edges),
         deviation_edges_most: most(|cut| cut.report.seam_deviation_max_edges),
         length_ratio: middle(|cut| cut.report.seam_length_ratio),
         length_ratio_most: most(|cut| cut.report.seam_length_ratio),
-        divided: number.map(|_| cuts.iter().filter(is_divided).count()),
-        crumbs: mean(|cut| cut.report.crumbs as f64),
-        lost: mean(|cut| cut.report.lost as f64),
-        inserted: middle(|cut| cut.report.vertices_inserted as f64),
-        edits: middle(|cut| (cut.report.splits + cut.report.vertices_inserted) as f64),
+        divided: Some(cuts.iter().filter(is_divided).count()),
         angle_min_deg: least(|cut| cut.report.angle_min_deg),
-        altitude_ratio: least(|cut| cut.altitude_ratio),
         step_ratio: middle(|cut| cut.step_ratio),
         step_ratio_least: least(|cut| cut.step_ratio),
-        processor: None,
-        why: String::new(),
+        ..row
     }
 }
 
-/// A wavy sheet, with its measurements before any cut.
+/// A wavy sheet, with its stable step before any cut.
 #[derive(Clone, Debug)]
 struct WavySheet {
     mesh: Mesh,
     positions: Positions,
-    altitude_m: f64,
     step_s: f64,
 }
 
@@ -300,7 +248,6 @@ impl WavySheet {
         let wave = wave.map(|&[x, y]| Point::new(x, y, 0.1 * (9.0 * x + 4.0 * y).sin()));
         let positions = Positions::new(wave).expect("a sheet's coordinates are finite");
         WavySheet {
-            altitude_m: altitude_m(&mesh, &positions),
             step_s: step_s(&mesh, &positions),
             mesh,
             positions,
@@ -308,25 +255,20 @@ impl WavySheet {
     }
 
     /// Cuts a copy of the sheet twice: to time the cut alone, and to measure its result.
-    fn cut(&self, key: &Key, bounds: &Bounds<'_>) -> Measured {
-        let (_, method, snap, is_moved) = METHODS[key.method];
-        let scissor = scissor(key.line as u64).snap(snap).snap_move(is_moved);
+    fn cut(&self, method: usize, line: u32, bounds: &Bounds<'_>) -> Measured {
+        let (_, method, snap, is_moved) = METHODS[method];
+        let scissor = scissor(line).snap(snap).snap_move(is_moved);
         let copy = || (self.mesh.clone(), self.positions.clone(), Edits::new());
-        let cpu = bounds.clock.map(|clock| {
-            let (mut mesh, mut positions, mut edits) = copy();
-            let mut cut = Cut::default();
-            let began = clock();
-            let made = scissor.cut_into(method, &mut mesh, &mut positions, &mut edits, &mut cut);
-            let cpu = clock().saturating_sub(began);
-            made.expect("a sheet has a position for each vertex");
-            cpu
-        });
+        let (mut mesh, mut positions, mut edits) = copy();
+        let began = bounds.now();
+        let made = scissor.cut(method, &mut mesh, &mut positions, &mut edits);
+        let cpu = bounds.now().saturating_sub(began);
+        made.expect("a sheet has a position for each vertex");
         let (mut mesh, mut positions, mut edits) = copy();
         let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
         let (_, report) = made.expect("a sheet has a position for each vertex");
         edits.replay(&mut positions);
         Measured {
-            altitude_ratio: report.altitude_min / self.altitude_m,
             step_ratio: step_s(&mesh, &positions) / self.step_s,
             report,
             cpu,
@@ -335,8 +277,8 @@ impl WavySheet {
 }
 
 /// The scissor that cuts a sheet through from above, along a random line.
-fn scissor(line: u64) -> Scissor {
-    let mut random = Random::new(SEED + 1000 * line);
+fn scissor(line: u32) -> Scissor {
+    let mut random = Random::new(SEED + 1000 * u64::from(line));
     let [x, y] = [0, 1].map(|_| 0.25 + 0.5 * random.next());
     let (sin, cos) = (PI * random.next()).sin_cos();
     let ray = |along: f64| {
@@ -354,16 +296,6 @@ fn step_s(mesh: &Mesh, positions: &Positions) -> f64 {
     let cloth = Cloth::new(mesh, positions, masses, Fabric::new(1e3));
     let mut cloth = cloth.expect("each edge has a length");
     stable_step_s(cloth.system_mut(), 2.0)
-}
-
-/// The smallest altitude of all faces, in metres.
-fn altitude_m(mesh: &Mesh, positions: &Positions) -> f64 {
-    let each = mesh.faces().map(|f| {
-        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
-        let sides = [b - a, c - b, a - c].map(|side| side.norm());
-        (b - a).cross(&(c - a)).norm() / sides.into_iter().fold(0.0, f64::max)
-    });
-    each.fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

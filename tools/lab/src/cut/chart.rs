@@ -1,74 +1,117 @@
-//! The figure and the summary of a table: time against deviation, and the measures by which to choose a snap.
+//! The figure and the summary of a table: a panel and a column for each measure by which to choose a method.
 
-use std::cmp::Reverse;
 use std::fmt::Write as _;
 
-use super::{Cuts, METHODS, Row};
+use super::{Cuts, Row};
 use crate::experiment::{Chart, Provenance, Status};
-use crate::plot::{Axis, COLOURS, Figure, GREY, Layer, Mark, PALE, Panel, Shape, Strip, short};
+use crate::plot::{Axis, COLOURS, Figure, GREY, Layer, Mark, PALE, Panel, Shape, short};
 
-/// The largest deviation that counts as rounding, in mean edge lengths.
+/// The largest deviation that counts as rounding, in mean edge lengths. Smaller ones are drawn there.
 const ROUNDING_EDGES: f64 = 1e-9;
 
-/// A number of a row: its median over all cuts, and that of the worst cut.
-type Measure = fn(&Row) -> Option<[f64; 2]>;
+/// A measure of a method on a sheet.
+struct Measure {
+    /// The heading in the summary.
+    head: &'static str,
+    /// The title of the panel, with the unit.
+    title: &'static str,
+    axis: fn(&str) -> Axis,
+    /// The median over all cuts, and the worst cut.
+    of: fn(&Row) -> Option<[f64; 2]>,
+}
+
+const MEASURES: [Measure; 6] = [
+    Measure {
+        head: "ns/face",
+        title: "CPU time of a cut per face of the sheet, ns",
+        axis: Axis::log,
+        of: |row| Some([row.ns_per_face?; 2]),
+    },
+    Measure {
+        head: "distance",
+        title: "Distance of the seam from the plane, edges; 1e-9 is rounding",
+        axis: Axis::log,
+        of: |row| {
+            let median = row.deviation_edges?;
+            let most = row.deviation_edges_most.unwrap_or(median);
+            Some([median, most].map(|edges| edges.max(ROUNDING_EDGES)))
+        },
+    },
+    Measure {
+        head: "length",
+        title: "Length, seam / straight line",
+        axis: Axis::linear,
+        of: |row| Some([row.length_ratio?, row.length_ratio_most?]),
+    },
+    Measure {
+        head: "divided",
+        title: "Cuts into the expected pieces, %",
+        axis: Axis::linear,
+        of: |row| Some([100.0 * row.divided? as f64 / row.cuts? as f64; 2]),
+    },
+    Measure {
+        head: "angle",
+        title: "Smallest angle of all faces, degrees",
+        axis: Axis::log,
+        of: |row| Some([row.angle_min_deg?; 2]),
+    },
+    Measure {
+        head: "step",
+        title: "Stable step of springs, after / before",
+        axis: Axis::log,
+        of: |row| Some([row.step_ratio?, row.step_ratio_least?]),
+    },
+];
 
 impl Chart for Cuts {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        figure(rows, provenance)
+        let mut footer = vec![provenance.footer()];
+        if rows.iter().any(|row| row.status == Status::Interrupted) {
+            footer.push("INTERRUPTED: some methods are missing.".to_owned());
+        }
+        footer.push(
+            "The number of a method is its snap: a crossing moves to the end of its edge if it is closer than \
+             this fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for \
+             larger sheets. Lines lead from the median over all cuts to the worst cut."
+                .to_owned(),
+        );
+        let record = rows.iter().find_map(|row| row.processor.as_ref());
+        footer.extend(
+            record.map(|processor| {
+                format!("Hollow marks: a record of tearmesh-bench on {processor}.")
+            }),
+        );
+        Figure {
+            title: title(rows)
+                .unwrap_or("The time of cuts, and their distance from the plane".to_owned()),
+            about: "Cuts through wavy sheets along random lines, the same for all methods."
+                .to_owned(),
+            columns: 2,
+            panel_size: [580.0, 460.0],
+            panels: MEASURES
+                .iter()
+                .map(|measure| panel(rows, measure))
+                .collect(),
+            footer,
+            ..Figure::default()
+        }
     }
 
     fn summary(&self, rows: &[Row]) -> String {
-        summary(rows)
-    }
-}
-
-fn figure(rows: &[Row], provenance: &Provenance) -> Figure {
-    let mut footer = vec![provenance.footer()];
-    if rows.iter().any(|row| row.status == Status::Interrupted) {
-        footer.push("INTERRUPTED: some methods are missing.".to_owned());
-    }
-    footer.push(
-        "The number of a method is its snap: a crossing moves to the end of its edge if it is closer than this \
-         fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for larger \
-         sheets. Lines lead from the median over all cuts to the worst cut."
-            .to_owned(),
-    );
-    let record = rows.iter().find_map(|row| row.processor.as_ref());
-    footer.extend(record.map(|processor| {
-        format!("Hollow marks: a record of tearmesh-bench on {processor}. Those without a label are ours.")
-    }));
-    let (log, linear) = (Axis::log(""), Axis::linear(""));
-    let measures: [(&str, &Axis, Measure); 5] = [
-        ("Stable step of springs, after / before", &log, |row| {
-            Some([row.step_ratio?, row.step_ratio_least?])
-        }),
-        ("Smallest angle of all faces, degrees", &log, |row| {
-            Some([row.angle_min_deg?; 2])
-        }),
-        (
-            "Smallest altitude of all faces, after / before",
-            &log,
-            |row| Some([row.altitude_ratio?; 2]),
-        ),
-        ("Length, seam / straight line", &linear, |row| {
-            Some([row.length_ratio?, row.length_ratio_most?])
-        }),
-        ("Cuts into the expected pieces, %", &linear, |row| {
-            Some([100.0 * row.divided? as f64 / row.cuts? as f64; 2])
-        }),
-    ];
-    let mut panels = vec![time_panel(rows)];
-    panels.extend(measures.map(|(title, x, of)| measure_panel(rows, title, x, of)));
-    Figure {
-        title: title(rows)
-            .unwrap_or("The time of cuts, and their distance from the plane".to_owned()),
-        about: "Cuts through wavy sheets along random lines, the same for all methods.".to_owned(),
-        columns: 2,
-        panel_size: [580.0, 460.0],
-        panels,
-        footer,
-        ..Figure::default()
+        let mut text = format!("{:<16} {:>7}", "method", "faces");
+        text.extend(MEASURES.map(|measure| format!(" {:>9}", measure.head)));
+        for row in rows.iter().filter(|row| row.processor.is_none()) {
+            write!(text, "\n{:<16} {:>7}", row.method, row.faces).expect("a string grows");
+            let medians = MEASURES.iter().map(|measure| match (measure.of)(row) {
+                Some([median, _]) => short(median, 3),
+                None => "–".to_owned(),
+            });
+            text.extend(medians.map(|median| format!(" {median:>9}")));
+            if row.status != Status::Ok {
+                text += &format!("  {}", row.status.name());
+            }
+        }
+        text
     }
 }
 
@@ -93,143 +136,52 @@ fn title(rows: &[Row]) -> Option<String> {
 
 /// The mark of a row, larger for more faces. Snaps share a mark.
 fn mark(row: &Row) -> Mark {
-    let is_moved = row.method.ends_with("moved");
     let mark = match row.method.as_str() {
         _ if row.processor.is_some() => Mark::new(Shape::Disc, GREY).hollow(),
         "uniform" => Mark::new(Shape::Up, COLOURS[3]),
         "alternating" => Mark::new(Shape::Down, COLOURS[4]),
         "partition" => Mark::new(Shape::Square, COLOURS[1]),
-        _ if is_moved => Mark::new(Shape::Diamond, COLOURS[2]),
+        name if name.ends_with("moved") => Mark::new(Shape::Diamond, COLOURS[2]),
         _ => Mark::new(Shape::Disc, COLOURS[0]),
     };
     mark.sized((row.faces as f64).log10())
 }
 
-fn hover(row: &Row, number: f64) -> String {
-    format!("{}, {} faces: {}", row.method, row.faces, short(number, 3))
-}
-
-/// Time against deviation, with a strip for cuts on the plane.
-fn time_panel(rows: &[Row]) -> Panel {
-    let points = rows
-        .iter()
-        .filter_map(|row| Some((row, [row.ns_per_face?, row.deviation_edges?])));
-    let (mut points, on_plane): (Vec<(&Row, [f64; 2])>, Vec<_>) =
-        points.partition(|(_, at)| at[1] > ROUNDING_EDGES);
-    let name = |row: &Row| (row.processor.clone(), row.method.clone());
-    // A record is drawn behind our rows, which would have the same labels.
-    points.sort_by_key(|(row, _)| Reverse(name(row)));
-    let is_labelled = |row: &Row| {
-        let is_ours = row.method == "partition" || row.method.starts_with("exact");
-        row.processor.is_none() || !is_ours
-    };
-    let (mut layers, mut labels) = (Vec::new(), Vec::new());
-    for sizes in points.chunk_by(|(a, _), (b, _)| name(a) == name(b)) {
-        let colour = mark(sizes[0].0).colour;
-        layers.push(Layer::Line {
-            points: sizes.iter().map(|(_, at)| *at).collect(),
-            colour,
-            width: 1.0,
-        });
-        layers.extend(sizes.iter().map(|&(row, at)| Layer::Mark {
-            at,
-            mark: mark(row),
-            hover: hover(row, at[1]),
-        }));
-        let slowest = sizes.iter().max_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
-        let slowest = slowest.filter(|(row, _)| is_labelled(row));
-        labels.extend(slowest.map(|&(row, at)| Layer::Label {
-            at,
-            text: row.method.clone(),
-            colour,
-        }));
+/// A measure of all methods that have it, one below the other.
+fn panel(rows: &[Row], measure: &Measure) -> Panel {
+    let rows = rows.iter();
+    let shown = rows.filter_map(|row| Some((row, (measure.of)(row)?)));
+    let shown: Vec<(&Row, [f64; 2])> = shown.collect();
+    let mut names: Vec<String> = Vec::new();
+    for (row, _) in &shown {
+        if !names.contains(&row.method) {
+            names.push(row.method.clone());
+        }
     }
-    layers.extend(labels.into_iter().rev());
-    let mut names: Vec<&str> = on_plane.iter().map(|(row, _)| &*row.method).collect();
-    names.sort_unstable();
-    names.dedup();
-    let marks = on_plane
-        .iter()
-        .map(|(row, at)| (at[0], mark(row), hover(row, at[1])));
-    Panel {
-        title: "Time against distance from the plane".to_owned(),
-        about: format!("On the plane: {}.", names.join("; ")),
-        x: Axis::log("CPU time of a cut per face of the sheet, ns"),
-        y: Axis::log("largest distance of the seam, edges"),
-        below: Some(Strip {
-            label: "on the plane, to rounding".to_owned(),
-            marks: marks.collect(),
-        }),
-        layers,
-        ..Panel::default()
-    }
-}
-
-/// A measure of all methods, one below the other.
-fn measure_panel(rows: &[Row], title: &str, x: &Axis, of: Measure) -> Panel {
-    let names = METHODS.iter().rev().map(|(name, ..)| (*name).to_owned());
-    let names: Vec<String> = names.collect();
-    let bands = (0..names.len()).step_by(2).map(|i| Layer::Band {
-        y: i as f64..(i + 1) as f64,
-        colour: PALE,
-    });
-    let mut layers: Vec<Layer> = bands.collect();
-    let own: Vec<&Row> = rows.iter().filter(|row| row.processor.is_none()).collect();
-    let sheets = own.chunk_by(|a, b| a.faces == b.faces);
-    let count = sheets.clone().count();
-    for (i, row) in sheets
-        .enumerate()
-        .flat_map(|(i, sheet)| sheet.iter().map(move |row| (i, row)))
-    {
-        let place = names.iter().position(|name| *name == row.method);
-        let (Some(place), Some(numbers)) = (place, of(row)) else {
-            continue;
-        };
-        let y = (place + 1) as f64 - (i + 1) as f64 / (count + 1) as f64;
-        layers.push(Layer::Line {
-            points: numbers.map(|number| [number, y]).to_vec(),
-            colour: mark(row).colour,
-            width: 1.5,
-        });
-        layers.push(Layer::Mark {
-            at: [numbers[0], y],
-            mark: mark(row),
-            hover: hover(row, numbers[0]),
-        });
+    names.reverse();
+    let mut layers = Vec::new();
+    for (i, name) in names.iter().enumerate() {
+        if i % 2 == 0 {
+            layers.push(Layer::Band {
+                y: i as f64..(i + 1) as f64,
+                colour: PALE,
+            });
+        }
+        let own = shown.iter().filter(|(row, _)| row.method == *name);
+        let count = own.clone().count();
+        for (j, &(row, [median, worst])) in own.enumerate() {
+            let y = (i + 1) as f64 - (j + 1) as f64 / (count + 1) as f64;
+            let mark = mark(row);
+            layers.push(Layer::line(vec![[median, y], [worst, y]], mark.colour, 1.5));
+            let hover = format!("{name}, {} faces: {}", row.faces, short(median, 3));
+            layers.push(Layer::mark([median, y], mark, hover));
+        }
     }
     Panel {
-        title: title.to_owned(),
-        x: x.clone(),
+        title: measure.title.to_owned(),
+        x: (measure.axis)(""),
         y: Axis::named(names),
         layers,
         ..Panel::default()
     }
-}
-
-fn summary(rows: &[Row]) -> String {
-    let mut text = String::from(
-        "   faces  method           ns/face  deviation   length  divided  crumbs  inserted   angle  altitude    \
-         step\n",
-    );
-    for row in rows.iter().filter(|row| row.processor.is_none()) {
-        let numbers = || {
-            let time = row
-                .ns_per_face
-                .map_or("–".to_owned(), |ns| format!("{ns:.2}"));
-            Some(format!(
-                "{time:>8} {:>10.1e} {:>8.4} {:>8} {:>7.2} {:>9} {:>7.2} {:>9.1e} {:>7.3}",
-                row.deviation_edges?,
-                row.length_ratio?,
-                row.divided?,
-                row.crumbs?,
-                row.inserted?,
-                row.angle_min_deg?,
-                row.altitude_ratio?,
-                row.step_ratio?,
-            ))
-        };
-        let numbers = numbers().unwrap_or_else(|| row.why.clone());
-        writeln!(text, "{:>8}  {:<15} {numbers}", row.faces, row.method).expect("a string grows");
-    }
-    text
 }

@@ -1,6 +1,7 @@
 //! Records of `tearmesh-bench cut`: the times and the accuracy of other programs.
 
-use super::{Row, row};
+use super::Row;
+use crate::experiment::Status;
 
 /// Reads the rows of a record of `tearmesh-bench cut` that have both a time and a deviation; none if the text
 /// is no such record.
@@ -12,39 +13,39 @@ use super::{Row, row};
 pub fn read_record(text: &str) -> Vec<Row> {
     let cpu = text.lines().find_map(|line| line.strip_prefix("CPU"));
     let processor = cpu.unwrap_or("unknown").trim();
-    let (mut rows, mut faces) = (Vec::new(), None);
-    let mut times: Vec<(&str, f64)> = Vec::new();
-    let mut place: Option<usize> = None;
-    for line in text.lines() {
-        if let Some(head) = line.strip_prefix("through cut of ") {
-            let words: Vec<&str> = head.split([' ', ',', ';']).collect();
-            let at = words.iter().position(|word| *word == "faces");
-            faces = at.and_then(|at| words[at.checked_sub(1)?].parse::<usize>().ok());
-            (times, place) = (Vec::new(), None);
-            continue;
-        }
+    let mut rows = Vec::new();
+    for mesh in text.split("through cut of ").skip(1) {
+        let head = mesh.split_once(" faces").map_or("", |(head, _)| head);
+        let faces = head.rsplit(' ').next().and_then(|word| word.parse().ok());
         let Some(faces) = faces else { continue };
-        let columns = line.split("  ").map(str::trim);
-        let columns: Vec<&str> = columns.filter(|column| !column.is_empty()).collect();
-        if let Some(at) = columns.iter().position(|column| *column == "in edges") {
-            // The column of names has no head.
-            place = Some(at + 1);
-        } else if columns.len() < 2 {
-            place = None;
-        } else if let Some(at) = place {
-            let deviation = columns.get(at).and_then(|number| number.parse().ok());
-            let time = times.iter().find(|(name, _)| *name == columns[0]);
-            if let (Some(deviation), Some((name, ms))) = (deviation, time) {
-                rows.push(Row {
-                    ns_per_face: Some(1e6 * ms / faces as f64),
-                    deviation_edges: Some(deviation),
-                    processor: Some(processor.to_owned()),
-                    ..row(name, faces, &[])
-                });
-            }
-        } else if let Ok(ms) = columns[1].parse() {
-            times.push((columns[0], ms));
+        let times = column(mesh, "ms");
+        for (name, deviation) in column(mesh, "in edges") {
+            let time = times.iter().find(|(other, _)| *other == name);
+            rows.extend(time.map(|(_, ms)| Row {
+                method: name.to_owned(),
+                faces,
+                status: Status::Ok,
+                ns_per_face: Some(1e6 * ms / faces as f64),
+                deviation_edges: Some(deviation),
+                processor: Some(processor.to_owned()),
+                ..Row::default()
+            }));
         }
     }
     rows
+}
+
+/// The numbers of a column of the first table that has it, with the names of their rows.
+fn column<'a>(text: &'a str, head: &str) -> Vec<(&'a str, f64)> {
+    let lines = text.lines().map(|line| {
+        let fields = line.split("  ").map(str::trim);
+        fields.filter(|field| !field.is_empty()).collect()
+    });
+    let mut lines = lines.skip_while(|fields: &Vec<&str>| !fields.contains(&head));
+    let heads = lines.next().unwrap_or_default();
+    // The column of names has no head.
+    let place = 1 + heads.iter().take_while(|other| **other != head).count();
+    let rows = lines.take_while(|fields| fields.len() > 1);
+    rows.filter_map(|fields| Some((fields[0], fields.get(place)?.parse().ok()?)))
+        .collect()
 }
