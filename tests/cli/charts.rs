@@ -273,7 +273,7 @@ fn fig7() {
         2,
         &[1],
         [
-            "4,25,32,|8,81,128,",
+            "4,32,|8,128,",
             "ghost pairs",
             "8 × 8 cells, half-edge with ghost pairs: ",
         ],

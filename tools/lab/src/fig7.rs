@@ -16,20 +16,17 @@
 
 mod chart;
 mod implementations;
-mod splits;
 
-use std::num::NonZero;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{Mesh, Point, shapes};
-use tearmesh_cloth::scene::{Axis, FRAME_S, Frame, Run, Scene};
+use tearmesh::geometry::{Plane, Side};
+use tearmesh::{Edit, Edits, FaceId, Mesh, Point, classify, shapes, split};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::statistics::median;
 
-use self::implementations::{IMPLEMENTATIONS, Implementation};
-use self::splits::{Replica, Split};
-use crate::experiment::list;
-use crate::experiment::{Bounds, Experiment, Status};
+use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, Split};
+use crate::experiment::{Bounds, Experiment, Status, list};
 
 /// The default numbers of cells along each side of the patches.
 pub const CELLS: [u32; 4] = [8, 16, 32, 64];
@@ -49,21 +46,15 @@ pub struct Fig7 {
 }
 
 /// An implementation on a patch in one of its rounds. A patch whose rip was interrupted has one row without
-/// times. Times are without the overhead of reading the clock.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// times. Times of splits are without the overhead of reading the clock.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The number of cells along each side of the patch.
     pub cells: u32,
-    /// The number of vertices before the first tear.
-    pub vertices: Option<usize>,
     /// The number of faces, which tearing does not change.
     pub faces: Option<usize>,
     /// The number of vertex splits.
     pub splits: Option<usize>,
-    /// The number of frames of the scene, each 1/60 s long.
-    pub frames: Option<usize>,
-    /// The number of frames with at least one split.
-    pub frames_with_splits: Option<usize>,
     /// The CPU time of the simulation in seconds, including its own tearing.
     pub simulation_s: Option<f64>,
     /// The name of the implementation.
@@ -72,16 +63,8 @@ pub struct Row {
     pub round: Option<usize>,
     /// The time of all splits of the scene in this round, in seconds.
     pub sum_s: Option<f64>,
-    /// The mean of `sum_s` over all rounds, which the paper shows.
-    pub mean_s: Option<f64>,
-    /// The median of `sum_s` over all rounds.
-    pub median_s: Option<f64>,
-    /// The time of all splits of the frame that took longest, in seconds: the median over all rounds.
-    pub worst_frame_s: Option<f64>,
     /// Whether the rip reached its end.
     pub status: Status,
-    /// The reason why there are no times.
-    pub why: String,
 }
 
 impl Experiment for Fig7 {
@@ -95,11 +78,6 @@ impl Experiment for Fig7 {
 
     fn is_timed(&self) -> bool {
         true
-    }
-
-    fn threads(&self) -> NonZero<usize> {
-        // Rips beside each other would share the processor's cache.
-        NonZero::<usize>::MIN
     }
 
     fn plan(&self) -> Vec<Vec<u32>> {
@@ -119,43 +97,35 @@ impl Experiment for Fig7 {
     }
 
     fn rows(&self, keys: &[u32], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
-        let rows = keys.iter().zip(outcomes);
-        let rows = rows.flat_map(|(&cells, rows)| rows.unwrap_or_else(|| vec![interrupted(cells)]));
+        let patches = keys.iter().zip(outcomes);
+        let rows =
+            patches.flat_map(|(&cells, rows)| rows.unwrap_or_else(|| vec![unmeasured(cells)]));
         rows.collect()
     }
 }
 
-fn interrupted(cells: u32) -> Row {
+fn unmeasured(cells: u32) -> Row {
     Row {
         cells,
-        vertices: None,
-        faces: None,
-        splits: None,
-        frames: None,
-        frames_with_splits: None,
-        simulation_s: None,
-        implementation: String::new(),
-        round: None,
-        sum_s: None,
-        mean_s: None,
-        median_s: None,
-        worst_frame_s: None,
-        status: Status::Interrupted,
-        why: "the rip was interrupted".to_owned(),
+        ..Row::default()
     }
 }
 
-/// Rips a patch, with all implementations beside the simulation.
+/// Rips a patch, with all implementations beside the simulation. Returns `None` if it was interrupted.
 fn rip(cells: u32, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
     let (mesh, positions) = shapes::grid(cells, cells);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    let (vertices, faces) = (mesh.vertex_count(), mesh.face_count());
-    let mut trials = Trials::new(&mesh);
-    let mut replica = Replica::new(&mesh);
+    let trials = (0..ROUNDS).flat_map(|_| IMPLEMENTATIONS.map(|(name, new)| (name, new(&mesh))));
+    let trials = trials.map(|(name, implementation)| Trial {
+        name,
+        implementation,
+        time: Duration::ZERO,
+    });
+    let mut trials: Vec<Trial> = trials.collect();
+    let mut replica = mesh.clone();
     let run = Run::new(mesh, &positions, Scene::rip(&frame), &frame);
     let mut run = run.expect("the scene suits every patch");
     let mut simulation = Duration::ZERO;
-    let frame_of = |end_s: f64| ((end_s / FRAME_S).ceil() as usize).saturating_sub(1);
     while !run.is_over() {
         if (bounds.stop)() {
             return None;
@@ -165,114 +135,97 @@ fn rip(cells: u32, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
         simulation += bounds.now().saturating_sub(began);
         step.expect("no step of a rip fails");
         let places = run.cloth().positions();
-        let splits = replica.follow(run.edits(), places);
-        trials.split(&splits, places, frame_of(run.elapsed_s()), bounds);
+        let splits = follow(&mut replica, run.edits(), places);
+        measure(&mut trials, &splits, places, bounds);
     }
-    for (trials, (name, _)) in trials.of.iter().zip(IMPLEMENTATIONS).skip(1) {
-        let has_same = |trial: &Trial| trial.implementation.indices() == run.mesh().indices();
-        assert!(
-            trials.iter().all(has_same),
-            "{name}: splits leave the triangles of the simulation"
-        );
+    for trial in trials.iter().filter(|trial| trial.name != IDLE) {
+        let is_same = trial.implementation.indices() == run.mesh().indices();
+        assert!(is_same, "{}: splits as in the simulation", trial.name);
     }
-    Some(trials.rows(&Row {
-        vertices: Some(vertices),
-        faces: Some(faces),
-        splits: Some(run.mesh().vertex_count() - vertices),
-        frames: Some(frame_of(run.elapsed_s()) + 1),
+    let patch = Row {
+        faces: Some(replica.face_count()),
+        splits: Some(replica.vertex_count() - positions.as_slice().len()),
         simulation_s: Some(simulation.as_secs_f64()),
         status: Status::Ok,
-        why: String::new(),
-        ..interrupted(cells)
-    }))
+        ..unmeasured(cells)
+    };
+    Some(rows(&trials, &patch))
 }
 
-/// All implementations, each in all rounds, with their times.
-struct Trials {
-    /// By implementation and round. The first does nothing; its time is the overhead of reading the clock.
-    of: Vec<Vec<Trial>>,
-    /// The number of the last frame with a split.
-    frame: Option<usize>,
+/// Repeats the log of a step on a copy of the mesh, given the places of the vertices after it, and returns its
+/// splits.
+///
+/// The log has the faces that went to a new vertex, and not the plane that divided them. By the paper's rule the
+/// plane goes through the vertex, and its normal leads to the other end of the overstretched edge. So it is the
+/// plane toward the first neighbour that divides the faces as they were divided.
+fn follow(replica: &mut Mesh, edits: &Edits, places: &[Point]) -> Vec<Split> {
+    let splits = edits.iter().map(|edit| {
+        let Edit::Split(done) = edit else {
+            panic!("a rip does nothing but split");
+        };
+        let vertex = done.old;
+        let moved: Vec<FaceId> = done.corners.iter().map(|corner| corner.face()).collect();
+        let corners = replica.corners_of(vertex);
+        let mut neighbours = corners.flat_map(|h| [replica.target(h), replica.origin(h.prev())]);
+        let plane = neighbours.find_map(|other| {
+            let at = places[vertex.index()];
+            let plane = Plane::new(at, places[other.index()] - at).ok()?;
+            let is_on_its_side = |f: FaceId| {
+                let is_behind = classify::face(replica, f, &plane, places) == Side::Back;
+                is_behind == moved.contains(&f)
+            };
+            replica
+                .faces_of(vertex)
+                .all(is_on_its_side)
+                .then_some(plane)
+        });
+        let plane = plane.expect("a rip splits by a plane that leads to a neighbour");
+        let mut again = Edits::new();
+        split::by_plane(replica, vertex, &plane, places, &mut again);
+        assert!(!again.is_empty(), "a split can be repeated on a copy");
+        Split { vertex, plane }
+    });
+    splits.collect()
 }
 
 /// An implementation in one of its rounds.
 struct Trial {
+    name: &'static str,
     implementation: Box<dyn Implementation>,
-    /// The time of the splits of each frame that has any.
-    frames: Vec<Duration>,
+    /// The time of all splits.
+    time: Duration,
 }
 
-impl Trials {
-    fn new(mesh: &Mesh) -> Trials {
-        let of = IMPLEMENTATIONS.map(|(_, new)| {
-            let trials = (0..ROUNDS).map(|_| Trial {
-                implementation: new(mesh),
-                frames: Vec::new(),
-            });
-            trials.collect()
-        });
-        Trials {
-            of: of.into(),
-            frame: None,
-        }
+/// Makes the splits of a step in every trial.
+fn measure(trials: &mut [Trial], splits: &[Split], places: &[Point], bounds: &Bounds<'_>) {
+    if splits.is_empty() {
+        return;
     }
-
-    /// Makes the splits of a step with every implementation, round by round.
-    fn split(&mut self, splits: &[Split], places: &[Point], frame: usize, bounds: &Bounds<'_>) {
-        if splits.is_empty() {
-            return;
+    for trial in trials {
+        trial.implementation.begin();
+        let began = bounds.now();
+        for split in splits {
+            trial.implementation.split(split, places);
         }
-        if self.frame.replace(frame) != Some(frame) {
-            let trials = self.of.iter_mut().flatten();
-            trials.for_each(|trial| trial.frames.push(Duration::ZERO));
-        }
-        for round in 0..self.of[0].len() {
-            for trials in &mut self.of {
-                let Trial {
-                    implementation,
-                    frames,
-                } = &mut trials[round];
-                implementation.begin();
-                let began = bounds.now();
-                for split in splits {
-                    implementation.split(split, places);
-                }
-                let took = bounds.now().saturating_sub(began);
-                *frames.last_mut().expect("a frame has begun") += took;
-            }
-        }
-    }
-
-    /// The rows of a patch, with times beyond the overhead.
-    fn rows(&self, patch: &Row) -> Vec<Row> {
-        let sum = |trial: &Trial| trial.frames.iter().sum();
-        let worst = |trial: &Trial| trial.frames.iter().max().copied().unwrap_or_default();
-        let mut rows = Vec::new();
-        for (trials, (name, _)) in self.of.iter().zip(IMPLEMENTATIONS).skip(1) {
-            let sums_s = beyond_s(trials, &self.of[0], sum);
-            rows.extend(sums_s.iter().enumerate().map(|(round, &sum_s)| Row {
-                frames_with_splits: Some(trials[round].frames.len()),
-                implementation: name.to_owned(),
-                round: Some(round),
-                sum_s: Some(sum_s),
-                mean_s: Some(sums_s.iter().sum::<f64>() / sums_s.len() as f64),
-                median_s: median(sums_s.clone()),
-                worst_frame_s: median(beyond_s(trials, &self.of[0], worst)),
-                ..patch.clone()
-            }));
-        }
-        rows
+        trial.time += bounds.now().saturating_sub(began);
     }
 }
 
-/// A time of each trial beyond its median over idle ones, in seconds, and at least 0.
-fn beyond_s(trials: &[Trial], idle: &[Trial], time: fn(&Trial) -> Duration) -> Vec<f64> {
-    let seconds = |trial: &Trial| time(trial).as_secs_f64();
-    let idle_s = median(idle.iter().map(seconds).collect()).unwrap_or(0.0);
-    let beyond = trials
-        .iter()
-        .map(|trial| (seconds(trial) - idle_s).max(0.0));
-    beyond.collect()
+/// The rows of a patch, with times beyond the median of the idle trials, and at least 0.
+fn rows(trials: &[Trial], patch: &Row) -> Vec<Row> {
+    let of = |name| trials.iter().filter(move |trial| trial.name == name);
+    let idle_s = of(IDLE).map(|trial| trial.time.as_secs_f64()).collect();
+    let idle_s = median(idle_s).unwrap_or(0.0);
+    let names = IMPLEMENTATIONS[1..].iter().map(|(name, _)| *name);
+    let rows = names.flat_map(|name| {
+        of(name).enumerate().map(move |(round, trial)| Row {
+            implementation: name.to_owned(),
+            round: Some(round),
+            sum_s: Some((trial.time.as_secs_f64() - idle_s).max(0.0)),
+            ..patch.clone()
+        })
+    });
+    rows.collect()
 }
 
 #[cfg(test)]

@@ -1,9 +1,15 @@
 //! Implementations of the split of a vertex by a plane, which differ in how they find its faces.
 
 use tearmesh::geometry::Plane;
-use tearmesh::{Edits, Mesh, Point, split};
+use tearmesh::{Edits, Mesh, Point, VertexId, split};
 
-use super::splits::Split;
+/// A split of a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Split {
+    pub(super) vertex: VertexId,
+    /// The plane. Faces whose centres are behind it go to a new vertex.
+    pub(super) plane: Plane,
+}
 
 /// A mesh whose vertices can be split.
 pub(super) trait Implementation {
@@ -21,28 +27,30 @@ pub(super) trait Implementation {
 /// Creates an implementation with a copy of a mesh.
 type New = fn(&Mesh) -> Box<dyn Implementation>;
 
+/// The name of the implementation that does nothing. Its time is the overhead of reading the clock.
+pub(super) const IDLE: &str = "nothing";
 /// The name of the implementation that looks at all triangles.
 pub(super) const SCAN: &str = "scan of all triangles";
 /// The name of our own implementation.
 pub(super) const GHOST_PAIRS: &str = "half-edge with ghost pairs";
 
-/// The implementations with their names, after one that does nothing.
+/// The implementations with their names, after the idle one.
 pub(super) const IMPLEMENTATIONS: [(&str, New); 4] = [
-    ("nothing", |_| Box::new(Nothing)),
-    (SCAN, |mesh| Box::new(Scan::new(mesh))),
+    (IDLE, |_| Box::new(())),
+    (SCAN, |mesh| {
+        let vertices = mesh.vertex_count() as u32;
+        Box::new(Scan {
+            triangles: triangles(mesh),
+            vertices,
+        })
+    }),
     ("face lists of vertices", |mesh| {
         Box::new(FaceLists::new(mesh))
     }),
-    (GHOST_PAIRS, |mesh| {
-        let (mesh, edits) = (mesh.clone(), Edits::new());
-        Box::new(GhostPairs { mesh, edits })
-    }),
+    (GHOST_PAIRS, |mesh| Box::new((mesh.clone(), Edits::new()))),
 ];
 
-/// The overhead of reading the clock.
-struct Nothing;
-
-impl Implementation for Nothing {
+impl Implementation for () {
     fn split(&mut self, _: &Split, _: &[Point]) {}
 
     fn indices(&self) -> &[u32] {
@@ -51,23 +59,17 @@ impl Implementation for Nothing {
 }
 
 /// The half-edge with ghost pairs: the kernel's own split, with its log.
-struct GhostPairs {
-    mesh: Mesh,
-    edits: Edits,
-}
-
-impl Implementation for GhostPairs {
+impl Implementation for (Mesh, Edits) {
     fn begin(&mut self) {
-        self.edits.clear();
+        self.1.clear();
     }
 
     fn split(&mut self, split: &Split, places: &[Point]) {
-        let Split { vertex, plane } = split;
-        split::by_plane(&mut self.mesh, *vertex, plane, places, &mut self.edits);
+        split::by_plane(&mut self.0, split.vertex, &split.plane, places, &mut self.1);
     }
 
     fn indices(&self) -> &[u32] {
-        self.mesh.indices()
+        self.0.indices()
     }
 }
 
@@ -75,37 +77,16 @@ impl Implementation for GhostPairs {
 struct Scan {
     triangles: Vec<[u32; 3]>,
     vertices: u32,
-    behind: Vec<u32>,
-}
-
-impl Scan {
-    fn new(mesh: &Mesh) -> Scan {
-        Scan {
-            triangles: triangles(mesh),
-            vertices: mesh.vertex_count() as u32,
-            behind: Vec::new(),
-        }
-    }
 }
 
 impl Implementation for Scan {
     fn split(&mut self, split: &Split, places: &[Point]) {
         let vertex = u32::from(split.vertex);
-        self.behind.clear();
-        let mut has_front = false;
-        for (f, &triangle) in self.triangles.iter().enumerate() {
-            if triangle.contains(&vertex) {
-                if is_behind(triangle, &split.plane, places) {
-                    self.behind.push(f as u32);
-                } else {
-                    has_front = true;
-                }
-            }
-        }
-        if has_front && !self.behind.is_empty() {
-            for &f in &self.behind {
-                relabel(&mut self.triangles[f as usize], vertex, self.vertices);
-            }
+        let faces = self.triangles.iter().zip(0..);
+        let faces = faces.filter(|(triangle, _)| triangle.contains(&vertex));
+        let faces = faces.map(|(_, f)| f);
+        if let Some([behind, _]) = divided(&self.triangles, faces, split, places) {
+            relabel(&mut self.triangles, &behind, vertex, self.vertices);
             self.vertices += 1;
         }
     }
@@ -137,19 +118,13 @@ impl FaceLists {
 
 impl Implementation for FaceLists {
     fn split(&mut self, split: &Split, places: &[Point]) {
-        let triangles = &mut self.triangles;
-        let list = &mut self.faces[split.vertex.index()];
-        let is_behind = |f: u32| is_behind(triangles[f as usize], &split.plane, places);
-        let (behind, front): (Vec<u32>, Vec<u32>) = list.iter().partition(|&&f| is_behind(f));
-        if behind.is_empty() || front.is_empty() {
-            return;
+        let (vertex, new) = (u32::from(split.vertex), self.faces.len() as u32);
+        let faces = self.faces[vertex as usize].iter().copied();
+        if let Some([behind, front]) = divided(&self.triangles, faces, split, places) {
+            relabel(&mut self.triangles, &behind, vertex, new);
+            self.faces[vertex as usize] = front;
+            self.faces.push(behind);
         }
-        *list = front;
-        let new = self.faces.len() as u32;
-        for &f in &behind {
-            relabel(&mut triangles[f as usize], u32::from(split.vertex), new);
-        }
-        self.faces.push(behind);
     }
 
     fn indices(&self) -> &[u32] {
@@ -161,15 +136,29 @@ fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     mesh.indices().as_chunks().0.to_vec()
 }
 
-/// Whether the centre of a triangle is behind a plane. Corners are summed in ascending order, so that all
-/// implementations round alike.
-fn is_behind(mut triangle: [u32; 3], plane: &Plane, places: &[Point]) -> bool {
-    triangle.sort_unstable();
-    let [a, b, c] = triangle.map(|v| plane.offset(places[v as usize]));
-    a + b + c < 0.0
+/// The faces whose centres are behind the plane of a split, and the others; `None` if there are none of either.
+/// Corners are summed in ascending order, so that all implementations round alike.
+fn divided(
+    triangles: &[[u32; 3]],
+    faces: impl Iterator<Item = u32>,
+    split: &Split,
+    places: &[Point],
+) -> Option<[Vec<u32>; 2]> {
+    let is_behind = |f: &u32| {
+        let mut triangle = triangles[*f as usize];
+        triangle.sort_unstable();
+        let [a, b, c] = triangle.map(|v| split.plane.offset(places[v as usize]));
+        a + b + c < 0.0
+    };
+    let (behind, front): (Vec<u32>, Vec<u32>) = faces.partition(is_behind);
+    (!behind.is_empty() && !front.is_empty()).then_some([behind, front])
 }
 
-fn relabel(triangle: &mut [u32; 3], from: u32, to: u32) {
-    let corners = triangle.iter_mut().filter(|corner| **corner == from);
-    corners.for_each(|corner| *corner = to);
+fn relabel(triangles: &mut [[u32; 3]], faces: &[u32], from: u32, to: u32) {
+    for &f in faces {
+        let corners = triangles[f as usize].iter_mut();
+        corners
+            .filter(|corner| **corner == from)
+            .for_each(|corner| *corner = to);
+    }
 }

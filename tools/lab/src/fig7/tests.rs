@@ -6,6 +6,7 @@ use tearmesh::VertexId;
 use tearmesh::geometry::{Plane, Vector};
 use tearmesh_cloth::statistics::Random;
 
+use super::implementations::SCAN;
 use super::*;
 use crate::experiment::{Chart, Provenance, conduct, read_table, table};
 use crate::plot::Layer;
@@ -30,9 +31,8 @@ fn figure_has_an_interval_for_each_patch_and_survives_a_file() {
     let rows = measured(&fig7);
     assert_eq!(rows.len(), 2 * 3 * ROUNDS);
     for row in &rows {
-        let [splits, frames] = [row.splits, row.frames_with_splits].map(Option::unwrap_or_default);
-        assert!(splits >= frames && frames > 0, "{row:?}");
-        assert_eq!(row.frames, Some(180));
+        assert!(row.splits > Some(0), "{row:?}");
+        assert_eq!(row.faces, Some(2 * (row.cells * row.cells) as usize));
     }
     let text = table(&rows).expect("a table");
     let read: Vec<Row> = read_table(&text).expect("the same table");
@@ -44,10 +44,9 @@ fn figure_has_an_interval_for_each_patch_and_survives_a_file() {
     let two = [ROUNDS - 1, 3 * ROUNDS - 1].map(|i| rows[i].clone());
     let two = fig7.figure(&two, &Provenance::default());
     let is_interval = |layer: &&Layer| matches!(layer, Layer::Interval { .. });
-    for (panel, whole) in two.panels.iter().zip(&figure.panels) {
-        assert_eq!(panel.layers.iter().filter(is_interval).count(), 2);
-        assert_eq!(whole.layers.iter().filter(is_interval).count(), 6);
-    }
+    let intervals =
+        |figure: &crate::plot::Figure| figure.panels[0].layers.iter().filter(is_interval).count();
+    assert_eq!([&two, &figure].map(intervals), [2, 6]);
     assert!(two.title.contains("at 32 faces"), "{}", two.title);
 }
 
@@ -63,7 +62,8 @@ fn an_interrupted_table_has_a_row_for_each_patch() {
     let conducted = conduct(&fig7, &bounds, |_, _| {});
     assert_eq!((conducted.done, conducted.planned), (0, 2));
     let rows = conducted.rows;
-    assert_eq!(rows, [4, 5].map(interrupted));
+    assert_eq!(rows, [4, 5].map(unmeasured));
+    assert!(rows.iter().all(|row| row.status == Status::Interrupted));
     let figure = fig7.figure(&rows, &Provenance::default());
     assert!(!crate::plot::svg(&figure).contains("NaN"));
 }
@@ -84,8 +84,7 @@ impl Implementation for Slow {
     }
 }
 
-/// Sums, means, medians and the worst frame, by hand: two rounds, in which a split takes 3 and 5 µs
-/// beside a reading of the clock of 1 µs.
+/// Sums by hand: two rounds, in which a split takes 3 and 5 µs beside a reading of the clock of 1 µs.
 #[test]
 fn times_are_those_beyond_the_overhead_of_the_clock() {
     static CLOCK: AtomicU64 = AtomicU64::new(0);
@@ -94,35 +93,29 @@ fn times_are_those_beyond_the_overhead_of_the_clock() {
         clock: Some(&clock),
         stop: &|| false,
     };
-    let trial = |micros| {
-        let clock = &CLOCK;
-        Trial {
-            implementation: Box::new(Slow { clock, micros }),
-            frames: Vec::new(),
-        }
+    let trial = |(name, micros)| Trial {
+        name,
+        implementation: Box::new(Slow {
+            clock: &CLOCK,
+            micros,
+        }),
+        time: Duration::ZERO,
     };
-    let mut trials = Trials {
-        of: vec![vec![trial(0), trial(0)], vec![trial(3), trial(5)]],
-        frame: None,
-    };
+    let mut trials = [(IDLE, 0), (SCAN, 3), (IDLE, 0), (SCAN, 5)].map(trial);
     let split = Split {
         vertex: VertexId::new(0).expect("a number"),
         plane: Plane::new(Point::origin(), Vector::x()).expect("a plane"),
     };
-    // Two splits in a step of frame 0, one in another step of it, and two in frame 7.
-    for (splits, frame) in [(2, 0), (1, 0), (0, 3), (2, 7)] {
-        trials.split(&vec![split; splits], &[], frame, &bounds);
+    for splits in [2, 1, 0, 2] {
+        measure(&mut trials, &vec![split; splits], &[], &bounds);
     }
-    let rows = trials.rows(&interrupted(1));
-    assert_eq!(rows[0].frames_with_splits, Some(2));
-    let micros = |seconds: Option<f64>| (1e6 * seconds.expect("a time")).round();
-    let times = rows
+    let rows = rows(&trials, &unmeasured(1));
+    let micros = rows
         .iter()
-        .map(|row| [row.sum_s, row.mean_s, row.median_s, row.worst_frame_s].map(micros));
-    // Three splits in frame 0, by 3 and 5 µs.
+        .map(|row| (row.round, (1e6 * row.sum_s.expect("a time")).round()));
     assert_eq!(
-        times.collect::<Vec<_>>(),
-        [[15.0, 20.0, 20.0, 12.0], [25.0, 20.0, 20.0, 12.0]]
+        micros.collect::<Vec<_>>(),
+        [(Some(0), 15.0), (Some(1), 25.0)]
     );
 }
 
