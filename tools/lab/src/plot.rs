@@ -11,12 +11,11 @@
 //! no words to hover over.
 
 mod axis;
+mod canvas;
 mod draw;
-mod number;
 
-pub use self::axis::{Axis, Scale};
+pub use self::axis::{Axis, short};
 pub use self::draw::svg;
-pub use self::number::short;
 
 use std::ops::Range;
 
@@ -75,13 +74,11 @@ pub struct Panel {
     pub layers: Vec<Layer>,
     /// A strip above the vertical axis, as for runs that failed.
     pub above: Option<Strip>,
-    /// A strip below the vertical axis, as for what is too small for it.
-    pub below: Option<Strip>,
     /// Paragraphs under the panel.
     pub words: Vec<String>,
 }
 
-/// A strip at the upper or lower end of the vertical axis, whose marks have no place along it.
+/// A strip at the upper end of the vertical axis, whose marks have no place along it.
 #[derive(Clone, Debug, Default)]
 pub struct Strip {
     /// The words in the strip.
@@ -122,15 +119,6 @@ pub enum Layer {
         at: [f64; 2],
         /// The mark.
         mark: Mark,
-        /// Words to hover over; empty for none.
-        hover: String,
-    },
-    /// A ring around a mark.
-    Ring {
-        /// The point.
-        at: [f64; 2],
-        /// The colour.
-        colour: Colour,
         /// Words to hover over; empty for none.
         hover: String,
     },
@@ -252,4 +240,6 @@ pub enum Shape {
     Cross,
     /// Two crossed strokes along the axes.
     Plus,
+    /// A circle around another mark.
+    Ring,
 }

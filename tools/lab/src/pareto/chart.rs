@@ -7,7 +7,7 @@ use super::{AMPLIFICATION_MAX, COARSE, FINE, Observable, Pareto, Row};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::front::FLOORS;
 use crate::method::{DEFAULT, Family};
-use crate::plot::{Axis, Figure, INK, Layer, Mark, PALE, Panel, Strip, short};
+use crate::plot::{Axis, Figure, INK, Layer, Mark, PALE, Panel, Shape, Strip, short};
 
 /// The error at which the title counts the cheapest methods.
 const TITLE_ERROR: f64 = 0.01;
@@ -148,9 +148,10 @@ fn panel(case: &[Row], observable: Observable, by_time: bool) -> Panel {
     }
     for (row, at) in shown.iter().filter(|(row, _)| row.step_fraction.is_none()) {
         let own = row.family.map_or(INK, |family| family.mark().colour);
-        panel.layers.push(Layer::Ring {
+        let colour = if row.is_default { INK } else { own };
+        panel.layers.push(Layer::Mark {
             at: *at,
-            colour: if row.is_default { INK } else { own },
+            mark: Mark::new(Shape::Ring, colour).sized(7.5),
             hover: format!("{}: error {}", row.run, short(at[1], 3)),
         });
         if row.is_default {

@@ -1,30 +1,19 @@
-//! Axes: which numbers they hold, where those stand, and which are written along them.
+//! Axes: which numbers they hold, where those stand, and which are written along them; and numbers as text.
 
 use std::ops::Range;
-
-use super::number::short;
 
 /// An axis of a panel.
 #[derive(Clone, Debug, Default)]
 pub struct Axis {
     /// The label, with its unit.
     pub label: String,
-    /// How numbers are spaced.
-    pub scale: Scale,
+    /// Whether equal ratios are equally long, and not equal differences. Then numbers that are not positive have
+    /// no place.
+    pub is_log: bool,
     /// The numbers at the ends; `None` to fit what is drawn.
     pub range: Option<Range<f64>>,
     /// The names that stand in place of numbers: the first in the middle between 0 and 1, and so on.
     pub names: Vec<String>,
-}
-
-/// How numbers are spaced along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Scale {
-    /// Equal differences are equally long.
-    #[default]
-    Linear,
-    /// Equal ratios are equally long. Numbers that are not positive have no place.
-    Log,
 }
 
 /// How far an axis that is fitted goes beyond what is drawn, as a fraction of its length.
@@ -47,7 +36,7 @@ impl Axis {
     #[must_use]
     pub fn log(label: &str) -> Axis {
         Axis {
-            scale: Scale::Log,
+            is_log: true,
             ..Axis::linear(label)
         }
     }
@@ -71,67 +60,72 @@ impl Axis {
         }
     }
 
-    /// The numbers at the ends of the axis, given those that are drawn.
-    pub(super) fn fitted(&self, drawn: impl Iterator<Item = f64>) -> Range<f64> {
-        if let Some(range) = &self.range {
-            return range.clone();
+    /// Places the axis, given what is drawn, with its ends at these pixels.
+    pub(super) fn placed(&self, drawn: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Placed<'_> {
+        let numbers = self.range.clone().unwrap_or_else(|| self.fitted(drawn));
+        Placed {
+            axis: self,
+            numbers,
+            pixels,
         }
+    }
+
+    /// The ends of an axis that holds these numbers.
+    fn fitted(&self, drawn: impl Iterator<Item = f64>) -> Range<f64> {
+        let drawn = drawn.map(|number| self.scaled(number));
         let ends = drawn
-            .map(|number| self.scaled(number))
             .filter(|number| number.is_finite())
-            .fold(None, |ends: Option<[f64; 2]>, x| match ends {
-                None => Some([x, x]),
-                Some([least, most]) => Some([x.min(least), x.max(most)]),
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
+                [least.min(x), most.max(x)]
             });
-        let [least, most] = ends.unwrap_or([0.0, 1.0]);
+        let [least, most] = if ends[0] > ends[1] { [0.0, 1.0] } else { ends };
         let beyond = match most - least {
             0.0 => 0.5 * least.abs().max(0.3),
             length => BEYOND * length,
         };
-        let back = |x: f64| match self.scale {
-            Scale::Linear => x,
-            Scale::Log => x.exp(),
+        let ends = [least - beyond, most + beyond];
+        let [from, to] = if self.is_log {
+            ends.map(f64::exp)
+        } else {
+            ends
         };
-        back(least - beyond)..back(most + beyond)
-    }
-
-    /// The place of a number along the axis, from 0 at its beginning to 1 at its end.
-    pub(super) fn place(&self, number: f64, range: &Range<f64>) -> f64 {
-        let [at, from, to] = [number, range.start, range.end].map(|x| self.scaled(x));
-        (at - from) / (to - from)
+        from..to
     }
 
     fn scaled(&self, number: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => number,
-            Scale::Log => number.ln(),
-        }
+        if self.is_log { number.ln() } else { number }
+    }
+}
+
+/// An axis with the numbers at its ends, and their places in pixels.
+pub(super) struct Placed<'a> {
+    axis: &'a Axis,
+    numbers: Range<f64>,
+    pub(super) pixels: [f64; 2],
+}
+
+impl Placed<'_> {
+    /// The place of a number in pixels.
+    pub(super) fn at(&self, number: f64) -> f64 {
+        let Range { start, end } = self.numbers;
+        let [number, from, to] = [number, start, end].map(|x| self.axis.scaled(x));
+        self.pixels[0] + (number - from) / (to - from) * (self.pixels[1] - self.pixels[0])
     }
 
-    /// The numbers that are written along the axis, with their text.
-    pub(super) fn ticks(&self, range: &Range<f64>) -> Vec<(f64, String)> {
-        if !self.names.is_empty() {
-            let named = self.names.iter().enumerate();
-            return named
-                .map(|(i, name)| (i as f64 + 0.5, name.clone()))
-                .collect();
-        }
-        let numbers = match self.scale {
-            Scale::Linear => evenly(range),
-            Scale::Log => logarithmically(range),
+    /// The numbers that are written along the axis: their places in pixels, and their text.
+    pub(super) fn ticks(&self) -> Vec<(f64, String)> {
+        let names = self.axis.names.iter().zip(0..);
+        let names = names.map(|(name, i)| (self.at(f64::from(i) + 0.5), name.clone()));
+        let numbers = match self.axis.is_log {
+            _ if !self.axis.names.is_empty() => Vec::new(),
+            true => logarithmically(&self.numbers),
+            false => evenly(&self.numbers),
         };
-        let numbers: Vec<f64> = numbers
-            .into_iter()
-            .filter(|number| range.contains(number))
-            .collect();
-        // As many digits as tell neighbours apart.
-        let texts = |digits: u32| -> Vec<String> {
-            let texts = numbers.iter().map(|&number| short(number, digits));
-            texts.collect()
-        };
-        let is_distinct = |texts: &Vec<String>| texts.windows(2).all(|pair| pair[0] != pair[1]);
-        let texts = (3..9).map(texts).find(is_distinct).unwrap_or_default();
-        numbers.into_iter().zip(texts).collect()
+        let numbers = numbers.into_iter();
+        let numbers = numbers.filter(|number| self.numbers.contains(number));
+        // Enough digits for round numbers, and too few for their rounding errors.
+        let numbers = numbers.map(|number| (self.at(number), short(number, 9)));
+        names.chain(numbers).collect()
     }
 }
 
@@ -140,8 +134,8 @@ fn evenly(range: &Range<f64>) -> Vec<f64> {
     let length = range.end - range.start;
     let power = 10.0_f64.powi((length / TICKS as f64).log10().floor() as i32);
     let steps = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power);
-    let fits = |step: &&f64| length / **step <= TICKS as f64;
-    let step = steps.iter().find(fits).copied().unwrap_or(length);
+    let fits = |step: &f64| length / step <= TICKS as f64;
+    let step = steps.into_iter().find(fits).unwrap_or(length);
     let first = (range.start / step).ceil() as i64;
     let last = (range.end / step).floor() as i64;
     (first..=last).map(|i| i as f64 * step).collect()
@@ -164,6 +158,24 @@ fn logarithmically(range: &Range<f64>) -> Vec<f64> {
     }
 }
 
+/// Returns a number with so many significant digits, as short as it can be written: in full from 0.001 to
+/// 99999, and else as a power of ten.
+#[must_use]
+pub fn short(number: f64, digits: u32) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return format!("{number}");
+    }
+    let decade = number.abs().log10().floor() as i32;
+    if !(-3..5).contains(&decade) {
+        let decimals = digits.saturating_sub(1) as usize;
+        let rounded: f64 = format!("{number:.decimals$e}").parse().unwrap_or(number);
+        return format!("{rounded:e}");
+    }
+    let decimals = (digits as i32 - 1 - decade).max(0);
+    let scale = 10.0_f64.powi(decimals);
+    format!("{}", (number * scale).round() / scale)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,10 +183,9 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_within_the_range() {
         let of = |axis: &Axis, range: Range<f64>| -> Vec<String> {
-            axis.ticks(&range)
-                .into_iter()
-                .map(|(_, text)| text)
-                .collect()
+            let axis = axis.clone().from_to(range.start, range.end);
+            let ticks = axis.placed(std::iter::empty(), [0.0, 1.0]).ticks();
+            ticks.into_iter().map(|(_, text)| text).collect()
         };
         let (linear, log) = (Axis::linear(""), Axis::log(""));
         assert_eq!(of(&linear, 0.0..0.9), ["0", "0.2", "0.4", "0.6", "0.8"]);
@@ -182,5 +193,21 @@ mod tests {
         assert_eq!(of(&log, 0.9e-2..1.2), ["0.01", "0.03", "0.1", "0.3", "1"]);
         assert_eq!(of(&log, 2.5..6.0), ["3", "5"]);
         assert_eq!(of(&log, 1e-9..1.0).len(), 5);
+    }
+
+    #[test]
+    fn short_numbers_have_the_digits_that_are_asked_for() {
+        for (number, digits, text) in [
+            (0.0, 3, "0"),
+            (0.123_456, 3, "0.123"),
+            (1234.5, 2, "1235"),
+            (99_999.0, 2, "99999"),
+            (1.0e-5, 3, "1e-5"),
+            (-2.345e-6, 2, "-2.3e-6"),
+            (1.0e6, 1, "1e6"),
+            (f64::INFINITY, 3, "inf"),
+        ] {
+            assert_eq!(short(number, digits), text);
+        }
     }
 }

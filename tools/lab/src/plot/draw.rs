@@ -1,229 +1,167 @@
-//! The drawing of a figure as SVG: a layout in pixels, and one element of SVG per line.
+//! The drawing of a figure as SVG: where its parts stand, in pixels.
 
-use std::fmt::Write as _;
-use std::ops::Range;
-
-use super::{Axis, Colour, Figure, GREY, INK, Layer, Mark, PINK, Panel, Shape, Strip};
+use super::axis::Placed;
+use super::canvas::{BOLD, Canvas, END, HALO, MIDDLE, Style, text_width, upward};
+use super::{Colour, Figure, GREY, INK, Layer, Mark, PINK, Panel, Shape, Strip};
 
 /// The margin around a figure, in pixels.
 const MARGIN: f64 = 16.0;
-/// The height of a line of text of the usual size.
-const LINE: f64 = 16.0;
-/// The sizes of text: titles, titles of panels, all else, and numbers along axes.
-const TITLE: f64 = 19.0;
-const HEAD: f64 = 14.0;
-const TEXT: f64 = 12.0;
-const SMALL: f64 = 11.0;
-/// The mean width of a letter, as a fraction of the size of its text; wide, as fonts differ.
-const LETTER: f64 = 0.56;
 /// The height of a strip of a panel.
 const STRIP: f64 = 26.0;
+/// The size of the text in panels, but for the labels of axes.
+const SMALL: f64 = 11.0;
+
+const TITLE: Style<'_> = (19.0, INK, BOLD);
+const ABOUT: Style<'_> = (12.0, GREY, "");
+const HEAD: Style<'_> = (14.0, INK, BOLD);
+const REMARK: Style<'_> = (SMALL, GREY, "");
+const WORDS: Style<'_> = (12.0, INK, "");
+
+const GRID: Colour = [0xe2; 3];
+const THIN: &str = "stroke-width=\"1\"";
+const THICK: &str = "stroke-width=\"2\"";
+const DASHED: &str = "stroke-dasharray=\"5 4\"";
+const RED_BORDER: &str = " stroke=\"#cc0000\" stroke-width=\"3\"";
 
 /// Returns a figure as the text of an SVG file.
 #[must_use]
 pub fn svg(figure: &Figure) -> String {
     let columns = figure.columns.max(1);
     let [panel_width, _] = figure.panel_size;
-    let width = (panel_width * columns as f64).max(640.0) + 2.0 * MARGIN;
-    let inner = width - 2.0 * MARGIN;
+    let inner = (panel_width * columns as f64).max(640.0);
     let mut canvas = Canvas::default();
-    let mut y = MARGIN + TITLE;
-    for line in wrapped(&figure.title, letters(inner, TITLE)) {
-        canvas.text(&line, [MARGIN, y], Style::new(TITLE, INK).bold());
-        y += TITLE + 5.0;
-    }
-    y = canvas.paragraph(&figure.about, [MARGIN, y], inner, TEXT, GREY);
-    y = legend(&mut canvas, figure, y + 4.0, inner);
+    let mut y = MARGIN + TITLE.0;
+    y = canvas.paragraph(&figure.title, [MARGIN, y], inner, TITLE);
+    y = canvas.paragraph(&figure.about, [MARGIN, y], inner, ABOUT);
+    y = legend(&mut canvas, &figure.legend, y + 4.0, inner);
     for row in figure.panels.chunks(columns) {
-        let words = row.iter().map(|panel| words_height(panel, panel_width));
-        let height = figure.panel_size[1] + words.fold(0.0, f64::max);
+        let top = y;
         for (i, panel) in row.iter().enumerate() {
-            let corner = [MARGIN + panel_width * i as f64, y];
-            draw_panel(&mut canvas, panel, corner, figure.panel_size);
+            let corner = [MARGIN + panel_width * i as f64, top];
+            let bottom = draw_panel(&mut canvas, panel, corner, figure.panel_size);
+            y = y.max(bottom);
         }
-        y += height;
     }
     y += 10.0;
     for paragraph in &figure.footer {
-        y = canvas.paragraph(paragraph, [MARGIN, y], inner, SMALL, GREY);
+        y = canvas.paragraph(paragraph, [MARGIN, y], inner, REMARK);
     }
-    canvas.finish([width, y + MARGIN])
+    canvas.finish([inner + 2.0 * MARGIN, y + MARGIN])
 }
 
-/// How many letters fit into a width.
-fn letters(width: f64, size: f64) -> usize {
-    (width / (LETTER * size)) as usize
-}
-
-fn text_width(text: &str, size: f64) -> f64 {
-    LETTER * size * text.chars().count() as f64
-}
-
-fn legend(canvas: &mut Canvas, figure: &Figure, top: f64, inner: f64) -> f64 {
+/// Draws the entries of a legend in rows, and returns where the next part begins.
+fn legend(canvas: &mut Canvas, entries: &[(Mark, String)], top: f64, inner: f64) -> f64 {
     let (mut x, mut y) = (MARGIN + 6.0, top);
-    for (mark, text) in &figure.legend {
-        let width = 30.0 + text_width(text, TEXT);
+    for (mark, text) in entries {
+        let width = 30.0 + text_width(text, WORDS.0);
         if x + width > MARGIN + inner {
-            (x, y) = (MARGIN + 6.0, y + LINE + 2.0);
+            (x, y) = (MARGIN + 6.0, y + 18.0);
         }
         canvas.mark(*mark, [x, y], "");
-        canvas.text(text, [x + 11.0, y + 4.0], Style::new(TEXT, INK));
+        canvas.text(text, [x + 11.0, y + 4.0], WORDS);
         x += width;
     }
-    match figure.legend.is_empty() {
-        true => top,
-        false => y + LINE,
-    }
+    if entries.is_empty() { top } else { y + 16.0 }
 }
 
-fn words_height(panel: &Panel, width: f64) -> f64 {
-    let lines = panel.words.iter();
-    let lines = lines.map(|words| wrapped(words, letters(width - 30.0, TEXT)).len());
-    lines.sum::<usize>() as f64 * LINE + 14.0
-}
-
-/// A panel's rectangle between its axes in pixels, and the numbers at the ends of these.
+/// A panel between its axes, without strips, and the rectangles that marks and labels take up.
 struct Frame<'a> {
-    panel: &'a Panel,
-    /// Left and right, top and bottom, without strips.
-    x: Range<f64>,
-    y: Range<f64>,
-    of_x: Range<f64>,
-    of_y: Range<f64>,
+    x: Placed<'a>,
+    y: Placed<'a>,
+    taken: Vec<[f64; 4]>,
 }
 
 impl Frame<'_> {
-    fn at_x(&self, number: f64) -> f64 {
-        self.x.start + self.panel.x.place(number, &self.of_x) * (self.x.end - self.x.start)
-    }
-
-    fn at_y(&self, number: f64) -> f64 {
-        self.y.end - self.panel.y.place(number, &self.of_y) * (self.y.end - self.y.start)
-    }
-
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.at_x(x), self.at_y(y)]
+        [self.x.at(x), self.y.at(y)]
     }
 }
 
+/// Draws a panel with the words under it, and returns where it ends.
 fn draw_panel(
     canvas: &mut Canvas,
     panel: &Panel,
     [left, top]: [f64; 2],
     [width, height]: [f64; 2],
-) {
-    let mut y = top + HEAD;
-    for line in wrapped(&panel.title, letters(width - 16.0, HEAD)) {
-        canvas.text(&line, [left, y], Style::new(HEAD, INK).bold());
-        y += HEAD + 3.0;
-    }
-    y = canvas.paragraph(&panel.about, [left, y], width - 20.0, SMALL, GREY);
+) -> f64 {
+    let y = canvas.paragraph(&panel.title, [left, top + HEAD.0], width - 16.0, HEAD);
+    let y = canvas.paragraph(&panel.about, [left, y], width - 20.0, REMARK);
     let names = panel.y.names.iter().map(|name| text_width(name, SMALL));
-    let axis = names.fold(40.0, f64::max) + 20.0;
-    let strip = |strip: &Option<Strip>| if strip.is_some() { STRIP } else { 0.0 };
-    let bottom = top + height - 44.0 - strip(&panel.below);
-    let frame = Frame {
-        panel,
-        x: left + axis..left + width - 18.0,
-        y: y - 4.0 + strip(&panel.above)..bottom,
-        of_x: panel.x.fitted(numbers(panel, 0)),
-        of_y: panel.y.fitted(numbers(panel, 1)),
+    let across = [
+        left + names.fold(40.0, f64::max) + 20.0,
+        left + width - 18.0,
+    ];
+    let strip = if panel.above.is_some() { STRIP } else { 0.0 };
+    let upward = [top + height - 44.0, y - 4.0 + strip];
+    let marks = panel.above.iter().flat_map(|strip| &strip.marks);
+    let marks = marks.map(|(x, ..)| [*x, f64::NAN]);
+    let points: Vec<[f64; 2]> = panel.layers.iter().flat_map(points).chain(marks).collect();
+    let mut frame = Frame {
+        x: panel.x.placed(points.iter().map(|at| at[0]), across),
+        y: panel.y.placed(points.iter().map(|at| at[1]), upward),
+        taken: Vec::new(),
     };
-    axes(canvas, &frame);
-    for (strip, y) in [
-        (&panel.above, frame.y.start - STRIP),
-        (&panel.below, frame.y.end),
-    ] {
-        if let Some(strip) = strip {
-            draw_strip(canvas, &frame, strip, y);
-        }
+    axes(canvas, panel, &frame);
+    if let Some(strip) = &panel.above {
+        draw_strip(canvas, &frame, strip);
     }
-    let mut taken: Vec<[f64; 4]> = Vec::new();
     for layer in &panel.layers {
-        draw_layer(canvas, &frame, layer, &mut taken);
+        draw_layer(canvas, &mut frame, layer);
     }
     let mut y = top + height + 10.0;
     for words in &panel.words {
-        y = canvas.paragraph(words, [left, y], width - 30.0, TEXT, INK);
+        y = canvas.paragraph(words, [left, y], width - 30.0, WORDS);
     }
+    y + 4.0
 }
 
-/// The numbers along an axis that a panel draws: 0 is the horizontal one.
-fn numbers(panel: &Panel, axis: usize) -> impl Iterator<Item = f64> + '_ {
-    let layers = panel.layers.iter().flat_map(move |layer| match layer {
-        Layer::Line { points, .. } => points.iter().map(|point| point[axis]).collect(),
-        Layer::Mark { at, .. } | Layer::Ring { at, .. } | Layer::Label { at, .. } => {
-            vec![at[axis]]
-        }
-        Layer::Interval { x, y, .. } => match axis {
-            0 => vec![*x],
-            _ => y.to_vec(),
-        },
-        Layer::Cell { at, .. } => vec![at[axis], at[axis] + 1.0],
+/// The points that an axis is fitted to.
+fn points(layer: &Layer) -> Vec<[f64; 2]> {
+    match layer {
+        Layer::Line { points, .. } => points.clone(),
+        Layer::Mark { at, .. } | Layer::Label { at, .. } => vec![*at],
+        Layer::Interval { x, y, .. } => y.map(|y| [*x, y]).to_vec(),
+        Layer::Cell { at, .. } => vec![*at, at.map(|corner| corner + 1.0)],
         Layer::Rule { .. } | Layer::Band { .. } => Vec::new(),
-    });
-    let strips = [&panel.above, &panel.below].into_iter().flatten();
-    let strips = strips.flat_map(|strip| strip.marks.iter().map(|(x, ..)| *x));
-    layers.chain(strips.filter(move |_| axis == 0))
+    }
 }
 
-fn axes(canvas: &mut Canvas, frame: &Frame<'_>) {
-    let Frame { panel, x, y, .. } = frame;
-    let is_map = |axis: &Axis| !axis.names.is_empty();
-    let strip = if panel.below.is_some() { STRIP } else { 0.0 };
-    let bottom = y.end + strip;
-    for (number, text) in panel.x.ticks(&frame.of_x) {
-        let at = frame.at_x(number);
-        if !is_map(&panel.x) {
-            canvas.line(&[[at, y.start], [at, bottom]], [0xe2; 3], 1.0);
+fn axes(canvas: &mut Canvas, panel: &Panel, frame: &Frame<'_>) {
+    let ([left, right], [bottom, top]) = (frame.x.pixels, frame.y.pixels);
+    for (at, text) in frame.x.ticks() {
+        if panel.x.names.is_empty() {
+            canvas.line(&[[at, top], [at, bottom]], GRID, THIN);
         }
-        canvas.text(&text, [at, bottom + 15.0], Style::new(SMALL, INK).middle());
+        canvas.text(&text, [at, bottom + 15.0], (SMALL, INK, MIDDLE));
     }
-    for (number, text) in panel.y.ticks(&frame.of_y) {
-        let at = frame.at_y(number);
-        if !is_map(&panel.y) {
-            canvas.line(&[[x.start, at], [x.end, at]], [0xe2; 3], 1.0);
+    for (at, text) in frame.y.ticks() {
+        if panel.y.names.is_empty() {
+            canvas.line(&[[left, at], [right, at]], GRID, THIN);
         }
-        canvas.text(
-            &text,
-            [x.start - 7.0, at + 4.0],
-            Style::new(SMALL, INK).end(),
-        );
+        canvas.text(&text, [left - 7.0, at + 4.0], (SMALL, INK, END));
     }
-    if !is_map(&panel.y) {
-        canvas.line(
-            &[[x.start, y.start], [x.start, bottom], [x.end, bottom]],
-            GREY,
-            1.0,
-        );
+    if panel.y.names.is_empty() {
+        let corner = [[left, top], [left, bottom], [right, bottom]];
+        canvas.line(&corner, GREY, THIN);
     }
-    let middle = 0.5 * (x.start + x.end);
-    let style = Style::new(TEXT, GREY).middle();
-    canvas.text(&panel.x.label, [middle, bottom + 33.0], style);
-    let middle = 0.5 * (y.start + y.end);
-    let left = x.start - 46.0;
-    canvas.text(&panel.y.label, [left, middle], style.upward());
+    let at = [0.5 * (left + right), bottom + 33.0];
+    canvas.text(&panel.x.label, at, (12.0, GREY, MIDDLE));
+    let at = [left - 46.0, 0.5 * (top + bottom)];
+    canvas.text(&panel.y.label, at, (12.0, GREY, &upward(at)));
 }
 
-fn draw_strip(canvas: &mut Canvas, frame: &Frame<'_>, strip: &Strip, top: f64) {
-    let corners = [[frame.x.start, top], [frame.x.end, top + STRIP]];
-    canvas.rectangle(corners, PINK, None);
-    canvas.text(
-        &strip.label,
-        [frame.x.start + 4.0, top + 11.0],
-        Style::new(SMALL, GREY),
-    );
-    let mut marks: Vec<(f64, Mark, &str)> = strip
-        .marks
-        .iter()
-        .map(|(x, mark, hover)| {
-            let at = frame.at_x(*x).clamp(frame.x.start, frame.x.end);
-            (at, *mark, hover.as_str())
-        })
-        .collect();
+/// Draws a strip above a panel.
+fn draw_strip(canvas: &mut Canvas, frame: &Frame<'_>, strip: &Strip) {
+    let ([left, right], [_, bottom]) = (frame.x.pixels, frame.y.pixels);
+    let top = bottom - STRIP;
+    canvas.rectangle([[left, top], [right, bottom]], PINK, "");
+    canvas.text(&strip.label, [left + 4.0, top + 11.0], REMARK);
+    let marks = strip.marks.iter();
+    let marks = marks.map(|(x, mark, hover)| (frame.x.at(*x).clamp(left, right), mark, hover));
+    let mut marks: Vec<(f64, &Mark, &String)> = marks.collect();
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Marks at one place are moved apart to the right, and back from the end.
-    let (mut next, mut limit) = (f64::NEG_INFINITY, frame.x.end);
+    let (mut next, mut limit) = (f64::NEG_INFINITY, right);
     for (at, ..) in &mut marks {
         *at = at.max(next);
         next = *at + 6.0;
@@ -231,33 +169,25 @@ fn draw_strip(canvas: &mut Canvas, frame: &Frame<'_>, strip: &Strip, top: f64) {
     for (at, mark, hover) in marks.iter_mut().rev() {
         *at = at.min(limit);
         limit = *at - 6.0;
-        canvas.mark(mark.sized(3.0), [*at, top + STRIP - 7.0], hover);
+        canvas.mark(mark.sized(3.0), [*at, bottom - 7.0], hover);
     }
 }
 
-fn draw_layer(canvas: &mut Canvas, frame: &Frame<'_>, layer: &Layer, taken: &mut Vec<[f64; 4]>) {
+fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
+    let ([left, right], [bottom, top]) = (frame.x.pixels, frame.y.pixels);
     match layer {
         Layer::Band { y, colour } => {
-            let [top, bottom] = [y.end, y.start].map(|end| {
-                let place = frame.panel.y.place(end, &frame.of_y);
-                let place = if place.is_nan() {
-                    0.0
-                } else {
-                    place.clamp(0.0, 1.0)
-                };
-                frame.y.end - place * (frame.y.end - frame.y.start)
-            });
-            if bottom > top {
-                canvas.rectangle([[frame.x.start, top], [frame.x.end, bottom]], *colour, None);
+            // A number without a place, such as 0 on a logarithmic axis, is at the lower end.
+            let [upper, lower] = [y.end, y.start].map(|y| frame.y.at(y).min(bottom).max(top));
+            if upper < lower {
+                canvas.rectangle([[left, upper], [right, lower]], *colour, "");
             }
         }
         Layer::Rule { x, label } => {
-            let at = frame.at_x(*x);
-            if frame.x.start <= at && at <= frame.x.end {
-                let ends = [[at, frame.y.start], [at, frame.y.end]];
-                canvas.dashed(&ends, GREY);
-                let style = Style::new(SMALL, GREY).halo();
-                canvas.text(label, [at + 4.0, frame.y.start + 11.0], style);
+            let at = frame.x.at(*x);
+            if left <= at && at <= right {
+                canvas.line(&[[at, top], [at, bottom]], GREY, DASHED);
+                canvas.text(label, [at + 4.0, top + 11.0], (SMALL, GREY, HALO));
             }
         }
         Layer::Line {
@@ -266,26 +196,19 @@ fn draw_layer(canvas: &mut Canvas, frame: &Frame<'_>, layer: &Layer, taken: &mut
             width,
         } => {
             let points: Vec<[f64; 2]> = points.iter().map(|&point| frame.at(point)).collect();
-            canvas.line(&points, *colour, *width);
+            canvas.line(&points, *colour, &format!("stroke-width=\"{width}\""));
         }
         Layer::Mark { at, mark, hover } => {
-            let at = frame.at(*at);
-            taken.push([at[0] - 4.0, at[1] - 4.0, at[0] + 4.0, at[1] + 4.0]);
-            canvas.mark(*mark, at, hover);
-        }
-        Layer::Ring { at, colour, hover } => {
-            let ([x, y], colour) = (frame.at(*at), hex(*colour));
-            let title = hovered(hover);
-            canvas.element(format_args!(
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"7.5\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\">{title}</circle>"
-            ));
+            let [x, y] = frame.at(*at);
+            frame.taken.push([x - 4.0, y - 4.0, x + 4.0, y + 4.0]);
+            canvas.mark(*mark, [x, y], hover);
         }
         Layer::Interval { x, y, colour } => {
-            let at = frame.at_x(*x);
-            let [low, middle, high] = y.map(|number| frame.at_y(number));
-            canvas.line(&[[at, low], [at, high]], *colour, 2.0);
+            let at = frame.x.at(*x);
+            let [low, middle, high] = y.map(|number| frame.y.at(number));
+            canvas.line(&[[at, low], [at, high]], *colour, THICK);
             for end in [low, high] {
-                canvas.line(&[[at - 3.0, end], [at + 3.0, end]], *colour, 1.0);
+                canvas.line(&[[at - 3.0, end], [at + 3.0, end]], *colour, THIN);
             }
             canvas.mark(Mark::new(Shape::Disc, *colour).sized(3.5), [at, middle], "");
         }
@@ -295,302 +218,56 @@ fn draw_layer(canvas: &mut Canvas, frame: &Frame<'_>, layer: &Layer, taken: &mut
             lines,
             is_marked,
         } => {
-            let [a, b] = [frame.at(*at), frame.at([at[0] + 1.0, at[1] + 1.0])];
+            let [a, b] = [frame.at(*at), frame.at(at.map(|corner| corner + 1.0))];
             let corners = [[a[0] + 1.0, b[1] + 1.0], [b[0] - 1.0, a[1] - 1.0]];
-            let border = is_marked.then_some([0xcc, 0, 0]);
-            canvas.rectangle(corners, *colour, border);
-            let middle = 0.5 * (a[0] + b[0]);
+            canvas.rectangle(corners, *colour, if *is_marked { RED_BORDER } else { "" });
             let first = 0.5 * (a[1] + b[1]) + 4.0 - 6.5 * (lines.len() as f64 - 1.0);
             for (i, line) in lines.iter().enumerate() {
-                let style = Style::new(SMALL, INK).middle();
-                canvas.text(line, [middle, first + 13.0 * i as f64], style);
+                let at = [0.5 * (a[0] + b[0]), first + 13.0 * i as f64];
+                canvas.text(line, at, (SMALL, INK, MIDDLE));
             }
         }
-        Layer::Label { at, text, colour } => label(canvas, frame, *at, text, *colour, taken),
+        Layer::Label { at, text, colour } => {
+            let [x, y] = place_label(frame, *at, text_width(text, SMALL));
+            canvas.text(text, [x, y], (SMALL, *colour, HALO));
+        }
     }
 }
 
-/// Writes a label to the right of a point, or to the left where there is no room, at the nearest height at
+/// The place of a label to the right of a point, or to the left where there is no room, at the nearest height at
 /// which it hits no other.
-fn label(
-    canvas: &mut Canvas,
-    frame: &Frame<'_>,
-    at: [f64; 2],
-    text: &str,
-    colour: Colour,
-    taken: &mut Vec<[f64; 4]>,
-) {
+fn place_label(frame: &mut Frame<'_>, at: [f64; 2], width: f64) -> [f64; 2] {
+    let ([_, right], [bottom, top]) = (frame.x.pixels, frame.y.pixels);
     let [x, y] = frame.at(at);
-    let width = text_width(text, SMALL);
-    let left = match x + 8.0 + width > frame.x.end + 14.0 {
+    let left = match x + 8.0 + width > right + 14.0 {
         true => x - 8.0 - width,
         false => x + 8.0,
     };
+    let around = |y: f64| [left, y - 6.0, left + width, y + 6.0];
     let offsets = (0..40).map(|i| f64::from((i + 1) / 2) * if i % 2 == 0 { 6.0 } else { -6.0 });
-    let boxes = offsets.map(|offset| [left, y + offset - 6.0, left + width, y + offset + 6.0]);
     let hits = |a: &[f64; 4], b: &[f64; 4]| {
         a[0] < b[2] && b[0] < a[2] && a[1] < b[3] - 0.1 && b[1] < a[3] - 0.1
     };
     let is_free = |place: &[f64; 4]| {
-        let is_inside = frame.y.start <= place[1] && place[3] <= frame.y.end;
-        is_inside && !taken.iter().any(|other| hits(place, other))
+        let is_inside = top <= place[1] && place[3] <= bottom;
+        is_inside && !frame.taken.iter().any(|other| hits(place, other))
     };
-    let fallback = [left, y - 6.0, left + width, y + 6.0];
-    let place = boxes.into_iter().find(is_free).unwrap_or(fallback);
-    taken.push(place);
-    canvas.text(
-        text,
-        [left, place[3] - 2.0],
-        Style::new(SMALL, colour).halo(),
-    );
-}
-
-/// How a text is written.
-#[derive(Clone, Copy)]
-struct Style {
-    size: f64,
-    colour: Colour,
-    attributes: &'static str,
-    has_halo: bool,
-    is_upward: bool,
-}
-
-impl Style {
-    fn new(size: f64, colour: Colour) -> Style {
-        Style {
-            size,
-            colour,
-            attributes: "",
-            has_halo: false,
-            is_upward: false,
-        }
-    }
-
-    fn bold(self) -> Style {
-        let attributes = " font-weight=\"bold\"";
-        Style { attributes, ..self }
-    }
-
-    fn middle(self) -> Style {
-        let attributes = " text-anchor=\"middle\"";
-        Style { attributes, ..self }
-    }
-
-    fn end(self) -> Style {
-        let attributes = " text-anchor=\"end\"";
-        Style { attributes, ..self }
-    }
-
-    fn halo(self) -> Style {
-        let has_halo = true;
-        Style { has_halo, ..self }
-    }
-
-    fn upward(self) -> Style {
-        let is_upward = true;
-        Style { is_upward, ..self }
-    }
-}
-
-/// The text of an SVG file, element by element.
-#[derive(Default)]
-struct Canvas {
-    text: String,
-}
-
-impl Canvas {
-    fn element(&mut self, element: std::fmt::Arguments<'_>) {
-        writeln!(self.text, "{element}").expect("a string grows");
-    }
-
-    fn finish(self, [width, height]: [f64; 2]) -> String {
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-             viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\">\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{}</svg>\n",
-            self.text
-        )
-    }
-
-    fn text(&mut self, text: &str, [x, y]: [f64; 2], style: Style) {
-        if text.is_empty() {
-            return;
-        }
-        let colour = hex(style.colour);
-        let Style {
-            size, attributes, ..
-        } = style;
-        let halo = match style.has_halo {
-            true => " paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"",
-            false => "",
-        };
-        let turn = match style.is_upward {
-            true => format!(" transform=\"rotate(-90 {x:.1} {y:.1})\""),
-            false => String::new(),
-        };
-        self.element(format_args!(
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"{colour}\"{attributes}{halo}{turn}>{}</text>",
-            escaped(text)
-        ));
-    }
-
-    /// Writes a paragraph from a first line at this place on; returns where the next line would stand.
-    fn paragraph(
-        &mut self,
-        text: &str,
-        [x, mut y]: [f64; 2],
-        width: f64,
-        size: f64,
-        colour: Colour,
-    ) -> f64 {
-        for line in wrapped(text, letters(width, size)) {
-            self.text(&line, [x, y], Style::new(size, colour));
-            y += size + 4.0;
-        }
-        y
-    }
-
-    fn line(&mut self, points: &[[f64; 2]], colour: Colour, width: f64) {
-        self.stroke(points, colour, &format!("stroke-width=\"{width}\""));
-    }
-
-    fn dashed(&mut self, points: &[[f64; 2]], colour: Colour) {
-        self.stroke(points, colour, "stroke-dasharray=\"5 4\"");
-    }
-
-    fn stroke(&mut self, points: &[[f64; 2]], colour: Colour, how: &str) {
-        let finite = points
-            .iter()
-            .filter(|point| point.iter().all(|x| x.is_finite()));
-        let points: Vec<String> = finite.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
-        if points.len() > 1 {
-            let (points, colour) = (points.join(" "), hex(colour));
-            self.element(format_args!(
-                "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" {how}/>"
-            ));
-        }
-    }
-
-    fn rectangle(&mut self, [a, b]: [[f64; 2]; 2], fill: Colour, border: Option<Colour>) {
-        let border = border.map_or(String::new(), |colour| {
-            format!(" stroke=\"{}\" stroke-width=\"3\"", hex(colour))
-        });
-        let (width, height, fill) = (b[0] - a[0], b[1] - a[1], hex(fill));
-        self.element(format_args!(
-            "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"{fill}\"{border}/>",
-            a[0], a[1]
-        ));
-    }
-
-    fn mark(&mut self, mark: Mark, [x, y]: [f64; 2], hover: &str) {
-        if !(x.is_finite() && y.is_finite()) {
-            return;
-        }
-        let colour = hex(mark.colour);
-        let paint = match mark.is_hollow {
-            true => format!("fill=\"#fff\" stroke=\"{colour}\" stroke-width=\"1.3\""),
-            false => format!("fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"0.6\""),
-        };
-        let title = hovered(hover);
-        let size = mark.size;
-        match outline(mark.shape) {
-            Outline::Disc => self.element(format_args!(
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{size:.1}\" {paint}>{title}</circle>"
-            )),
-            Outline::Closed(corners) => {
-                let corners = corners.iter();
-                let points: Vec<String> = corners
-                    .map(|[dx, dy]| format!("{:.1},{:.1}", x + dx * size, y + dy * size))
-                    .collect();
-                let points = points.join(" ");
-                self.element(format_args!(
-                    "<polygon points=\"{points}\" {paint}>{title}</polygon>"
-                ));
-            }
-            Outline::Strokes(strokes) => {
-                let strokes = strokes.iter().map(|[[ax, ay], [bx, by]]| {
-                    let [ax, bx] = [ax, bx].map(|dx| x + dx * size);
-                    let [ay, by] = [ay, by].map(|dy| y + dy * size);
-                    format!("M{ax:.1} {ay:.1}L{bx:.1} {by:.1}")
-                });
-                let path = strokes.collect::<String>();
-                let width = if mark.is_hollow { 1.0 } else { 2.0 };
-                self.element(format_args!(
-                    "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{width}\">{title}</path>"
-                ));
-            }
-        }
-    }
-}
-
-/// The outline of a mark around the origin, about as large as a disc of radius 1.
-enum Outline {
-    Disc,
-    Closed(&'static [[f64; 2]]),
-    Strokes(&'static [[[f64; 2]; 2]]),
-}
-
-fn outline(shape: Shape) -> Outline {
-    match shape {
-        Shape::Disc => Outline::Disc,
-        Shape::Square => Outline::Closed(&[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]]),
-        Shape::Diamond => Outline::Closed(&[[0.0, -1.3], [1.1, 0.0], [0.0, 1.3], [-1.1, 0.0]]),
-        Shape::Up => Outline::Closed(&[[0.0, -1.2], [1.1, 0.9], [-1.1, 0.9]]),
-        Shape::Down => Outline::Closed(&[[0.0, 1.2], [1.1, -0.9], [-1.1, -0.9]]),
-        Shape::Left => Outline::Closed(&[[-1.2, 0.0], [0.9, -1.1], [0.9, 1.1]]),
-        Shape::Right => Outline::Closed(&[[1.2, 0.0], [-0.9, -1.1], [-0.9, 1.1]]),
-        Shape::Cross => Outline::Strokes(&[[[-1.0, -1.0], [1.0, 1.0]], [[-1.0, 1.0], [1.0, -1.0]]]),
-        Shape::Plus => Outline::Strokes(&[[[-1.2, 0.0], [1.2, 0.0]], [[0.0, -1.2], [0.0, 1.2]]]),
-    }
-}
-
-/// The words that appear where the pointer rests on an element.
-fn hovered(words: &str) -> String {
-    match words.is_empty() {
-        true => String::new(),
-        false => format!("<title>{}</title>", escaped(words)),
-    }
-}
-
-fn hex([red, green, blue]: Colour) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
-}
-
-fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;");
-    text.replace('<', "&lt;").replace('>', "&gt;")
-}
-
-/// Returns lines of at most so many letters.
-fn wrapped(text: &str, letters: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(last) if last.is_empty() => last.push_str(word),
-            Some(last) if last.chars().count() + word.chars().count() < letters => {
-                last.push(' ');
-                last.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines.retain(|line| !line.is_empty());
-    lines
+    let mut places = offsets.map(|offset| around(y + offset));
+    let place = places.find(is_free).unwrap_or(around(y));
+    frame.taken.push(place);
+    [left, place[3] - 2.0]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::Axis;
 
     /// All places and sizes of a figure of two points are worked out by hand here: 100 × 100 pixels between
     /// the axes would be exact, so points at the ends of a range stand at the ends of the axes.
     #[test]
     fn points_at_the_ends_of_a_range_stand_at_the_ends_of_the_axes() {
-        let mark = |at| Layer::Mark {
-            at,
-            mark: Mark::new(Shape::Disc, INK),
-            hover: String::new(),
-        };
+        let mark = |at| Layer::mark(at, Mark::new(Shape::Disc, INK), String::new());
         let figure = Figure {
             columns: 1,
             panel_size: [400.0, 300.0],
@@ -603,16 +280,13 @@ mod tests {
             ..Figure::default()
         };
         let text = svg(&figure);
-        let discs = text.lines().filter(|line| line.starts_with("<circle"));
-        let number = |line: &str, name: &str| -> f64 {
-            let (_, rest) = line
-                .split_once(&format!("{name}=\""))
-                .expect("an attribute");
-            let (number, _) = rest.split_once('"').expect("its end");
-            number.parse().expect("a number")
-        };
-        let at: Vec<[f64; 2]> = discs
-            .map(|line| [number(line, "cx"), number(line, "cy")])
+        let marks = text.split("translate(").skip(1);
+        let at: Vec<[f64; 2]> = marks
+            .map(|mark| {
+                let (place, _) = mark.split_once(')').expect("its end");
+                let (x, y) = place.split_once(' ').expect("two numbers");
+                [x, y].map(|number| number.parse().expect("a number"))
+            })
             .collect();
         let [low, high, middle] = at[..] else {
             panic!("{text}");
@@ -631,11 +305,7 @@ mod tests {
 
     #[test]
     fn labels_at_one_point_stand_apart() {
-        let label = |text: &str| Layer::Label {
-            at: [1.0, 1.0],
-            text: text.to_owned(),
-            colour: INK,
-        };
+        let label = |text: &str| Layer::label([1.0, 1.0], text, INK);
         let figure = Figure {
             columns: 1,
             panel_size: [400.0, 300.0],
