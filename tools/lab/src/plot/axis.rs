@@ -73,23 +73,15 @@ impl Axis {
     /// The ends of an axis that holds these numbers.
     fn fitted(&self, drawn: impl Iterator<Item = f64>) -> Range<f64> {
         let drawn = drawn.map(|number| self.scaled(number));
-        let ends = drawn
-            .filter(|number| number.is_finite())
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
-                [least.min(x), most.max(x)]
-            });
-        let [least, most] = if ends[0] > ends[1] { [0.0, 1.0] } else { ends };
+        let drawn: Vec<f64> = drawn.filter(|number| number.is_finite()).collect();
+        let least = drawn.iter().copied().reduce(f64::min).unwrap_or(0.0);
+        let most = drawn.iter().copied().reduce(f64::max).unwrap_or(1.0);
         let beyond = match most - least {
             0.0 => 0.5 * least.abs().max(0.3),
             length => BEYOND * length,
         };
-        let ends = [least - beyond, most + beyond];
-        let [from, to] = if self.is_log {
-            ends.map(f64::exp)
-        } else {
-            ends
-        };
-        from..to
+        let back = |x: f64| if self.is_log { x.exp() } else { x };
+        back(least - beyond)..back(most + beyond)
     }
 
     fn scaled(&self, number: f64) -> f64 {
@@ -141,7 +133,7 @@ fn evenly(range: &Range<f64>) -> Vec<f64> {
     (first..=last).map(|i| i as f64 * step).collect()
 }
 
-/// Powers of ten; with few of them also twice and five times those, with many only some.
+/// Powers of ten with multiples of those, as many as there is room for; evenly where that leaves fewer than three.
 fn logarithmically(range: &Range<f64>) -> Vec<f64> {
     let [first, last] = [range.start, range.end].map(|end| end.log10().floor() as i32);
     let multiples = |digits: &[f64]| -> Vec<f64> {
@@ -149,12 +141,20 @@ fn logarithmically(range: &Range<f64>) -> Vec<f64> {
         let all = powers.flat_map(|power| digits.iter().map(move |digit| digit * power));
         all.filter(|number| range.contains(number)).collect()
     };
-    let tens = multiples(&[1.0]);
-    match tens.len() {
-        0..=1 => multiples(&[1.0, 2.0, 3.0, 5.0, 7.0]),
-        2..=3 => multiples(&[1.0, 3.0]),
-        count if count <= TICKS => tens,
-        count => tens.into_iter().step_by(count.div_ceil(TICKS)).collect(),
+    let digits = [
+        &[1.0, 2.0, 3.0, 5.0, 7.0][..],
+        &[1.0, 2.0, 5.0],
+        &[1.0, 3.0],
+        &[1.0],
+    ];
+    let mut sets = digits.into_iter().map(multiples);
+    match sets.find(|ticks| ticks.len() <= TICKS) {
+        Some(ticks) if ticks.len() < 3 => evenly(range),
+        Some(ticks) => ticks,
+        None => {
+            let step = 1 + (last - first) as usize / TICKS;
+            multiples(&[1.0]).into_iter().step_by(step).collect()
+        }
     }
 }
 
@@ -190,9 +190,12 @@ mod tests {
         let (linear, log) = (Axis::linear(""), Axis::log(""));
         assert_eq!(of(&linear, 0.0..0.9), ["0", "0.2", "0.4", "0.6", "0.8"]);
         assert_eq!(of(&linear, -3.0..12.0), ["0", "5", "10"]);
-        assert_eq!(of(&log, 0.9e-2..1.2), ["0.01", "0.03", "0.1", "0.3", "1"]);
-        assert_eq!(of(&log, 2.5..6.0), ["3", "5"]);
-        assert_eq!(of(&log, 1e-9..1.0).len(), 5);
+        let decades = ["0.003", "0.01", "0.03", "0.1", "0.3", "1", "3"];
+        assert_eq!(of(&log, 2e-3..4.0), decades);
+        assert_eq!(of(&log, 4e-2..1.2), ["0.05", "0.1", "0.2", "0.5", "1"]);
+        assert_eq!(of(&log, 6.0..44.0), ["7", "10", "20", "30"]);
+        assert_eq!(of(&log, 1.55..1.95), ["1.6", "1.7", "1.8", "1.9"]);
+        assert_eq!(of(&log, 1e-9..1.1).len(), 5);
     }
 
     #[test]
