@@ -19,8 +19,7 @@ use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray,
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
-use crate::experiment::list;
-use crate::experiment::{Bounds, Experiment, Status};
+use crate::experiment::{Bounds, Experiment, Status, list};
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
 /// The default numbers of cells along each side of the sheets.
@@ -72,14 +71,8 @@ pub struct Row {
     pub deviation_edges: Option<f64>,
     /// The largest distance of any seam from its plane, in mean edge lengths.
     pub deviation_edges_most: Option<f64>,
-    /// The median of the length of the seam divided by that of the slit.
-    pub length_ratio: Option<f64>,
-    /// The largest ratio of the length of a seam to that of its slit.
-    pub length_ratio_most: Option<f64>,
     /// The number of lines along which the cut left the expected number of pieces.
     pub divided: Option<usize>,
-    /// The smallest angle of any face after any of the cuts, in degrees.
-    pub angle_min_deg: Option<f64>,
     /// The median of the stable step of springs after a cut, divided by that before it.
     pub step_ratio: Option<f64>,
     /// The smallest ratio of the stable step after a cut to that before it.
@@ -206,10 +199,7 @@ fn measured(row: Row, cuts: &[Measured]) -> Row {
         ns_per_face: ns.map(|ns| ns / row.faces as f64),
         deviation_edges: middle(|cut| cut.report.seam_deviation_max_edges),
         deviation_edges_most: most(|cut| cut.report.seam_deviation_max_edges),
-        length_ratio: middle(|cut| cut.report.seam_length_ratio),
-        length_ratio_most: most(|cut| cut.report.seam_length_ratio),
         divided: Some(cuts.iter().filter(is_divided).count()),
-        angle_min_deg: least(|cut| cut.report.angle_min_deg),
         step_ratio: middle(|cut| cut.step_ratio),
         step_ratio_least: least(|cut| cut.step_ratio),
         ..row

@@ -202,7 +202,6 @@ fn measure(trials: &mut [Trial], splits: &[Split], places: &[Point], bounds: &Bo
         return;
     }
     for trial in trials {
-        trial.implementation.begin();
         let began = bounds.now();
         for split in splits {
             trial.implementation.split(split, places);

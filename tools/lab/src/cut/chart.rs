@@ -20,7 +20,7 @@ struct Measure {
     of: fn(&Row) -> Option<[f64; 2]>,
 }
 
-const MEASURES: [Measure; 6] = [
+const MEASURES: [Measure; 4] = [
     Measure {
         head: "ns/face",
         title: "CPU time of a cut per face of the sheet, ns",
@@ -38,22 +38,10 @@ const MEASURES: [Measure; 6] = [
         },
     },
     Measure {
-        head: "length",
-        title: "Length, seam / straight line",
-        axis: Axis::linear,
-        of: |row| Some([row.length_ratio?, row.length_ratio_most?]),
-    },
-    Measure {
         head: "divided",
         title: "Cuts into the expected pieces, %",
         axis: Axis::linear,
         of: |row| Some([100.0 * row.divided? as f64 / row.cuts? as f64; 2]),
-    },
-    Measure {
-        head: "angle",
-        title: "Smallest angle of all faces, degrees",
-        axis: Axis::log,
-        of: |row| Some([row.angle_min_deg?; 2]),
     },
     Measure {
         head: "step",

@@ -57,7 +57,6 @@ fn snap_bounds_deviation_and_pieces_are_those_expected() {
         assert!(most > 0.3 * snap && most < 2.5 * snap, "{name}: {most}");
     }
     assert!(of("exact 0", |row| row.deviation_edges_most) < 1e-11);
-    assert!((of("exact 0", |row| row.length_ratio) - 1.0).abs() < 1e-9);
     // A vertex stays off the plane if the move would spoil a face.
     assert!(of("exact .05 moved", |row| row.deviation_edges) < 1e-11);
     let [moved, unmoved] =
@@ -70,12 +69,7 @@ fn snap_bounds_deviation_and_pieces_are_those_expected() {
         let ns = row.ns_per_face.expect("a time for each row");
         assert!((ns - 1000.0 / 1152.0).abs() < 1e-9, "{}: {ns}", row.method);
     }
-    assert!(of("uniform", |row| row.length_ratio) > 1.1);
-    // A cut that inserts nothing leaves the faces as they were, and a smaller snap leaves thinner ones.
-    let angles = ["uniform", "partition", "exact .2", "exact .05", "exact 0"];
-    let angles = angles.map(|name| of(name, |row| row.angle_min_deg));
-    assert_eq!(angles[0], angles[1]);
-    assert!(angles[1..].is_sorted_by(|a, b| a > b), "{angles:?}");
+    // A smaller snap leaves thinner faces.
     let steps = ["partition", "exact .2", "exact .05", "exact 0"];
     let steps = steps.map(|name| of(name, |row| row.step_ratio));
     assert!(steps.is_sorted_by(|a, b| a > b), "{steps:?}");
@@ -148,10 +142,7 @@ fn figure_has_a_mark_for_each_row_and_survives_a_file() {
     assert!(figure.title.starts_with(title), "{}", figure.title);
     // Of a method on a sheet, and of a row of the record, which has no more than two measures.
     let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark { .. });
-    for (of, counts) in [
-        (&rows[2..3], [1, 1, 1, 1, 1, 1]),
-        (&rows[21..22], [1, 1, 0, 0, 0, 0]),
-    ] {
+    for (of, counts) in [(&rows[2..3], [1, 1, 1, 1]), (&rows[21..22], [1, 1, 0, 0])] {
         let figure = cuts.figure(of, &Provenance::default());
         let panels = figure.panels.iter();
         let marks = panels.map(|panel| panel.layers.iter().filter(is_mark).count());

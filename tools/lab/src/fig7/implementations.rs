@@ -13,9 +13,6 @@ pub(super) struct Split {
 
 /// A mesh whose vertices can be split.
 pub(super) trait Implementation {
-    /// Prepares for the splits of a step. It is not timed.
-    fn begin(&mut self) {}
-
     /// Gives the faces of a vertex whose centres are behind a plane to a new vertex. Does nothing if all are on
     /// one side.
     fn split(&mut self, split: &Split, places: &[Point]);
@@ -58,13 +55,10 @@ impl Implementation for () {
     }
 }
 
-/// The half-edge with ghost pairs: the kernel's own split, with its log.
+/// The half-edge with ghost pairs: the kernel's own split, with its log, which is used again and again.
 impl Implementation for (Mesh, Edits) {
-    fn begin(&mut self) {
-        self.1.clear();
-    }
-
     fn split(&mut self, split: &Split, places: &[Point]) {
+        self.1.clear();
         split::by_plane(&mut self.0, split.vertex, &split.plane, places, &mut self.1);
     }
 

@@ -138,7 +138,6 @@ fn all_implementations_agree_on_random_splits() {
                 plane: Plane::new(places[v], normal).expect("a plane"),
             };
             for one in &mut all {
-                one.begin();
                 one.split(&split, &places);
             }
             let [first, second, third] = all.each_ref().map(|one| one.indices());
@@ -170,7 +169,6 @@ fn no_implementation_splits_what_has_no_face_on_one_side() {
         };
         for (name, new) in &IMPLEMENTATIONS[1..] {
             let mut implementation = new(&mesh);
-            implementation.begin();
             implementation.split(&split, &places);
             let most = implementation.indices().iter().max().copied();
             assert_eq!(most, Some(last), "{name} at {v}");
