@@ -321,7 +321,7 @@ fn what_is_no_record_and_no_table_is_refused_before_any_run() {
     assert_eq!(seen(&folder.run(line)), "");
     let table = folder.read("fig7.csv");
     folder.write("short.csv", &table[..table.len() - 9]);
-    folder.write("words.csv", table.replace(",ok,", ",fine,"));
+    folder.write("words.csv", table.replace(",ok\n", ",fine\n"));
     let files = folder.names();
     for (options, code) in [
         ("cut --record no.txt", "E-CHART-RECORD"),
