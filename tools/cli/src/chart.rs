@@ -16,7 +16,7 @@ use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::{self, Guide};
 use tearmesh_lab::pareto::{self, Pareto, SCENES};
 use tearmesh_lab::sheet::MeshKind;
-use tearmesh_lab::stability::{self, Message, Messages, Stability};
+use tearmesh_lab::stability::Stability;
 use tearmesh_lab::tear::{self, EnsembleScene, Tear};
 use tearmesh_lab::{plot, pool};
 
@@ -38,11 +38,12 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
         What::Guide(args) => (&args.draw, work(&guide(args), &args.draw, streams)),
         What::Pareto(args) => (&args.draw, work(&pareto(args), &args.draw, streams)),
         What::Stability(args) => {
-            let options = stability::Options {
+            let stability = Stability {
                 stiffness_n_per_m: args.stiffness.clone(),
                 threads: threads(&args.draw),
+                step_code: advice::code,
+                run_codes,
             };
-            let stability = Stability::new(options, CommandMessages);
             (&args.draw, work(&stability, &args.draw, streams))
         }
         What::Tear(args) => {
@@ -378,28 +379,11 @@ fn unwritable(path: &Path, error: &std::io::Error) -> (Exit, Fault) {
     (Exit::Output, output::cannot_write(path, error))
 }
 
-/// The messages that this command prints about a run.
-struct CommandMessages;
-
-impl Messages for CommandMessages {
-    fn of_step(&self, error: &StepError) -> Message {
-        Message {
-            code: advice::code(error).to_owned(),
-            text: error.to_string(),
-        }
-    }
-
-    fn of_run(&self, run: &Run, frame: &Frame, error: Option<&StepError>) -> Vec<Message> {
-        let before = advice::before(run, frame, &|vertex| vertex + 1).into_iter();
-        let failure = error.map(|error| advice::failure(error, run));
-        let all = before.chain(advice::after(run)).chain(failure);
-        let message = |fault: Fault| Message {
-            code: fault.code.to_owned(),
-            text: match fault.help {
-                Some(help) => format!("{}; help: {help}", fault.message),
-                None => fault.message,
-            },
-        };
-        all.map(message).collect()
-    }
+/// Returns the codes of the messages that `tear` prints about a run, with the warnings from before its first
+/// step. `error` is the error that ended it; `None` if it reached its end.
+fn run_codes(run: &Run, frame: &Frame, error: Option<&StepError>) -> Vec<&'static str> {
+    let before = advice::before(run, frame, &|vertex| vertex + 1).into_iter();
+    let failure = error.map(|error| advice::failure(error, run));
+    let all = before.chain(advice::after(run)).chain(failure);
+    all.map(|fault| fault.code).collect()
 }

@@ -187,6 +187,8 @@ pub fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error>
 pub enum Status {
     /// The run reached its end.
     Ok,
+    /// The run reached its end, but its result is not right.
+    Wrong,
     /// A step was refused, at the start or later.
     Refused,
     /// The energy grew without bound, or a number was infinite, NaN or too large.
@@ -210,6 +212,7 @@ impl Status {
     pub fn name(self) -> &'static str {
         match self {
             Status::Ok => "ok",
+            Status::Wrong => "wrong",
             Status::Refused => "refused",
             Status::BlownUp => "blown-up",
             Status::Unsolved => "unsolved",

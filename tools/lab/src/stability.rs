@@ -1,9 +1,9 @@
 //! Stability: the steps at which each method fails, in theory and as measured, and the messages that users get.
 //!
-//! A *limit* concerns small motions of a net of springs: the step from which they grow without bound. It is
-//! found by bisection without the guard that refuses unstable steps, and compared with theory. The frequency
-//! in theory comes from a dense matrix, which shares no code with the methods. Single steps below and above
-//! the limit also show which of them the guard refuses.
+//! A *limit* concerns small motions of a net of springs: the step from which they grow without bound. Steps below
+//! and above it are tried without the guard that refuses unstable steps, and compared with theory. The frequency
+//! in theory comes from a dense matrix, which shares no code with the methods. The same steps with the guard show
+//! which of them it refuses.
 //!
 //! A *scene* is played as a user would play it, by all methods at their default settings. Each scene is made
 //! such that some of them fail, and it says which.
@@ -14,103 +14,97 @@
 mod chart;
 mod limit;
 mod net;
-mod outcome;
+mod row;
 mod trial;
 
-pub use self::limit::{AGREEMENT, LimitKey, STIFFNESS_N_PER_M, Theory};
-pub use self::outcome::{Class, Message, Messages, Row, RowKind};
-pub use self::trial::{ENERGY_GAIN_MAX, POSITION_ERROR_MAX, TRIALS, Trial};
+pub use self::limit::{LIMITS, STIFFNESS_N_PER_M, Theory};
+pub use self::row::Row;
+pub use self::trial::{RunCodes, TRIALS, Trial};
 
 use std::num::NonZero;
 
-use self::limit::LIMITED;
-use self::net::NETS;
-use crate::experiment::list;
-use crate::experiment::{Bounds, Experiment};
+use tearmesh_cloth::StepError;
 
-/// The options of the experiment on stability.
+use crate::experiment::{Bounds, Experiment, list};
+
+/// The experiment on stability.
+///
+/// The codes of messages come from the command, whose wording is not part of this crate.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct Stability {
     /// The stiffness values of the springs, in N/m. Each method is tried on each net at each of them.
     pub stiffness_n_per_m: Vec<f64>,
     /// The number of runs that may go on at a time.
     pub threads: NonZero<usize>,
-}
-
-/// The experiment on stability.
-#[derive(Clone, Debug)]
-pub struct Stability<M> {
-    options: Options,
-    messages: M,
+    /// The function that returns the code of the message about a step that failed, for a user who steps a
+    /// system, such as `E-SIM-UNSTABLE`; empty for no message.
+    pub step_code: fn(&StepError) -> &'static str,
+    /// The function that returns the codes of the messages about a run.
+    pub run_codes: RunCodes,
 }
 
 /// A part of the experiment.
 #[derive(Clone, Copy, Debug)]
 pub enum Key {
-    /// The limit of a method on a net.
-    Limit(LimitKey),
+    /// The steps of a method on all nets.
+    Limit(&'static str, Theory),
     /// A scene, played by all methods.
     Trial(&'static Trial),
 }
 
-impl<M: Messages> Stability<M> {
-    /// Creates the experiment.
-    #[must_use]
-    pub fn new(options: Options, messages: M) -> Stability<M> {
-        Stability { options, messages }
-    }
-}
+/// The CPU time of all steps at one stiffness, and of all scenes, in seconds, on the machine on which charts were
+/// first made.
+const LIMITS_S: f64 = 5.0;
+const TRIALS_S: f64 = 10.0;
 
-/// The CPU time of a limit and of a scene in seconds, on the machine on which charts were first made: 7 s for all
-/// limits of one stiffness, and 10 s for all scenes.
-const LIMIT_S: f64 = 7.0 / (LIMITED.len() * NETS.len()) as f64;
-const TRIAL_S: f64 = 10.0 / TRIALS.len() as f64;
-
-impl<M: Messages> Experiment for Stability<M> {
+impl Experiment for Stability {
     type Key = Key;
     type Outcome = Vec<Row>;
     type Row = Row;
 
     fn command(&self) -> String {
-        let stiffness = list(&self.options.stiffness_n_per_m);
+        let stiffness = list(&self.stiffness_n_per_m);
         format!("tearmesh chart stability --stiffness {stiffness}")
     }
 
     fn threads(&self) -> NonZero<usize> {
-        self.options.threads
+        self.threads
     }
 
     fn plan(&self) -> Vec<Vec<Key>> {
-        let limits = limit::keys(&self.options.stiffness_n_per_m).into_iter();
-        let limits = limits.map(Key::Limit);
+        let limits = LIMITS.iter();
+        let limits = limits.map(|&(method, theory)| Key::Limit(method, theory));
         vec![limits.chain(TRIALS.iter().map(Key::Trial)).collect()]
     }
 
     fn name(&self, key: &Key) -> String {
         match key {
-            Key::Limit(key) => key.name(),
+            Key::Limit(method, _) => format!("limit of {method}"),
             Key::Trial(trial) => trial.name.to_owned(),
         }
     }
 
     fn guess_s(&self, key: &Key) -> f64 {
         match key {
-            Key::Limit(_) => LIMIT_S,
-            Key::Trial(_) => TRIAL_S,
+            Key::Limit(..) => LIMITS_S / LIMITS.len() as f64 * self.stiffness_n_per_m.len() as f64,
+            Key::Trial(_) => TRIALS_S / TRIALS.len() as f64,
         }
     }
 
     fn run(&self, key: &Key, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
         match key {
-            Key::Limit(key) => key.rows(&self.messages, bounds.stop),
-            Key::Trial(trial) => trial.rows(&self.messages, bounds.stop),
+            Key::Limit(method, theory) => {
+                let stiffness = &self.stiffness_n_per_m;
+                theory.rows(method, stiffness, self.step_code, bounds.stop)
+            }
+            Key::Trial(trial) => trial.rows(self.run_codes, bounds.stop),
         }
     }
 
     fn rows(&self, keys: &[Key], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
-        let interrupted = |key: &Key| match key {
-            Key::Limit(key) => key.row(),
-            Key::Trial(trial) => Row::new(RowKind::Scene, trial.name, ""),
+        let interrupted = |key: &Key| Row {
+            place: self.name(key),
+            ..Row::default()
         };
         let each = keys.iter().zip(outcomes);
         let each = each.map(|(key, rows)| rows.unwrap_or_else(|| vec![interrupted(key)]));
@@ -122,42 +116,25 @@ impl<M: Messages> Experiment for Stability<M> {
 mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    use tearmesh_cloth::StepError;
-    use tearmesh_cloth::scene::{Frame, Run};
-
     use super::*;
 
     use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
     use crate::method::DefaultMethod;
 
-    /// Says one word about what failed, or nothing.
-    pub(super) struct Terse {
-        pub(super) is_mute: bool,
-    }
-
-    impl Messages for Terse {
-        fn of_step(&self, _: &StepError) -> Message {
-            Message {
-                code: "E".to_owned(),
-                text: "\"no\", <and> that is that".to_owned(),
-            }
-        }
-
-        fn of_run(&self, _: &Run, _: &Frame, error: Option<&StepError>) -> Vec<Message> {
-            let error = error.filter(|_| !self.is_mute);
-            error.map(|error| self.of_step(error)).into_iter().collect()
-        }
-    }
-
-    fn experiment(is_mute: bool) -> Stability<Terse> {
-        let options = Options {
+    /// The experiment with one word about what failed, or with none.
+    fn experiment(is_mute: bool) -> Stability {
+        Stability {
             stiffness_n_per_m: vec![1e3],
             threads: NonZero::<usize>::MIN,
-        };
-        Stability::new(options, Terse { is_mute })
+            step_code: |_| "E",
+            run_codes: match is_mute {
+                true => |_, _, _| Vec::new(),
+                false => |_, _, error| error.map(|_| "E <and> \"W\"").into_iter().collect(),
+            },
+        }
     }
 
-    fn rows_of(experiment: &Stability<Terse>, names: &[&str]) -> Vec<Row> {
+    fn rows_of(experiment: &Stability, names: &[&str]) -> Vec<Row> {
         let bounds = Bounds {
             clock: None,
             stop: &|| false,
@@ -189,13 +166,9 @@ mod tests {
     #[test]
     fn the_figure_of_a_table_that_was_read_back_is_the_same() {
         let experiment = experiment(false);
-        let names = [
-            "string at 1e3 N/m by RK4",
-            "chain at 1e3 N/m by PBD",
-            "wind",
-        ];
+        let names = ["limit of rk4", "limit of pbd-10", "wind"];
         let rows = rows_of(&experiment, &names);
-        assert_eq!(rows.len(), 8 + 5 + 5);
+        assert_eq!(rows.len(), 6 * 8 + 6 * 8 + 5);
         let text = table(&rows).expect("a table");
         let read: Vec<Row> = read_table(&text).expect("the same table");
         assert_eq!(read, rows);
