@@ -17,7 +17,8 @@ pub struct Method {
     pub name: &'static str,
     /// The family of methods to which it belongs.
     pub family: Family,
-    kind: Kind,
+    /// The sweeps per step of a method that sweeps, or the tolerance of an implicit method.
+    setting: u32,
 }
 
 /// The families of methods, which ignore settings.
@@ -58,36 +59,31 @@ impl Family {
         Family::Bdf2,
     ];
 
-    /// Returns the name of the family in legends.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    /// The name, and what tells the mark from others: shape and colour each do.
+    fn style(self) -> (&'static str, Shape, Colour) {
         match self {
-            Family::Verlet => "Verlet",
-            Family::PlainVerlet => "plain Verlet",
-            Family::Rk4 => "RK4",
-            Family::SymplecticEuler => "symplectic Euler",
-            Family::Provot => "Provot",
-            Family::Pbd => "PBD",
-            Family::Xpbd => "XPBD",
-            Family::BackwardEuler => "backward Euler",
-            Family::Bdf2 => "BDF2",
+            Family::Verlet => ("Verlet", Shape::Disc, COLOURS[0]),
+            Family::PlainVerlet => ("plain Verlet", Shape::Square, COLOURS[5]),
+            Family::Rk4 => ("RK4", Shape::Diamond, [0x22; 3]),
+            Family::SymplecticEuler => ("symplectic Euler", Shape::Up, COLOURS[4]),
+            Family::Provot => ("Provot", Shape::Down, [0x8a; 3]),
+            Family::Pbd => ("PBD", Shape::Cross, COLOURS[3]),
+            Family::Xpbd => ("XPBD", Shape::Plus, COLOURS[1]),
+            Family::BackwardEuler => ("backward Euler", Shape::Left, COLOURS[2]),
+            Family::Bdf2 => ("BDF2", Shape::Right, [0x7b, 0x3f, 0xa0]),
         }
     }
 
-    /// Returns the mark of the family in plots. Shape and colour each tell it from the others.
+    /// Returns the name of the family in legends.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.style().0
+    }
+
+    /// Returns the mark of the family in plots.
     #[must_use]
     pub fn mark(self) -> Mark {
-        let (shape, colour): (Shape, Colour) = match self {
-            Family::Verlet => (Shape::Disc, COLOURS[0]),
-            Family::PlainVerlet => (Shape::Square, COLOURS[5]),
-            Family::Rk4 => (Shape::Diamond, [0x22; 3]),
-            Family::SymplecticEuler => (Shape::Up, COLOURS[4]),
-            Family::Provot => (Shape::Down, [0x8a; 3]),
-            Family::Pbd => (Shape::Cross, COLOURS[3]),
-            Family::Xpbd => (Shape::Plus, COLOURS[1]),
-            Family::BackwardEuler => (Shape::Left, COLOURS[2]),
-            Family::Bdf2 => (Shape::Right, [0x7b, 0x3f, 0xa0]),
-        };
+        let (_, shape, colour) = self.style();
         Mark::new(shape, colour)
     }
 
@@ -112,54 +108,36 @@ pub(crate) enum StoredEnergy {
     None,
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Verlet,
-    PlainVerlet,
-    Rk4,
-    SymplecticEuler,
-    Provot,
-    Pbd(u32),
-    Xpbd(u32),
-    Implicit(implicit::Method, f64),
-}
-
-const fn method(name: &'static str, family: Family, kind: Kind) -> Method {
-    Method { name, family, kind }
-}
-
-const fn backward_euler(name: &'static str, tolerance: f64) -> Method {
-    let kind = Kind::Implicit(implicit::Method::BackwardEuler, tolerance);
-    method(name, Family::BackwardEuler, kind)
-}
-
-const fn bdf2(name: &'static str, tolerance: f64) -> Method {
-    let kind = Kind::Implicit(implicit::Method::Bdf2, tolerance);
-    method(name, Family::Bdf2, kind)
-}
-
 /// All methods with all settings, grouped by family.
 pub const METHODS: [Method; 19] = [
-    method("verlet", Family::Verlet, Kind::Verlet),
-    method("verlet-plain", Family::PlainVerlet, Kind::PlainVerlet),
-    method("rk4", Family::Rk4, Kind::Rk4),
-    method("euler", Family::SymplecticEuler, Kind::SymplecticEuler),
-    method("provot", Family::Provot, Kind::Provot),
-    method("pbd-1", Family::Pbd, Kind::Pbd(1)),
-    method("pbd-2", Family::Pbd, Kind::Pbd(2)),
-    method("pbd-4", Family::Pbd, Kind::Pbd(4)),
-    method("pbd-10", Family::Pbd, Kind::Pbd(10)),
-    method("xpbd-1", Family::Xpbd, Kind::Xpbd(1)),
-    method("xpbd-2", Family::Xpbd, Kind::Xpbd(2)),
-    method("xpbd-4", Family::Xpbd, Kind::Xpbd(4)),
-    method("xpbd-10", Family::Xpbd, Kind::Xpbd(10)),
-    backward_euler("euler-back-10", 10.0),
-    backward_euler("euler-back-100", 100.0),
-    backward_euler("euler-back-1000", 1000.0),
-    bdf2("bdf2-10", 10.0),
-    bdf2("bdf2-100", 100.0),
-    bdf2("bdf2-1000", 1000.0),
+    method("verlet", Family::Verlet, 0),
+    method("verlet-plain", Family::PlainVerlet, 0),
+    method("rk4", Family::Rk4, 0),
+    method("euler", Family::SymplecticEuler, 0),
+    method("provot", Family::Provot, 0),
+    method("pbd-1", Family::Pbd, 1),
+    method("pbd-2", Family::Pbd, 2),
+    method("pbd-4", Family::Pbd, 4),
+    method("pbd-10", Family::Pbd, 10),
+    method("xpbd-1", Family::Xpbd, 1),
+    method("xpbd-2", Family::Xpbd, 2),
+    method("xpbd-4", Family::Xpbd, 4),
+    method("xpbd-10", Family::Xpbd, 10),
+    method("euler-back-10", Family::BackwardEuler, 10),
+    method("euler-back-100", Family::BackwardEuler, 100),
+    method("euler-back-1000", Family::BackwardEuler, 1000),
+    method("bdf2-10", Family::Bdf2, 10),
+    method("bdf2-100", Family::Bdf2, 100),
+    method("bdf2-1000", Family::Bdf2, 1000),
 ];
+
+const fn method(name: &'static str, family: Family, setting: u32) -> Method {
+    Method {
+        name,
+        family,
+        setting,
+    }
+}
 
 /// The fractions of its base step that each method is tried with, in descending order. The last two are
 /// halvings.
@@ -179,28 +157,29 @@ impl Method {
     /// Returns a new solver with these settings.
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
-        match self.kind {
-            Kind::Verlet => Box::new(Verlet::new()),
-            Kind::PlainVerlet => Box::new(Verlet::plain()),
-            Kind::Rk4 => Box::new(Rk4::new()),
-            Kind::SymplecticEuler => Box::new(Provot::unlimited()),
-            Kind::Provot => Box::new(Provot::new(Limiter::default())),
-            Kind::Pbd(sweeps) => Box::new(Pbd::new(sweeps)),
-            Kind::Xpbd(sweeps) => Box::new(Xpbd::new(1, sweeps)),
-            Kind::Implicit(method, tolerance) => Box::new(Implicit::new(Settings {
+        let implicit = |method| {
+            Box::new(Implicit::new(Settings {
                 method,
-                tolerance: Tolerance::Tied(tolerance),
+                tolerance: Tolerance::Tied(self.setting.into()),
                 ..Settings::default()
-            })),
+            }))
+        };
+        match self.family {
+            Family::Verlet => Box::new(Verlet::new()),
+            Family::PlainVerlet => Box::new(Verlet::plain()),
+            Family::Rk4 => Box::new(Rk4::new()),
+            Family::SymplecticEuler => Box::new(Provot::unlimited()),
+            Family::Provot => Box::new(Provot::new(Limiter::default())),
+            Family::Pbd => Box::new(Pbd::new(self.setting)),
+            Family::Xpbd => Box::new(Xpbd::new(1, self.setting)),
+            Family::BackwardEuler => implicit(implicit::Method::BackwardEuler),
+            Family::Bdf2 => implicit(implicit::Method::Bdf2),
         }
     }
 
     /// Returns the number of sweeps per step; `None` for a method that does not sweep.
     pub(crate) fn sweeps(&self) -> Option<u32> {
-        match self.kind {
-            Kind::Pbd(sweeps) | Kind::Xpbd(sweeps) => Some(sweeps),
-            _ => None,
-        }
+        matches!(self.family, Family::Pbd | Family::Xpbd).then_some(self.setting)
     }
 
     /// Returns the base step in seconds, which [`STEP_FRACTIONS`] multiply, for a system in which a pull
@@ -210,14 +189,12 @@ impl Method {
     /// sweep it is `edge_s`. For implicit methods it is 1/60 s.
     #[must_use]
     pub fn base_s(&self, system: &mut System, edge_s: f64) -> f64 {
-        match self.kind {
+        match self.family {
             // Admitted up to twice the recommended step.
-            Kind::Verlet => MARGIN * 2.0 * suited_step_s(system),
-            Kind::PlainVerlet | Kind::Rk4 | Kind::SymplecticEuler | Kind::Provot => {
-                MARGIN * limit_s(system, &*self.solver())
-            }
-            Kind::Pbd(_) | Kind::Xpbd(_) => edge_s,
-            Kind::Implicit(..) => 1.0 / 60.0,
+            Family::Verlet => MARGIN * 2.0 * suited_step_s(system),
+            Family::Pbd | Family::Xpbd => edge_s,
+            Family::BackwardEuler | Family::Bdf2 => 1.0 / 60.0,
+            _ => MARGIN * limit_s(system, &*self.solver()),
         }
     }
 }
@@ -225,9 +202,8 @@ impl Method {
 /// The longest step in seconds that is admitted now.
 fn limit_s(system: &mut System, solver: &dyn Solver) -> f64 {
     let abilities = solver.abilities();
-    let springs_s = abilities
-        .frequency_limit
-        .map_or(f64::INFINITY, |limit| stable_step_s(system, limit));
+    let springs_s = abilities.frequency_limit;
+    let springs_s = springs_s.map_or(f64::INFINITY, |limit| stable_step_s(system, limit));
     let drag = system.loads().drag_per_s.unwrap_or(0.0);
     match abilities.air_limit {
         Some(limit) if abilities.takes_drag_explicitly => 1.0 / (1.0 / springs_s + drag / limit),

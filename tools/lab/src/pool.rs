@@ -42,13 +42,10 @@ pub fn side_by_side<J: Sync, R: Send>(
             });
         }
         drop(done);
-        let mut found: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
-        for (i, result) in results {
-            found[i] = Some(result);
-            watch(i);
-        }
-        let found: Option<Vec<R>> = found.into_iter().collect();
-        found.expect("each job has been done, or its worker's panic ends the scope")
+        let mut found: Vec<(usize, R)> = results.into_iter().inspect(|(i, _)| watch(*i)).collect();
+        found.sort_by_key(|(i, _)| *i);
+        // A worker's panic ends the scope, so that all jobs have been done.
+        found.into_iter().map(|(_, result)| result).collect()
     })
 }
 

@@ -37,15 +37,9 @@ impl Solver for Rk4 {
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let drag = system.loads().drag_per_s.unwrap_or(0.0);
-        let Rk4 {
-            start,
-            sums,
-            accelerations,
-        } = self;
-        start.0.clear();
-        start.0.extend_from_slice(system.positions());
-        start.1.clear();
-        start.1.extend_from_slice(system.velocities());
+        let (start, sums) = (&mut self.start, &mut self.sums);
+        system.positions().clone_into(&mut start.0);
+        system.velocities().clone_into(&mut start.1);
         let count = start.0.len();
         for sums in [&mut sums.0, &mut sums.1] {
             sums.clear();
@@ -54,11 +48,11 @@ impl Solver for Rk4 {
         let mut sane = true;
         // The weight of each slope, and how far along it the next stage lies.
         for (weight, next) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
-            sane &= force::accelerations(system, accelerations);
+            sane &= force::accelerations(system, &mut self.accelerations);
             for i in 0..count {
                 let fade = if system.is_held(i) { 0.0 } else { drag };
                 let (x, v) = system.state_mut();
-                let (slope, speed) = (v[i], accelerations[i] - v[i] * fade);
+                let (slope, speed) = (v[i], self.accelerations[i] - v[i] * fade);
                 sums.0[i] += slope * weight;
                 sums.1[i] += speed * weight;
                 x[i] = start.0[i] + slope * (next * dt_s);

@@ -126,15 +126,13 @@ fn scattered(cells: u32, random: &mut Random) -> (Mesh, Positions) {
 pub(crate) fn delaunay(points: &[[f64; 2]], area_min: f64) -> Mesh {
     let named: Vec<delaunator::Point> = points.iter().map(|&p| p.into()).collect();
     let triangles = delaunator::triangulate(&named).triangles;
-    let triangles = triangles.chunks_exact(3).filter_map(|t| {
-        let [a, b, c] = [points[t[0]], points[t[1]], points[t[2]]];
-        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        (area.abs() > area_min).then(|| {
-            let [a, b, c] = [t[0] as u32, t[1] as u32, t[2] as u32];
-            if area > 0.0 { [a, b, c] } else { [a, c, b] }
-        })
+    // They come clockwise, seen with y up.
+    let triangles = triangles.chunks_exact(3).map(|t| [t[0], t[2], t[1]]);
+    let triangles = triangles.filter(|t| {
+        let [a, b, c] = t.map(|v| points[v]);
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > area_min
     });
-    let triangles: Vec<[u32; 3]> = triangles.collect();
+    let triangles: Vec<[u32; 3]> = triangles.map(|t| t.map(|v| v as u32)).collect();
     Mesh::build(points.len(), &triangles).expect("Delaunay triangles are a manifold")
 }
 

@@ -54,8 +54,8 @@ pub enum Key {
 
 /// The CPU time of all steps at one stiffness, and of all scenes, in seconds, on the machine on which charts were
 /// first made.
-const LIMITS_S: f64 = 5.0;
-const TRIALS_S: f64 = 10.0;
+const LIMITS_S: f64 = 3.0;
+const TRIALS_S: f64 = 9.0;
 
 impl Experiment for Stability {
     type Key = Key;
@@ -168,7 +168,7 @@ mod tests {
         let experiment = experiment(false);
         let names = ["limit of rk4", "limit of pbd-10", "wind"];
         let rows = rows_of(&experiment, &names);
-        assert_eq!(rows.len(), 6 * 8 + 6 * 8 + 5);
+        assert_eq!(rows.len(), 4 * 8 + 4 * 8 + 5);
         let text = table(&rows).expect("a table");
         let read: Vec<Row> = read_table(&text).expect("the same table");
         assert_eq!(read, rows);

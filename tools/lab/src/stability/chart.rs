@@ -89,7 +89,7 @@ fn steps(rows: &[Row]) -> Panel {
     });
     Panel {
         title: "Steps on nets".to_owned(),
-        about: "Small motions of six nets at each stiffness: the nets on which they stay bounded without the \
+        about: "Small motions of four nets at each stiffness: the nets on which they stay bounded without the \
                 guard, and those on which the guard refuses the step."
             .to_owned(),
         x: Axis {
@@ -110,7 +110,8 @@ fn scenes(rows: &[Row]) -> Panel {
         let measure = of[0].measure.map(|x| format!(" · {}", short(x, 2)));
         let outcome = outcome_in_words(of[0]) + &measure.unwrap_or_default();
         let codes = of[0].codes.split(" | ").map(str::to_owned);
-        let lines = std::iter::once(outcome).chain(codes).collect();
+        let lines = [outcome].into_iter().chain(codes);
+        let lines = lines.filter(|line| !line.is_empty()).collect();
         (of[0].measured.unwrap_or_default(), lines)
     });
     let abouts = TRIALS.iter();
