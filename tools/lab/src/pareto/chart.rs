@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::{AMPLIFICATION_MAX, COARSE, FINE, Observable, Pareto, Row};
+use super::{AMPLIFICATION_MAX, Observable, Pareto, Row, SCENES};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::front::FLOORS;
 use crate::method::{DEFAULT, Family};
@@ -12,78 +12,89 @@ use crate::plot::{Axis, Figure, INK, Layer, Mark, PALE, Panel, Shape, Strip, sho
 /// The error at which the title counts the cheapest methods.
 const TITLE_ERROR: f64 = 0.01;
 
+/// The tolerances for [`Observable::Displacement`], as relative errors.
+const FINE: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+
+/// The tolerances for all other observables, as relative errors.
+const COARSE: [f64; 4] = [0.2, 0.1, 0.05, 0.02];
+
 /// Errors below this multiple of the floor are drawn there.
 const LEAST: f64 = 0.01;
 
 impl Chart for Pareto {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        figure(rows, provenance)
+        let by_time = rows.iter().any(|row| row.cpu_median_s.is_some());
+        let unit = match by_time {
+            true => "CPU time",
+            false => "visits of edges",
+        };
+        let mut footer = vec![provenance.footer()];
+        if rows.iter().any(|row| row.status == Status::Interrupted) {
+            let note = "INTERRUPTED: runs that were not done stand among those that failed.";
+            footer.push(note.to_owned());
+        }
+        footer.push(
+            "A line joins the runs of a method that none of its other settings beats in both; dots are its \
+             other runs. Grey line: the front, where no run is a tenth better in one and no worse in the \
+             other. Ring: default settings, black for the default method. Hollow, in the shaded band: below \
+             ten times the error floor, known no better. Pink strip: runs that failed, at the cost they had \
+             reached."
+                .to_owned(),
+        );
+        let is_there = |family: &Family| rows.iter().any(|row| row.family == Some(*family));
+        let families = Family::ALL.into_iter().filter(is_there);
+        Figure {
+            title: title(rows, by_time, unit),
+            about: format!(
+                "Relative error against {unit}, one panel per scene and observable. Down and to the left is \
+                 better."
+            ),
+            legend: families
+                .map(|family| (family.mark(), family.name().to_owned()))
+                .collect(),
+            columns: 3,
+            panel_size: [390.0, 330.0],
+            panels: groups(rows)
+                .map(|(case, observable, of)| panel(case, observable, &of, by_time))
+                .collect(),
+            footer,
+        }
     }
 
     fn summary(&self, rows: &[Row]) -> String {
-        summary(rows)
-    }
-}
-
-fn figure(rows: &[Row], provenance: &Provenance) -> Figure {
-    let by_time = rows.iter().any(|row| row.cpu_median_s.is_some());
-    let unit = if by_time {
-        "CPU time"
-    } else {
-        "visits of edges"
-    };
-    let cases: Vec<&[Row]> = rows.chunk_by(|a, b| a.case() == b.case()).collect();
-    let mut panels = Vec::new();
-    for case in &cases {
-        for observable in Observable::DRAWN {
-            if case.iter().any(|row| row.observable == Some(observable)) {
-                panels.push(panel(case, observable, by_time));
+        let mut text = String::from("the cheapest run for each tolerance, by visits of edges\n");
+        for case in cases(rows) {
+            let name = format!("{} {}", case[0].scene, about(&case[0]));
+            writeln!(text, "{name}").expect("a string grows");
+            for (_, observable, of) in groups(case) {
+                let line = tolerances(observable, &of);
+                writeln!(text, "  {:<33} {line}", observable.name()).expect("a string grows");
             }
+            text += &defaults(case);
         }
-    }
-    let mut footer = vec![provenance.footer()];
-    if rows.iter().any(|row| row.status == Status::Interrupted) {
-        footer
-            .push("INTERRUPTED: runs that were not done stand among those that failed.".to_owned());
-    }
-    footer.push(
-        "A line joins the runs of a method that none of its other settings beats in both; dots are its other \
-         runs. Grey line: the front, where no run is a tenth better in one and no worse in the other. Ring: \
-         default settings, black for the default method. Hollow, in the shaded band: below ten times the \
-         error floor, known no better. Pink strip: runs that failed, at the cost they had reached."
-            .to_owned(),
-    );
-    Figure {
-        title: title(&cases, by_time, unit),
-        about: format!(
-            "Relative error against {unit}, one panel per scene and observable. Down and to the left is better."
-        ),
-        legend: legend(rows),
-        columns: 3,
-        panel_size: [390.0, 330.0],
-        panels,
-        footer,
+        text
     }
 }
 
-/// The families that have a row, with their marks.
-fn legend(rows: &[Row]) -> Vec<(Mark, String)> {
-    let is_there = |family: &Family| rows.iter().any(|row| row.family == Some(*family));
-    let families = Family::ALL.into_iter().filter(is_there);
-    families
-        .map(|family| (family.mark(), family.name().to_owned()))
-        .collect()
+fn cases(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
+    rows.chunk_by(|a, b| a.case() == b.case())
+}
+
+/// The cases with each observable that they have, and its rows.
+fn groups(rows: &[Row]) -> impl Iterator<Item = (&[Row], Observable, Vec<&Row>)> {
+    let each = cases(rows).flat_map(|case| Observable::ALL.map(|observable| (case, observable)));
+    let each = each.map(|(case, observable)| {
+        let of = case.iter().filter(|row| row.observable == Some(observable));
+        (case, observable, of.collect::<Vec<_>>())
+    });
+    each.filter(|(.., of)| !of.is_empty())
 }
 
 /// The method that is the cheapest at an error of 1 % most often.
-fn title(cases: &[&[Row]], by_time: bool, unit: &str) -> String {
-    let mut winners: Vec<Family> = Vec::new();
-    for case in cases {
-        for observable in Observable::DRAWN.into_iter().filter(|one| !one.is_energy()) {
-            let winner = cheapest(case, observable, TITLE_ERROR, by_time);
-            winners.extend(winner.and_then(|row| row.family));
-        }
-    }
+fn title(rows: &[Row], by_time: bool, unit: &str) -> String {
+    let compared = groups(rows).filter(|(_, observable, _)| !observable.is_energy());
+    let winners = compared.filter_map(|(.., of)| cheapest(&of, TITLE_ERROR, by_time)?.family);
+    let winners: Vec<Family> = winners.collect();
     let wins = |family: &Family| winners.iter().filter(|one| *one == family).count();
     match Family::ALL.into_iter().rev().max_by_key(wins) {
         Some(best) if wins(&best) > 0 => format!(
@@ -96,31 +107,34 @@ fn title(cases: &[&[Row]], by_time: bool, unit: &str) -> String {
     }
 }
 
-fn panel(case: &[Row], observable: Observable, by_time: bool) -> Panel {
+/// A run that is drawn, and where.
+type Drawn<'a> = (&'a Row, [f64; 2]);
+
+fn panel(case: &[Row], observable: Observable, rows: &[&Row], by_time: bool) -> Panel {
     let first = &case[0];
-    let of = |row: &&Row| row.observable == Some(observable);
-    let rows = || case.iter().filter(of);
-    let floor = rows().find_map(|row| row.error_floor);
+    let floor = rows[0].error_floor;
     let mut panel = Panel {
         title: format!("{}: {}", first.scene, observable.name()),
         about: about(first),
-        x: Axis::log(if by_time {
-            "CPU time, s"
-        } else {
-            "visits of edges"
+        x: Axis::log(match by_time {
+            true => "CPU time, s",
+            false => "visits of edges",
         }),
         y: Axis::log("relative error"),
         ..Panel::default()
     };
     // An error of zero is drawn at the floor.
-    let point = |row: &Row| {
+    let drawn = |row: &&'_ Row| {
         let cost = row.cost(by_time).filter(|cost| *cost > 0.0)?;
-        Some([cost, row.error_total?.max(floor.unwrap_or(0.0) * LEAST)])
+        let error = row.error_total?.max(floor.unwrap_or(0.0) * LEAST);
+        Some([cost, error])
     };
-    let shown: Vec<(&Row, [f64; 2])> = rows().filter_map(|row| Some((row, point(row)?))).collect();
+    let shown: Vec<Drawn<'_>> = rows
+        .iter()
+        .filter_map(|row| Some((*row, drawn(row)?)))
+        .collect();
     if shown.is_empty() {
-        let grown = first.noise_amplification;
-        panel.about = match (floor, grown) {
+        panel.about = match (floor, first.noise_amplification) {
             (Some(_), _) => "no run reached its end".to_owned(),
             (None, Some(grown)) if grown > AMPLIFICATION_MAX => format!(
                 "not comparable: noise grows {}-fold, and {AMPLIFICATION_MAX} is the limit",
@@ -131,32 +145,26 @@ fn panel(case: &[Row], observable: Observable, by_time: bool) -> Panel {
         (panel.x, panel.y) = (panel.x.from_to(1.0, 10.0), panel.y.from_to(0.1, 1.0));
         return panel;
     }
-    if let Some(floor) = floor {
-        panel.layers.push(Layer::Band {
-            y: 0.0..FLOORS * floor,
-            colour: PALE,
-        });
-    }
+    panel.layers.extend(floor.map(|floor| Layer::Band {
+        y: 0.0..FLOORS * floor,
+        colour: PALE,
+    }));
     panel.layers.push(front_line(&shown, by_time));
     for family in Family::ALL {
-        let own: Vec<(&Row, [f64; 2])> = shown
-            .iter()
-            .copied()
-            .filter(|(row, _)| row.family == Some(family))
-            .collect();
-        draw_family(&mut panel.layers, family, &own);
+        let own = shown.iter().filter(|(row, _)| row.family == Some(family));
+        draw_family(&mut panel.layers, family, &own.copied().collect::<Vec<_>>());
     }
-    for (row, at) in shown.iter().filter(|(row, _)| row.step_fraction.is_none()) {
+    for &(row, at) in shown.iter().filter(|(row, _)| row.step_fraction.is_none()) {
         let own = row.family.map_or(INK, |family| family.mark().colour);
-        let colour = if row.is_default { INK } else { own };
+        let colour = if row.is_default() { INK } else { own };
         panel.layers.push(Layer::Mark {
-            at: *at,
+            at,
             mark: Mark::new(Shape::Ring, colour).sized(7.5),
-            hover: format!("{}: error {}", row.run, short(at[1], 3)),
+            hover: hover(row),
         });
-        if row.is_default {
+        if row.is_default() {
             panel.layers.push(Layer::Label {
-                at: *at,
+                at,
                 text: "default".to_owned(),
                 colour: INK,
             });
@@ -166,68 +174,60 @@ fn panel(case: &[Row], observable: Observable, by_time: bool) -> Panel {
     panel
 }
 
+fn hover(row: &Row) -> String {
+    let error = short(row.error_total.unwrap_or(0.0), 3);
+    format!("{}: error {error}", row.run)
+}
+
 fn about(row: &Row) -> String {
-    let scene = super::SCENES.iter().find(|scene| scene.name == row.scene);
-    let mut about = scene.map_or(String::new(), |scene| scene.about.to_owned());
+    let scene = SCENES.iter().find(|scene| scene.name == row.scene);
+    let mut about = scene.map_or("", |scene| scene.about).to_owned();
     let own = scene.map(|scene| (scene.stiffness_n_per_m, scene.middle_mass_ratio));
     if own != Some((row.stiffness_n_per_m, row.mass_ratio)) {
-        about += &format!(
-            "; {} N/m, mass ratio {}",
-            short(row.stiffness_n_per_m, 3),
-            short(row.mass_ratio, 3)
-        );
+        let [stiffness, ratio] = [row.stiffness_n_per_m, row.mass_ratio].map(|x| short(x, 3));
+        about += &format!("; {stiffness} N/m, mass ratio {ratio}");
     }
-    let noise = row.noise_amplification;
-    let noise = noise.map_or(String::new(), |grown| {
-        format!(", noise ×{}", short(grown, 2))
-    });
-    format!("{about} ({} {}{noise})", row.mesh.name(), row.cells)
+    about += &format!(" ({} {}", row.mesh.name(), row.cells);
+    if let Some(grown) = row.noise_amplification {
+        about += &format!(", noise ×{}", short(grown, 2));
+    }
+    about + ")"
 }
 
 /// The runs that failed, at the cost that they had reached.
 fn failures(case: &[Row], by_time: bool) -> Option<Strip> {
-    let failed = || {
-        case.iter()
-            .filter(|row| row.family.is_some() && row.status != Status::Ok)
-    };
-    let mut counts: Vec<(Status, usize)> = Vec::new();
-    for row in failed() {
-        match counts.iter_mut().find(|(status, _)| *status == row.status) {
+    let failed = case.iter().filter(|row| row.family.is_some());
+    let failed: Vec<&Row> = failed.filter(|row| row.status != Status::Ok).collect();
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for status in failed.iter().map(|row| row.status.name()) {
+        match counts.iter_mut().find(|(name, _)| *name == status) {
             Some((_, count)) => *count += 1,
-            None => counts.push((row.status, 1)),
+            None => counts.push((status, 1)),
         }
     }
-    let told = counts
+    let label = counts
         .iter()
-        .map(|(status, count)| format!("{count} {}", status.name()));
-    let label = told.collect::<Vec<_>>().join(", ");
-    let marks = failed().filter_map(|row| {
+        .map(|(status, count)| format!("{count} {status}"));
+    let marks = failed.iter().filter_map(|row| {
         let cost = row.cost(by_time).filter(|cost| *cost > 0.0)?;
-        Some((
-            cost,
-            row.family?.mark(),
-            format!("{}: {}", row.run, row.why),
-        ))
+        let hover = format!("{}: {}", row.run, row.why);
+        Some((cost, row.family?.mark(), hover))
     });
-    (!label.is_empty()).then(|| Strip {
-        label,
+    (!failed.is_empty()).then(|| Strip {
+        label: label.collect::<Vec<_>>().join(", "),
         marks: marks.collect(),
     })
 }
 
 /// The front over all methods, as stairs.
-fn front_line(shown: &[(&Row, [f64; 2])], by_time: bool) -> Layer {
-    let is_on = |row: &Row| {
-        if by_time {
-            row.is_on_front_by_time
-        } else {
-            row.is_on_front
-        }
+fn front_line(shown: &[Drawn<'_>], by_time: bool) -> Layer {
+    let is_on = |row: &Row| match by_time {
+        true => row.is_on_front_by_time,
+        false => row.is_on_front,
     };
     let on = shown.iter().filter(|(row, _)| is_on(row));
     let mut on: Vec<[f64; 2]> = on.map(|(_, at)| *at).collect();
     on.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let end = shown.iter().map(|(_, at)| at[0]).fold(0.0, f64::max);
     let mut points: Vec<[f64; 2]> = Vec::new();
     for [cost, error] in on {
         if let Some(&[_, least]) = points.last() {
@@ -238,6 +238,7 @@ fn front_line(shown: &[(&Row, [f64; 2])], by_time: bool) -> Layer {
         }
         points.push([cost, error]);
     }
+    let end = shown.iter().map(|(_, at)| at[0]).fold(0.0, f64::max);
     points.extend(points.last().map(|&[_, least]| [end, least]));
     Layer::Line {
         points,
@@ -247,31 +248,23 @@ fn front_line(shown: &[(&Row, [f64; 2])], by_time: bool) -> Layer {
 }
 
 /// The runs of a family: those that none of its others beats as marks on a line, the others as dots.
-fn draw_family(layers: &mut Vec<Layer>, family: Family, own: &[(&Row, [f64; 2])]) {
+fn draw_family(layers: &mut Vec<Layer>, family: Family, own: &[Drawn<'_>]) {
     let beats = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
     let is_beaten = |at: [f64; 2]| own.iter().any(|(_, other)| beats(*other, at));
-    type Runs<'a> = Vec<&'a (&'a Row, [f64; 2])>;
-    let (others, mut best): (Runs<'_>, Runs<'_>) = own.iter().partition(|(_, at)| is_beaten(*at));
-    best.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+    let (others, mut best): (Vec<_>, Vec<_>) = own.iter().partition(|(_, at)| is_beaten(*at));
+    best.sort_by(|a: &&Drawn<'_>, b| a.1[0].total_cmp(&b.1[0]));
     let mark = family.mark();
-    let hover = |row: &Row| {
-        format!(
-            "{}: error {}",
-            row.run,
-            short(row.error_total.unwrap_or(0.0), 3)
-        )
-    };
     layers.push(Layer::Line {
         points: best.iter().map(|(_, at)| *at).collect(),
         colour: mark.colour,
         width: 1.0,
     });
-    let dots = others.iter().map(|(row, at)| (row, at, mark.sized(1.6)));
-    let marks = best.iter().map(|(row, at)| {
-        let mark = if row.is_at_floor { mark.hollow() } else { mark };
-        (row, at, mark)
+    let dots = others.into_iter().map(|drawn| (drawn, mark.sized(1.6)));
+    let marks = best.into_iter().map(|drawn| match drawn.0.is_at_floor() {
+        true => (drawn, mark.hollow()),
+        false => (drawn, mark),
     });
-    layers.extend(dots.chain(marks).map(|(row, at, mark)| Layer::Mark {
+    layers.extend(dots.chain(marks).map(|((row, at), mark)| Layer::Mark {
         at: *at,
         mark,
         hover: hover(row),
@@ -280,111 +273,77 @@ fn draw_family(layers: &mut Vec<Layer>, family: Family, own: &[(&Row, [f64; 2])]
 
 /// The cheapest run of the budget that meets a tolerance; `None` if none does, or if the tolerance is below ten
 /// times the floor.
-fn cheapest(case: &[Row], observable: Observable, tolerance: f64, by_time: bool) -> Option<&Row> {
-    let meets = |row: &&Row| {
+fn cheapest<'a>(rows: &[&'a Row], tolerance: f64, by_time: bool) -> Option<&'a Row> {
+    let meets = |row: &&&Row| {
         let is_known = row
             .error_floor
             .is_some_and(|floor| tolerance >= FLOORS * floor);
         let is_met = row.error_converged.is_some_and(|error| error <= tolerance);
-        row.observable == Some(observable) && row.step_fraction.is_some() && is_known && is_met
+        row.step_fraction.is_some() && is_known && is_met
     };
-    let costs = case.iter().filter(meets);
-    let costs = costs.filter_map(|row| Some((row.cost(by_time)?, row)));
+    let costs = rows.iter().filter(meets);
+    let costs = costs.filter_map(|row| Some((row.cost(by_time)?, *row)));
     let best = costs.min_by(|a, b| a.0.total_cmp(&b.0));
     best.map(|(_, row)| row)
 }
 
-fn summary(rows: &[Row]) -> String {
-    let mut text = String::from("the cheapest run for each tolerance, by visits of edges\n");
-    for case in rows.chunk_by(|a, b| a.case() == b.case()) {
-        let Some(first) = case.first() else { continue };
-        let name = format!("{} {}", first.scene, about(first));
-        writeln!(text, "{name}").expect("a string grows");
-        for observable in Observable::DRAWN {
-            if let Some(line) = tolerances(case, observable) {
-                writeln!(text, "  {:<33} {line}", observable.name()).expect("a string grows");
-            }
-        }
-        text += &defaults(case);
-    }
-    text
-}
-
-/// The cheapest run for each tolerance, tolerances with the same answer together; `None` if the case does not
-/// have the observable.
-fn tolerances(case: &[Row], observable: Observable) -> Option<String> {
-    let row = case.iter().find(|row| row.observable == Some(observable))?;
-    let Some(floor) = row.error_floor else {
-        return Some("no reference, or noise grows too much".to_owned());
+/// The cheapest run for each tolerance, tolerances with the same answer together.
+fn tolerances(observable: Observable, rows: &[&Row]) -> String {
+    let Some(floor) = rows[0].error_floor else {
+        return "no reference, or noise grows too much".to_owned();
     };
-    let (all, default) = (
-        if observable == Observable::Displacement {
-            &FINE[..]
-        } else {
-            &COARSE
-        },
-        case.iter()
-            .find(|row| row.is_default && row.observable == Some(observable)),
-    );
-    let mut answers: Vec<(Vec<String>, String)> = Vec::new();
-    for &tolerance in all {
-        let percent = format!("{} %", short(100.0 * tolerance, 2));
-        let answer = match cheapest(case, observable, tolerance, false) {
+    let tolerances = match observable {
+        Observable::Displacement => &FINE[..],
+        _ => &COARSE,
+    };
+    let default = rows.iter().find(|row| row.is_default());
+    let answers = tolerances.iter().map(|&tolerance| {
+        let answer = match cheapest(rows, tolerance, false) {
             None if tolerance < FLOORS * floor => "below the error floor".to_owned(),
             None => "no run".to_owned(),
             Some(row) => {
-                let meets = |row: &&Row| row.error_total.is_some_and(|error| error <= tolerance);
-                let ratio = default.filter(meets).and_then(|row| row.cost(false));
-                let ratio = ratio.zip(row.cost(false)).map(|(a, b)| a / b);
-                let ratio = ratio.map_or(format!("{DEFAULT} misses it"), |ratio| {
-                    format!("the default costs ×{ratio:.1}")
-                });
+                let meets = |row: &&&Row| row.error_total.is_some_and(|error| error <= tolerance);
+                let default = default.filter(meets).and_then(|row| row.cost(false));
+                let ratio = match default.zip(row.cost(false)) {
+                    Some((a, b)) => format!("the default costs ×{:.1}", a / b),
+                    None => format!("{DEFAULT} misses it"),
+                };
                 format!("{} ({ratio})", row.run)
             }
         };
-        match answers.last_mut() {
-            Some((percents, same)) if *same == answer => percents.push(percent),
-            _ => answers.push((vec![percent], answer)),
-        }
-    }
-    let answers = answers.iter();
-    let answers = answers.map(|(percents, answer)| format!("{}: {answer}", percents.join(", ")));
-    Some(answers.collect::<Vec<_>>().join(" · "))
+        (format!("{} %", short(100.0 * tolerance, 2)), answer)
+    });
+    let answers: Vec<(String, String)> = answers.collect();
+    let lines = answers.chunk_by(|a, b| a.1 == b.1).map(|same| {
+        let percents: Vec<&str> = same.iter().map(|(percent, _)| percent.as_str()).collect();
+        format!("{}: {}", percents.join(", "), same[0].1)
+    });
+    lines.collect::<Vec<_>>().join(" · ")
 }
 
 /// A line for each method at its default settings: its cost as a multiple of that of the default, and its
 /// errors.
 fn defaults(case: &[Row]) -> String {
     let mut text = String::new();
-    let unit = case
-        .iter()
-        .find(|row| row.is_default)
-        .and_then(|row| row.cost(false));
+    let unit = case.iter().find(|row| row.is_default());
+    let unit = unit.and_then(|row| row.cost(false));
     let named = |row: &&Row| row.family.is_some() && row.step_fraction.is_none();
     let rows: Vec<&Row> = case.iter().filter(named).collect();
     for of in rows.chunk_by(|a, b| a.method == b.method) {
-        let drawn = of.iter().filter(|row| {
-            row.observable
-                .is_some_and(|one| Observable::DRAWN.contains(&one))
+        let errors = of.iter().filter_map(|row| {
+            let percent = short(100.0 * row.error_total?, 2);
+            Some(format!("{} {percent} %", row.observable?.name()))
         });
-        let errors: Vec<String> = drawn
-            .filter_map(|row| {
-                let percent = short(100.0 * row.error_total?, 2);
-                Some(format!("{} {percent} %", row.observable?.name()))
-            })
-            .collect();
         let errors = match of[0].status {
-            Status::Ok => errors.join(", "),
+            Status::Ok => errors.collect::<Vec<_>>().join(", "),
             status => status.name().to_owned(),
         };
-        let cost = of[0]
-            .cost(false)
-            .zip(unit)
-            .map_or(f64::NAN, |(cost, unit)| cost / unit);
+        let cost = of[0].cost(false).zip(unit);
+        let cost = cost.map_or(f64::NAN, |(cost, unit)| cost / unit);
+        let method = &of[0].method;
         writeln!(
             text,
-            "  {:<9} at its defaults: cost {cost:.2}, error {errors}",
-            of[0].method
+            "  {method:<9} at its defaults: cost {cost:.2}, error {errors}"
         )
         .expect("a string grows");
     }

@@ -2,58 +2,47 @@
 
 use tearmesh_cloth::implicit::{self, Tolerance};
 use tearmesh_cloth::scene::ensemble::NOISE_M;
-use tearmesh_cloth::scene::{self, suggested_step_s};
-use tearmesh_cloth::{Implicit, Solver, Unstable};
+use tearmesh_cloth::scene::suggested_step_s;
+use tearmesh_cloth::{Implicit, Solver, System, Unstable};
 
-use super::observable::Observable;
-use super::run::{Outcome, Settings, fitted_step_s, run};
-use super::scene::{Case, REST_M_PER_S, Until};
-use crate::experiment::Bounds;
-use crate::method::{DefaultMethod, METHODS, Method, STEP_FRACTIONS, StoredEnergy};
+use super::scene::{Case, Until};
+use crate::method::{DefaultMethod, Family, METHODS, Method, STEP_FRACTIONS};
 
 /// A planned run of a case.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub(super) struct Planned {
     /// The name of the run, without the name of the case.
-    pub name: String,
-    /// The purpose of the run.
-    pub role: Role,
-    base_s: f64,
-    /// The fraction of the base step that is taken.
-    fraction: f64,
+    pub(super) name: String,
+    pub(super) role: Role,
+    pub(super) dt_s: f64,
+    /// The number of steps to each checkpoint; `None` if the scene has no time of its own.
+    pub(super) steps_to_checkpoint: Option<u64>,
     /// An estimate of its visits of edges.
     pub(super) visits: f64,
 }
 
-/// The purpose of a run.
+/// The purpose of a run. References are two runs, the second with half the step, or one if the scene ends at
+/// rest.
 #[derive(Clone, Debug)]
-pub enum Role {
-    /// A reference by Verlet's method: two runs, the second with half the step, or one if the scene ends at
-    /// rest.
+pub(super) enum Role {
+    /// A reference by Verlet's method.
     Verlet,
-    /// A reference by Newton's method: two runs, the second with half the step, or one if the scene ends at
-    /// rest.
+    /// A reference by Newton's method.
     Newton,
-    /// A run that ends at [`REST_M_PER_S`], where references go on. Its error is a lower bound of the floor.
+    /// A run that ends at [`REST_M_PER_S`](super::REST_M_PER_S), where references go on. Its error is a lower
+    /// bound of the floor.
     Rest,
-    /// One of the two runs of the gate, which differ by noise.
-    Gate {
-        /// Whether its start has noise.
-        is_disturbed: bool,
-    },
+    /// One of the two runs of the gate, which differ by noise if it is true.
+    Gate(bool),
     /// A method at a fraction of its base step.
-    Budget {
-        /// The index of the method in [`METHODS`].
-        method: usize,
-        /// The index of the fraction of the base step in [`STEP_FRACTIONS`].
-        fraction: usize,
-    },
+    Budget(&'static Method, f64),
     /// A method at its default settings.
     Default(Box<DefaultMethod>),
 }
 
-/// The speed at which references are at rest, as a fraction of [`REST_M_PER_S`].
-const REST_OF_REFERENCES: f64 = 1e-1;
+/// The number of checkpoints at which positions and strains are compared, evenly spaced over the time of the
+/// scene. A scene that ends at rest has one, at its end.
+pub(super) const CHECKPOINTS: u64 = 10;
 
 /// The fractions of the longest stable step that references by Verlet's method take.
 const REFERENCE_FRACTIONS: [f64; 2] = [0.125, 0.0625];
@@ -78,143 +67,128 @@ fn reference(case: &Case) -> &'static Method {
     Method::named(wanted).expect("the methods of references are of the list")
 }
 
-/// Returns all runs of a case: the references, the gate, the budget by method and step, and the runs at
-/// default settings.
-///
-/// # Panics
-///
-/// If the numbers of the scene are not usable; those of [`SCENES`](super::SCENES) are.
-#[must_use]
-pub fn plan(case: &Case) -> Vec<Planned> {
-    let edges = case.edges.len() as f64;
-    let seconds = case.scene.until.seconds();
-    // Most runs come to rest, or tear, before the last moment.
-    let expected_s = match case.scene.until {
-        Until::Time(_) => seconds,
-        Until::Rest(_) => 0.3 * seconds,
-        Until::Tears(_) => 0.6 * seconds,
-    };
-    let planned = |name: String, role: Role, base_s: f64, fraction: f64, visits_a_step: f64| {
-        let (dt_s, _) = fitted_step_s(case.scene.until, base_s, fraction);
-        Planned {
-            name,
-            role,
-            base_s,
-            fraction,
-            visits: expected_s / dt_s * edges * visits_a_step,
-        }
-    };
-    let products = |dt_s: f64| {
-        let reach = dt_s / case.edge_s();
-        8.0 + 6.0 * reach.min(2.0 * f64::from(case.cells))
-    };
+/// All runs of a case: the references, the gate, the budget by method and step, and the runs at default
+/// settings.
+pub(super) fn plan(case: &Case) -> Vec<Planned> {
+    let until = case.scene.until;
     let base_s = |method: &Method| method.base_s(&mut case.system(), case.edge_s());
-    let plain_s = base_s(reference(case));
     let mut runs = Vec::new();
-    let is_compared = !case.scene.observables.contains(&Observable::EnergyMade);
-    if is_compared {
-        if let Until::Rest(_) = case.scene.until {
-            let name = "reference-verlet".to_owned();
-            runs.push(planned(name, Role::Verlet, plain_s, 0.5, 1.0));
-            let name = "reference-newton".to_owned();
-            let visits = 3.0 * products(REST_STEP_S);
-            runs.push(planned(name, Role::Newton, REST_STEP_S, 1.0, visits));
-            let name = "rest".to_owned();
-            runs.push(planned(name, Role::Rest, plain_s, 0.5, 1.0));
-        } else {
-            for fraction in REFERENCE_FRACTIONS {
-                let name = format!("reference-verlet@{fraction}");
-                runs.push(planned(name, Role::Verlet, plain_s, fraction, 1.0));
-            }
-            let base_s = plain_s.max(seconds / NEWTON_STEPS / REFERENCE_FRACTIONS[0]);
-            for fraction in REFERENCE_FRACTIONS {
-                let name = format!("reference-newton@{fraction}");
-                runs.push(planned(name, Role::Newton, base_s, fraction, 14.0));
-            }
+    let mut add = |name: &str, role, base_s, fraction| {
+        runs.push(Planned::new(case, name.to_owned(), role, base_s, fraction));
+    };
+    let plain_s = base_s(reference(case));
+    match until {
+        _ if case.is_of_energy() => {}
+        Until::Rest(_) => {
+            add("reference-verlet", Role::Verlet, plain_s, 0.5);
+            add("reference-newton", Role::Newton, REST_STEP_S, 1.0);
+            add("rest", Role::Rest, plain_s, 0.5);
         }
-        if case.scene.is_gated {
-            for is_disturbed in [false, true] {
-                let name = ["gate", "gate-disturbed"][usize::from(is_disturbed)].to_owned();
-                let role = Role::Gate { is_disturbed };
-                runs.push(planned(name, role, plain_s, 0.5, 1.0));
+        Until::Time(seconds) | Until::Tears(seconds) => {
+            let newton_s = plain_s.max(seconds / NEWTON_STEPS / REFERENCE_FRACTIONS[0]);
+            for (role, base_s, name) in [
+                (Role::Verlet, plain_s, "reference-verlet"),
+                (Role::Newton, newton_s, "reference-newton"),
+            ] {
+                for fraction in REFERENCE_FRACTIONS {
+                    add(
+                        &format!("{name}@{fraction}"),
+                        role.clone(),
+                        base_s,
+                        fraction,
+                    );
+                }
             }
         }
     }
-    for (index, method) in METHODS.iter().enumerate() {
+    if case.is_gated() {
+        add("gate", Role::Gate(false), plain_s, 0.5);
+        add("gate-disturbed", Role::Gate(true), plain_s, 0.5);
+    }
+    for method in &METHODS {
         let base_s = base_s(method);
-        for (fraction, &of_base) in STEP_FRACTIONS.iter().enumerate() {
-            let name = format!("{}@{of_base}", method.name);
-            let role = Role::Budget {
-                method: index,
-                fraction,
-            };
-            let visits = match method.name {
-                "rk4" | "provot" => 4.0,
-                name if name.starts_with("euler-back") || name.starts_with("bdf2") => {
-                    products(base_s * of_base)
-                }
-                _ => f64::from(method.sweeps().unwrap_or(1)),
-            };
-            runs.push(planned(name, role, base_s, of_base, visits));
+        for fraction in STEP_FRACTIONS {
+            let name = format!("{}@{fraction}", method.name);
+            add(&name, Role::Budget(method, fraction), base_s, fraction);
         }
     }
     for method in DefaultMethod::all() {
         let name = format!("{}@default", method.name);
-        let (mut system, speed) = (case.system(), case.speed_m_per_s());
-        let base_s = suggested_step_s(&method.settings, &mut system, speed);
-        let visits = match method.settings {
-            scene::Method::Implicit(_) => products(base_s),
-            scene::Method::Pbd(_) => 10.0,
-            _ => 1.0,
-        };
-        let role = Role::Default(Box::new(method));
-        runs.push(planned(name, role, base_s, 1.0, visits));
+        let speed = case.speed_m_per_s();
+        let step_s = suggested_step_s(&method.settings, &mut case.system(), speed);
+        add(&name, Role::Default(Box::new(method)), step_s, 1.0);
     }
     runs
 }
 
 impl Planned {
-    /// Carries out the run, which ends where it exceeds `visits_max` visits of edges unless it is a reference.
-    /// Returns `None` if it was interrupted.
-    #[must_use]
-    pub fn run(&self, case: &Case, visits_max: u64, bounds: &Bounds<'_>) -> Option<Outcome> {
-        let mut system = case.system();
-        let mut settings = Settings {
-            base_s: self.base_s,
-            fraction: self.fraction,
-            rest_m_per_s: REST_M_PER_S,
-            stored: StoredEnergy::ByLength,
-            visits_max,
+    /// The step is the longest that is at most `fraction` of `base_s` and has a whole number to each checkpoint.
+    fn new(case: &Case, name: String, role: Role, base_s: f64, fraction: f64) -> Planned {
+        let (mut dt_s, mut steps_to_checkpoint) = (base_s * fraction, None);
+        let mut expected_s = case.scene.until.seconds();
+        match case.scene.until {
+            Until::Time(seconds) => {
+                let span_s = seconds / CHECKPOINTS as f64;
+                let whole = |wanted: f64| (wanted - 1e-9).ceil().max(1.0);
+                // From the whole number of base steps, so that half of a fraction is half of the step.
+                let count = whole(whole(span_s / base_s) / fraction);
+                (dt_s, steps_to_checkpoint) = (span_s / count, Some(count as u64));
+            }
+            // Most runs come to rest, or tear, before the last moment.
+            Until::Rest(_) => expected_s *= 0.3,
+            Until::Tears(_) => expected_s *= 0.6,
+        }
+        let products = || 8.0 + 6.0 * (dt_s / case.edge_s()).min(2.0 * f64::from(case.cells));
+        let visits_a_step = match (role.family(), &role) {
+            (Some(Family::Rk4 | Family::Provot), _) => 4.0,
+            (Some(Family::BackwardEuler | Family::Bdf2), _) => products(),
+            (Some(Family::Pbd), Role::Default(_)) => 10.0,
+            (_, Role::Budget(method, _)) => f64::from(method.sweeps().unwrap_or(1)),
+            (_, Role::Newton) => 2.0 * products(),
+            _ => 1.0,
         };
-        let mut solver: Box<dyn Solver> = match &self.role {
-            Role::Verlet | Role::Newton => {
-                settings.rest_m_per_s *= REST_OF_REFERENCES;
-                settings.visits_max = u64::MAX;
-                match self.role {
-                    Role::Verlet => reference(case).solver(),
-                    _ => Box::new(Implicit::new(newton(case.scene.until))),
-                }
-            }
-            Role::Gate { is_disturbed } => {
-                if *is_disturbed {
-                    system = case.disturbed(NOISE_M);
-                }
-                reference(case).solver()
-            }
-            Role::Rest => reference(case).solver(),
-            Role::Budget { method, .. } => {
-                let method = &METHODS[*method];
-                settings.stored = method.family.stored_energy();
-                method.solver()
-            }
+        Planned {
+            name,
+            role,
+            dt_s,
+            steps_to_checkpoint,
+            visits: expected_s / dt_s * case.edges.len() as f64 * visits_a_step,
+        }
+    }
+
+    /// The system at its start, and the method.
+    pub(super) fn begin(&self, case: &Case) -> (System, Box<dyn Solver>) {
+        let mut system = match self.role {
+            Role::Gate(true) => case.disturbed(NOISE_M),
+            _ => case.system(),
+        };
+        let solver = match &self.role {
+            Role::Verlet | Role::Rest | Role::Gate(_) => reference(case).solver(),
+            Role::Newton => Box::new(Implicit::new(newton(case.scene.until))),
+            Role::Budget(method, _) => method.solver(),
             Role::Default(method) => {
                 // A step that the program chose is divided where it gets too long, and not refused.
                 system.when_unstable(Unstable::Substep);
-                settings.stored = method.family.stored_energy();
                 method.solver()
             }
         };
-        run(case, system, &mut *solver, settings, bounds)
+        (system, solver)
+    }
+}
+
+impl Role {
+    /// The family of a method that is measured; `None` for references and the gate.
+    pub(super) fn family(&self) -> Option<Family> {
+        match self {
+            Role::Budget(method, _) => Some(method.family),
+            Role::Default(method) => Some(method.family),
+            Role::Verlet | Role::Newton | Role::Rest | Role::Gate(_) => None,
+        }
+    }
+
+    /// Whether the run is a reference, which has no limit of visits and comes nearer to rest.
+    pub(super) fn is_reference(&self) -> bool {
+        matches!(self, Role::Verlet | Role::Newton)
     }
 }
 

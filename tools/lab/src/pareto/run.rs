@@ -4,170 +4,111 @@
 
 use std::time::Duration;
 
-use tearmesh_cloth::{Solver, StepError, System, Visits, energy, force};
+use tearmesh_cloth::{StepError, System, energy, force};
 
 use super::observe::{Probe, Records};
-use super::scene::{Case, Until};
+use super::plan::{CHECKPOINTS, Planned};
+use super::scene::{Case, REST_M_PER_S, Until};
 use crate::experiment::{Bounds, Status};
-use crate::method::StoredEnergy;
-
-/// The cost of a run: its steps, and its visits of single edges by purpose.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Cost {
-    /// The number of steps that succeeded.
-    pub steps: u64,
-    /// The number of visits to project or shorten edges.
-    pub project: u64,
-    /// The number of visits for forces, products with the matrix and frequencies, and to detect blow-up.
-    pub force: u64,
-    /// The number of visits to find edges that may tear, and to measure.
-    pub other: u64,
-    /// The CPU time of all steps in seconds; `None` without a clock.
-    pub cpu_s: Option<f64>,
-}
-
-impl Cost {
-    /// Returns the number of all visits of edges.
-    #[must_use]
-    pub fn visits(&self) -> u64 {
-        self.project + self.force + self.other
-    }
-
-    fn update(&mut self, visits: Visits) {
-        self.project = visits.project;
-        self.force = visits.force;
-        self.other = visits.detect + visits.meter;
-    }
-}
+use crate::method::{Family, StoredEnergy};
 
 /// The result of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The way in which the run ended.
-    pub status: Status,
+    pub(super) status: Status,
     /// The reason if a step failed or the energy grew too much; otherwise empty.
-    pub why: String,
-    /// The step, in seconds.
-    pub dt_s: f64,
-    /// The simulated time, in seconds.
-    pub simulated_s: f64,
-    /// The cost of the run.
-    pub cost: Cost,
-    /// The recorded numbers.
-    pub records: Records,
+    pub(super) why: String,
+    /// The visits of edges for all purposes.
+    pub(super) visits: u64,
+    /// The CPU time of all steps in seconds; `None` without a clock.
+    pub(super) cpu_s: Option<f64>,
+    pub(super) records: Records,
 }
 
 /// The largest energy that is allowed, as a multiple of the energy put in.
-pub const ENERGY_MAX: f64 = 1.25;
+const ENERGY_MAX: f64 = 1.25;
 
-/// The number of checkpoints at which positions and strains are compared, evenly spaced over the time of the
-/// scene. A scene that ends at rest has one, at its end.
-pub const CHECKPOINTS: u64 = 10;
+/// The speed at which references are at rest, as a fraction of [`REST_M_PER_S`].
+const REST_OF_REFERENCES: f64 = 1e-1;
 
-/// The longest step that is at most `fraction` of a base step and has a whole number of steps to each
-/// checkpoint, and that number.
-pub(super) fn fitted_step_s(until: Until, base_s: f64, fraction: f64) -> (f64, Option<u64>) {
-    let Until::Time(seconds) = until else {
-        return (base_s * fraction, None);
-    };
-    let span_s = seconds / CHECKPOINTS as f64;
-    let whole = |wanted: f64| (wanted - 1e-9).ceil().max(1.0);
-    // From the whole number of base steps, so that half of a fraction is half of the step.
-    let count = whole(whole(span_s / base_s) / fraction);
-    (span_s / count, Some(count as u64))
-}
-
-/// The settings of a run.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Settings {
-    /// The base step, in seconds.
-    pub(super) base_s: f64,
-    /// The fraction of the base step that is taken.
-    pub(super) fraction: f64,
-    /// The speed in m/s below which a particle is at rest.
-    pub(super) rest_m_per_s: f64,
-    /// The way in which the energy stored in springs is computed.
-    pub(super) stored: StoredEnergy,
-    /// The largest number of visits of edges.
-    pub(super) visits_max: u64,
-}
-
-/// Takes a system to the end of its scene. Returns `None` if it was interrupted.
+/// Carries out a run, which ends where it exceeds `visits_max` visits of edges unless it is a reference.
+/// Returns `None` if it was interrupted.
 pub(super) fn run(
     case: &Case,
-    mut system: System,
-    solver: &mut dyn Solver,
-    settings: Settings,
+    planned: &Planned,
+    visits_max: u64,
     bounds: &Bounds<'_>,
 ) -> Option<Outcome> {
-    let until = case.scene.until;
-    let (dt_s, to_checkpoint) = fitted_step_s(until, settings.base_s, settings.fraction);
-    let steps_max = match to_checkpoint {
+    let (until, dt_s) = (case.scene.until, planned.dt_s);
+    let (rest_m_per_s, visits_max) = match planned.role.is_reference() {
+        true => (REST_M_PER_S * REST_OF_REFERENCES, u64::MAX),
+        false => (REST_M_PER_S, visits_max),
+    };
+    let steps_max = match planned.steps_to_checkpoint {
         Some(count) => count * CHECKPOINTS,
         None => ((until.seconds() / dt_s) - 1e-9).ceil().max(1.0) as u64,
     };
     // Energy is checked 400 times, and rest every hundredth of a second.
     let every = (steps_max / 400).max(1);
     let rest_every = ((0.01 / dt_s) as u64).max(1);
+    let (mut system, mut solver) = planned.begin(case);
     let moves_at_end = solver.abilities().frequency_limit.is_none();
     let mut probe = Probe::new(case, &system, moves_at_end);
-    let mut cost = Cost::default();
-    let mut balance = EnergyBalance::new(&system, settings.stored);
-    let (mut cpu, mut status, mut why) = (Duration::ZERO, None, String::new());
-    while status.is_none() && cost.steps < steps_max {
+    let mut balance = EnergyBalance::new(&system, planned.role.family());
+    let (mut cpu, mut visits) = (Duration::ZERO, 0);
+    let (mut status, mut why) = (Status::Restless, String::new());
+    for number in 1..=steps_max {
         if (bounds.stop)() {
             return None;
         }
         let began = bounds.now();
-        let step = system.step(solver, dt_s);
+        let step = system.step(&mut *solver, dt_s);
         cpu += bounds.now().saturating_sub(began);
-        cost.update(system.counters().visits);
+        let counted = system.counters().visits;
+        visits = counted.project + counted.force + counted.detect + counted.meter;
         if let Err(error) = step {
-            (status, why) = (Some(status_of(&error)), error.to_string());
+            (status, why) = (status_of(&error), error.to_string());
             break;
         }
-        cost.steps += 1;
         probe.step(&system, dt_s);
-        let is_last = cost.steps == steps_max;
-        if to_checkpoint.is_some_and(|count| cost.steps.is_multiple_of(count)) {
+        let is_nth = |count: u64| number.is_multiple_of(count);
+        if planned.steps_to_checkpoint.is_some_and(is_nth) {
             probe.checkpoint(&system);
         }
-        if cost.steps.is_multiple_of(every) || is_last {
-            let is_bounded = balance.update(&system, probe.hand_j());
-            probe.energy(balance.made());
+        let is_last = number == steps_max;
+        let has_ended = match until {
+            Until::Time(_) => is_last,
+            Until::Rest(_) => is_nth(rest_every) && fastest_m_per_s(&system) < rest_m_per_s,
+            Until::Tears(_) => probe.has_torn(),
+        };
+        let mut ended = has_ended.then_some(Status::Ok);
+        if visits > visits_max && !is_last {
+            ended = Some(Status::TooDear);
+        }
+        if is_nth(every) || is_last {
+            let [made_j, now_j, put_in_j] = balance.update(&system, probe.hand_j());
+            probe.energy(made_j / put_in_j);
+            // Written so that a NaN is not bounded.
+            let is_bounded = now_j <= ENERGY_MAX * put_in_j;
             if !is_bounded {
-                status = Some(Status::BlownUp);
-                why = format!("{:.2} times the energy that was put in", balance.worst);
+                ended = Some(Status::BlownUp);
+                let grown = now_j / put_in_j;
+                why = format!("{grown:.2} times the energy that was put in");
             }
         }
-        if cost.visits() > settings.visits_max && !is_last {
-            status = status.or(Some(Status::TooDear));
-        }
-        match until {
-            Until::Rest(_) if cost.steps.is_multiple_of(rest_every) => {
-                let fastest = system.velocities().iter().map(|v| v.norm_squared());
-                if fastest.fold(0.0, f64::max).sqrt() < settings.rest_m_per_s {
-                    status = status.or(Some(Status::Ok));
-                }
-            }
-            Until::Tears(_) if probe.has_torn() => status = status.or(Some(Status::Ok)),
-            _ => {}
+        if let Some(ended) = ended {
+            status = ended;
+            break;
         }
     }
-    let status = status.unwrap_or(match until {
-        Until::Time(_) => Status::Ok,
-        Until::Rest(_) | Until::Tears(_) => Status::Restless,
-    });
     if matches!(until, Until::Rest(_)) && status == Status::Ok {
         probe.checkpoint(&system);
     }
-    cost.cpu_s = bounds.clock.map(|_| cpu.as_secs_f64());
     Some(Outcome {
         status,
         why,
-        dt_s,
-        simulated_s: system.elapsed_s(),
-        cost,
+        visits,
+        cpu_s: bounds.clock.map(|_| cpu.as_secs_f64()),
         records: probe.records(&system),
     })
 }
@@ -181,6 +122,11 @@ pub(crate) fn status_of(error: &StepError) -> Status {
     }
 }
 
+fn fastest_m_per_s(system: &System) -> f64 {
+    let squares = system.velocities().iter().map(|v| v.norm_squared());
+    squares.fold(0.0, f64::max).sqrt()
+}
+
 /// The energy balance of a run: what was there, the work of gravity, and that of the hand that pulls.
 #[derive(Clone, Copy, Debug)]
 struct EnergyBalance {
@@ -189,39 +135,28 @@ struct EnergyBalance {
     height_j: f64,
     /// The most energy that had been put in so far.
     put_in_j: f64,
-    /// The energy beyond what was put in, less what drag took.
-    made_j: f64,
-    /// The largest energy so far, as a multiple of what was put in.
-    worst: f64,
 }
 
 impl EnergyBalance {
-    fn new(system: &System, stored: StoredEnergy) -> EnergyBalance {
+    /// A balance of a system that has not moved yet, for a family of methods or a reference.
+    fn new(system: &System, family: Option<Family>) -> EnergyBalance {
         EnergyBalance {
-            stored,
+            stored: family.map_or(StoredEnergy::ByLength, Family::stored_energy),
             began_j: energy::elastic_j(system),
             height_j: height_j(system),
             put_in_j: 0.0,
-            made_j: 0.0,
-            worst: 0.0,
         }
     }
 
-    /// Updates the balance, and returns whether there is no more energy than is allowed.
-    fn update(&mut self, system: &System, hand_j: f64) -> bool {
+    /// Returns the energy beyond what was put in, negative if some was lost, the energy that is there, and the
+    /// most that was put in so far.
+    fn update(&mut self, system: &System, hand_j: f64) -> [f64; 3] {
         let fallen_j = self.height_j - height_j(system);
         let now_j = stored_j(system, self.stored) + energy::kinetic_j(system);
         let put_in_j = self.began_j + fallen_j.max(0.0) + hand_j.max(0.0);
         self.put_in_j = self.put_in_j.max(put_in_j);
-        self.made_j = now_j - (self.began_j + fallen_j + hand_j);
-        self.worst = self.worst.max(now_j / self.put_in_j);
-        // Written so that a NaN counts as above.
-        now_j <= ENERGY_MAX * self.put_in_j
-    }
-
-    /// The energy that was made, as a fraction of what was put in; negative if some was lost.
-    fn made(&self) -> f64 {
-        self.made_j / self.put_in_j
+        let made_j = now_j - (self.began_j + fallen_j + hand_j);
+        [made_j, now_j, self.put_in_j]
     }
 }
 
@@ -245,7 +180,6 @@ fn height_j(system: &System) -> f64 {
         return 0.0;
     };
     let particles = system.positions().iter().zip(system.masses());
-    -particles
-        .map(|(x, m)| m * gravity.dot(&x.coords))
-        .sum::<f64>()
+    let each = particles.map(|(x, m)| m * gravity.dot(&x.coords));
+    -each.sum::<f64>()
 }

@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Implicit, Loads, Path, System};
 
-use super::observable::Observable::{self, *};
+use self::Observable::*;
 use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
 
 /// A scene of the experiment.
@@ -36,8 +37,6 @@ pub struct Scene {
     pub until: Until,
     /// The observables that are compared.
     pub observables: &'static [Observable],
-    /// Whether displacements are compared only if noise does not grow too much.
-    pub is_gated: bool,
 }
 
 /// The shapes in which a sheet starts, with all velocities zero.
@@ -85,9 +84,8 @@ pub enum Until {
 }
 
 impl Until {
-    /// Returns the longest time of the scene, in seconds.
-    #[must_use]
-    pub fn seconds(self) -> f64 {
+    /// The longest time of the scene, in seconds.
+    pub(super) fn seconds(self) -> f64 {
         match self {
             Until::Time(s) | Until::Rest(s) | Until::Tears(s) => s,
         }
@@ -104,20 +102,73 @@ pub const TEAR_RATIO: f64 = 1.3;
 /// a sixteenth of the strip long.
 pub const TOUGHNESS_J_PER_M: f64 = 0.28;
 
+/// The quantities by which runs are compared. Errors are relative to the reference; for positions and strains
+/// the largest error of all checkpoints counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Observable {
+    /// The mass-weighted L2 norm of the position errors, divided by that of the displacements from the start.
+    Displacement,
+    /// The rms of the relative error of the strain of edges, over those that bear more than 0.3 of the largest
+    /// strain.
+    StrainRms,
+    /// The largest mean over 1/60 s of the force at the held particles; in a scene that ends at rest, the force
+    /// at its end.
+    ReactionLargest,
+    /// The largest unexplained gain of energy, divided by the energy put in. The true value is 0.
+    EnergyMade,
+    /// The largest unexplained loss of energy, divided by the energy put in. The true value is 0.
+    EnergyLost,
+    /// The time at which an edge first reaches [`TEAR_RATIO`].
+    TearTime,
+    /// The force at the clamps at [`TearTime`](Observable::TearTime), as a mean over the last 1/60 s.
+    TearForce,
+    /// The time at which an edge first reaches [`TOUGHNESS_J_PER_M`]. It is recorded for the gate alone.
+    ToughnessTime,
+    /// The force at the clamps at [`ToughnessTime`](Observable::ToughnessTime), as a mean over the last 1/60 s.
+    ToughnessForce,
+}
+
+impl Observable {
+    /// The observables that have rows, panels and lines of a summary, in the order of panels.
+    pub const ALL: [Observable; 8] = [
+        Displacement,
+        StrainRms,
+        ReactionLargest,
+        EnergyMade,
+        EnergyLost,
+        TearTime,
+        TearForce,
+        ToughnessForce,
+    ];
+
+    /// Returns the name of the observable in words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Displacement => "displacement",
+            StrainRms => "strain of edges (rms)",
+            ReactionLargest => "force at the holds",
+            EnergyMade => "energy made",
+            EnergyLost => "energy lost",
+            TearTime => "time of first tear",
+            TearForce => "force at first tear",
+            ToughnessTime => "time of first tear by toughness",
+            ToughnessForce => "force at first tear by toughness",
+        }
+    }
+
+    /// Whether the true value is zero, so that no reference is needed.
+    pub(super) fn is_energy(self) -> bool {
+        matches!(self, EnergyMade | EnergyLost)
+    }
+}
+
 const G: f64 = 9.81;
 
 /// The slowest mode of a strip that hangs by an end, ω₁ = πc/2 over its length of a metre, with c = √(k/ρ) at
 /// 1000 N/m.
 const SLOWEST_RAD_PER_S: f64 = PI / 2.0 * 81.649_658_092_772_6;
-
-/// The observables of a motion or of rest.
-const MOTION: &[Observable] = &[
-    Displacement,
-    StrainRms,
-    StrainLargest,
-    EdgeForceRms,
-    ReactionLargest,
-];
 
 const SWING: Scene = Scene {
     name: "swing",
@@ -130,31 +181,27 @@ const SWING: Scene = Scene {
     middle_mass_ratio: 1.0,
     held: Held::Top,
     until: Until::Time(1.0),
-    observables: MOTION,
-    is_gated: true,
+    observables: &[Displacement, StrainRms, ReactionLargest],
+};
+
+const HANG: Scene = Scene {
+    name: "hang",
+    about: "S1: hangs by its upper edge at rest, 400 m/s², drag 2ω₁",
+    gravity_m_per_s2: [0.0, -400.0, 0.0],
+    drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
+    start: Start::Flat,
+    until: Until::Rest(2.0),
+    ..SWING
 };
 
 /// All scenes of the experiment.
 pub const SCENES: [Scene; 11] = [
-    Scene {
-        name: "hang",
-        about: "S1: hangs by its upper edge at rest, 400 m/s², drag 2ω₁",
-        gravity_m_per_s2: [0.0, -400.0, 0.0],
-        drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
-        start: Start::Flat,
-        until: Until::Rest(2.0),
-        is_gated: false,
-        ..SWING
-    },
+    HANG,
     Scene {
         name: "shuffled",
         about: "S1r: the same with edges stored at random",
-        gravity_m_per_s2: [0.0, -400.0, 0.0],
-        drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
         start: Start::Shuffled,
-        until: Until::Rest(2.0),
-        is_gated: false,
-        ..SWING
+        ..HANG
     },
     SWING,
     Scene {
@@ -193,7 +240,6 @@ pub const SCENES: [Scene; 11] = [
         drag_per_s: 0.0,
         until: Until::Time(10.0),
         observables: &[EnergyMade, EnergyLost],
-        is_gated: false,
         ..SWING
     },
     Scene {
@@ -204,7 +250,6 @@ pub const SCENES: [Scene; 11] = [
         start: Start::Crushed(0.5),
         held: Held::Nothing,
         observables: &[EnergyMade, EnergyLost],
-        is_gated: false,
         ..SWING
     },
     Scene {
@@ -216,7 +261,6 @@ pub const SCENES: [Scene; 11] = [
         start: Start::Flat,
         held: Held::Frame,
         until: Until::Rest(2.0),
-        is_gated: false,
         ..SWING
     },
     Scene {
@@ -227,40 +271,31 @@ pub const SCENES: [Scene; 11] = [
         start: Start::Bulged(0.01),
         held: Held::Pulled(0.1),
         until: Until::Tears(0.5),
-        observables: &[TearTime, TearForce, ToughnessTime, ToughnessForce],
+        observables: &[TearTime, TearForce, ToughnessForce],
         ..SWING
     },
 ];
 
 /// A scene on a mesh, with its own references, rows and fronts.
 #[derive(Clone, Debug)]
-pub struct Case {
-    /// The scene, copied from the argument of [`Case::new`].
-    pub scene: Scene,
-    /// The kind of mesh of the sheet.
-    pub mesh: MeshKind,
-    /// The number of cells along each side.
-    pub cells: u32,
-    pub(crate) sheet: Sheet,
+pub(super) struct Case {
+    pub(super) scene: Scene,
+    pub(super) mesh: MeshKind,
+    pub(super) cells: u32,
+    pub(super) sheet: Sheet,
     /// Where particles start.
-    pub(crate) start: Vec<Point>,
+    pub(super) start: Vec<Point>,
     /// The edges in the order in which they become constraints.
-    pub(crate) edges: Vec<[usize; 2]>,
+    pub(super) edges: Vec<[usize; 2]>,
 }
 
 impl Case {
-    /// Creates the sheet of a scene and its start.
-    ///
-    /// # Panics
-    ///
-    /// If `cells` is 0 or more than a mesh can have.
-    #[must_use]
-    pub fn new(scene: &Scene, mesh: MeshKind, cells: u32) -> Case {
+    /// Creates the sheet of a scene and its start. Panics if `cells` is 0 or more than a mesh can have.
+    pub(super) fn new(scene: &Scene, mesh: MeshKind, cells: u32) -> Case {
         let mut sheet = Sheet::new(mesh, cells, scene.side_m);
-        if scene.middle_mass_ratio != 1.0 {
-            let middle = middle(&sheet);
-            sheet.masses[middle] *= scene.middle_mass_ratio;
-        }
+        // Also by 1, which changes nothing.
+        let middle = middle(&sheet);
+        sheet.masses[middle] *= scene.middle_mass_ratio;
         let mut edges = sheet.edges.clone();
         if scene.start == Start::Shuffled {
             let mut random = Random::new(SEED);
@@ -269,14 +304,12 @@ impl Case {
                 edges.swap(i, j);
             }
         }
-        let points = sheet.points.iter();
-        let start = points.map(|p| placed(p, scene)).collect();
         let mut case = Case {
             scene: *scene,
             mesh,
             cells,
+            start: sheet.points.iter().map(|p| placed(p, scene)).collect(),
             sheet,
-            start,
             edges,
         };
         if let Start::Taut(_) = scene.start {
@@ -285,47 +318,42 @@ impl Case {
         case
     }
 
-    /// Returns the name of the case, such as `swing/grid-16`.
-    #[must_use]
-    pub fn name(&self) -> String {
-        format!("{}/{}-{}", self.scene.name, self.mesh.name(), self.cells)
+    /// Whether energy is all that is compared, for which no other run is needed.
+    pub(super) fn is_of_energy(&self) -> bool {
+        self.scene.observables.iter().all(|one| one.is_energy())
     }
 
-    /// Returns the speed at which a pull travels, c = √(k/ρ), in m/s.
-    #[must_use]
-    pub fn speed_m_per_s(&self) -> f64 {
+    /// Whether displacements are compared only if noise does not grow too much: it cannot at rest.
+    pub(super) fn is_gated(&self) -> bool {
+        !self.is_of_energy() && !matches!(self.scene.until, Until::Rest(_))
+    }
+
+    /// The speed at which a pull travels, c = √(k/ρ), in m/s.
+    pub(super) fn speed_m_per_s(&self) -> f64 {
         (self.scene.stiffness_n_per_m / DENSITY_KG_PER_M2).sqrt()
     }
 
-    /// Returns the time in which a pull travels an edge of mean length, h/c, in seconds.
-    #[must_use]
-    pub fn edge_s(&self) -> f64 {
+    /// The time in which a pull travels an edge of mean length, h/c, in seconds.
+    pub(super) fn edge_s(&self) -> f64 {
         self.sheet.edge_m() / self.speed_m_per_s()
     }
 
     /// Whether the particle at this point of the flat sheet is held or led.
     pub(super) fn is_held(&self, p: &Point) -> bool {
         let side = self.scene.side_m;
-        let (left, right) = (p.x == 0.0, p.x == side);
         let (bottom, top) = (p.y == 0.0, p.y == side);
         match self.scene.held {
             Held::Nothing => false,
             Held::Top => top,
-            Held::Frame => left || right || bottom || top,
+            Held::Frame => bottom || top || p.x == 0.0 || p.x == side,
             Held::Pulled(_) => bottom || top,
         }
     }
 
-    /// Returns the system at its start.
-    ///
-    /// # Panics
-    ///
-    /// If the numbers of the scene are not usable; those of [`SCENES`] are.
-    #[must_use]
-    pub fn system(&self) -> System {
+    /// The system at its start. Panics if the numbers of the scene are not usable; those of [`SCENES`] are.
+    pub(super) fn system(&self) -> System {
         let Case { scene, sheet, .. } = self;
-        let masses = sheet.masses.clone();
-        let system = System::new(sheet.points.iter().copied(), masses);
+        let system = System::new(sheet.points.iter().copied(), sheet.masses.clone());
         let mut system = system.expect("a sheet has usable points and masses");
         let taut = match scene.start {
             Start::Taut(part) => 1.0 + part,
@@ -337,10 +365,8 @@ impl Case {
             made.expect("an edge of a sheet has a length");
         }
         system.state_mut().0.copy_from_slice(&self.start);
-        for (i, p) in sheet.points.iter().enumerate() {
-            if !self.is_held(p) {
-                continue;
-            }
+        let held = sheet.points.iter().enumerate();
+        for (i, p) in held.filter(|(_, p)| self.is_held(p)) {
             match scene.held {
                 Held::Pulled(speed) if p.y > 0.0 => {
                     let seconds = scene.until.seconds();
@@ -351,9 +377,8 @@ impl Case {
                 _ => system.hold(i),
             }
         }
-        let [x, y, z] = scene.gravity_m_per_s2;
         let loads = Loads {
-            gravity_m_per_s2: Some(Vector::new(x, y, z)).filter(|g| *g != Vector::zeros()),
+            gravity_m_per_s2: Some(scene.gravity_m_per_s2.into()).filter(|g| *g != Vector::zeros()),
             drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag > 0.0),
             ..Loads::default()
         };
@@ -361,22 +386,16 @@ impl Case {
         system
     }
 
-    /// Returns the system at its start, with each free particle moved at random by up to `noise_m` metres
-    /// along each axis, always in the same way.
-    ///
-    /// # Panics
-    ///
-    /// If the numbers of the scene are not usable; those of [`SCENES`] are.
-    #[must_use]
-    pub fn disturbed(&self, noise_m: f64) -> System {
+    /// The system at its start, with each free particle moved at random by up to `noise_m` metres along each
+    /// axis, always in the same way.
+    pub(super) fn disturbed(&self, noise_m: f64) -> System {
         let mut random = Random::new(SEED);
         let mut system = self.system();
         let free: Vec<bool> = system.inverse_masses().iter().map(|w| *w > 0.0).collect();
         let mut off = || noise_m * (2.0 * random.next() - 1.0);
-        for (x, is_free) in system.state_mut().0.iter_mut().zip(free) {
-            if is_free {
-                *x += Vector::new(off(), off(), off());
-            }
+        let points = system.state_mut().0.iter_mut().zip(free);
+        for (x, _) in points.filter(|(_, is_free)| *is_free) {
+            *x += Vector::new(off(), off(), off());
         }
         system
     }
@@ -408,9 +427,8 @@ fn relaxed(mut system: System) -> Vec<Point> {
         newton_iterations_max: 40,
         ..Settings::default()
     });
-    let drag_per_s = Some(20.0);
     let loads = Loads {
-        drag_per_s,
+        drag_per_s: Some(20.0),
         ..Loads::default()
     };
     system.set_loads(loads).expect("the loads are finite");
