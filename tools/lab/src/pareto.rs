@@ -168,9 +168,9 @@ impl Row {
         both.is_some_and(|(error, floor)| error < FLOORS * floor)
     }
 
-    fn case(&self) -> (&str, MeshKind, u32, u64, u64) {
-        let [stiffness, ratio] = [self.stiffness_n_per_m, self.mass_ratio].map(f64::to_bits);
-        (&self.scene, self.mesh, self.cells, stiffness, ratio)
+    fn case(&self) -> (&str, MeshKind, u32, [f64; 2]) {
+        let numbers = [self.stiffness_n_per_m, self.mass_ratio];
+        (&self.scene, self.mesh, self.cells, numbers)
     }
 }
 
@@ -183,31 +183,32 @@ impl Pareto {
     /// If a number of cells is 0 or more than a mesh can have.
     #[must_use]
     pub fn new(options: Options) -> Pareto {
+        let or_own = |values: &[f64], own: f64| match values {
+            [] => vec![own],
+            values => values.to_vec(),
+        };
         let mut cases = Vec::new();
         for scene in &options.scenes {
-            let or_own = |values: &[f64], own: f64| match values {
-                [] => vec![own],
-                values => values.to_vec(),
-            };
-            let stiffness = or_own(&options.stiffness_n_per_m, scene.stiffness_n_per_m);
-            let mass_ratios = or_own(&options.mass_ratios, scene.middle_mass_ratio);
-            for &mesh in &options.meshes {
-                for &cells in &options.cells {
-                    for &stiffness_n_per_m in &stiffness {
-                        for &middle_mass_ratio in &mass_ratios {
-                            let scene = Scene {
-                                stiffness_n_per_m,
-                                middle_mass_ratio,
-                                ..*scene
-                            };
-                            cases.push(Case::new(&scene, mesh, cells));
-                        }
-                    }
-                }
+            for (&mesh, &cells) in pairs(&options.meshes, &options.cells) {
+                let stiffness = or_own(&options.stiffness_n_per_m, scene.stiffness_n_per_m);
+                let ratios = or_own(&options.mass_ratios, scene.middle_mass_ratio);
+                cases.extend(pairs(&stiffness, &ratios).map(|(&stiffness, &ratio)| {
+                    let scene = Scene {
+                        stiffness_n_per_m: stiffness,
+                        middle_mass_ratio: ratio,
+                        ..*scene
+                    };
+                    Case::new(&scene, mesh, cells)
+                }));
             }
         }
         Pareto { options, cases }
     }
+}
+
+/// Each of `a` with each of `b`.
+fn pairs<'a, A, B>(a: &'a [A], b: &'a [B]) -> impl Iterator<Item = (&'a A, &'a B)> {
+    a.iter().flat_map(move |a| b.iter().map(move |b| (a, b)))
 }
 
 impl Experiment for Pareto {
@@ -249,26 +250,23 @@ impl Experiment for Pareto {
 
     fn plan(&self) -> Vec<Vec<Key>> {
         let visits_max = self.options.visits_max as f64;
-        let cases = self.cases.iter().enumerate();
-        let groups = cases.map(|(case, of)| {
+        // The first round also warms up.
+        let rounds = 0..=self.options.repeats.unwrap_or(0);
+        let group = |(case, of): (usize, &Case)| {
             let planned = plan(of);
-            let of_round = |round: u32| {
-                let is_timed = |planned: &&Planned| {
-                    planned.role.family().is_some() && planned.visits <= visits_max
-                };
-                let runs = planned.iter();
-                let runs = runs.filter(move |planned| round == 0 || is_timed(planned));
-                runs.map(move |planned| Key {
-                    case,
-                    planned: planned.clone(),
-                    round,
-                })
+            let key = |round, planned: &Planned| Key {
+                case,
+                planned: planned.clone(),
+                round,
             };
-            // The first round also warms up.
-            let rounds = 0..=self.options.repeats.unwrap_or(0);
-            rounds.flat_map(of_round).collect()
-        });
-        groups.collect()
+            let keys = rounds
+                .clone()
+                .flat_map(|round| planned.iter().map(move |one| key(round, one)));
+            let is_timed = |one: &Planned| one.role.family().is_some() && one.visits <= visits_max;
+            keys.filter(|key| key.round == 0 || is_timed(&key.planned))
+                .collect()
+        };
+        self.cases.iter().enumerate().map(group).collect()
     }
 
     fn round(&self, key: &Key) -> u32 {
@@ -308,8 +306,8 @@ impl Experiment for Pareto {
             let times = own.filter_map(|(_, outcome)| outcome.as_ref()?.cpu_s);
             row.cpu_median_s = median(times.collect()).or(row.cpu_median_s);
         }
-        for observable in Observable::ALL {
-            rank(&mut rows, observable);
+        for observable in case.scene.observables {
+            rank(&mut rows, *observable);
         }
         rows
     }
@@ -356,31 +354,29 @@ fn assess(case: &Case, keys: &[Key], outcomes: &[Option<Outcome>]) -> Vec<Row> {
     let reference = verlet.as_ref().unwrap_or(const { &Records::new() });
     let mut rows = Vec::new();
     for (planned, outcome) in runs() {
-        let row = Row {
-            noise_amplification,
-            ..plain_row(case, planned, outcome.as_ref())
-        };
+        let row = plain_row(case, planned, outcome.as_ref(), noise_amplification);
         let usable = outcome.as_ref().filter(|run| run.status == Status::Ok);
-        let Some(outcome) = usable.filter(|_| row.family.is_some()) else {
+        let Some(run) = usable.filter(|_| row.family.is_some()) else {
             rows.push(row);
             continue;
         };
-        for &(observable, error_floor) in &floors {
-            let known = error(case, observable, &outcome.records, reference);
-            let error_total = known.filter(|_| error_floor.is_some());
-            rows.push(Row {
-                observable: Some(observable),
-                error_floor,
-                error_total,
-                ..row.clone()
-            });
-        }
+        rows.extend(floors.iter().map(|&(observable, error_floor)| Row {
+            observable: Some(observable),
+            error_floor,
+            error_total: error_floor.and(error(case, observable, &run.records, reference)),
+            ..row.clone()
+        }));
     }
     rows
 }
 
 /// The row of a run without its errors.
-fn plain_row(case: &Case, planned: &Planned, outcome: Option<&Outcome>) -> Row {
+fn plain_row(
+    case: &Case,
+    planned: &Planned,
+    outcome: Option<&Outcome>,
+    noise_amplification: Option<f64>,
+) -> Row {
     let (method, step_fraction) = match &planned.role {
         Role::Budget(method, fraction) => (method.name, Some(*fraction)),
         Role::Default(method) => (method.name, None),
@@ -400,7 +396,7 @@ fn plain_row(case: &Case, planned: &Planned, outcome: Option<&Outcome>) -> Row {
         dt_s: planned.dt_s,
         visits: outcome.map(|outcome| outcome.visits),
         cpu_median_s: outcome.and_then(|outcome| outcome.cpu_s),
-        noise_amplification: None,
+        noise_amplification,
         observable: None,
         error_floor: None,
         error_total: None,
@@ -432,15 +428,9 @@ fn rank(rows: &mut [Row], observable: Observable) {
             let error = row.error_total?.max(FLOORS * row.error_floor?);
             Some(Point { cost, error })
         };
-        let points: Vec<Option<Point>> = rows.iter().map(|row| point(row)).collect();
-        let known: Vec<Point> = points.iter().copied().flatten().collect();
-        let mut is_on = front(&known).into_iter();
-        for (row, _) in rows
-            .iter_mut()
-            .zip(points)
-            .filter(|(_, point)| point.is_some())
-        {
-            let is_on = is_on.next() == Some(true);
+        let points: Vec<Point> = rows.iter().filter_map(|row| point(row)).collect();
+        let ranked = rows.iter_mut().filter(|row| point(row).is_some());
+        for (row, is_on) in ranked.zip(front(&points)) {
             match by_time {
                 true => row.is_on_front_by_time = is_on,
                 false => row.is_on_front = is_on,

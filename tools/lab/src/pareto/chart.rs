@@ -1,7 +1,7 @@
 //! The figure and the summary of a table: a panel per case and observable, and the cheapest run for each
 //! tolerance.
 
-use std::fmt::Write as _;
+use std::collections::BTreeMap;
 
 use super::{AMPLIFICATION_MAX, Observable, Pareto, Row, SCENES};
 use crate::experiment::{Chart, Provenance, Status};
@@ -64,11 +64,10 @@ impl Chart for Pareto {
     fn summary(&self, rows: &[Row]) -> String {
         let mut text = String::from("the cheapest run for each tolerance, by visits of edges\n");
         for case in cases(rows) {
-            let name = format!("{} {}", case[0].scene, about(&case[0]));
-            writeln!(text, "{name}").expect("a string grows");
+            text += &format!("{} {}\n", case[0].scene, about(&case[0]));
             for (_, observable, of) in groups(case) {
                 let line = tolerances(observable, &of);
-                writeln!(text, "  {:<33} {line}", observable.name()).expect("a string grows");
+                text += &format!("  {:<33} {line}\n", observable.name());
             }
             text += &defaults(case);
         }
@@ -81,13 +80,16 @@ fn cases(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
 }
 
 /// The cases with each observable that they have, and its rows.
-fn groups(rows: &[Row]) -> impl Iterator<Item = (&[Row], Observable, Vec<&Row>)> {
-    let each = cases(rows).flat_map(|case| Observable::ALL.map(|observable| (case, observable)));
-    let each = each.map(|(case, observable)| {
-        let of = case.iter().filter(|row| row.observable == Some(observable));
-        (case, observable, of.collect::<Vec<_>>())
-    });
-    each.filter(|(.., of)| !of.is_empty())
+pub(super) fn groups(rows: &[Row]) -> impl Iterator<Item = (&[Row], Observable, Vec<&Row>)> {
+    cases(rows).flat_map(|case| {
+        let mut groups: BTreeMap<Observable, Vec<&Row>> = BTreeMap::new();
+        for (row, observable) in case.iter().filter_map(|row| Some((row, row.observable?))) {
+            groups.entry(observable).or_default().push(row);
+        }
+        groups
+            .into_iter()
+            .map(move |(observable, of)| (case, observable, of))
+    })
 }
 
 /// The method that is the cheapest at an error of 1 % most often.
@@ -123,16 +125,13 @@ fn panel(case: &[Row], observable: Observable, rows: &[&Row], by_time: bool) -> 
         y: Axis::log("relative error"),
         ..Panel::default()
     };
-    // An error of zero is drawn at the floor.
-    let drawn = |row: &&'_ Row| {
+    let shown = rows.iter().filter_map(|&row| {
         let cost = row.cost(by_time).filter(|cost| *cost > 0.0)?;
+        // An error of zero is drawn at the floor.
         let error = row.error_total?.max(floor.unwrap_or(0.0) * LEAST);
-        Some([cost, error])
-    };
-    let shown: Vec<Drawn<'_>> = rows
-        .iter()
-        .filter_map(|row| Some((*row, drawn(row)?)))
-        .collect();
+        Some((row, [cost, error]))
+    });
+    let shown: Vec<Drawn<'_>> = shown.collect();
     if shown.is_empty() {
         panel.about = match (floor, first.noise_amplification) {
             (Some(_), _) => "no run reached its end".to_owned(),
@@ -226,10 +225,8 @@ fn front_line(shown: &[Drawn<'_>], by_time: bool) -> Layer {
         false => row.is_on_front,
     };
     let on = shown.iter().filter(|(row, _)| is_on(row));
-    let mut on: Vec<[f64; 2]> = on.map(|(_, at)| *at).collect();
-    on.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut points: Vec<[f64; 2]> = Vec::new();
-    for [cost, error] in on {
+    for [cost, error] in ascending(on.map(|(_, at)| *at)) {
         if let Some(&[_, least]) = points.last() {
             if error >= least {
                 continue;
@@ -250,25 +247,30 @@ fn front_line(shown: &[Drawn<'_>], by_time: bool) -> Layer {
 /// The runs of a family: those that none of its others beats as marks on a line, the others as dots.
 fn draw_family(layers: &mut Vec<Layer>, family: Family, own: &[Drawn<'_>]) {
     let beats = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
-    let is_beaten = |at: [f64; 2]| own.iter().any(|(_, other)| beats(*other, at));
-    let (others, mut best): (Vec<_>, Vec<_>) = own.iter().partition(|(_, at)| is_beaten(*at));
-    best.sort_by(|a: &&Drawn<'_>, b| a.1[0].total_cmp(&b.1[0]));
+    let is_best = |at: [f64; 2]| !own.iter().any(|(_, other)| beats(*other, at));
+    let best = own.iter().filter(|(_, at)| is_best(*at));
     let mark = family.mark();
     layers.push(Layer::Line {
-        points: best.iter().map(|(_, at)| *at).collect(),
+        points: ascending(best.map(|(_, at)| *at)),
         colour: mark.colour,
         width: 1.0,
     });
-    let dots = others.into_iter().map(|drawn| (drawn, mark.sized(1.6)));
-    let marks = best.into_iter().map(|drawn| match drawn.0.is_at_floor() {
-        true => (drawn, mark.hollow()),
-        false => (drawn, mark),
-    });
-    layers.extend(dots.chain(marks).map(|((row, at), mark)| Layer::Mark {
-        at: *at,
-        mark,
+    layers.extend(own.iter().map(|&(row, at)| Layer::Mark {
+        at,
+        mark: match is_best(at) {
+            true if row.is_at_floor() => mark.hollow(),
+            true => mark,
+            false => mark.sized(1.6),
+        },
         hover: hover(row),
     }));
+}
+
+/// Points from the cheapest on.
+fn ascending(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = points.collect();
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    points
 }
 
 /// The cheapest run of the budget that meets a tolerance; `None` if none does, or if the tolerance is below ten
@@ -341,11 +343,7 @@ fn defaults(case: &[Row]) -> String {
         let cost = of[0].cost(false).zip(unit);
         let cost = cost.map_or(f64::NAN, |(cost, unit)| cost / unit);
         let method = &of[0].method;
-        writeln!(
-            text,
-            "  {method:<9} at its defaults: cost {cost:.2}, error {errors}"
-        )
-        .expect("a string grows");
+        text += &format!("  {method:<9} at its defaults: cost {cost:.2}, error {errors}\n");
     }
     text
 }

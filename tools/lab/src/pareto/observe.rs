@@ -6,9 +6,10 @@
 use std::collections::BTreeMap;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{System, Threshold, force};
+use tearmesh_cloth::{Solver, System, Threshold, energy, force};
 
 use super::scene::{Case, Held, Observable, TEAR_RATIO, TOUGHNESS_J_PER_M, Until};
+use crate::method::{Family, StoredEnergy};
 
 /// The numbers of a run by observable and checkpoint: coordinates, strains of edges, and single numbers. NaN
 /// where the run gave no value.
@@ -58,21 +59,17 @@ pub(super) fn error(
 /// The mass-weighted rms distance between the positions of two runs in metres, at the worst checkpoint. For a
 /// strip that is pulled, the distance that the hand moves between their first tears.
 pub(super) fn apart_m(case: &Case, a: &Records, b: &Records) -> f64 {
-    let worst = |observable: Observable, apart: &dyn Fn(&[f64], &[f64]) -> f64| {
-        let pairs = a[&observable].iter().zip(&b[&observable]);
-        pairs.map(|(a, b)| apart(a, b)).fold(0.0, worse)
-    };
     if let Held::Pulled(speed) = case.scene.held {
-        let late = |a: &[f64], b: &[f64]| (a[0] - b[0]).abs() * speed;
-        let times = [Observable::TearTime, Observable::ToughnessTime];
-        return times
-            .map(|time| worst(time, &late))
-            .into_iter()
-            .fold(0.0, worse);
+        let late = |time: Observable| (a[&time][0][0] - b[&time][0][0]).abs() * speed;
+        return worse(late(Observable::TearTime), late(Observable::ToughnessTime));
     }
-    let square = |a: &[f64], b: &[f64]| mass_weighted_square(case, a, b);
+    let [a, b] = [a, b].map(|run| &run[&Observable::Displacement]);
+    let squares = a
+        .iter()
+        .zip(b)
+        .map(|(a, b)| mass_weighted_square(case, a, b));
     let whole = case.sheet.masses.iter().sum::<f64>();
-    (worst(Observable::Displacement, &square) / whole).sqrt()
+    (squares.fold(0.0, worse) / whole).sqrt()
 }
 
 fn mass_weighted_square(case: &Case, p: &[f64], q: &[f64]) -> f64 {
@@ -105,6 +102,9 @@ fn flat(points: &[Point]) -> impl Iterator<Item = f64> + '_ {
 /// The time over which forces are averaged, in seconds.
 const MEAN_S: f64 = 1.0 / 60.0;
 
+/// The largest energy that is allowed, as a multiple of the energy put in.
+const ENERGY_MAX: f64 = 1.25;
+
 /// A recorder of the observables of a run.
 #[derive(Debug)]
 pub(super) struct Probe<'a> {
@@ -118,8 +118,14 @@ pub(super) struct Probe<'a> {
     reaction_every_s: f64,
     /// The work of the hand that pulls, in joules.
     hand_j: f64,
-    /// Whether the work of a step is done by the force at its end, and not by the mean of both ends.
+    /// Whether the method moves particles by the forces at the end of a step, which then do its work; otherwise
+    /// the mean of the forces at both ends does.
     moves_at_end: bool,
+    stored: StoredEnergy,
+    /// The energy in springs and of height at the start.
+    began_j: [f64; 2],
+    /// The most energy that had been put in so far.
+    put_in_j: f64,
     thresholds: [FirstTear; 2],
     /// The time at which edges are checked next, in seconds.
     check_s: f64,
@@ -136,9 +142,13 @@ struct FirstTear {
 }
 
 impl<'a> Probe<'a> {
-    /// Creates a probe of a system that has not moved yet. `moves_at_end` is whether the method moves particles
-    /// by the forces at the end of a step.
-    pub(super) fn new(case: &'a Case, system: &System, moves_at_end: bool) -> Probe<'a> {
+    /// Creates a probe of a system that has not moved yet, for a solver of a family of methods or of a reference.
+    pub(super) fn new(
+        case: &'a Case,
+        system: &System,
+        solver: &dyn Solver,
+        family: Option<Family>,
+    ) -> Probe<'a> {
         let is_pulled = matches!(case.scene.held, Held::Pulled(_));
         let points = &case.sheet.points;
         let counts = |i: &usize| case.is_held(&points[*i]) && !(is_pulled && points[*i].y == 0.0);
@@ -157,7 +167,10 @@ impl<'a> Probe<'a> {
                 Until::Tears(_) => 0.0,
             },
             hand_j: 0.0,
-            moves_at_end,
+            moves_at_end: solver.abilities().frequency_limit.is_none(),
+            stored: family.map_or(StoredEnergy::ByLength, Family::stored_energy),
+            began_j: [energy::elastic_j(system), height_j(system)],
+            put_in_j: 0.0,
             thresholds: thresholds.map(|threshold| FirstTear {
                 threshold,
                 last: [0.0; 2],
@@ -172,17 +185,16 @@ impl<'a> Probe<'a> {
     /// Records a step.
     pub(super) fn step(&mut self, system: &System, dt_s: f64) {
         let now_s = system.elapsed_s();
-        let [last_s, before_n] = self.reaction.last();
-        if now_s >= last_s + self.reaction_every_s - 0.5 * dt_s {
+        if now_s >= self.reaction.last()[0] + self.reaction_every_s - 0.5 * dt_s {
             let now_n = self.reaction_n(system);
-            self.reaction.push(now_s, now_n);
             if let Held::Pulled(speed) = self.case.scene.held {
                 let force_n = match self.moves_at_end {
                     true => now_n,
-                    false => 0.5 * (before_n + now_n),
+                    false => 0.5 * (self.reaction.last()[1] + now_n),
                 };
                 self.hand_j += force_n * speed * dt_s;
             }
+            self.reaction.push(now_s, now_n);
         }
         if matches!(self.case.scene.until, Until::Tears(_)) && now_s >= self.check_s {
             self.check(system);
@@ -205,15 +217,20 @@ impl<'a> Probe<'a> {
         self.record(Observable::StrainRms, strains);
     }
 
-    /// Records the energy that was made so far, as a fraction of what was put in.
-    pub(super) fn energy(&mut self, made: f64) {
+    /// Records the energy beyond what was put in by gravity and by the hand that pulls, as a fraction of that.
+    /// Returns the energy that is there as a multiple of it if it is more than is allowed.
+    pub(super) fn energy(&mut self, system: &System) -> Option<f64> {
+        let [stored_j, height_j] = [stored_j(system, self.stored), height_j(system)];
+        let now_j = stored_j + energy::kinetic_j(system);
+        let fallen_j = self.began_j[1] - height_j;
+        let put_in_j = self.began_j[0] + fallen_j.max(0.0) + self.hand_j.max(0.0);
+        self.put_in_j = self.put_in_j.max(put_in_j);
+        let made = (now_j - (self.began_j[0] + fallen_j + self.hand_j)) / self.put_in_j;
         self.record(Observable::EnergyMade, vec![made]);
         self.record(Observable::EnergyLost, vec![-made]);
-    }
-
-    /// The work of the hand that pulls so far, in joules.
-    pub(super) fn hand_j(&self) -> f64 {
-        self.hand_j
+        // Written so that a NaN is more.
+        let is_allowed = now_j <= ENERGY_MAX * self.put_in_j;
+        (!is_allowed).then(|| now_j / self.put_in_j)
     }
 
     /// Whether both thresholds were reached.
@@ -285,6 +302,30 @@ impl<'a> Probe<'a> {
     }
 }
 
+fn stored_j(system: &System, stored: StoredEnergy) -> f64 {
+    match stored {
+        StoredEnergy::None => 0.0,
+        StoredEnergy::ByLength => energy::elastic_j(system),
+        StoredEnergy::ByForce => {
+            let stretches = system.stretches();
+            let each = stretches.iter().map(|id| {
+                let force_n = force::force_n(system, id);
+                force_n * force_n / (2.0 * stretches.get(id).stiffness_n_per_m)
+            });
+            each.sum()
+        }
+    }
+}
+
+fn height_j(system: &System) -> f64 {
+    let Some(gravity) = system.loads().gravity_m_per_s2 else {
+        return 0.0;
+    };
+    let particles = system.positions().iter().zip(system.masses());
+    let each = particles.map(|(x, m)| m * gravity.dot(&x.coords));
+    -each.sum::<f64>()
+}
+
 /// A force over time, linear between samples.
 #[derive(Clone, Debug, Default)]
 struct Samples {
@@ -294,15 +335,13 @@ struct Samples {
 
 impl Samples {
     fn push(&mut self, s: f64, n: f64) {
-        let sum = self.list.last().map_or(0.0, |[before_s, before_n, sum]| {
-            sum + 0.5 * (before_n + n) * (s - before_s)
-        });
+        let [before_s, before_n, sum] = self.last();
+        let sum = sum + 0.5 * (before_n + n) * (s - before_s);
         self.list.push([s, n, sum]);
     }
 
-    /// The time and the force of the last sample.
-    fn last(&self) -> [f64; 2] {
-        self.list.last().map_or([0.0; 2], |&[s, n, _]| [s, n])
+    fn last(&self) -> [f64; 3] {
+        self.list.last().copied().unwrap_or_default()
     }
 
     /// The integral up to a time.

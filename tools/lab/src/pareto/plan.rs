@@ -91,12 +91,8 @@ pub(super) fn plan(case: &Case) -> Vec<Planned> {
                 (Role::Newton, newton_s, "reference-newton"),
             ] {
                 for fraction in REFERENCE_FRACTIONS {
-                    add(
-                        &format!("{name}@{fraction}"),
-                        role.clone(),
-                        base_s,
-                        fraction,
-                    );
+                    let name = format!("{name}@{fraction}");
+                    add(&name, role.clone(), base_s, fraction);
                 }
             }
         }
@@ -141,10 +137,8 @@ impl Planned {
         let products = || 8.0 + 6.0 * (dt_s / case.edge_s()).min(2.0 * f64::from(case.cells));
         let visits_a_step = match (role.family(), &role) {
             (Some(Family::Rk4 | Family::Provot), _) => 4.0,
-            (Some(Family::BackwardEuler | Family::Bdf2), _) => products(),
-            (Some(Family::Pbd), Role::Default(_)) => 10.0,
+            (Some(Family::BackwardEuler | Family::Bdf2), _) | (_, Role::Newton) => products(),
             (_, Role::Budget(method, _)) => f64::from(method.sweeps().unwrap_or(1)),
-            (_, Role::Newton) => 2.0 * products(),
             _ => 1.0,
         };
         Planned {

@@ -4,13 +4,12 @@
 
 use std::time::Duration;
 
-use tearmesh_cloth::{StepError, System, energy, force};
+use tearmesh_cloth::StepError;
 
 use super::observe::{Probe, Records};
 use super::plan::{CHECKPOINTS, Planned};
-use super::scene::{Case, REST_M_PER_S, Until};
+use super::scene::{Case, REST_M_PER_S, Until, fastest_m_per_s};
 use crate::experiment::{Bounds, Status};
-use crate::method::{Family, StoredEnergy};
 
 /// The result of a run.
 #[derive(Clone, Debug)]
@@ -24,9 +23,6 @@ pub struct Outcome {
     pub(super) cpu_s: Option<f64>,
     pub(super) records: Records,
 }
-
-/// The largest energy that is allowed, as a multiple of the energy put in.
-const ENERGY_MAX: f64 = 1.25;
 
 /// The speed at which references are at rest, as a fraction of [`REST_M_PER_S`].
 const REST_OF_REFERENCES: f64 = 1e-1;
@@ -52,9 +48,7 @@ pub(super) fn run(
     let every = (steps_max / 400).max(1);
     let rest_every = ((0.01 / dt_s) as u64).max(1);
     let (mut system, mut solver) = planned.begin(case);
-    let moves_at_end = solver.abilities().frequency_limit.is_none();
-    let mut probe = Probe::new(case, &system, moves_at_end);
-    let mut balance = EnergyBalance::new(&system, planned.role.family());
+    let mut probe = Probe::new(case, &system, &*solver, planned.role.family());
     let (mut cpu, mut visits) = (Duration::ZERO, 0);
     let (mut status, mut why) = (Status::Restless, String::new());
     for number in 1..=steps_max {
@@ -85,16 +79,11 @@ pub(super) fn run(
         if visits > visits_max && !is_last {
             ended = Some(Status::TooDear);
         }
-        if is_nth(every) || is_last {
-            let [made_j, now_j, put_in_j] = balance.update(&system, probe.hand_j());
-            probe.energy(made_j / put_in_j);
-            // Written so that a NaN is not bounded.
-            let is_bounded = now_j <= ENERGY_MAX * put_in_j;
-            if !is_bounded {
-                ended = Some(Status::BlownUp);
-                let grown = now_j / put_in_j;
-                why = format!("{grown:.2} times the energy that was put in");
-            }
+        if (is_nth(every) || is_last)
+            && let Some(grown) = probe.energy(&system)
+        {
+            ended = Some(Status::BlownUp);
+            why = format!("{grown:.2} times the energy that was put in");
         }
         if let Some(ended) = ended {
             status = ended;
@@ -120,66 +109,4 @@ pub(crate) fn status_of(error: &StepError) -> Status {
         StepError::Implicit { .. } => Status::Unsolved,
         _ => Status::Refused,
     }
-}
-
-fn fastest_m_per_s(system: &System) -> f64 {
-    let squares = system.velocities().iter().map(|v| v.norm_squared());
-    squares.fold(0.0, f64::max).sqrt()
-}
-
-/// The energy balance of a run: what was there, the work of gravity, and that of the hand that pulls.
-#[derive(Clone, Copy, Debug)]
-struct EnergyBalance {
-    stored: StoredEnergy,
-    began_j: f64,
-    height_j: f64,
-    /// The most energy that had been put in so far.
-    put_in_j: f64,
-}
-
-impl EnergyBalance {
-    /// A balance of a system that has not moved yet, for a family of methods or a reference.
-    fn new(system: &System, family: Option<Family>) -> EnergyBalance {
-        EnergyBalance {
-            stored: family.map_or(StoredEnergy::ByLength, Family::stored_energy),
-            began_j: energy::elastic_j(system),
-            height_j: height_j(system),
-            put_in_j: 0.0,
-        }
-    }
-
-    /// Returns the energy beyond what was put in, negative if some was lost, the energy that is there, and the
-    /// most that was put in so far.
-    fn update(&mut self, system: &System, hand_j: f64) -> [f64; 3] {
-        let fallen_j = self.height_j - height_j(system);
-        let now_j = stored_j(system, self.stored) + energy::kinetic_j(system);
-        let put_in_j = self.began_j + fallen_j.max(0.0) + hand_j.max(0.0);
-        self.put_in_j = self.put_in_j.max(put_in_j);
-        let made_j = now_j - (self.began_j + fallen_j + hand_j);
-        [made_j, now_j, self.put_in_j]
-    }
-}
-
-fn stored_j(system: &System, stored: StoredEnergy) -> f64 {
-    match stored {
-        StoredEnergy::None => 0.0,
-        StoredEnergy::ByLength => energy::elastic_j(system),
-        StoredEnergy::ByForce => {
-            let stretches = system.stretches();
-            let each = stretches.iter().map(|id| {
-                let force_n = force::force_n(system, id);
-                force_n * force_n / (2.0 * stretches.get(id).stiffness_n_per_m)
-            });
-            each.sum()
-        }
-    }
-}
-
-fn height_j(system: &System) -> f64 {
-    let Some(gravity) = system.loads().gravity_m_per_s2 else {
-        return 0.0;
-    };
-    let particles = system.positions().iter().zip(system.masses());
-    let each = particles.map(|(x, m)| m * gravity.dot(&x.coords));
-    -each.sum::<f64>()
 }

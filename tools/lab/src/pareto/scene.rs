@@ -130,18 +130,6 @@ pub enum Observable {
 }
 
 impl Observable {
-    /// The observables that have rows, panels and lines of a summary, in the order of panels.
-    pub const ALL: [Observable; 8] = [
-        Displacement,
-        StrainRms,
-        ReactionLargest,
-        EnergyMade,
-        EnergyLost,
-        TearTime,
-        TearForce,
-        ToughnessForce,
-    ];
-
     /// Returns the name of the observable in words.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -435,12 +423,16 @@ fn relaxed(mut system: System) -> Vec<Point> {
     for _ in 0..400 {
         let step = system.step(&mut newton, 0.02);
         step.expect("a taut sheet in its frame is solved for");
-        let fastest = system.velocities().iter().map(|v| v.norm_squared());
-        if fastest.fold(0.0, f64::max).sqrt() < 1e-9 {
+        if fastest_m_per_s(&system) < 1e-9 {
             break;
         }
     }
     system.positions().to_vec()
+}
+
+pub(super) fn fastest_m_per_s(system: &System) -> f64 {
+    let squares = system.velocities().iter().map(|v| v.norm_squared());
+    squares.fold(0.0, f64::max).sqrt()
 }
 
 /// The index of the particle nearest to the centre.

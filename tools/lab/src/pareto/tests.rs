@@ -1,6 +1,5 @@
 //! Cases with known answers, the fronts of a record, and tables that do not depend on threads.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -197,26 +196,13 @@ fn fronts_are_those_of_the_record() {
         ..options(&["hang", "swing", "sliver", "taut", "strip"], 5)
     });
     let mut found = String::new();
-    for case in rows.chunk_by(|a, b| a.case() == b.case()) {
-        for observable in Observable::ALL {
-            let mut of = case
-                .iter()
-                .filter(|row| row.observable == Some(observable))
-                .peekable();
-            if of.peek().is_some_and(|row| row.error_floor.is_some()) {
-                let on: Vec<&str> = of
-                    .filter(|row| row.is_on_front)
-                    .map(|row| &*row.run)
-                    .collect();
-                let (scene, mesh) = (&case[0].scene, case[0].mesh.name());
-                writeln!(
-                    found,
-                    "{scene} on {mesh}, {}: {}",
-                    observable.name(),
-                    on.join(" ")
-                )
-                .expect("a string grows");
-            }
+    for (case, observable, of) in chart::groups(&rows) {
+        if of[0].error_floor.is_some() {
+            let on = of.iter().filter(|row| row.is_on_front);
+            let on: Vec<&str> = on.map(|row| &*row.run).collect();
+            let (scene, mesh) = (&case[0].scene, case[0].mesh.name());
+            let (name, on) = (observable.name(), on.join(" "));
+            found += &format!("{scene} on {mesh}, {name}: {on}\n");
         }
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/pareto/tests/fronts.txt");
