@@ -247,6 +247,14 @@ impl DefaultMethod {
         ]
     }
 
+    /// Returns the method of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<DefaultMethod> {
+        DefaultMethod::all()
+            .into_iter()
+            .find(|method| method.name == name)
+    }
+
     /// Returns a new solver with the default settings.
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
