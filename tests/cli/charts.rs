@@ -210,7 +210,7 @@ fn tear() {
         16,
         &[2, 1],
         [
-            "largest,trouser,4,ok,stretch,|first,trouser,6,ok,toughness,|run,rip,6,ok,,,,,,pbd,4,",
+            "largest,trouser,4,ok,stretch,|first,trouser,6,ok,toughness,|run,rip,6,ok,,,,,pbd,4,",
             "--seeds 2",
             "rip of 6 cells, torn length, m; |half the step: ",
         ],

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
-use super::{Row, Tear, What};
+use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear, What};
 use crate::experiment::{Chart, Provenance, Status};
-use crate::method::{DefaultMethod, Family};
-use crate::plot::{Axis, COLOURS, Colour, Figure, Layer, Mark, PALE, Panel, Shape, short};
+use crate::method::DefaultMethod;
+use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, PALE, Panel, Shape, short};
 
 /// The largest relative difference at which the forces of a first tear agree.
 pub(super) const AGREEMENT: f64 = 0.05;
@@ -16,115 +16,107 @@ pub(super) const AGREEMENT: f64 = 0.05;
 type Quantity = (&'static str, fn(&Row) -> Option<f64>);
 
 /// The quantities of ensembles.
-const QUANTITIES: [Quantity; 4] = [
+pub(super) const QUANTITIES: [Quantity; 4] = [
     ("torn length, m", |row| row.torn_m),
     ("pieces", |row| row.pieces.map(|pieces| pieces as f64)),
     ("work of holds, J", |row| row.work_j),
     ("largest force, N", |row| row.largest_force_n),
 ];
 
-const RULES: [(&str, &str); 2] = [("stretch", "stretch ratio"), ("toughness", "toughness")];
-
 impl Chart for Tear {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        figure(rows, provenance)
+        let mut panels = Vec::new();
+        if rows.iter().any(|row| row.what == What::Largest) {
+            panels.extend(Rule::ALL.map(|rule| curves(rows, rule)));
+            panels.push(sizes(rows));
+        }
+        for panel in panels.iter_mut().filter(|panel| panel.layers.is_empty()) {
+            panel.about = "no strip reached its end".to_owned();
+        }
+        panels.extend(ensembles(rows).iter().map(Ensembles::panel));
+        let mut footer = vec![
+            "Bars: medians with 10 to 90 % over seeds, for each method at its step, at half and at a quarter of it \
+             (from left to right). Below the name: does halving the step change the median? = the same, ≠ different, \
+             ? cannot tell. Grey band: the reference, 10 to 90 %."
+                .to_owned(),
+            provenance.footer(),
+        ];
+        if rows.iter().any(|row| row.status == Status::Interrupted) {
+            let missing = "INTERRUPTED: runs that were not done are missing.";
+            footer.insert(0, missing.to_owned());
+        }
+        let slopes = Rule::ALL.map(|rule| slope(&forces(rows, rule, What::Largest)));
+        Figure {
+            title: match slopes {
+                [Some(stretch), Some(toughness)] => format!(
+                    "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness \
+                     much less ({toughness:+.2})"
+                ),
+                _ => "After the first tear, only distributions over many seeds compare".to_owned(),
+            },
+            about: "Trouser tests of strips on several meshes, and ensembles of whole tears."
+                .to_owned(),
+            columns: 3,
+            panel_size: [390.0, 330.0],
+            panels,
+            footer,
+            ..Figure::default()
+        }
     }
 
     fn summary(&self, rows: &[Row]) -> String {
-        summary(rows)
-    }
-}
-
-fn figure(rows: &[Row], provenance: &Provenance) -> Figure {
-    let mut panels = Vec::new();
-    if rows.iter().any(|row| row.what == What::Largest) {
-        panels.extend(RULES.map(|(rule, name)| curves(rows, rule, name)));
-        panels.push(sizes(rows));
-    }
-    for ensembles in ensembles(rows) {
-        panels.extend(QUANTITIES.map(|quantity| ensemble_panel(&ensembles, quantity)));
-    }
-    let mut footer = vec![
-        "Bars: medians with 10 to 90 % over seeds, for each method at its step, at half and at a quarter of it (from \
-         left to right). Below the name: does halving the step change the median? = the same, ≠ different, \
-         ? cannot tell. Grey band: the reference, 10 to 90 %."
-            .to_owned(),
-        provenance.footer(),
-    ];
-    if rows.iter().any(|row| row.status == Status::Interrupted) {
-        footer.insert(
-            0,
-            "INTERRUPTED: runs that were not done are missing.".to_owned(),
-        );
-    }
-    Figure {
-        title: title(rows),
-        about: "Trouser tests of strips on several meshes, and ensembles of whole tears."
-            .to_owned(),
-        legend: Vec::new(),
-        columns: 3,
-        panel_size: [390.0, 330.0],
-        panels,
-        footer,
-    }
-}
-
-fn title(rows: &[Row]) -> String {
-    let slopes = RULES.map(|(rule, _)| slope(rows, rule, What::Largest));
-    match slopes {
-        [Some(stretch), Some(toughness)] => format!(
-            "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness much less \
-             ({toughness:+.2})"
-        ),
-        _ => "After the first tear, only distributions over many seeds compare".to_owned(),
+        let of = ensembles(rows);
+        conclusion(rows) + &of.iter().map(Ensembles::words).collect::<String>()
     }
 }
 
 /// The rows of strips by a rule.
-fn strips<'a>(rows: &'a [Row], rule: &str, what: What) -> Vec<&'a Row> {
-    let of = rows
-        .iter()
-        .filter(|row| row.what == what && row.rule.as_deref() == Some(rule));
-    of.collect()
+fn strips(rows: &[Row], rule: Rule, what: What) -> Vec<&Row> {
+    let is_it = |row: &&Row| row.what == what && row.rule == Some(rule);
+    rows.iter().filter(is_it).collect()
 }
 
-/// The slope of force against the length of edges, both as logarithms, by least squares; `None` with fewer than
-/// two strips that tore.
-pub(super) fn slope(rows: &[Row], rule: &str, what: What) -> Option<f64> {
+/// The length of the edges of strips that tore in millimetres, and the force in newtons.
+fn forces(rows: &[Row], rule: Rule, what: What) -> Vec<[f64; 2]> {
     let strips = strips(rows, rule, what).into_iter();
-    let points = strips.filter_map(|row| Some((row.edge_m?.ln(), row.force_n?.ln())));
-    let points: Vec<(f64, f64)> = points.collect();
+    let of = strips.filter_map(|row| Some([edge_mm(row), row.force_n?]));
+    of.filter(|[_, force]| *force > 0.0).collect()
+}
+
+fn edge_mm(row: &Row) -> f64 {
+    1e3 * STRIP_M[0] / f64::from(row.cells)
+}
+
+/// The slope of the logarithms of some points by least squares; `None` with fewer than two points.
+pub(super) fn slope(points: &[[f64; 2]]) -> Option<f64> {
     if points.len() < 2 {
         return None;
     }
-    let count = points.len() as f64;
-    let mean_x = points.iter().map(|(x, _)| x).sum::<f64>() / count;
-    let mean_y = points.iter().map(|(_, y)| y).sum::<f64>() / count;
-    let above: f64 = points
-        .iter()
-        .map(|(x, y)| (x - mean_x) * (y - mean_y))
-        .sum();
-    let below: f64 = points
-        .iter()
-        .map(|(x, _)| (x - mean_x) * (x - mean_x))
-        .sum();
-    Some(above / below)
+    let logs = || points.iter().map(|point| point.map(f64::ln));
+    let mean = |of: usize| logs().map(|log| log[of]).sum::<f64>() / points.len() as f64;
+    let means = [mean(0), mean(1)];
+    let moment = |of: usize| -> f64 {
+        let products = logs().map(|log| (log[0] - means[0]) * (log[of] - means[of]));
+        products.sum()
+    };
+    Some(moment(1) / moment(0))
 }
 
 /// Force against distance, a curve for each mesh.
-fn curves(rows: &[Row], rule: &str, name: &str) -> Panel {
+fn curves(rows: &[Row], rule: Rule) -> Panel {
     let mut panel = Panel {
-        title: format!("Force to tear by {name}"),
+        title: format!("Force to tear by {}", rule.name()),
         about: "labels: length of edges; crosses: first tear by Verlet, rings by XPBD, each at Δt and Δt/2"
             .to_owned(),
         x: Axis::linear("distance of the clamps, m"),
         y: Axis::linear("force, N"),
         ..Panel::default()
     };
+    let at = |row: &&Row| Some([row.displacement_m?, row.force_n?.max(0.0)]);
+    let first = strips(rows, rule, What::First);
     let all = strips(rows, rule, What::Curve);
     for (i, of) in all.chunk_by(|a, b| a.cells == b.cells).enumerate() {
         let colour = COLOURS[i % COLOURS.len()];
-        let at = |row: &&Row| Some([row.displacement_m?, row.force_n?.max(0.0)]);
         let points: Vec<[f64; 2]> = of.iter().filter_map(at).collect();
         let top = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]));
         panel.layers.push(Layer::Line {
@@ -132,26 +124,24 @@ fn curves(rows: &[Row], rule: &str, name: &str) -> Panel {
             colour,
             width: 1.0,
         });
-        for first in strips(rows, rule, What::First) {
-            let is_it = first.cells == of[0].cells;
-            if let Some(at) = at(&first).filter(|_| is_it) {
-                let shape = match first.method.as_deref() {
-                    Some("verlet") => Shape::Cross,
-                    _ => Shape::Disc,
-                };
-                panel.layers.push(Layer::Mark {
-                    at,
-                    mark: Mark::new(shape, colour).hollow(),
-                    hover: String::new(),
-                });
-            }
-        }
-        if let (Some(at), Some(edge_m)) = (top, of[0].edge_m) {
-            let text = format!("{} mm", short(1e3 * edge_m, 3));
-            panel.layers.push(Layer::Label { at, text, colour });
-        }
+        let first = first.iter().filter(|row| row.cells == of[0].cells);
+        panel.layers.extend(first.filter_map(|row| {
+            let shape = match row.method.as_deref() {
+                Some("verlet") => Shape::Cross,
+                _ => Shape::Disc,
+            };
+            Some(Layer::Mark {
+                at: at(row)?,
+                mark: Mark::new(shape, colour).hollow(),
+                hover: String::new(),
+            })
+        }));
+        let text = format!("{} mm", short(edge_mm(of[0]), 3));
+        panel
+            .layers
+            .extend(top.map(|at| Layer::Label { at, text, colour }));
     }
-    fit_if_empty(panel)
+    panel
 }
 
 /// Largest and mean force against the length of edges.
@@ -164,28 +154,19 @@ fn sizes(rows: &[Row]) -> Panel {
         y: Axis::log("force, N"),
         ..Panel::default()
     };
-    for (i, (rule, name)) in RULES.into_iter().enumerate() {
-        for (what, width) in [(What::Largest, 2.0), (What::Mean, 0.8)] {
-            let colour: Colour = COLOURS[i];
-            let of = strips(rows, rule, what).into_iter();
-            let points = of.filter_map(|row| Some([1e3 * row.edge_m?, row.force_n?]));
-            let mut points: Vec<[f64; 2]> = points.filter(|[_, force]| *force > 0.0).collect();
+    for (rule, colour) in Rule::ALL.into_iter().zip(COLOURS) {
+        let mark = Mark::new(Shape::Disc, colour);
+        for (what, kind, width, mark) in [
+            (What::Largest, "largest", 2.0, mark),
+            (What::Mean, "mean", 0.8, mark.hollow()),
+        ] {
+            let mut points = forces(rows, rule, what);
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let kind = if what == What::Largest {
-                "largest"
-            } else {
-                "mean"
-            };
-            if let (Some(&at), Some(slope)) = (points.first(), slope(rows, rule, what)) {
-                let text = format!("{name}, {kind}: {slope:+.2}");
+            if let Some(slope) = slope(&points) {
+                let text = format!("{}, {kind}: {slope:+.2}", rule.name());
+                let at = points[0];
                 panel.layers.push(Layer::Label { at, text, colour });
             }
-            let mark = Mark::new(Shape::Disc, colour);
-            let mark = if what == What::Largest {
-                mark
-            } else {
-                mark.hollow()
-            };
             panel.layers.extend(points.iter().map(|&at| Layer::Mark {
                 at,
                 mark,
@@ -198,99 +179,51 @@ fn sizes(rows: &[Row]) -> Panel {
             });
         }
     }
-    fit_if_empty(panel)
-}
-
-fn fit_if_empty(panel: Panel) -> Panel {
-    match panel.layers.is_empty() {
-        true => Panel {
-            about: "no strip reached its end".to_owned(),
-            x: panel.x.from_to(1.0, 10.0),
-            y: panel.y.from_to(1.0, 10.0),
-            ..panel
-        },
-        false => panel,
-    }
-}
-
-/// The runs of a scene on a mesh.
-pub(super) struct Ensembles<'a> {
-    name: String,
-    rows: Vec<&'a Row>,
+    panel
 }
 
 /// The values of an ensemble, and whether every run has one.
 type Sample = (Vec<f64>, bool);
 
-/// The reference of a quantity: the names of two methods, and the values of their finest ensembles.
-pub(super) struct Reference {
-    pub(super) methods: [&'static str; 2],
-    pub(super) values: Vec<f64>,
+/// The ensembles of a scene on a mesh by one quantity.
+pub(super) struct Ensembles {
+    /// The scene and the mesh.
+    name: String,
+    /// The name of the quantity, with its unit.
+    quantity: &'static str,
+    /// For each method the samples at its step, at half and at a quarter of it.
+    methods: Vec<(DefaultMethod, [Sample; 3])>,
 }
 
-pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles<'_>> {
+/// The ensembles of a table, for each scene on a mesh by each quantity.
+pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
     let runs: Vec<&Row> = rows.iter().filter(|row| row.what == What::Run).collect();
-    let of = runs.chunk_by(|a, b| (a.scene, a.cells) == (b.scene, b.cells));
-    of.map(|rows| Ensembles {
-        name: format!("{} of {} cells", rows[0].scene.name(), rows[0].cells),
-        rows: rows.to_vec(),
-    })
-    .collect()
-}
-
-impl Ensembles<'_> {
-    fn methods(&self) -> Vec<&'static str> {
-        let is_there = |name: &&str| {
-            self.rows
-                .iter()
-                .any(|row| row.method.as_deref() == Some(*name))
-        };
-        DefaultMethod::NAMES.into_iter().filter(is_there).collect()
-    }
-
-    /// The samples of a method at its step, at half and at a quarter of it.
-    fn samples(&self, method: &str, (_, value): Quantity) -> [Sample; 3] {
-        [1, 2, 4].map(|divisor| {
-            let of = self.rows.iter().filter(|row| {
-                row.method.as_deref() == Some(method) && row.step_divisor == Some(divisor)
+    let groups = runs.chunk_by(|a, b| (a.scene, a.cells) == (b.scene, b.cells));
+    let all = groups.flat_map(|of| {
+        let name = format!("{} of {} cells", of[0].scene.name(), of[0].cells);
+        QUANTITIES.map(|(quantity, value)| {
+            let methods = of.chunk_by(|a, b| a.method == b.method).filter_map(|of| {
+                let samples = STEP_DIVISORS.map(|divisor| {
+                    let of = of.iter().filter(|row| row.step_divisor == Some(divisor));
+                    let values: Vec<f64> = of.clone().filter_map(|row| value(row)).collect();
+                    let is_whole = values.len() == of.count();
+                    (values, is_whole)
+                });
+                Some((DefaultMethod::named(of[0].method.as_deref()?)?, samples))
             });
-            let values: Vec<f64> = of.clone().filter_map(|row| value(row)).collect();
-            let is_whole = values.len() == of.count();
-            (values, is_whole)
-        })
-    }
-
-    /// The two methods that converged and whose finest ensembles have the same median, the closest pair if there
-    /// are several. Two methods that still change with their step agree by chance.
-    pub(super) fn reference(&self, quantity: Quantity) -> Option<Reference> {
-        let converged = self.methods().into_iter().filter_map(|method| {
-            let [_, half, quarter] = self.samples(method, quantity);
-            let is_same = compared(&half, &quarter)?.verdict == Verdict::Same;
-            is_same.then_some((method, quarter))
-        });
-        let converged: Vec<(&'static str, Sample)> = converged.collect();
-        let mut best: Option<(f64, Reference)> = None;
-        for (i, (name, one)) in converged.iter().enumerate() {
-            for (other_name, other) in &converged[i + 1..] {
-                let Some(found) = compared(one, other) else {
-                    continue;
-                };
-                let apart = found.ratio.ln().abs();
-                let is_closer = best.as_ref().is_none_or(|(least, _)| apart < *least);
-                if found.verdict == Verdict::Same && is_closer {
-                    let values = one.0.iter().chain(&other.0).copied().collect();
-                    let methods = [*name, *other_name];
-                    best = Some((apart, Reference { methods, values }));
-                }
+            Ensembles {
+                name: name.clone(),
+                quantity,
+                methods: methods.collect(),
             }
-        }
-        best.map(|(_, reference)| reference)
-    }
+        })
+    });
+    all.collect()
 }
 
 /// Compares two samples; `None` if either is empty. If some runs failed, no verdict is possible: those that are
 /// left are not a random choice.
-pub(super) fn compared(first: &Sample, second: &Sample) -> Option<Comparison> {
+fn compared(first: &Sample, second: &Sample) -> Option<Comparison> {
     if first.0.is_empty() || second.0.is_empty() {
         return None;
     }
@@ -301,151 +234,143 @@ pub(super) fn compared(first: &Sample, second: &Sample) -> Option<Comparison> {
     Some(comparison)
 }
 
-fn family(method: &str) -> Family {
-    let all = DefaultMethod::all().into_iter();
-    let mut named = all.filter(|one| one.name == method).map(|one| one.family);
-    named.next().unwrap_or(Family::Verlet)
-}
-
-fn ensemble_panel(ensembles: &Ensembles<'_>, quantity: Quantity) -> Panel {
-    let methods = ensembles.methods();
-    let reference = ensembles.reference(quantity);
-    let mut panel = Panel {
-        title: format!("{}: {}", ensembles.name, quantity.0),
-        about: match &reference {
-            Some(one) => format!("reference: the finest of {}", one.methods.join(" and ")),
-            None => "no reference: no two methods that converged agree".to_owned(),
-        },
-        y: Axis::linear(quantity.0),
-        ..Panel::default()
-    };
-    if let Some(reference) = &reference {
-        let [low, _, high] = spread(&reference.values);
-        panel.layers.push(Layer::Band {
-            y: low..high,
-            colour: PALE,
+impl Ensembles {
+    /// The reference: the two methods that converged and whose finest ensembles have the same median, the closest
+    /// pair if there are several, and the values of those. Two methods that still change with their step agree by
+    /// chance.
+    pub(super) fn reference(&self) -> Option<([&'static str; 2], Vec<f64>)> {
+        let converged = self.methods.iter().filter(|(_, [_, half, quarter])| {
+            compared(half, quarter).is_some_and(|found| found.verdict == Verdict::Same)
         });
+        let converged: Vec<_> = converged
+            .map(|(one, [.., finest])| (one.name, finest))
+            .collect();
+        let pairs = converged.iter().enumerate().flat_map(|(i, one)| {
+            let others = converged[i + 1..].iter();
+            others.filter_map(move |other| {
+                let found = compared(one.1, other.1)?;
+                let is_same = found.verdict == Verdict::Same;
+                is_same.then(|| (found.ratio.ln().abs(), one, other))
+            })
+        });
+        let (_, one, other) = pairs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(([one.0, other.0], [&one.1.0[..], &other.1.0].concat()))
     }
-    let mut names = Vec::new();
-    let mut all: Vec<f64> = Vec::new();
-    for (i, method) in methods.iter().enumerate() {
-        let samples = ensembles.samples(method, quantity);
-        let verdict = compared(&samples[0], &samples[1]).map(|found| found.verdict);
-        let sign = match verdict {
-            Some(Verdict::Same) => " =",
-            Some(Verdict::Differ) => " ≠",
-            Some(Verdict::CannotTell) => " ?",
-            None => "",
+
+    fn panel(&self) -> Panel {
+        let mut panel = Panel {
+            title: format!("{}: {}", self.name, self.quantity),
+            about: "no reference: no two methods that converged agree".to_owned(),
+            y: Axis::linear(self.quantity),
+            ..Panel::default()
         };
-        names.push(format!("{method}{sign}"));
-        for (j, (values, _)) in samples
-            .iter()
-            .enumerate()
-            .filter(|(_, one)| !one.0.is_empty())
-        {
-            let y = spread(values);
-            all.extend(y);
-            panel.layers.push(Layer::Interval {
-                x: i as f64 + 0.3 + 0.2 * j as f64,
-                y,
-                colour: family(method).mark().colour,
+        if let Some((methods, values)) = self.reference() {
+            panel.about = format!("reference: the finest of {}", methods.join(" and "));
+            let [low, _, high] = spread(&values);
+            panel.layers.push(Layer::Band {
+                y: low..high,
+                colour: PALE,
             });
         }
-    }
-    panel.x = Axis::named(names);
-    let (least, most) = all
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(least, most), &x| {
-            (least.min(x), most.max(x))
-        });
-    if least > 0.0 && most > 20.0 * least && most.is_finite() {
-        panel.y = Axis::log(quantity.0);
-    }
-    if all.is_empty() {
-        panel.y = panel.y.from_to(0.0, 1.0);
-    }
-    panel
-}
-
-fn summary(rows: &[Row]) -> String {
-    let mut text = conclusion(rows);
-    for ensembles in ensembles(rows) {
-        for quantity in QUANTITIES {
-            let reference = ensembles.reference(quantity);
-            let referred = match &reference {
-                Some(one) => format!("reference: the finest of {}", one.methods.join(" and ")),
-                None => "no reference, as no two methods that converged agree".to_owned(),
+        let mut names = Vec::new();
+        let [mut least, mut most] = [f64::INFINITY, 0.0];
+        for (i, (method, samples)) in self.methods.iter().enumerate() {
+            let verdict = compared(&samples[0], &samples[1]).map(|found| found.verdict);
+            let sign = match verdict {
+                Some(Verdict::Same) => " =",
+                Some(Verdict::Differ) => " ≠",
+                Some(Verdict::CannotTell) => " ?",
+                None => "",
             };
-            writeln!(text, "{}, {}; {referred}", ensembles.name, quantity.0)
-                .expect("a string grows");
-            for method in ensembles.methods() {
-                let samples = ensembles.samples(method, quantity);
-                let spreads = samples.each_ref().map(|(values, _)| match values[..] {
-                    [] => "unknown".to_owned(),
-                    _ => {
-                        let [low, middle, high] = spread(values).map(|x| short(x, 3));
-                        format!("{middle} ({low} to {high})")
-                    }
+            names.push(format!("{}{sign}", method.name));
+            for (j, (values, _)) in samples.iter().enumerate() {
+                if values.is_empty() {
+                    continue;
+                }
+                let y @ [low, _, high] = spread(values);
+                (least, most) = (low.min(least), high.max(most));
+                panel.layers.push(Layer::Interval {
+                    x: i as f64 + 0.3 + 0.2 * j as f64,
+                    y,
+                    colour: method.family.mark().colour,
                 });
-                let [whole, half, quarter] = spreads;
-                let verdict = compared(&samples[0], &samples[1]);
-                let verdict = verdict.map_or("unknown", |found| found.verdict.name());
-                let against = reference.as_ref().and_then(|one| {
-                    let found = compared(&(one.values.clone(), true), &samples[0])?;
-                    Some(format!("; against the reference: {}", found.verdict.name()))
-                });
-                writeln!(
-                    text,
-                    "  {method:<9} {whole:<26} {half:<26} {quarter:<26} half the step: {verdict}{}",
-                    against.unwrap_or_default()
-                )
-                .expect("a string grows");
             }
         }
+        panel.x = Axis::named(names);
+        if least > 0.0 && most > 20.0 * least && most.is_finite() {
+            panel.y = Axis::log(self.quantity);
+        }
+        panel
     }
-    text
+
+    fn words(&self) -> String {
+        let reference = self.reference();
+        let referred = match &reference {
+            Some((methods, _)) => format!("reference: the finest of {}", methods.join(" and ")),
+            None => "no reference, as no two methods that converged agree".to_owned(),
+        };
+        let mut text = format!("{}, {}; {referred}\n", self.name, self.quantity);
+        let reference = reference.map(|(_, values)| (values, true));
+        for (method, samples) in &self.methods {
+            let [whole, half, quarter] = samples.each_ref().map(|(values, _)| {
+                if values.is_empty() {
+                    return "unknown".to_owned();
+                }
+                let [low, middle, high] = spread(values).map(|x| short(x, 3));
+                format!("{middle} ({low} to {high})")
+            });
+            let verdict = |first: &Sample, second: &Sample| {
+                compared(first, second).map(|found| found.verdict.name())
+            };
+            let against = reference
+                .as_ref()
+                .and_then(|known| verdict(known, &samples[0]));
+            writeln!(
+                text,
+                "  {:<9} {whole:<26} {half:<26} {quarter:<26} half the step: {}{}",
+                method.name,
+                verdict(&samples[0], &samples[1]).unwrap_or("unknown"),
+                against.map_or(String::new(), |name| format!(
+                    "; against the reference: {name}"
+                ))
+            )
+            .expect("a string grows");
+        }
+        text
+    }
 }
 
 /// What the strips show; empty without strips.
 fn conclusion(rows: &[Row]) -> String {
-    let slopes = RULES.map(|(rule, _)| slope(rows, rule, What::Largest));
-    let [Some(stretch), Some(toughness)] = slopes else {
+    let largest = Rule::ALL.map(|rule| forces(rows, rule, What::Largest));
+    let [Some(stretch), Some(toughness)] = largest.each_ref().map(|points| slope(points)) else {
         return String::new();
     };
-    let [by_stretch, by_toughness] = RULES.map(|(rule, _)| {
-        let forces = strips(rows, rule, What::Largest).into_iter();
-        let forces = forces.filter_map(|row| Some(short(row.force_n?, 3)));
+    let [by_stretch, by_toughness] = largest.map(|points| {
+        let forces = points.iter().map(|[_, force]| short(*force, 3));
         forces.collect::<Vec<_>>().join(" / ")
     });
-    let mut text = format!(
-        "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {by_stretch} N, slope \
-         {stretch:+.2} over the edge length. By toughness it is {by_toughness} N, slope {toughness:+.2}: where \
-         forces matter, use --toughness.\n"
-    );
-    let spreads: Vec<f64> = RULES
-        .iter()
-        .flat_map(|(rule, _)| first_tear_spreads(rows, rule))
-        .collect();
+    let spreads = first_tear_spreads(rows);
     let agree = spreads
         .iter()
         .filter(|spread| **spread <= AGREEMENT)
         .count();
-    writeln!(
-        text,
-        "At the first tear, forces by Verlet and by XPBD, each at Δt and Δt/2, are within {:.0} % of each other in \
-         {agree} of {} tests, and {:.1} % apart at most.",
+    format!(
+        "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {by_stretch} N, slope \
+         {stretch:+.2} over the edge length. By toughness it is {by_toughness} N, slope {toughness:+.2}: where \
+         forces matter, use --toughness.\n\
+         At the first tear, forces by Verlet and by XPBD, each at Δt and Δt/2, are within {:.0} % of each other in \
+         {agree} of {} tests, and {:.1} % apart at most.\n",
         100.0 * AGREEMENT,
         spreads.len(),
         100.0 * spreads.iter().copied().fold(0.0, f64::max),
     )
-    .expect("a string grows");
-    text
 }
 
 /// For each strip, largest/smallest − 1 of the forces of its first tear.
-pub(super) fn first_tear_spreads(rows: &[Row], rule: &str) -> Vec<f64> {
-    let first = strips(rows, rule, What::First);
-    let of = first.chunk_by(|a, b| a.cells == b.cells);
+pub(super) fn first_tear_spreads(rows: &[Row]) -> Vec<f64> {
+    let first: Vec<&Row> = rows.iter().filter(|row| row.what == What::First).collect();
+    let of = first.chunk_by(|a, b| (a.rule, a.cells) == (b.rule, b.cells));
     of.map(|rows| {
         let forces = || rows.iter().filter_map(|row| row.force_n);
         let least = forces().fold(f64::INFINITY, f64::min);
