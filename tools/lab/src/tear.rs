@@ -22,7 +22,7 @@ mod chart;
 mod scene;
 
 pub use self::scene::EnsembleScene;
-pub(crate) use self::scene::STRIP_M;
+pub(crate) use self::scene::{STRIP_M, grid};
 
 use std::num::NonZero;
 

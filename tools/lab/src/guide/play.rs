@@ -4,22 +4,23 @@ use std::num::NonZero;
 use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{Mesh, Point, Positions, Vector, VertexId, shapes};
+use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit::{self, Tolerance};
 use tearmesh_cloth::scene::ensemble::Disturbance;
 use tearmesh_cloth::scene::{Axis, Chronicle, FRAME_S, Frame, Method, Run, Scene};
 use tearmesh_cloth::statistics::{Random, median};
 
 use crate::experiment::{Bounds, Status};
-use crate::method::DefaultMethod;
+use crate::method::{DEFAULT, DefaultMethod};
 use crate::pareto::status_of;
-use crate::tear::STRIP_M;
+use crate::tear::{STRIP_M, grid};
 
 /// The topic of a panel: a scene, and what is asked about it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Topic {
     /// The shape at rest of a sheet that hangs by two corners.
+    #[default]
     Hang,
     /// The mean place and the spread of the free corner of a flag, before it is cut.
     Flag,
@@ -70,21 +71,9 @@ impl Topic {
         }
     }
 
-    /// The number by which the first reference divides the step of Verlet's method. For a flag chance is larger
-    /// than what a shorter step changes.
-    fn reference_divisor(self) -> NonZero<u32> {
-        match self {
-            Topic::Flag => HALF,
-            _ => HALF.saturating_mul(HALF).saturating_mul(HALF),
-        }
-    }
-
-    /// The time at which the pull begins, in seconds.
-    fn pull_begins_s(self) -> f64 {
-        match self {
-            Topic::Rip | Topic::Aftermath => 0.5,
-            Topic::Hang | Topic::Flag | Topic::Trouser => 0.0,
-        }
+    /// Whether the topic is about a single event, the first tear.
+    fn is_first_tear(self) -> bool {
+        matches!(self, Topic::Rip | Topic::Trouser)
     }
 }
 
@@ -92,11 +81,15 @@ impl Topic {
 /// is compared.
 const REST_S: f64 = 3.0;
 
+/// The name of Newton's method of second order in tables, with each step solved to convergence.
+pub(super) const BDF2: &str = "bdf2";
+
 /// The purpose of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
     /// A method at its default or at a multiple of its default step.
+    #[default]
     Method,
     /// The reference that errors are relative to.
     Reference,
@@ -108,6 +101,67 @@ pub enum Role {
     Mesh,
 }
 
+/// A run with its errors. A row without a result is the key of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// The topic.
+    pub topic: Topic,
+    /// The number of cells along the longest side.
+    pub cells: u32,
+    /// The seed of the diagonals of the mesh.
+    pub diagonals: u64,
+    /// The purpose of the run.
+    pub role: Role,
+    /// The method, as on the command line, or [`BDF2`].
+    pub method: String,
+    /// The step as a multiple of the default step; `None` for the default.
+    pub step_multiple: Option<f64>,
+    /// The seed of the noise at the start; 0 for none.
+    pub seed: u64,
+    /// The way in which the run ended.
+    pub status: Status,
+    /// The step, in seconds.
+    pub dt_s: Option<f64>,
+    /// The CPU time per simulated second: the median of five equal parts of the run.
+    pub cpu_s_per_s: Option<f64>,
+    /// The torn length at the end, in metres.
+    pub torn_m: Option<f64>,
+    /// The work of all holds until the end, in joules.
+    pub work_j: Option<f64>,
+    /// The error relative to the reference; for a flag that of the whole ensemble, as its median over resampled
+    /// seeds.
+    pub error: Option<f64>,
+    /// The 10 % and 90 % points of the error over resampled seeds.
+    pub error_low: Option<f64>,
+    /// See `error_low`.
+    pub error_high: Option<f64>,
+    /// The distance between the references.
+    pub error_floor: Option<f64>,
+    /// The median error of the meshes with other diagonals.
+    pub error_mesh: Option<f64>,
+    /// The distance between the runs of the gate by what the topic is about.
+    pub error_noise: Option<f64>,
+    /// The rms distance between the positions in the runs of the gate, divided by the noise.
+    pub noise_amplification: Option<f64>,
+    /// The reason of a failure.
+    pub why: String,
+}
+
+impl Row {
+    /// What the runs of an ensemble have in common.
+    pub(super) fn ensemble(&self) -> (Topic, u32, u64, Role, &str, Option<f64>) {
+        let (topic, cells, diagonals) = (self.topic, self.cells, self.diagonals);
+        (
+            topic,
+            cells,
+            diagonals,
+            self.role,
+            &self.method,
+            self.step_multiple,
+        )
+    }
+}
+
 /// A scene on a mesh.
 #[derive(Debug)]
 pub(super) struct Stage {
@@ -117,48 +171,47 @@ pub(super) struct Stage {
     mesh: Mesh,
     positions: Positions,
     frame: Frame,
-    /// The shape at rest, for [`Topic::Hang`]; `None` if it was not found.
-    rest: OnceLock<Option<Vec<Point>>>,
+    /// The shape at rest, for [`Topic::Hang`].
+    rest: OnceLock<Result<Vec<Point>, End>>,
 }
 
-/// How a run went.
+/// The way in which a run ended before it was measured, and the reason.
+type End = (Status, String);
+
+/// A run: its row without errors, and what errors are computed from.
 #[derive(Clone, Debug)]
 pub struct Play {
-    pub(super) status: Status,
-    pub(super) why: String,
-    pub(super) dt_s: f64,
-    pub(super) cpu_s_per_s: Option<f64>,
-    /// What was measured; `None` if the run did not reach its end.
-    pub(super) measured: Option<Measured>,
-}
-
-/// What was measured of a run.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Measured {
-    pub(super) first_tear_s: Option<f64>,
-    pub(super) first_force_n: Option<f64>,
-    pub(super) torn_m: Option<f64>,
-    pub(super) work_j: Option<f64>,
-    pub(super) corner: Option<Corner>,
-    /// The time from which on the first tear is counted, in seconds.
-    pull_begins_s: f64,
-    /// Displacements from the flat sheet, for the shape at rest.
-    shape: Vec<Vector>,
+    pub(super) row: Row,
+    /// `None` if the run did not reach its end, and for [`Topic::Aftermath`].
+    pub(super) answer: Option<Answer>,
     /// The positions at the last whole frame before the end.
     last: Vec<Point>,
 }
 
-/// The motion of the free corner of a flag.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
-    mean: Vector,
-    pub(super) away_m: f64,
-    pub(super) spread_m: f64,
+/// What a topic is about, as measured in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Answer {
+    /// The displacements from the flat sheet.
+    Shape(Vec<Vector>),
+    /// The mean displacement of the free corner of a flag, and the rms distance from it in metres.
+    Corner(Vector, f64),
+    /// The time from the begin of the pull to the first tear in seconds, and the force in newtons if the method
+    /// knows it.
+    FirstTear(f64, Option<f64>),
 }
 
-impl Measured {
+impl Play {
+    /// A run that has not begun.
+    pub(super) fn new(key: &Row) -> Play {
+        Play {
+            row: key.clone(),
+            answer: None,
+            last: Vec::new(),
+        }
+    }
+
     /// The rms distance between the last positions of two runs, in metres; `None` if either has none.
-    pub(super) fn apart_m(&self, other: &Measured) -> Option<f64> {
+    pub(super) fn apart_m(&self, other: &Play) -> Option<f64> {
         let pairs = self.last.iter().zip(&other.last);
         let squares: Vec<f64> = pairs.map(|(p, q)| (p - q).norm_squared()).collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
@@ -170,53 +223,57 @@ impl Measured {
 ///
 /// For a tear it is the larger of the errors of its time and of its force, if the method knows its force. For a
 /// flag it is the larger of those of the mean place of the corner and of its spread.
-pub(super) fn error(ensemble: &[Measured], reference: &[Measured]) -> Option<f64> {
-    let (one, known) = (ensemble.first()?, reference.first()?);
-    if let (Some(time_s), Some(known_s)) = (one.first_tear_s, known.first_tear_s) {
-        let late = (time_s - known_s).abs() / (known_s - known.pull_begins_s);
-        let force = one.first_force_n.zip(known.first_force_n);
-        return Some(force.map_or(late, |(force, known)| late.max((force / known - 1.0).abs())));
+pub(super) fn error(ensemble: &[&Answer], reference: &[&Answer]) -> Option<f64> {
+    match (*ensemble.first()?, *reference.first()?) {
+        (Answer::FirstTear(time_s, force_n), Answer::FirstTear(known_s, known_n)) => {
+            let late = (time_s - known_s).abs() / known_s;
+            let force = force_n.zip(*known_n);
+            Some(force.map_or(late, |(force, known)| late.max((force / known - 1.0).abs())))
+        }
+        (Answer::Shape(shape), Answer::Shape(known)) => {
+            let apart: f64 = shape
+                .iter()
+                .zip(known)
+                .map(|(a, b)| (a - b).norm_squared())
+                .sum();
+            let whole: f64 = known.iter().map(Vector::norm_squared).sum();
+            Some(apart.sqrt() / whole.sqrt())
+        }
+        (Answer::Corner(..), Answer::Corner(..)) => {
+            let [(mean, spread_m, _), (known, known_m, away_m)] = [ensemble, reference].map(pooled);
+            Some(((mean - known).norm() / away_m).max((spread_m / known_m - 1.0).abs()))
+        }
+        _ => None,
     }
-    if !one.shape.is_empty() {
-        let norm =
-            |of: &mut dyn Iterator<Item = Vector>| of.map(|v| v.norm_squared()).sum::<f64>().sqrt();
-        let mut apart = one.shape.iter().zip(&known.shape).map(|(a, b)| a - b);
-        return Some(norm(&mut apart) / norm(&mut known.shape.iter().copied()));
-    }
-    let corner = |of: &[Measured]| -> Option<(Vector, f64, f64)> {
-        let corners: Vec<Corner> = of.iter().filter_map(|one| one.corner).collect();
-        let count = NonZero::new(corners.len())?.get() as f64;
-        let mean = corners.iter().map(|one| one.mean).sum::<Vector>() / count;
-        let within = corners.iter().map(|one| one.spread_m.powi(2)).sum::<f64>() / count;
-        let among = corners
-            .iter()
-            .map(|one| (one.mean - mean).norm_squared())
-            .sum::<f64>()
-            / count;
-        let away_m = corners.iter().map(|one| one.away_m).sum::<f64>() / count;
-        Some((mean, (within + among).sqrt(), away_m))
-    };
-    let ((mean, spread, _), (known, known_spread, away_m)) =
-        (corner(ensemble)?, corner(reference)?);
-    Some(((mean - known).norm() / away_m).max((spread / known_spread - 1.0).abs()))
+}
+
+/// The mean place and the spread of the corner over an ensemble, and its mean distance from where it is at rest.
+fn pooled(ensemble: &[&Answer]) -> (Vector, f64, f64) {
+    let corners = ensemble.iter().filter_map(|answer| match answer {
+        Answer::Corner(mean, spread_m) => Some((*mean, *spread_m)),
+        _ => None,
+    });
+    let corners: Vec<(Vector, f64)> = corners.collect();
+    let count = corners.len() as f64;
+    let mean = corners.iter().map(|(place, _)| place).sum::<Vector>() / count;
+    let average = |of: &dyn Fn(&(Vector, f64)) -> f64| corners.iter().map(of).sum::<f64>() / count;
+    let within = average(&|(_, spread_m)| spread_m.powi(2));
+    let among = average(&|(place, _)| (place - mean).norm_squared());
+    (
+        mean,
+        (within + among).sqrt(),
+        average(&|(place, _)| place.norm()),
+    )
 }
 
 impl Stage {
     pub(super) fn new(topic: Topic, cells: u32, diagonals: u64) -> Stage {
         let mut random = Random::new(diagonals);
-        let across = if topic == Topic::Trouser {
-            cells / 2
-        } else {
-            cells
+        let (across, size_m) = match topic {
+            Topic::Trouser => (cells / 2, STRIP_M),
+            _ => (cells, [1.0; 2]),
         };
-        let (mesh, unit) = shapes::grid_with_diagonals(across, cells, |_, _| random.next() < 0.5);
-        let [width, height] = match topic {
-            Topic::Trouser => STRIP_M,
-            _ => [1.0; 2],
-        };
-        let points = unit.as_slice().iter();
-        let points = points.map(|p| Point::new(width * p.x, height * p.y, 0.0));
-        let positions = Positions::new(points).expect("a sheet's coordinates are finite");
+        let (mesh, positions) = grid([across, cells], size_m, |_, _| random.next() < 0.5);
         let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
         Stage {
             topic,
@@ -230,16 +287,15 @@ impl Stage {
     }
 
     /// An estimate of the CPU time of a run, in seconds, from those of sheets of 32 cells.
-    pub(super) fn guess_s(&self, role: Role, method: &str, step_multiple: Option<f64>) -> f64 {
+    pub(super) fn guess_s(&self, key: &Row) -> f64 {
         let finer = f64::from(self.cells) / 32.0;
-        let (seconds, factor) = match self.topic {
-            Topic::Hang => (REST_S, 1.0),
-            Topic::Flag => (1.5, 3.0),
-            Topic::Rip => (0.3, 1.0),
-            Topic::Trouser => (2.0, 4.0),
-            Topic::Aftermath => (3.0, 1.5),
+        let seconds = match self.topic {
+            Topic::Hang => 3.0,
+            Topic::Flag | Topic::Aftermath => 4.5,
+            Topic::Rip => 0.3,
+            Topic::Trouser => 8.0,
         };
-        let a_second = match (role, method) {
+        let a_second = match (key.role, &*key.method) {
             (Role::Second, _) => 1.5,
             (Role::Reference, _) => 1.2,
             (_, "xpbd") => 0.05,
@@ -248,66 +304,138 @@ impl Stage {
             (_, "provot") => 0.4,
             _ => 0.15,
         };
-        factor * a_second * seconds * finer.powi(3) / step_multiple.unwrap_or(1.0)
+        a_second * seconds * finer.powi(3) / key.step_multiple.unwrap_or(1.0)
     }
 
     /// Plays the scene. Returns `None` if it was interrupted.
-    pub(super) fn play(
-        &self,
-        role: Role,
-        method: usize,
-        step_multiple: Option<f64>,
-        seed: u64,
-        bounds: &Bounds<'_>,
-    ) -> Option<Play> {
-        let rest = match self.topic {
-            Topic::Hang => self.rest.get_or_init(|| self.shape_at_rest(bounds.stop)),
-            _ => &None,
+    pub(super) fn play(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Play> {
+        let mut play = Play::new(key);
+        let end = self.measure(&mut play, bounds).err();
+        (play.row.status, play.row.why) = end.unwrap_or((Status::Ok, String::new()));
+        (play.row.status != Status::Interrupted).then_some(play)
+    }
+
+    /// Takes a run to its end, or to its first tear if the topic is that.
+    fn measure(&self, play: &mut Play, bounds: &Bounds<'_>) -> Result<(), End> {
+        let flat = self.positions.as_slice();
+        let mut rest = None;
+        if self.topic == Topic::Hang {
+            let shape = self.rest.get_or_init(|| self.shape_at_rest(bounds.stop));
+            let shape = shape.as_ref().map_err(End::clone)?;
+            if let Role::Reference | Role::Mesh = play.row.role {
+                let shape = shape.iter().zip(flat).map(|(p, flat)| p - flat);
+                play.answer = Some(Answer::Shape(shape.collect()));
+                play.row.dt_s = Some(REST_STEP_S);
+                return Ok(());
+            }
+            rest = Some(&shape[..]);
+        }
+        let mut run = self.begin(&play.row, rest)?;
+        play.row.dt_s = Some(run.step_s());
+        let before_m = run.torn_length_m();
+        let mut chronicle = Chronicle::new(&run);
+        let (mut frames, mut times_s) = (Vec::new(), Vec::new());
+        while !run.is_over() {
+            if (bounds.stop)() {
+                return Err((Status::Interrupted, String::new()));
+            }
+            let (began, frame) = (bounds.now(), (run.elapsed_s() / FRAME_S) as u64);
+            let step = run.step();
+            times_s.push(bounds.now().saturating_sub(began).as_secs_f64());
+            chronicle.note(
+                &run,
+                &step.map_err(|error| (status_of(&error), error.to_string()))?,
+            );
+            if self.topic.is_first_tear() && chronicle.first_tear().is_some() {
+                break;
+            }
+            if (run.elapsed_s() / FRAME_S) as u64 > frame {
+                frames.push(run.cloth().positions().to_vec());
+            }
+        }
+        let later = &frames[frames.len() / 2..];
+        let displaced = |v: usize| later.iter().map(move |points| points[v] - flat[v]);
+        let mean = |v: usize| displaced(v).sum::<Vector>() / later.len() as f64;
+        play.answer = match self.topic {
+            Topic::Hang => Some(Answer::Shape((0..flat.len()).map(mean).collect())),
+            Topic::Flag => {
+                // The lower right one: the pole is on the left.
+                let corner = self.cells as usize;
+                let mean = mean(corner);
+                let squares: f64 = displaced(corner).map(|at| (at - mean).norm_squared()).sum();
+                Some(Answer::Corner(mean, (squares / later.len() as f64).sqrt()))
+            }
+            Topic::Rip | Topic::Trouser => {
+                let nothing = || (Status::Restless, "nothing tore".to_owned());
+                let first = chronicle.first_tear().ok_or_else(nothing)?;
+                // The hand of a rip begins to pull after half a second.
+                let begins_s = if self.topic == Topic::Rip { 0.5 } else { 0.0 };
+                Some(Answer::FirstTear(
+                    first.event.time_s - begins_s,
+                    first.force_n,
+                ))
+            }
+            Topic::Aftermath => {
+                play.row.torn_m = Some(run.torn_length_m() - before_m);
+                let force_n = chronicle.largest_force_n();
+                play.row.work_j = force_n.map(|_| run.energy_balance().held_j);
+                None
+            }
         };
-        if self.topic == Topic::Hang && rest.is_none() && (bounds.stop)() {
-            return None;
+        play.last = frames.pop().unwrap_or_default();
+        if bounds.clock.is_some() {
+            play.row.cpu_s_per_s = cpu_s_per_s(&times_s, run.step_s());
         }
-        if let (Some(rest), Role::Reference | Role::Mesh) = (rest, role) {
-            return Some(self.known(rest));
+        Ok(())
+    }
+
+    /// The run of a key that is about to begin.
+    fn begin(&self, key: &Row, rest: Option<&[Point]>) -> Result<Run, End> {
+        let by = |name: &str| Scene {
+            solver: match DefaultMethod::named(name) {
+                Some(method) => method.settings,
+                None => bdf2(self.topic),
+            },
+            ..self.topic.scene(&self.frame)
+        };
+        let mut scene = by(&key.method);
+        let (name, multiple) = match &*key.method {
+            // It takes longer steps than Verlet's method by as much as its order allows.
+            BDF2 => (DEFAULT, Some(2.0)),
+            name => (name, key.step_multiple),
+        };
+        if let Some(multiple) = multiple {
+            scene.step_s = Some(multiple * self.run(by(name), 0, None)?.step_s());
         }
-        let mut scene = self.topic.scene(&self.frame);
-        let mut divisor = NonZero::<u32>::MIN;
-        match role {
-            Role::Method | Role::Mesh | Role::Gate => {
-                scene.solver = DefaultMethod::all()[method].settings.clone();
-            }
-            // The second reference of a shape at rest keeps it by a method that did not find it.
-            Role::Second if self.topic == Topic::Hang => divisor = HALF,
-            Role::Reference => divisor = self.topic.reference_divisor(),
-            Role::Second => {
-                scene.step_s = Some(2.0 * self.run(scene.clone(), 0, None)?.step_s());
-                scene.solver = bdf2(self.topic);
-            }
-        }
-        if let Some(multiple) = step_multiple {
-            scene.step_s = Some(multiple * self.run(scene.clone(), 0, None)?.step_s());
-        }
-        let run = self.run(scene, seed, rest.as_deref())?;
-        self.measure(run.in_smaller_steps(divisor), bounds)
+        let divisor = match (key.role, self.topic) {
+            // For a flag chance is larger than what a shorter step changes. A shape at rest is kept by a method
+            // that did not find it.
+            (Role::Reference, Topic::Flag) | (Role::Second, Topic::Hang) => 2,
+            (Role::Reference, _) => 8,
+            _ => 1,
+        };
+        let run = self.run(scene, key.seed, rest)?;
+        Ok(run.in_smaller_steps(NonZero::new(divisor).unwrap_or(NonZero::<u32>::MIN)))
     }
 
     /// A run that is about to begin: with noise unless the seed is 0, in a given shape if there is one.
-    fn run(&self, scene: Scene, seed: u64, shape: Option<&[Point]>) -> Option<Run> {
+    fn run(&self, scene: Scene, seed: u64, shape: Option<&[Point]>) -> Result<Run, End> {
         let flat = self.positions.as_slice();
         let disturbance = (seed > 0).then(|| Disturbance::new(&self.mesh, seed));
         let mesh = disturbance.as_ref().map_or(&self.mesh, |one| &one.mesh);
-        let run = Run::new(mesh.clone(), &self.positions, scene, &self.frame).ok()?;
         let offset_m = |v: VertexId| {
             let noise = disturbance.as_ref().map(|one| one.offsets_m[v.index()]);
             let shape = shape.map(|shape| shape[v.index()] - flat[v.index()]);
             noise.unwrap_or_default() + shape.unwrap_or_default()
         };
-        run.displaced(offset_m).ok()
+        let run = Run::new(mesh.clone(), &self.positions, scene, &self.frame);
+        let run = run.map_err(|error| (Status::Failed, error.to_string()))?;
+        let run = run.displaced(offset_m);
+        run.map_err(|error| (Status::Failed, error.to_string()))
     }
 
-    /// The shape at rest: by implicit steps with much drag, from a sheet that bulges a little. `None` if it does
-    /// not come to rest or `stop` returns true.
-    fn shape_at_rest(&self, stop: &dyn Fn() -> bool) -> Option<Vec<Point>> {
+    /// The shape at rest: by implicit steps with much drag, from a sheet that bulges a little.
+    fn shape_at_rest(&self, stop: &dyn Fn() -> bool) -> Result<Vec<Point>, End> {
         let settings = implicit::Settings {
             tolerance: Tolerance::Fixed(1e-8),
             newton_iterations_max: 40,
@@ -315,7 +443,7 @@ impl Stage {
         };
         let scene = Scene {
             solver: Method::Implicit(settings),
-            step_s: Some(0.02),
+            step_s: Some(REST_STEP_S),
             drag_per_s: 20.0,
             duration_s: 100.0,
             ..self.topic.scene(&self.frame)
@@ -324,131 +452,27 @@ impl Stage {
         let bulged =
             bulged.map(|p| Point::new(p.x, p.y, 0.01 * (3.0 * p.x).sin() * (2.0 * p.y).cos()));
         let mut run = self.run(scene, 0, Some(&bulged.collect::<Vec<_>>()))?;
-        while !run.is_over() && !stop() {
-            run.step().ok()?;
+        while !run.is_over() {
+            if stop() {
+                return Err((Status::Interrupted, String::new()));
+            }
+            let step = run.step();
+            step.map_err(|error| (status_of(&error), error.to_string()))?;
             let system = run.cloth().system();
             let speeds = system.velocities().iter().map(|v| v.norm());
             if speeds.fold(0.0, f64::max) < AT_REST_M_PER_S {
-                return Some(system.positions().to_vec());
+                return Ok(system.positions().to_vec());
             }
         }
-        None
-    }
-
-    /// A reference that was not played: the shape at rest.
-    fn known(&self, rest: &[Point]) -> Play {
-        let flat = self.positions.as_slice();
-        let shape = rest.iter().zip(flat).map(|(p, flat)| p - flat);
-        Play {
-            status: Status::Ok,
-            why: String::new(),
-            dt_s: 0.02,
-            cpu_s_per_s: None,
-            measured: Some(Measured {
-                shape: shape.collect(),
-                ..Measured::default()
-            }),
-        }
-    }
-
-    /// Takes a run to its end: its last moment, or its first tear if the topic is that.
-    fn measure(&self, mut run: Run, bounds: &Bounds<'_>) -> Option<Play> {
-        let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
-        let mut measured = Measured {
-            pull_begins_s: self.topic.pull_begins_s(),
-            ..Measured::default()
-        };
-        let mut chronicle = Chronicle::new(&run);
-        let mut places: Vec<Vec<Point>> = Vec::new();
-        let mut times: Vec<f64> = Vec::new();
-        let before_m = run.torn_length_m();
-        let mut play = Play {
-            status: Status::Ok,
-            why: String::new(),
-            dt_s: run.step_s(),
-            cpu_s_per_s: None,
-            measured: None,
-        };
-        while !run.is_over() {
-            if (bounds.stop)() {
-                return None;
-            }
-            let (began, frame) = (bounds.now(), (run.elapsed_s() / FRAME_S) as u64);
-            let step = run.step();
-            times.push(bounds.now().saturating_sub(began).as_secs_f64());
-            match step {
-                Ok(step) => chronicle.note(&run, &step),
-                Err(error) => {
-                    play.status = status_of(&error);
-                    play.why = error.to_string();
-                    return Some(play);
-                }
-            }
-            if is_first_tear && chronicle.first_tear().is_some() {
-                break;
-            }
-            if (run.elapsed_s() / FRAME_S) as u64 > frame {
-                measured.last.clone_from(&run.cloth().positions().to_vec());
-                if matches!(self.topic, Topic::Hang | Topic::Flag) {
-                    places.push(measured.last.clone());
-                }
-            }
-        }
-        if is_first_tear && chronicle.first_tear().is_none() {
-            play.status = Status::Restless;
-            play.why = "nothing tore".to_owned();
-            return Some(play);
-        }
-        play.cpu_s_per_s = bounds.clock.and_then(|_| cpu_s_per_s(&times, run.step_s()));
-        let first = chronicle.first_tear().filter(|_| is_first_tear);
-        measured.first_tear_s = first.map(|first| first.event.time_s);
-        measured.first_force_n = first.and_then(|first| first.force_n);
-        if self.topic == Topic::Aftermath {
-            measured.torn_m = Some(run.torn_length_m() - before_m);
-            let knows_force = chronicle.largest_force_n().is_some();
-            measured.work_j = knows_force.then(|| run.energy_balance().held_j);
-        }
-        let later = &places[places.len() / 2..];
-        match self.topic {
-            Topic::Hang => measured.shape = self.mean_displacements(later),
-            Topic::Flag => measured.corner = self.corner(later),
-            Topic::Rip | Topic::Trouser | Topic::Aftermath => {}
-        }
-        play.measured = Some(measured);
-        Some(play)
-    }
-
-    fn mean_displacements(&self, places: &[Vec<Point>]) -> Vec<Vector> {
-        let flat = self.positions.as_slice().iter().enumerate();
-        let mean = flat.map(|(v, flat)| {
-            let sum: Vector = places.iter().map(|points| points[v] - flat).sum();
-            sum / places.len() as f64
-        });
-        mean.collect()
-    }
-
-    /// The motion of the lower corner that is farthest from the pole.
-    fn corner(&self, places: &[Vec<Point>]) -> Option<Corner> {
-        let flat = self.positions.as_slice();
-        let out = |p: &Point| p.x - p.y;
-        let corner = (0..flat.len()).max_by(|&a, &b| out(&flat[a]).total_cmp(&out(&flat[b])))?;
-        let count = NonZero::new(places.len())?.get() as f64;
-        let mean = places
-            .iter()
-            .map(|points| points[corner] - flat[corner])
-            .sum::<Vector>()
-            / count;
-        let off = |points: &Vec<Point>| (points[corner] - flat[corner] - mean).norm_squared();
-        Some(Corner {
-            mean,
-            away_m: mean.norm(),
-            spread_m: (places.iter().map(off).sum::<f64>() / count).sqrt(),
-        })
+        Err((
+            Status::Restless,
+            "the sheet does not come to rest".to_owned(),
+        ))
     }
 }
 
-/// A divisor of steps.
-const HALF: NonZero<u32> = NonZero::<u32>::MIN.saturating_add(1);
+/// The step by which the shape at rest is found, in seconds.
+const REST_STEP_S: f64 = 0.02;
 
 /// The speed of the fastest particle at which a sheet is at rest.
 const AT_REST_M_PER_S: f64 = 1e-7;

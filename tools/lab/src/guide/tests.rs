@@ -1,7 +1,7 @@
 //! Errors against answers worked out by hand, and a page that has a row for every run.
 
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
 use crate::pool::workers;
 
 fn guide() -> Guide {
@@ -72,7 +72,8 @@ fn an_interrupted_page_has_a_row_for_each_run() {
 
 #[test]
 fn interval_of_equal_members_is_their_error_and_of_none_nothing() {
-    let members = vec![Measured::default(); 5];
+    let member = Answer::FirstTear(1.0, None);
+    let members = vec![&member; 5];
     assert_eq!(
         resampled(&members, |of| Some(of.len() as f64)),
         Some([5.0; 3])
