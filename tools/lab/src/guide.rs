@@ -146,12 +146,8 @@ impl Experiment for Guide {
     type Row = Row;
 
     fn command(&self) -> String {
-        let Options {
-            cells,
-            seeds,
-            diagonals,
-            ..
-        } = self.options;
+        let options = &self.options;
+        let (cells, seeds, diagonals) = (options.cells, options.seeds, options.diagonals);
         format!("tearmesh chart guide --size {cells} --seeds {seeds} --diagonals {diagonals}")
     }
 

@@ -1,6 +1,6 @@
-//! The page: a panel per question, and under each what to type.
+//! The page: a panel per topic or quantity, and under each what to type.
 
-use std::fmt::Write as _;
+use std::ops::Range;
 
 use tearmesh_cloth::statistics::{median, spread};
 
@@ -14,53 +14,24 @@ use crate::plot::{Axis, Figure, Layer, Mark, PALE, Panel, Strip, short};
 const LOOK: f64 = 0.2;
 const FORCES: f64 = 0.05;
 
-/// What a panel is about.
-struct Question {
-    topic: Topic,
-    title: &'static str,
-    /// The label of the vertical axis.
-    label: &'static str,
-    /// The quantity along the vertical axis; `None` for the error.
-    value: Option<fn(&Row) -> Option<f64>>,
-}
+/// The topics of panels of errors, and their titles.
+const ERRORS: [(Topic, &str); 4] = [
+    (Topic::Hang, "hang: the shape at rest"),
+    (
+        Topic::Flag,
+        "flag: where the free corner is, and how far it swings",
+    ),
+    (Topic::Rip, "rip: time and force of the first tear"),
+    (Topic::Trouser, "trouser: time and force of the first tear"),
+];
 
-const QUESTIONS: [Question; 6] = [
-    Question {
-        topic: Topic::Hang,
-        title: "hang: the shape at rest",
-        label: "error, %",
-        value: None,
-    },
-    Question {
-        topic: Topic::Flag,
-        title: "flag: where the free corner is, and how far it swings",
-        label: "error, %",
-        value: None,
-    },
-    Question {
-        topic: Topic::Rip,
-        title: "rip: time and force of the first tear",
-        label: "error, %",
-        value: None,
-    },
-    Question {
-        topic: Topic::Trouser,
-        title: "trouser: time and force of the first tear",
-        label: "error, %",
-        value: None,
-    },
-    Question {
-        topic: Topic::Aftermath,
-        title: "After the first tear of rip: torn length, m",
-        label: "torn length, m",
-        value: Some(|row| row.torn_m),
-    },
-    Question {
-        topic: Topic::Aftermath,
-        title: "After the first tear of rip: work of the hand, J",
-        label: "work of the hand, J",
-        value: Some(|row| row.work_j),
-    },
+/// A quantity of a run.
+type Quantity = fn(&Row) -> Option<f64>;
+
+/// The quantities of [`Topic::Aftermath`], each with a panel of its own.
+const QUANTITIES: [(&str, Quantity); 2] = [
+    ("torn length, m", |row| row.torn_m),
+    ("work of the hand, J", |row| row.work_j),
 ];
 
 /// A method at one step: all runs of it.
@@ -74,12 +45,16 @@ struct Point<'a> {
     y: Option<[f64; 3]>,
 }
 
-/// A panel's points on the finest mesh and on one of half as many cells, and the values on other diagonals.
+/// A panel's points on the finest mesh, and on one of half as many cells.
 struct Section<'a> {
-    question: &'static Question,
+    title: String,
+    /// The label of the vertical axis.
+    label: &'static str,
+    is_error: bool,
     fine: Vec<Point<'a>>,
     coarse: Vec<Point<'a>>,
-    on_meshes: Vec<f64>,
+    /// What other diagonals of the mesh leave.
+    band: Option<Range<f64>>,
 }
 
 impl Chart for Guide {
@@ -111,12 +86,9 @@ impl Chart for Guide {
     fn summary(&self, rows: &[Row]) -> String {
         let sections = sections(rows);
         let mut text = title(&sections) + "\n";
-        for section in sections.iter().filter(|one| one.question.value.is_none()) {
-            writeln!(text, "{} ({})", section.question.title, section.about())
-                .expect("a string grows");
-            for line in section.words() {
-                writeln!(text, "  {line}").expect("a string grows");
-            }
+        for section in sections.iter().filter(|section| section.is_error) {
+            text += &format!("{} ({})\n", section.title, section.about());
+            text.extend(section.words().iter().map(|line| format!("  {line}\n")));
         }
         text
     }
@@ -127,50 +99,56 @@ fn finest(rows: &[Row]) -> u32 {
 }
 
 fn sections(rows: &[Row]) -> Vec<Section<'_>> {
-    let cells = finest(rows);
-    let section = |question: &'static Question| {
-        let of = |role: Role, cells: u32| -> Vec<&Row> {
-            let key = (question.topic, role, cells);
-            let of = rows
-                .iter()
-                .filter(|row| (row.topic, row.role, row.cells) == key);
-            of.collect()
-        };
-        let points = |cells: u32| points(&of(Role::Method, cells), question.value);
-        Section {
-            question,
-            fine: points(cells),
-            coarse: points(cells / 2),
-            on_meshes: of(Role::Mesh, cells)
-                .into_iter()
-                .filter_map(question.value.unwrap_or(|_| None))
-                .collect(),
-        }
+    let of = |topic: Topic, role: Role, cells: u32| -> Vec<&Row> {
+        let is_it = |row: &&Row| (row.topic, row.role, row.cells) == (topic, role, cells);
+        rows.iter().filter(is_it).collect()
     };
-    QUESTIONS.iter().map(section).collect()
+    let cells = finest(rows);
+    let errors = ERRORS.map(|(topic, title)| {
+        let percent = |of: &[&Row]| {
+            let [low, error, high] = [of[0].error_low?, of[0].error?, of[0].error_high?];
+            Some([low, error.max(1e-8), high].map(|error| 100.0 * error))
+        };
+        let [fine, coarse] = [cells, cells / 2].map(|cells| of(topic, Role::Method, cells));
+        let mesh = fine.first().and_then(|row| row.error_mesh);
+        Section {
+            title: title.to_owned(),
+            label: "error, %",
+            is_error: true,
+            fine: points(&fine, percent),
+            coarse: points(&coarse, percent),
+            band: mesh.map(|error| 0.0..100.0 * error),
+        }
+    });
+    let values = QUANTITIES.map(|(label, value)| {
+        let range = |of: &[&Row]| {
+            let values: Vec<f64> = of.iter().filter_map(|row| value(row)).collect();
+            (!values.is_empty()).then(|| spread(&values))
+        };
+        let [fine, mesh] = [Role::Method, Role::Mesh].map(|role| of(Topic::Aftermath, role, cells));
+        Section {
+            title: format!("After the first tear of rip: {label}"),
+            label,
+            is_error: false,
+            fine: points(&fine, range),
+            coarse: Vec::new(),
+            band: range(&mesh).map(|[low, _, high]| low..high),
+        }
+    });
+    errors.into_iter().chain(values).collect()
 }
 
 /// A point per method and step.
-fn points<'a>(rows: &[&'a Row], value: Option<fn(&Row) -> Option<f64>>) -> Vec<Point<'a>> {
-    let points = rows
-        .chunk_by(|a, b| a.ensemble() == b.ensemble())
-        .filter_map(|of| {
-            let y = match value {
-                None => of[0].error_low.zip(of[0].error).zip(of[0].error_high).map(
-                    |((low, error), high)| [low, error.max(1e-8), high].map(|error| 100.0 * error),
-                ),
-                Some(value) => {
-                    let values: Vec<f64> = of.iter().filter_map(|row| value(row)).collect();
-                    (!values.is_empty()).then(|| spread(&values))
-                }
-            };
-            Some(Point {
-                row: of[0],
-                method: DefaultMethod::named(&of[0].method)?,
-                cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
-                y,
-            })
-        });
+fn points<'a>(rows: &[&'a Row], y: impl Fn(&[&Row]) -> Option<[f64; 3]>) -> Vec<Point<'a>> {
+    let ensembles = rows.chunk_by(|a, b| a.ensemble() == b.ensemble());
+    let points = ensembles.filter_map(|of| {
+        Some(Point {
+            row: of[0],
+            method: DefaultMethod::named(&of[0].method)?,
+            cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
+            y: y(of),
+        })
+    });
     points.collect()
 }
 
@@ -185,8 +163,8 @@ impl Point<'_> {
 
     /// The mark; hollow for an error below ten times the distance of the references.
     fn mark(&self) -> Mark {
-        let mark = self.method.family.mark();
-        let mark = mark.sized(if self.is_default() { 6.5 } else { 3.0 });
+        let size = if self.is_default() { 6.5 } else { 3.0 };
+        let mark = self.method.family.mark().sized(size);
         match self.row.error.zip(self.row.error_floor) {
             Some((error, floor)) if error < FLOORS * floor => mark.hollow(),
             _ => mark,
@@ -195,13 +173,12 @@ impl Point<'_> {
 
     /// The method and the step.
     fn name(&self) -> String {
-        let multiple = self.row.step_multiple;
-        let multiple = multiple.map_or("at its default".to_owned(), |x| {
-            format!("at {x} times its step")
-        });
-        let dt = self.row.dt_s;
-        let dt = dt.map_or(String::new(), |dt| format!(", {} s", short(dt, 3)));
-        format!("{} {multiple}{dt}", self.method.name)
+        let step = match self.row.step_multiple {
+            None => "at its default".to_owned(),
+            Some(multiple) => format!("at {multiple} times its step"),
+        };
+        let dt = self.row.dt_s.map(|dt| format!(", {} s", short(dt, 3)));
+        format!("{} {step}{}", self.method.name, dt.unwrap_or_default())
     }
 
     /// What to type for this method and step.
@@ -219,102 +196,72 @@ impl Point<'_> {
 
 impl Section<'_> {
     fn panel(&self) -> Panel {
-        let Question {
-            title,
-            label,
-            value,
-            ..
-        } = *self.question;
+        let axis = [Axis::linear, Axis::log][usize::from(self.is_error)];
         let mut panel = Panel {
-            title: title.to_owned(),
+            title: self.title.clone(),
             about: self.about(),
             x: Axis::log("CPU seconds per simulated second"),
-            y: if value.is_some() {
-                Axis::linear(label)
-            } else {
-                Axis::log(label)
-            },
+            y: axis(self.label),
             words: self.words(),
             ..Panel::default()
         };
-        let known = || {
-            self.fine
-                .iter()
-                .filter_map(|point| Some((point, point.at()?)))
-        };
-        if known().next().is_none() {
+        let points = self.fine.iter();
+        let known = points.filter_map(|point| Some((point, point.at()?)));
+        let known: Vec<(&Point<'_>, [f64; 2])> = known.collect();
+        if known.is_empty() {
             return panel;
         }
-        let band = match self.on_meshes[..] {
-            [] => self.fine[0].row.error_mesh.map(|mesh| 0.0..100.0 * mesh),
-            _ => {
-                let [low, _, high] = spread(&self.on_meshes);
-                Some(low..high)
-            }
+        let layers = &mut panel.layers;
+        let (band, colour) = (self.band.clone(), PALE);
+        layers.extend(band.map(|y| Layer::Band { y, colour }));
+        let label = "real time".to_owned();
+        layers.push(Layer::Rule { x: 1.0, label });
+        let line = |points, mark: Mark, width| Layer::Line {
+            points,
+            colour: mark.colour,
+            width,
         };
-        panel
-            .layers
-            .extend(band.map(|y| Layer::Band { y, colour: PALE }));
-        panel.layers.push(Layer::Rule {
-            x: 1.0,
-            label: "real time".to_owned(),
-        });
         for (points, width) in [(&self.coarse, 0.7), (&self.fine, 1.6)] {
             for of in points.chunk_by(|a, b| a.method.name == b.method.name) {
                 let mut points: Vec<[f64; 2]> = of.iter().filter_map(Point::at).collect();
                 points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-                let colour = of[0].method.family.mark().colour;
-                panel.layers.push(Layer::Line {
-                    points,
-                    colour,
-                    width,
-                });
+                layers.push(line(points, of[0].mark(), width));
             }
         }
-        for (point, at) in known() {
+        for &(point, at) in &known {
             let mark = point.mark();
             if let Some([low, _, high]) = point.y.filter(|[low, _, high]| low < high) {
-                panel.layers.push(Layer::Line {
-                    points: vec![[at[0], low], [at[0], high]],
-                    colour: mark.colour,
-                    width: 1.0,
-                });
+                layers.push(line(vec![[at[0], low], [at[0], high]], mark, 1.0));
             }
-            let hover = match value {
-                None => format!("{}: error {} %", point.name(), short(at[1], 3)),
-                Some(_) => format!("{}: {label} {}", point.name(), short(at[1], 3)),
-            };
-            panel.layers.push(Layer::Mark { at, mark, hover });
+            let hover = format!("{}: {} {}", point.name(), self.label, short(at[1], 3));
+            layers.push(Layer::Mark { at, mark, hover });
         }
-        panel.layers.extend(
-            known()
-                .filter(|(point, _)| point.is_default())
-                .map(|(point, at)| Layer::Label {
-                    at,
-                    text: point.method.name.to_owned(),
-                    colour: point.mark().colour,
-                }),
-        );
+        let defaults = known.iter().filter(|(point, _)| point.is_default());
+        layers.extend(defaults.map(|&(point, at)| Layer::Label {
+            at,
+            text: point.method.name.to_owned(),
+            colour: point.mark().colour,
+        }));
         panel.above = self.failures();
         panel
     }
 
+    /// The points of each method.
+    fn methods(&self) -> impl Iterator<Item = &[Point<'_>]> {
+        self.fine.chunk_by(|a, b| a.method.name == b.method.name)
+    }
+
     /// The runs that failed, at the cost that their step would have.
     fn failures(&self) -> Option<Strip> {
-        let failed = self
-            .fine
-            .iter()
-            .filter(|point| point.row.status != Status::Ok);
-        let marks = failed.filter_map(|point| {
-            let mut of = self
-                .fine
-                .iter()
-                .filter(|other| other.method.name == point.method.name);
-            let default = of.find(|other| other.is_default())?;
-            let cost = default.cost? / point.row.step_multiple?;
-            let (status, why) = (point.row.status.name(), &point.row.why);
-            let hover = format!("{}: {status} {why}", point.name());
-            Some((cost, point.method.family.mark(), hover))
+        let marks = self.methods().flat_map(|of| {
+            let default = of.iter().find(|point| point.is_default());
+            let failed = of.iter().filter(|point| point.row.status != Status::Ok);
+            failed.filter_map(move |point| {
+                let cost = default?.cost? / point.row.step_multiple?;
+                let (status, why) = (point.row.status.name(), &point.row.why);
+                let hover = format!("{}: {status} {why}", point.name());
+                Some((cost, point.method.family.mark(), hover))
+            })
         });
         let marks: Vec<(f64, Mark, String)> = marks.collect();
         (!marks.is_empty()).then(|| Strip {
@@ -324,122 +271,88 @@ impl Section<'_> {
     }
 
     fn about(&self) -> String {
-        let is_known = self.fine.iter().any(|point| point.y.is_some());
-        match self.fine.first() {
-            Some(_) if self.question.value.is_some() => {
-                "medians and 10 to 90 % over seeds; one run says little".to_owned()
-            }
-            Some(Point { row, .. }) if is_known => {
-                let percent = |error: Option<f64>| {
-                    error.map_or("unknown".to_owned(), |error| {
-                        format!("{} %", short(100.0 * error, 2))
-                    })
-                };
-                let noise = row.noise_amplification;
-                let noise = noise.map_or("unknown".to_owned(), |grown| {
-                    format!("×{}", short(grown, 2))
-                });
-                format!(
-                    "two references {} apart; other diagonals of the mesh: {}; a nanometre of noise: {}, and \
-                     displacements grow {noise}",
-                    percent(row.error_floor),
-                    percent(row.error_mesh),
-                    percent(row.error_noise)
-                )
-            }
-            _ => {
-                "no reference: the two references have no value, or noise grows too much".to_owned()
-            }
+        if !self.is_error {
+            return "medians and 10 to 90 % over seeds; one run says little".to_owned();
         }
-    }
-
-    fn words(&self) -> Vec<String> {
-        match self.question.value {
-            None => self.advice(),
-            Some(_) => self.distributions(),
-        }
-    }
-
-    /// What to type for a look and for forces, and when it fails.
-    fn advice(&self) -> Vec<String> {
-        let cheapest = |error_max: f64| {
-            let meets = self.fine.iter().filter_map(|point| {
-                let error = point.row.error.filter(|error| *error <= error_max)?;
-                Some((point.cost?, error, point))
-            });
-            match meets.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                None => "no method at any of these steps".to_owned(),
-                Some((cost, error, point)) => format!(
-                    "`{}` ({} CPU s a second, {} % off)",
-                    point.command(),
-                    short(cost, 2),
-                    short(100.0 * error, 2)
-                ),
-            }
+        let Some(Point { row, .. }) = self.fine.iter().find(|point| point.y.is_some()) else {
+            return "no reference: the two references have no value, or noise grows too much"
+                .to_owned();
         };
+        let percent = |error: Option<f64>| match error {
+            None => "unknown".to_owned(),
+            Some(error) => format!("{} %", short(100.0 * error, 2)),
+        };
+        let grown = row.noise_amplification;
+        let grown = grown.map_or("unknown".to_owned(), |grown| {
+            format!("×{}", short(grown, 2))
+        });
+        format!(
+            "two references {} apart; other diagonals of the mesh: {}; a nanometre of noise: {}, and displacements \
+             grow {grown}",
+            percent(row.error_floor),
+            percent(row.error_mesh),
+            percent(row.error_noise)
+        )
+    }
+
+    /// What to type for a look and for forces, and when it fails; of a quantity its distributions.
+    fn words(&self) -> Vec<String> {
+        if !self.is_error {
+            let known = self.fine.iter().filter_map(|point| Some((point, point.y?)));
+            let each = known.map(|(point, y)| {
+                let [low, middle, high] = y.map(|x| short(x, 2));
+                format!("{} {middle} ({low} to {high})", point.method.name)
+            });
+            let each: Vec<String> = each.collect();
+            return vec![format!(
+                "Medians, and what eight runs in ten have: {}. Two runs that differ by a nanometre differ as much. \
+                 Grey band: runs by {DEFAULT} on meshes with other diagonals.",
+                each.join(", ")
+            )];
+        }
         let mut failing: Vec<String> = Vec::new();
-        for of in self.fine.chunk_by(|a, b| a.method.name == b.method.name) {
+        for of in self.methods() {
             let name = of[0].method.name;
             let failed = of.iter().filter(|point| point.row.status != Status::Ok);
-            let shortest = failed
+            let shortest_s = failed
                 .filter_map(|point| point.row.dt_s)
                 .min_by(f64::total_cmp);
-            failing.extend(
-                shortest.map(|dt| format!("{name} takes no step of {} ms", short(1e3 * dt, 2))),
-            );
+            let refused = shortest_s.map(|dt| short(1e3 * dt, 2));
+            failing.extend(refused.map(|ms| format!("{name} takes no step of {ms} ms")));
             let default = of.iter().find(|point| point.is_default());
-            let error = default
-                .and_then(|point| point.row.error)
-                .filter(|error| *error > LOOK);
-            failing.extend(error.map(|error| {
-                format!("{name} at its default is {} % off", short(100.0 * error, 2))
-            }));
+            let error = default.and_then(|point| point.row.error);
+            let off = error.filter(|error| *error > LOOK);
+            let off = off.map(|error| short(100.0 * error, 2));
+            failing.extend(off.map(|error| format!("{name} at its default is {error} % off")));
         }
         if failing.is_empty() {
             failing.push("nothing failed".to_owned());
         }
-        let what = match self.question.topic {
-            Topic::Rip | Topic::Trouser => "forces within 5 %",
-            Topic::Hang | Topic::Flag | Topic::Aftermath => "an error below 5 %",
+        let what = match self.fine.first().map(|point| point.row.topic) {
+            Some(Topic::Rip | Topic::Trouser) => "forces within 5 %",
+            _ => "an error below 5 %",
         };
         vec![
-            format!("For a look (20 %): {}.", cheapest(LOOK)),
-            format!("For {what}: {}.", cheapest(FORCES)),
+            format!("For a look (20 %): {}.", self.cheapest(LOOK)),
+            format!("For {what}: {}.", self.cheapest(FORCES)),
             format!("It fails when: {}.", failing.join("; ")),
         ]
     }
 
-    /// How the quantity is distributed by each method.
-    fn distributions(&self) -> Vec<String> {
-        let label = self.question.label;
-        let quantity = label.split(',').next().unwrap_or(label);
-        let known = self
-            .fine
-            .iter()
-            .filter_map(|point| Some((point.method.name, point.y?)));
-        let (default, others): (Vec<_>, Vec<_>) = known.partition(|(name, _)| *name == DEFAULT);
-        let Some((_, range)) = default.first() else {
-            return Vec::new();
+    /// The command with the least cost among those that have no larger error.
+    fn cheapest(&self, error_max: f64) -> String {
+        let meets = self.fine.iter().filter_map(|point| {
+            let error = point.row.error.filter(|error| *error <= error_max)?;
+            Some((point.cost?, error, point))
+        });
+        let Some((cost, error, point)) = meets.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return "no method at any of these steps".to_owned();
         };
-        let [low, middle, high] = range.map(|x| short(x, 2));
-        let mut words = vec![format!(
-            "By {DEFAULT}, eight runs in ten have a {quantity} of {low} to {high}, and the median is {middle}. Two \
-             runs that differ by a nanometre differ as much."
-        )];
-        if !others.is_empty() {
-            let others = others
-                .iter()
-                .map(|(name, [_, other, _])| format!("{name} {}", short(*other, 2)));
-            let others: Vec<String> = others.collect();
-            words.push(format!("Medians by other methods: {}.", others.join(", ")));
-        }
-        if !self.on_meshes.is_empty() {
-            words.push(
-                "Grey band: 10 to 90 % of runs by the default on meshes with other diagonals."
-                    .to_owned(),
-            );
-        }
-        words
+        let (cost, error) = (short(cost, 2), short(100.0 * error, 2));
+        format!(
+            "`{}` ({cost} CPU s a second, {error} % off)",
+            point.command()
+        )
     }
 }
 
@@ -447,8 +360,8 @@ impl Section<'_> {
 fn title(sections: &[Section<'_>]) -> String {
     let errors = |name: &'static str| {
         let points = sections.iter().flat_map(|section| &section.fine);
-        let defaults = points.filter(move |point| point.is_default() && point.method.name == name);
-        defaults.filter_map(|point| point.row.error)
+        let of = points.filter(move |point| point.is_default() && point.method.name == name);
+        of.filter_map(|point| point.row.error)
     };
     let within = |name| errors(name).filter(|error| *error <= FORCES).count();
     let others = DefaultMethod::NAMES

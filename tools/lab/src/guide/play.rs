@@ -70,11 +70,6 @@ impl Topic {
             Topic::Trouser => Scene::trouser(frame),
         }
     }
-
-    /// Whether the topic is about a single event, the first tear.
-    fn is_first_tear(self) -> bool {
-        matches!(self, Topic::Rip | Topic::Trouser)
-    }
 }
 
 /// The time for which a method holds the shape at rest of the reference, in seconds. The mean of the second half
@@ -112,7 +107,7 @@ pub struct Row {
     pub diagonals: u64,
     /// The purpose of the run.
     pub role: Role,
-    /// The method, as on the command line, or [`BDF2`].
+    /// The method, as on the command line; `bdf2` for Newton's method of second order.
     pub method: String,
     /// The step as a multiple of the default step; `None` for the default.
     pub step_multiple: Option<f64>,
@@ -148,17 +143,10 @@ pub struct Row {
 }
 
 impl Row {
-    /// What the runs of an ensemble have in common.
-    pub(super) fn ensemble(&self) -> (Topic, u32, u64, Role, &str, Option<f64>) {
-        let (topic, cells, diagonals) = (self.topic, self.cells, self.diagonals);
-        (
-            topic,
-            cells,
-            diagonals,
-            self.role,
-            &self.method,
-            self.step_multiple,
-        )
+    /// What the runs of an ensemble have in common, beside their topic and their cells.
+    pub(super) fn ensemble(&self) -> (u64, Role, &str, Option<f64>) {
+        let (role, method) = (self.role, &*self.method);
+        (self.diagonals, role, method, self.step_multiple)
     }
 }
 
@@ -231,11 +219,8 @@ pub(super) fn error(ensemble: &[&Answer], reference: &[&Answer]) -> Option<f64> 
             Some(force.map_or(late, |(force, known)| late.max((force / known - 1.0).abs())))
         }
         (Answer::Shape(shape), Answer::Shape(known)) => {
-            let apart: f64 = shape
-                .iter()
-                .zip(known)
-                .map(|(a, b)| (a - b).norm_squared())
-                .sum();
+            let apart = shape.iter().zip(known).map(|(a, b)| a - b);
+            let apart: f64 = apart.map(|off| off.norm_squared()).sum();
             let whole: f64 = known.iter().map(Vector::norm_squared).sum();
             Some(apart.sqrt() / whole.sqrt())
         }
@@ -259,11 +244,8 @@ fn pooled(ensemble: &[&Answer]) -> (Vector, f64, f64) {
     let average = |of: &dyn Fn(&(Vector, f64)) -> f64| corners.iter().map(of).sum::<f64>() / count;
     let within = average(&|(_, spread_m)| spread_m.powi(2));
     let among = average(&|(place, _)| (place - mean).norm_squared());
-    (
-        mean,
-        (within + among).sqrt(),
-        average(&|(place, _)| place.norm()),
-    )
+    let away_m = average(&|(place, _)| place.norm());
+    (mean, (within + among).sqrt(), away_m)
 }
 
 impl Stage {
@@ -295,14 +277,11 @@ impl Stage {
             Topic::Rip => 0.3,
             Topic::Trouser => 8.0,
         };
-        let a_second = match (key.role, &*key.method) {
-            (Role::Second, _) => 1.5,
-            (Role::Reference, _) => 1.2,
-            (_, "xpbd") => 0.05,
-            (_, "implicit") => 0.2,
-            (_, "pbd") => 0.1,
-            (_, "provot") => 0.4,
-            _ => 0.15,
+        let method = DefaultMethod::NAMES.iter();
+        let method = method.take_while(|name| **name != key.method).count();
+        let a_second = match key.role {
+            Role::Reference | Role::Second => 1.3,
+            _ => [0.15, 0.05, 0.2, 0.1, 0.4][method],
         };
         a_second * seconds * finer.powi(3) / key.step_multiple.unwrap_or(1.0)
     }
@@ -333,20 +312,19 @@ impl Stage {
         let mut run = self.begin(&play.row, rest)?;
         play.row.dt_s = Some(run.step_s());
         let before_m = run.torn_length_m();
+        let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
         let mut chronicle = Chronicle::new(&run);
-        let (mut frames, mut times_s) = (Vec::new(), Vec::new());
+        let (mut frames, mut times) = (Vec::new(), Vec::new());
         while !run.is_over() {
             if (bounds.stop)() {
                 return Err((Status::Interrupted, String::new()));
             }
             let (began, frame) = (bounds.now(), (run.elapsed_s() / FRAME_S) as u64);
             let step = run.step();
-            times_s.push(bounds.now().saturating_sub(began).as_secs_f64());
-            chronicle.note(
-                &run,
-                &step.map_err(|error| (status_of(&error), error.to_string()))?,
-            );
-            if self.topic.is_first_tear() && chronicle.first_tear().is_some() {
+            times.push(bounds.now().saturating_sub(began).as_secs_f64());
+            let step = step.map_err(|error| (status_of(&error), error.to_string()))?;
+            chronicle.note(&run, &step);
+            if is_first_tear && chronicle.first_tear().is_some() {
                 break;
             }
             if (run.elapsed_s() / FRAME_S) as u64 > frame {
@@ -370,10 +348,8 @@ impl Stage {
                 let first = chronicle.first_tear().ok_or_else(nothing)?;
                 // The hand of a rip begins to pull after half a second.
                 let begins_s = if self.topic == Topic::Rip { 0.5 } else { 0.0 };
-                Some(Answer::FirstTear(
-                    first.event.time_s - begins_s,
-                    first.force_n,
-                ))
+                let time_s = first.event.time_s - begins_s;
+                Some(Answer::FirstTear(time_s, first.force_n))
             }
             Topic::Aftermath => {
                 play.row.torn_m = Some(run.torn_length_m() - before_m);
@@ -383,9 +359,7 @@ impl Stage {
             }
         };
         play.last = frames.pop().unwrap_or_default();
-        if bounds.clock.is_some() {
-            play.row.cpu_s_per_s = cpu_s_per_s(&times_s, run.step_s());
-        }
+        play.row.cpu_s_per_s = bounds.clock.and_then(|_| cpu_s_per_s(&times, run.step_s()));
         Ok(())
     }
 
@@ -448,9 +422,9 @@ impl Stage {
             duration_s: 100.0,
             ..self.topic.scene(&self.frame)
         };
+        let depth = |p: &Point| 0.01 * (3.0 * p.x).sin() * (2.0 * p.y).cos();
         let bulged = self.positions.as_slice().iter();
-        let bulged =
-            bulged.map(|p| Point::new(p.x, p.y, 0.01 * (3.0 * p.x).sin() * (2.0 * p.y).cos()));
+        let bulged = bulged.map(|p| Point::new(p.x, p.y, depth(p)));
         let mut run = self.run(scene, 0, Some(&bulged.collect::<Vec<_>>()))?;
         while !run.is_over() {
             if stop() {
@@ -464,10 +438,8 @@ impl Stage {
                 return Ok(system.positions().to_vec());
             }
         }
-        Err((
-            Status::Restless,
-            "the sheet does not come to rest".to_owned(),
-        ))
+        let why = "the sheet does not come to rest";
+        Err((Status::Restless, why.to_owned()))
     }
 }
 
