@@ -17,7 +17,7 @@ use tearmesh_lab::guide::{self, Guide};
 use tearmesh_lab::pareto::{self, Pareto, SCENES};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
-use tearmesh_lab::tear::{self, EnsembleScene, Tear};
+use tearmesh_lab::tear::{EnsembleScene, Tear};
 use tearmesh_lab::{plot, pool};
 
 use crate::args::{ChartArgs, CutChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
@@ -122,7 +122,7 @@ fn tear(args: &TearChartArgs) -> Ended<Tear> {
     let mut cells = args.size.clone();
     cells.sort_unstable();
     cells.dedup();
-    Ok(Tear::new(tear::Options {
+    Ok(Tear {
         strips: strips.to_vec(),
         // Ensembles without seeds have no runs.
         scenes: scenes.filter(|_| args.seeds > 0).collect(),
@@ -130,7 +130,7 @@ fn tear(args: &TearChartArgs) -> Ended<Tear> {
         methods: args.method.clone(),
         seeds: args.seeds,
         threads: threads(&args.draw),
-    }))
+    })
 }
 
 fn cuts(args: &CutChartArgs) -> Ended<Cuts> {

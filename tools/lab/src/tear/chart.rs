@@ -1,22 +1,23 @@
 //! The figure and the summary of a table: forces of strips with their slopes, and ensembles with verdicts.
 
-use std::fmt::Write as _;
-
 use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
-use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear, What};
+use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::method::DefaultMethod;
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, PALE, Panel, Shape, short};
 
-/// The largest relative difference at which the forces of a first tear agree.
-pub(super) const AGREEMENT: f64 = 0.05;
+/// The rules of strips, with their names.
+const RULES: [(Rule, &str); 2] = [
+    (Rule::Stretch, "stretch ratio"),
+    (Rule::Toughness, "toughness"),
+];
 
 /// A quantity of runs: its name with its unit, and its value in a row.
 type Quantity = (&'static str, fn(&Row) -> Option<f64>);
 
 /// The quantities of ensembles.
-pub(super) const QUANTITIES: [Quantity; 4] = [
+const QUANTITIES: [Quantity; 4] = [
     ("torn length, m", |row| row.torn_m),
     ("pieces", |row| row.pieces.map(|pieces| pieces as f64)),
     ("work of holds, J", |row| row.work_j),
@@ -26,12 +27,8 @@ pub(super) const QUANTITIES: [Quantity; 4] = [
 impl Chart for Tear {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
         let mut panels = Vec::new();
-        if rows.iter().any(|row| row.what == What::Largest) {
-            panels.extend(Rule::ALL.map(|rule| curves(rows, rule)));
-            panels.push(sizes(rows));
-        }
-        for panel in panels.iter_mut().filter(|panel| panel.layers.is_empty()) {
-            panel.about = "no strip reached its end".to_owned();
+        if rows.iter().any(|row| row.rule.is_some()) {
+            panels.push(strips(rows));
         }
         panels.extend(ensembles(rows).iter().map(Ensembles::panel));
         let mut footer = vec![
@@ -45,9 +42,8 @@ impl Chart for Tear {
             let missing = "INTERRUPTED: runs that were not done are missing.";
             footer.insert(0, missing.to_owned());
         }
-        let slopes = Rule::ALL.map(|rule| slope(&forces(rows, rule, What::Largest)));
         Figure {
-            title: match slopes {
+            title: match RULES.map(|(rule, _)| slope(&forces(rows, rule))) {
                 [Some(stretch), Some(toughness)] => format!(
                     "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness \
                      much less ({toughness:+.2})"
@@ -70,25 +66,16 @@ impl Chart for Tear {
     }
 }
 
-/// The rows of strips by a rule.
-fn strips(rows: &[Row], rule: Rule, what: What) -> Vec<&Row> {
-    let is_it = |row: &&Row| row.what == what && row.rule == Some(rule);
-    rows.iter().filter(is_it).collect()
-}
-
-/// The length of the edges of strips that tore in millimetres, and the force in newtons.
-fn forces(rows: &[Row], rule: Rule, what: What) -> Vec<[f64; 2]> {
-    let strips = strips(rows, rule, what).into_iter();
-    let of = strips.filter_map(|row| Some([edge_mm(row), row.force_n?]));
-    of.filter(|[_, force]| *force > 0.0).collect()
-}
-
-fn edge_mm(row: &Row) -> f64 {
-    1e3 * STRIP_M[0] / f64::from(row.cells)
+/// For each strip that tore by a rule, the length of its edges in millimetres and its largest force in newtons.
+fn forces(rows: &[Row], rule: Rule) -> Vec<[f64; 2]> {
+    let strips = rows.iter().filter(|row| row.rule == Some(rule));
+    let edge_mm = |row: &Row| 1e3 * STRIP_M[0] / f64::from(row.cells);
+    let forces = strips.filter_map(|row| Some([edge_mm(row), row.largest_force_n?]));
+    forces.collect()
 }
 
 /// The slope of the logarithms of some points by least squares; `None` with fewer than two points.
-pub(super) fn slope(points: &[[f64; 2]]) -> Option<f64> {
+fn slope(points: &[[f64; 2]]) -> Option<f64> {
     if points.len() < 2 {
         return None;
     }
@@ -102,84 +89,52 @@ pub(super) fn slope(points: &[[f64; 2]]) -> Option<f64> {
     Some(moment(1) / moment(0))
 }
 
-/// Force against distance, a curve for each mesh.
-fn curves(rows: &[Row], rule: Rule) -> Panel {
+/// Largest force against the length of edges.
+fn strips(rows: &[Row]) -> Panel {
     let mut panel = Panel {
-        title: format!("Force to tear by {}", rule.name()),
-        about: "labels: length of edges; crosses: first tear by Verlet, rings by XPBD, each at Δt and Δt/2"
+        title: "Force to tear a strip".to_owned(),
+        about: "slopes of the logarithms: 1 is proportional, 0 is independent of the mesh"
             .to_owned(),
-        x: Axis::linear("distance of the clamps, m"),
-        y: Axis::linear("force, N"),
+        x: Axis::log("length of edges, mm"),
+        y: Axis::log("largest force, N"),
         ..Panel::default()
     };
-    let at = |row: &&Row| Some([row.displacement_m?, row.force_n?.max(0.0)]);
-    let first = strips(rows, rule, What::First);
-    let all = strips(rows, rule, What::Curve);
-    for (i, of) in all.chunk_by(|a, b| a.cells == b.cells).enumerate() {
-        let colour = COLOURS[i % COLOURS.len()];
-        let points: Vec<[f64; 2]> = of.iter().filter_map(at).collect();
-        let top = points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]));
+    for ((rule, name), colour) in RULES.into_iter().zip(COLOURS) {
+        let points = forces(rows, rule);
+        if let Some(slope) = slope(&points) {
+            let (at, text) = (points[0], format!("{name}: {slope:+.2}"));
+            panel.layers.push(Layer::Label { at, text, colour });
+        }
+        let mark = Mark::new(Shape::Disc, colour);
+        panel.layers.extend(points.iter().map(|&at| Layer::Mark {
+            at,
+            mark,
+            hover: String::new(),
+        }));
         panel.layers.push(Layer::Line {
             points,
             colour,
-            width: 1.0,
+            width: 2.0,
         });
-        let first = first.iter().filter(|row| row.cells == of[0].cells);
-        panel.layers.extend(first.filter_map(|row| {
-            let shape = match row.method.as_deref() {
-                Some("verlet") => Shape::Cross,
-                _ => Shape::Disc,
-            };
-            Some(Layer::Mark {
-                at: at(row)?,
-                mark: Mark::new(shape, colour).hollow(),
-                hover: String::new(),
-            })
-        }));
-        let text = format!("{} mm", short(edge_mm(of[0]), 3));
-        panel
-            .layers
-            .extend(top.map(|at| Layer::Label { at, text, colour }));
     }
     panel
 }
 
-/// Largest and mean force against the length of edges.
-fn sizes(rows: &[Row]) -> Panel {
-    let mut panel = Panel {
-        title: "Force against the length of edges".to_owned(),
-        about: "slopes of the logarithms: 1 is proportional, 0 is independent of the mesh"
-            .to_owned(),
-        x: Axis::log("length of edges, mm"),
-        y: Axis::log("force, N"),
-        ..Panel::default()
+/// What the strips show; empty without strips.
+fn conclusion(rows: &[Row]) -> String {
+    let largest = RULES.map(|(rule, _)| forces(rows, rule));
+    let [Some(stretch), Some(toughness)] = largest.each_ref().map(|points| slope(points)) else {
+        return String::new();
     };
-    for (rule, colour) in Rule::ALL.into_iter().zip(COLOURS) {
-        let mark = Mark::new(Shape::Disc, colour);
-        for (what, kind, width, mark) in [
-            (What::Largest, "largest", 2.0, mark),
-            (What::Mean, "mean", 0.8, mark.hollow()),
-        ] {
-            let mut points = forces(rows, rule, what);
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            if let Some(slope) = slope(&points) {
-                let text = format!("{}, {kind}: {slope:+.2}", rule.name());
-                let at = points[0];
-                panel.layers.push(Layer::Label { at, text, colour });
-            }
-            panel.layers.extend(points.iter().map(|&at| Layer::Mark {
-                at,
-                mark,
-                hover: String::new(),
-            }));
-            panel.layers.push(Layer::Line {
-                points,
-                colour,
-                width,
-            });
-        }
-    }
-    panel
+    let [by_stretch, by_toughness] = largest.map(|points| {
+        let forces = points.iter().map(|[_, force]| short(*force, 3));
+        forces.collect::<Vec<_>>().join(" / ")
+    });
+    format!(
+        "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {by_stretch} N, slope \
+         {stretch:+.2} over the edge length. By toughness it is {by_toughness} N, slope {toughness:+.2}: where \
+         forces matter, use --toughness.\n"
+    )
 }
 
 /// The values of an ensemble, and whether every run has one.
@@ -197,19 +152,19 @@ pub(super) struct Ensembles {
 
 /// The ensembles of a table, for each scene on a mesh by each quantity.
 pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
-    let runs: Vec<&Row> = rows.iter().filter(|row| row.what == What::Run).collect();
+    let runs: Vec<&Row> = rows.iter().filter(|row| row.rule.is_none()).collect();
     let groups = runs.chunk_by(|a, b| (a.scene, a.cells) == (b.scene, b.cells));
     let all = groups.flat_map(|of| {
         let name = format!("{} of {} cells", of[0].scene.name(), of[0].cells);
         QUANTITIES.map(|(quantity, value)| {
             let methods = of.chunk_by(|a, b| a.method == b.method).filter_map(|of| {
                 let samples = STEP_DIVISORS.map(|divisor| {
-                    let of = of.iter().filter(|row| row.step_divisor == Some(divisor));
+                    let of = of.iter().filter(|row| row.step_divisor == divisor);
                     let values: Vec<f64> = of.clone().filter_map(|row| value(row)).collect();
                     let is_whole = values.len() == of.count();
                     (values, is_whole)
                 });
-                Some((DefaultMethod::named(of[0].method.as_deref()?)?, samples))
+                Some((DefaultMethod::named(&of[0].method)?, samples))
             });
             Ensembles {
                 name: name.clone(),
@@ -224,10 +179,8 @@ pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
 /// Compares two samples; `None` if either is empty. If some runs failed, no verdict is possible: those that are
 /// left are not a random choice.
 fn compared(first: &Sample, second: &Sample) -> Option<Comparison> {
-    if first.0.is_empty() || second.0.is_empty() {
-        return None;
-    }
-    let mut comparison = compare(&first.0, &second.0);
+    let is_known = !first.0.is_empty() && !second.0.is_empty();
+    let mut comparison = is_known.then(|| compare(&first.0, &second.0))?;
     if !(first.1 && second.1) {
         comparison.verdict = Verdict::CannotTell;
     }
@@ -242,9 +195,8 @@ impl Ensembles {
         let converged = self.methods.iter().filter(|(_, [_, half, quarter])| {
             compared(half, quarter).is_some_and(|found| found.verdict == Verdict::Same)
         });
-        let converged: Vec<_> = converged
-            .map(|(one, [.., finest])| (one.name, finest))
-            .collect();
+        let converged = converged.map(|(one, [.., finest])| (one.name, finest));
+        let converged: Vec<(&str, &Sample)> = converged.collect();
         let pairs = converged.iter().enumerate().flat_map(|(i, one)| {
             let others = converged[i + 1..].iter();
             others.filter_map(move |other| {
@@ -267,26 +219,22 @@ impl Ensembles {
         if let Some((methods, values)) = self.reference() {
             panel.about = format!("reference: the finest of {}", methods.join(" and "));
             let [low, _, high] = spread(&values);
-            panel.layers.push(Layer::Band {
-                y: low..high,
-                colour: PALE,
-            });
+            let (y, colour) = (low..high, PALE);
+            panel.layers.push(Layer::Band { y, colour });
         }
         let mut names = Vec::new();
         let [mut least, mut most] = [f64::INFINITY, 0.0];
         for (i, (method, samples)) in self.methods.iter().enumerate() {
-            let verdict = compared(&samples[0], &samples[1]).map(|found| found.verdict);
-            let sign = match verdict {
+            let found = compared(&samples[0], &samples[1]);
+            let sign = match found.map(|found| found.verdict) {
                 Some(Verdict::Same) => " =",
                 Some(Verdict::Differ) => " ≠",
                 Some(Verdict::CannotTell) => " ?",
                 None => "",
             };
             names.push(format!("{}{sign}", method.name));
-            for (j, (values, _)) in samples.iter().enumerate() {
-                if values.is_empty() {
-                    continue;
-                }
+            let known = samples.iter().enumerate();
+            for (j, (values, _)) in known.filter(|(_, (values, _))| !values.is_empty()) {
                 let y @ [low, _, high] = spread(values);
                 (least, most) = (low.min(least), high.max(most));
                 panel.layers.push(Layer::Interval {
@@ -310,7 +258,9 @@ impl Ensembles {
             None => "no reference, as no two methods that converged agree".to_owned(),
         };
         let mut text = format!("{}, {}; {referred}\n", self.name, self.quantity);
-        let reference = reference.map(|(_, values)| (values, true));
+        let verdict = |first: &Sample, second: &Sample| {
+            compared(first, second).map_or("unknown", |found| found.verdict.name())
+        };
         for (method, samples) in &self.methods {
             let [whole, half, quarter] = samples.each_ref().map(|(values, _)| {
                 if values.is_empty() {
@@ -319,62 +269,16 @@ impl Ensembles {
                 let [low, middle, high] = spread(values).map(|x| short(x, 3));
                 format!("{middle} ({low} to {high})")
             });
-            let verdict = |first: &Sample, second: &Sample| {
-                compared(first, second).map(|found| found.verdict.name())
-            };
-            let against = reference
-                .as_ref()
-                .and_then(|known| verdict(known, &samples[0]));
-            writeln!(
-                text,
-                "  {:<9} {whole:<26} {half:<26} {quarter:<26} half the step: {}{}",
-                method.name,
-                verdict(&samples[0], &samples[1]).unwrap_or("unknown"),
-                against.map_or(String::new(), |name| format!(
-                    "; against the reference: {name}"
-                ))
-            )
-            .expect("a string grows");
+            let (name, of_half) = (method.name, verdict(&samples[0], &samples[1]));
+            text += &format!(
+                "  {name:<9} {whole:<26} {half:<26} {quarter:<26} half the step: {of_half}"
+            );
+            if let Some((_, values)) = &reference {
+                let against = verdict(&(values.clone(), true), &samples[0]);
+                text += &format!("; against the reference: {against}");
+            }
+            text.push('\n');
         }
         text
     }
-}
-
-/// What the strips show; empty without strips.
-fn conclusion(rows: &[Row]) -> String {
-    let largest = Rule::ALL.map(|rule| forces(rows, rule, What::Largest));
-    let [Some(stretch), Some(toughness)] = largest.each_ref().map(|points| slope(points)) else {
-        return String::new();
-    };
-    let [by_stretch, by_toughness] = largest.map(|points| {
-        let forces = points.iter().map(|[_, force]| short(*force, 3));
-        forces.collect::<Vec<_>>().join(" / ")
-    });
-    let spreads = first_tear_spreads(rows);
-    let agree = spreads
-        .iter()
-        .filter(|spread| **spread <= AGREEMENT)
-        .count();
-    format!(
-        "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {by_stretch} N, slope \
-         {stretch:+.2} over the edge length. By toughness it is {by_toughness} N, slope {toughness:+.2}: where \
-         forces matter, use --toughness.\n\
-         At the first tear, forces by Verlet and by XPBD, each at Δt and Δt/2, are within {:.0} % of each other in \
-         {agree} of {} tests, and {:.1} % apart at most.\n",
-        100.0 * AGREEMENT,
-        spreads.len(),
-        100.0 * spreads.iter().copied().fold(0.0, f64::max),
-    )
-}
-
-/// For each strip, largest/smallest − 1 of the forces of its first tear.
-pub(super) fn first_tear_spreads(rows: &[Row]) -> Vec<f64> {
-    let first: Vec<&Row> = rows.iter().filter(|row| row.what == What::First).collect();
-    let of = first.chunk_by(|a, b| (a.rule, a.cells) == (b.rule, b.cells));
-    of.map(|rows| {
-        let forces = || rows.iter().filter_map(|row| row.force_n);
-        let least = forces().fold(f64::INFINITY, f64::min);
-        forces().fold(0.0, f64::max) / least - 1.0
-    })
-    .collect()
 }
