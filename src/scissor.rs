@@ -304,6 +304,13 @@ impl Scissor {
         Scissor { layers, ..self }
     }
 
+    /// Returns whether the scissor continues another cut, as [`Scissor::continued`] and
+    /// [`Scissor::closed`] make it.
+    #[must_use]
+    pub fn is_continued(&self) -> bool {
+        self.joints.iter().any(Option::is_some)
+    }
+
     /// Returns the plane along which the scissor cuts.
     #[must_use]
     pub fn plane(&self) -> Plane {

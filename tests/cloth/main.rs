@@ -27,6 +27,7 @@ mod reaction;
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;
 mod scenes;
+mod simulation;
 mod statistics;
 mod stiff;
 mod stiff_held;

@@ -73,6 +73,7 @@ mod pbd;
 mod provot;
 pub mod scene;
 mod sheet;
+mod simulation;
 mod solver;
 mod spectrum;
 mod spring;
@@ -99,6 +100,10 @@ pub use material::warp_of_texture;
 pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use sheet::{Cloth, ClothError, EnergyLedger};
+pub use simulation::{
+    BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, Picked, Reached, Simulation,
+    SimulationDef, SimulationError, Wounds,
+};
 pub use solver::{Abilities, Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;
 pub use stability::{carried_count, stable_step_s, suited_step_s};

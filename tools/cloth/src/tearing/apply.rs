@@ -7,6 +7,7 @@ use super::load::strain;
 use super::{Tearing, TearingError};
 use crate::element::Forces;
 use crate::energy;
+use crate::force;
 use crate::sheet::Cloth;
 use crate::system::Family;
 
@@ -34,6 +35,7 @@ pub struct Tear {
     /// Edges that may tear.
     candidates: Vec<HalfEdgeId>,
     due: Vec<Due>,
+    torn: Vec<Torn>,
     pub(super) seen: Cursor,
     /// The far ends of the links that a split tore.
     ahead: Vec<VertexId>,
@@ -80,6 +82,15 @@ struct Due {
     load: f64,
     /// The load over the smaller strength.
     severity: f64,
+}
+
+/// An edge that tore in a step: a vertex at one of its ends was split.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Torn {
+    pub(crate) edge: HalfEdgeId,
+    pub(crate) vertex: VertexId,
+    /// The tension of the edge by the method, in newtons; none in a fabric of triangles alone.
+    pub(crate) force_n: Option<f64>,
 }
 
 /// The report of one step of tearing.
@@ -132,6 +143,7 @@ impl Tear {
             bound: None,
             candidates: Vec::new(),
             due: Vec::new(),
+            torn: Vec::new(),
             ahead: Vec::new(),
             is_fresh: Vec::new(),
         })
@@ -264,6 +276,7 @@ impl Tear {
         edits: &mut Edits,
         mut report: TearReport,
     ) -> TearReport {
+        self.torn.clear();
         if self.due.is_empty() {
             return report;
         }
@@ -288,12 +301,24 @@ impl Tear {
                 break;
             }
             report.edge_energy_j += energy_j(cloth, due.edge);
+            let has_force = cloth.fabric.stretch_n_per_m > 0.0;
+            let tension_n = || force::force_n(cloth.system(), cloth.stretch(due.edge));
+            self.torn.push(Torn {
+                edge: due.edge,
+                vertex: candidate.0,
+                force_n: has_force.then(tension_n),
+            });
             report.tear_length_m += self.split(mesh, cloth, edits, due.edge, candidate);
             report.splits += 1;
         }
         self.due = due;
         report.energy_released_j = energy - cloth.ledger().split_elastic_j;
         report
+    }
+
+    /// The edges that tore in the last step, in the order in which they did.
+    pub(crate) fn torn(&self) -> &[Torn] {
+        &self.torn
     }
 
     /// Finds the edges that may tear: all that do, and maybe some more.

@@ -1,0 +1,661 @@
+//! A simulation does what its verbs say: grips hold, rips run, cuts and sewing keep everything in
+//! step, and what is refused changes nothing.
+
+use tearmesh::geometry::length;
+use tearmesh::{
+    CutMethod, Edits, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, VertexId, shapes,
+};
+use tearmesh_cloth::scene::Method;
+use tearmesh_cloth::{
+    CutId, Event, Fabric, InputError, Loads, Simulation, SimulationDef, SimulationError, StepError,
+    Tearing, Unstable, Wounds,
+};
+
+use crate::parts::{gravity_along_y, near};
+
+/// More steps than any test takes at once.
+const ALL: u64 = 1_000_000;
+
+fn v(index: usize) -> VertexId {
+    VertexId::new(index).expect("an id")
+}
+
+/// A sheet of n × n cells of a metre in all that hangs by its upper edge.
+fn hung(n: u32, def: SimulationDef) -> Simulation {
+    let (mesh, positions) = shapes::grid(n, n);
+    let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+    let row = n as usize + 1;
+    sim.hold((row * (row - 1)..row * row).map(v)).expect("held");
+    sim
+}
+
+fn hanging(n: u32, stretch_n_per_m: f64, drag_per_s: f64, method: Method) -> Simulation {
+    let def = SimulationDef {
+        fabric: Fabric::new(stretch_n_per_m),
+        loads: gravity_along_y(drag_per_s),
+        method,
+        ..SimulationDef::default()
+    };
+    hung(n, def)
+}
+
+fn ray(x: f64, y: f64) -> Ray {
+    Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
+}
+
+/// A scissor along the plane y = `height`.
+fn across(height: f64) -> Scissor {
+    Scissor::by_plane(Plane::new(Point::new(0.0, height, 0.0), Vector::y()).expect("a plane"))
+}
+
+fn pass(sim: &mut Simulation, seconds: f64) {
+    sim.advance(seconds, ALL).expect("stable steps");
+}
+
+/// The numbers of faces of the pieces, in descending order.
+fn pieces(mesh: &Mesh) -> Vec<usize> {
+    let components = mesh.components();
+    let mut faces = vec![0; components.count()];
+    mesh.faces()
+        .for_each(|face| faces[components.of(face)] += 1);
+    faces.sort_unstable_by_key(|&count| std::cmp::Reverse(count));
+    faces
+}
+
+/// What holds of a simulation at all times.
+pub(crate) fn check(sim: &mut Simulation) {
+    let violations = sim.mesh().check();
+    assert!(violations.is_empty(), "{violations:?}");
+    let (mesh, cloth) = (sim.mesh(), sim.cloth());
+    assert_eq!(cloth.indices(), mesh.indices());
+    assert_eq!(cloth.positions().len(), mesh.vertex_count());
+    assert!(cloth.masses().ledger().is_balanced());
+    let weighed = |v: VertexId| cloth.masses().at(v).max(cloth.masses().unit());
+    for (v, &mass) in mesh.vertices().zip(cloth.system().masses()) {
+        if mesh.half_edge_of(v).is_some() {
+            assert_eq!(mass, weighed(v));
+        }
+    }
+    let faces = mesh.face_count();
+    let corners = mesh.half_edge_count();
+    let buffers = sim.draw_buffers();
+    assert_eq!(
+        (buffers.indices().len(), buffers.pieces().len()),
+        (corners, faces)
+    );
+}
+
+/// Drags a vertex near the middle of a hanging sheet down and forward by a metre and a half; the
+/// number of faces that hang together with it then.
+fn faces_pulled_out(n: u32, grip_radius_m: f64) -> usize {
+    let mut sim = hanging(n, 100.0, 0.5, Method::Verlet);
+    pass(&mut sim, 0.2);
+    let picked = sim.pick(&ray(0.5, 0.5)).expect("on the cloth");
+    let from = sim.cloth().positions()[picked.vertex.index()];
+    let hand = sim.grab(picked.vertex, grip_radius_m).expect("a hand");
+    for frame in 0..90 {
+        let down = f64::from(frame) / 60.0;
+        let to = Point::new(from.x, from.y - down, from.z + down);
+        sim.lead(hand, to).expect("led");
+        pass(&mut sim, 1.0 / 60.0);
+    }
+    check(&mut sim);
+    let mesh = sim.mesh();
+    let [held] = sim.in_hand(hand).expect("a hand")[..] else {
+        panic!("one vertex is held")
+    };
+    let components = mesh.components();
+    let face = mesh.faces_of(held).next().expect("a face");
+    let same = |&face: &_| components.of(face);
+    let of = same(&face);
+    mesh.faces().filter(|face| same(face) == of).count()
+}
+
+#[test]
+fn a_grip_holds_more_than_a_crumb() {
+    for n in [16, 24] {
+        let [without, with] = [0.0, Simulation::GRIP_RADIUS_M].map(|r| faces_pulled_out(n, r));
+        println!("{n} cells: {without} faces without a grip, {with} with one");
+        assert!(without <= 16 && with >= 100);
+    }
+}
+
+/// Grabs a hanging sheet near the middle of its right edge, and draws it to the left.
+fn ripped(n: u32, method: Method, weakening: Option<f64>) -> Simulation {
+    let def = SimulationDef {
+        loads: gravity_along_y(5.0),
+        method,
+        tearing: Some(Tearing {
+            weakening,
+            ..Tearing::default()
+        }),
+        ..SimulationDef::default()
+    };
+    let mut sim = hung(n, def);
+    pass(&mut sim, 0.5);
+    let picked = sim.pick(&ray(0.97, 0.5)).expect("on the cloth");
+    let from = sim.cloth().positions()[picked.vertex.index()];
+    let hand = sim
+        .grab(picked.vertex, Simulation::GRIP_RADIUS_M)
+        .expect("a hand");
+    for frame in 0..120 {
+        let s = f64::from(frame) / 60.0;
+        let to = Point::new(from.x - 1.5 * s, from.y - 0.3 * s, from.z + 0.3);
+        sim.lead(hand, to).expect("led");
+        pass(&mut sim, 1.0 / 60.0);
+    }
+    sim.release(hand).expect("a hand");
+    check(&mut sim);
+    sim
+}
+
+#[test]
+fn a_hand_rips_a_sheet_from_edge_to_edge() {
+    for n in [12, 16, 20] {
+        let mut sim = ripped(n, Method::xpbd(), Some(0.5));
+        let pieces = pieces(sim.mesh());
+        println!("{n} cells: pieces of {pieces:?} faces");
+        assert_eq!(pieces.len(), 2);
+        assert!(pieces[1] > sim.mesh().face_count() / 5);
+        let cell_m = 1.0 / f64::from(n);
+        let before = (n as usize + 1).pow(2);
+        let mut splits = 0;
+        for event in sim.events() {
+            let Event::Tore {
+                time_s, force_n, ..
+            } = event
+            else {
+                panic!("{event:?}: nothing else happened")
+            };
+            assert!((0.5..2.6).contains(&time_s));
+            // A weakened edge bears a quarter of its length, and a torn one half of the force.
+            let least_n = 1000.0 * 0.25 * cell_m / 2.0;
+            assert!(force_n.expect("springs have forces") >= least_n * (1.0 - 1e-9));
+            splits += 1;
+        }
+        assert!(splits >= n as usize);
+        assert_eq!(sim.mesh().vertex_count(), before + splits);
+    }
+}
+
+#[test]
+fn a_hand_rips_by_forces_too_and_leaves_crumbs() {
+    let sim = ripped(16, Method::Verlet, None);
+    let pieces = pieces(sim.mesh());
+    println!("pieces of {pieces:?} faces");
+    assert!(pieces[1] > 100 && pieces[0] + pieces[1] > 500);
+}
+
+#[test]
+fn a_hand_follows_at_most_at_its_largest_speed_and_takes_a_frame_for_less() {
+    let (mesh, positions) = shapes::grid(4, 4);
+    let def = SimulationDef {
+        step_s: Some(1.0 / 1200.0),
+        ..SimulationDef::default()
+    };
+    let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+    let hand = sim.grab(v(12), 0.1).expect("a hand");
+    let at = |sim: &Simulation| sim.cloth().positions()[12];
+    let from = at(&sim);
+    let step_s = sim.step_s();
+    sim.lead(hand, from + Vector::new(0.0, 0.0, 30.0))
+        .expect("led");
+    let mut before = from;
+    for _ in 0..50 {
+        pass(&mut sim, step_s);
+        let way = length(at(&sim) - before);
+        near(way, Simulation::HAND_SPEED_MAX_M_PER_S * step_s, 1e-12);
+        before = at(&sim);
+    }
+    let near_by = at(&sim) + Vector::new(0.0, 0.006, 0.0);
+    sim.lead(hand, near_by).expect("led");
+    pass(&mut sim, 1.0 / 120.0);
+    near(at(&sim).y - before.y, 0.003, 1e-12);
+    pass(&mut sim, 1.0 / 120.0);
+    near(length(at(&sim) - near_by), 0.0, 1e-12);
+    pass(&mut sim, 0.1);
+    near(length(at(&sim) - near_by), 0.0, 1e-12);
+}
+
+#[test]
+fn time_passes_in_whole_steps_within_a_budget() {
+    let (mesh, positions) = shapes::grid(4, 4);
+    let def = SimulationDef {
+        step_s: Some(0.001),
+        ..SimulationDef::default()
+    };
+    let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+    let steps = [0.0014, 0.0014, 0.0002, 0.0].map(|dt_s| {
+        let reached = sim.advance(dt_s, ALL).expect("stable");
+        assert_eq!(reached.dropped_s, 0.0);
+        reached.steps
+    });
+    assert_eq!(steps, [1, 2, 0, 0]);
+    let reached = sim.advance(0.1, 7).expect("stable");
+    assert_eq!((reached.steps, sim.steps()), (7, 10));
+    near(reached.dropped_s, 0.093, 1e-12);
+    near(reached.time_s, 0.01, 1e-15);
+    assert_eq!(sim.advance(0.001, ALL).expect("stable").steps, 1);
+    for given_s in [-0.1, f64::NAN, f64::INFINITY] {
+        let refused = sim.advance(given_s, ALL);
+        assert!(
+            matches!(refused, Err(StepError::Step { .. })),
+            "{refused:?}"
+        );
+    }
+    assert_eq!(sim.steps(), 11);
+}
+
+#[test]
+fn a_step_that_is_too_long_is_divided_or_refused() {
+    for (when_unstable, is_taken) in [(Unstable::Substep, true), (Unstable::Refuse, false)] {
+        let (mesh, positions) = shapes::grid(4, 4);
+        let def = SimulationDef {
+            step_s: Some(1.0 / 60.0),
+            when_unstable,
+            ..SimulationDef::default()
+        };
+        let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+        let reached = sim.advance(0.1, ALL);
+        assert_eq!(reached.is_ok(), is_taken, "{reached:?}");
+        assert_eq!(sim.steps(), if is_taken { 6 } else { 0 });
+    }
+}
+
+#[test]
+fn a_cut_while_it_moves_leaves_everything_in_step() {
+    let mut sim = hanging(12, 1000.0, 0.5, Method::Verlet);
+    pass(&mut sim, 0.3);
+    let held_before = (0..169)
+        .filter(|&i| sim.cloth().system().is_held(i))
+        .count();
+    let hand = sim.grab(v(84), Simulation::GRIP_RADIUS_M).expect("a hand");
+    let momentum = |sim: &Simulation| {
+        let system = sim.cloth().system();
+        let parts = system.masses().iter().zip(system.velocities());
+        parts.map(|(m, v)| v * *m).sum::<Vector>()
+    };
+    let before = momentum(&sim);
+    // Down through the held edge, and through the vertex in the hand.
+    let x = sim.cloth().positions()[84].x;
+    let plane = Plane::new(Point::new(x, 0.0, 0.0), Vector::x()).expect("a plane");
+    sim.cut(&Scissor::by_plane(plane)).expect("cut");
+    assert!(length(momentum(&sim) - before) < 1e-12);
+    check(&mut sim);
+    assert_eq!(pieces(sim.mesh()).len(), 2);
+    let count = sim.mesh().vertex_count();
+    let in_hand = sim.in_hand(hand).expect("a hand").to_vec();
+    assert_eq!(in_hand.len(), 2);
+    let held_now = (0..count)
+        .filter(|&i| sim.cloth().system().is_held(i))
+        .count();
+    assert_eq!(held_now, held_before + 1 + 2);
+    let event = sim.events().next().expect("an event");
+    assert!(
+        matches!(event, Event::Cut { splits: 13.., .. }),
+        "{event:?}"
+    );
+    sim.lead(hand, Point::new(x, 0.5, 0.2)).expect("led");
+    pass(&mut sim, 0.2);
+    for v in in_hand {
+        let at = sim.cloth().positions()[v.index()];
+        assert!(length(at - Point::new(x, 0.5, 0.2)) < 1e-12, "{at}");
+    }
+    sim.release(hand).expect("a hand");
+    let held_now = (0..count)
+        .filter(|&i| sim.cloth().system().is_held(i))
+        .count();
+    assert_eq!(held_now, held_before + 1);
+}
+
+/// Heals, and returns what was sewn and left; nothing tears meanwhile.
+fn heal(sim: &mut Simulation, wounds: Wounds) -> (usize, usize) {
+    sim.events().for_each(drop);
+    assert!(sim.heal(wounds).expect("wounds") > 0);
+    for _ in 0..1000 {
+        pass(sim, 1.0 / 60.0);
+        let event = sim.events().next();
+        if let Some(event) = event {
+            let Event::Healed { sewn, left, .. } = event else {
+                panic!("{event:?} while it heals")
+            };
+            assert_eq!(sim.open_pairs(), 0);
+            return (sewn, left);
+        }
+    }
+    panic!("healing ends")
+}
+
+#[test]
+fn a_cut_that_fell_apart_heals_by_every_method() {
+    for (method, stretch_n_per_m) in [
+        (Method::Verlet, 1000.0),
+        (Method::xpbd(), 100.0),
+        (Method::pbd(), 100.0),
+        (Method::provot(), 1000.0),
+        (Method::implicit(), 100.0),
+    ] {
+        let mut sim = hanging(12, stretch_n_per_m, 0.5, method.clone());
+        pass(&mut sim, 0.2);
+        let cut = sim.cut(&across(0.43)).expect("cut");
+        let inserted_and_split = sim.mesh().vertex_count();
+        pass(&mut sim, 0.3);
+        assert_eq!(pieces(sim.mesh()).len(), 2);
+        let (sewn, left) = heal(&mut sim, Wounds::Cut(cut));
+        check(&mut sim);
+        println!("{method:?}: {sewn} sewn");
+        assert_eq!((left, pieces(sim.mesh()).len()), (0, 1));
+        // What was inserted stays, and what was split is whole.
+        assert_eq!(sim.mesh().vertex_count(), inserted_and_split - sewn);
+        assert!(
+            sim.mesh()
+                .half_edges()
+                .all(|h| sim.mesh().ghost_pair(h).is_none())
+        );
+        if !matches!(method, Method::Pbd(_)) {
+            // That stretches by itself until it tears.
+            pass(&mut sim, 0.5);
+            assert_eq!(sim.events().count(), 0);
+        }
+    }
+}
+
+#[test]
+fn a_ripped_sheet_heals_to_what_it_was() {
+    let mut sim = hanging(12, 100.0, 5.0, Method::Verlet);
+    let (whole, _) = shapes::grid(12, 12);
+    pass(&mut sim, 0.3);
+    let hand = sim.grab(v(84), Simulation::GRIP_RADIUS_M).expect("a hand");
+    let from = sim.cloth().positions()[84];
+    for frame in 0..90 {
+        let down = 0.75 * f64::from(frame) / 60.0;
+        sim.lead(hand, from - Vector::y() * down).expect("led");
+        pass(&mut sim, 1.0 / 60.0);
+    }
+    sim.release(hand).expect("a hand");
+    let torn = sim.mesh().vertex_count() - whole.vertex_count();
+    println!("{torn} splits, pieces of {:?} faces", pieces(sim.mesh()));
+    assert!(torn > 15);
+    assert_eq!(heal(&mut sim, Wounds::All), (torn, 0));
+    check(&mut sim);
+    assert_eq!(sim.mesh().vertex_count(), whole.vertex_count());
+    assert_eq!(pieces(sim.mesh()), [whole.face_count()]);
+}
+
+#[test]
+fn only_the_cut_that_is_meant_heals_though_another_crossed_it() {
+    let mut sim = hanging(8, 1000.0, 1.0, Method::Verlet);
+    let first = sim.cut(&Scissor::new(ray(0.2, 0.5), ray(0.8, 0.5)).expect("rays"));
+    let second = sim.cut(&Scissor::new(ray(0.53, 0.3), ray(0.53, 0.7)).expect("rays"));
+    let (first, second) = (first.expect("cut"), second.expect("cut"));
+    let torn = |sim: &Simulation| {
+        let mesh = sim.mesh();
+        mesh.half_edges()
+            .filter(|&h| mesh.ghost_pair(h).is_some())
+            .count()
+            / 2
+    };
+    let both = torn(&sim);
+    let (_, left) = heal(&mut sim, Wounds::Cut(first));
+    let one = torn(&sim);
+    println!("{both} links torn by both, {one} by the second");
+    assert!(left == 0 && 0 < one && one < both);
+    check(&mut sim);
+    assert_eq!(sim.heal(Wounds::Cut(first)), Ok(0));
+    assert_eq!(heal(&mut sim, Wounds::Cut(second)).1, 0);
+    assert_eq!(torn(&sim), 0);
+}
+
+#[test]
+fn what_holds_keep_apart_is_left_and_what_is_held_stays_held() {
+    let mut sim = hanging(6, 1000.0, 2.0, Method::Verlet);
+    pass(&mut sim, 0.1);
+    let cut = sim.cut(&across(0.47)).expect("cut");
+    // Seven hands draw the lower edge down, and hold it there.
+    let hands: Vec<_> = (0..7)
+        .map(|i| sim.grab(v(i), 0.0).expect("a hand"))
+        .collect();
+    for (i, &hand) in hands.iter().enumerate() {
+        sim.lead(hand, Point::new(i as f64 / 6.0, -1.0, 0.0))
+            .expect("led");
+    }
+    pass(&mut sim, 0.5);
+    let vertices = sim.mesh().vertex_count();
+    let before_s = sim.time_s();
+    let (sewn, left) = heal(&mut sim, Wounds::Cut(cut));
+    let took_s = sim.time_s() - before_s;
+    println!("{sewn} sewn, {left} left after {took_s} s");
+    assert_eq!((sewn, vertices), (0, sim.mesh().vertex_count()));
+    assert!(left >= 7 && (5.0..6.5).contains(&took_s));
+    check(&mut sim);
+    for (i, hand) in hands.into_iter().enumerate() {
+        assert_eq!(sim.in_hand(hand).expect("a hand"), [v(i)]);
+    }
+}
+
+#[test]
+fn holds_and_hands_are_kept_through_merges_and_renumbering() {
+    let mut sim = hanging(6, 1000.0, 1.0, Method::Verlet);
+    let held = |sim: &Simulation| {
+        let all = sim.mesh().vertices();
+        all.filter(|v| sim.cloth().system().is_held(v.index()))
+            .count()
+    };
+    // Both cuts go through the held edge; the ids of the copies of the first are the lower ones.
+    let cut = |sim: &mut Simulation, x: f64| {
+        let plane = Plane::new(Point::new(x, 0.0, 0.0), Vector::x()).expect("a plane");
+        sim.cut(&Scissor::by_plane(plane)).expect("cut")
+    };
+    let first = cut(&mut sim, 1.0 / 3.0);
+    let second = cut(&mut sim, 2.0 / 3.0);
+    assert_eq!(held(&sim), 9);
+    // The last vertex is a copy of the second cut, and gets another id when the first is sewn.
+    let last = v(sim.mesh().vertex_count() - 1);
+    let free = sim.mesh().vertices().rev();
+    let mut free = free.filter(|v| !sim.cloth().system().is_held(v.index()));
+    let grabbed = free.next().expect("free copies");
+    assert!(grabbed.index() + 3 >= last.index());
+    let hand = sim.grab(grabbed, 0.1).expect("a hand");
+    let at = sim.cloth().positions()[grabbed.index()];
+    assert_eq!(heal(&mut sim, Wounds::Cut(first)).1, 0);
+    check(&mut sim);
+    let [now] = sim.in_hand(hand).expect("a hand")[..] else {
+        panic!("one vertex is in the hand")
+    };
+    assert_ne!(now, grabbed);
+    assert!(sim.cloth().system().is_held(now.index()));
+    assert_eq!(sim.cloth().positions()[now.index()], at);
+    assert_eq!(held(&sim), 8 + 1);
+    // Sewn to the copy that was left free, it is still in the hand.
+    assert_eq!(heal(&mut sim, Wounds::Cut(second)).1, 0);
+    let [now] = sim.in_hand(hand).expect("a hand")[..] else {
+        panic!("one vertex is in the hand")
+    };
+    assert_eq!(sim.cloth().positions()[now.index()], at);
+    assert_eq!(held(&sim), 7 + 1);
+    assert_eq!(sim.mesh().vertex_count(), 49);
+    sim.release(hand).expect("a hand");
+    assert_eq!(held(&sim), 7);
+}
+
+#[test]
+fn what_is_refused_changes_nothing() {
+    let mut sim = hanging(4, 1000.0, 1.0, Method::Verlet);
+    let hand = sim.grab(v(7), 0.1).expect("a hand");
+    let gone = sim.grab(v(8), 0.1).expect("a hand");
+    sim.release(gone).expect("a hand");
+    let positions = sim.cloth().positions().to_vec();
+    let (vertex, vertices) = (v(25), 25);
+    let no_vertex = InputError::NoVertex { vertex, vertices };
+    assert_eq!(sim.hold([v(3), vertex]), Err(no_vertex.clone()));
+    assert_eq!(sim.free([v(24), vertex]), Err(no_vertex.clone()));
+    assert_eq!(sim.grab(vertex, 0.1), Err(no_vertex));
+    let in_hand = InputError::InHand { vertex: v(7), hand };
+    assert_eq!(sim.hold([v(3), v(7)]), Err(in_hand.clone()));
+    assert_eq!(sim.free([v(24), v(7)]), Err(in_hand.clone()));
+    assert_eq!(sim.grab(v(7), 0.1), Err(in_hand));
+    assert_eq!(
+        sim.grab(v(24), 0.1),
+        Err(InputError::Held { vertex: v(24) })
+    );
+    assert_eq!(
+        sim.free([v(24), v(3)]),
+        Err(InputError::Free { vertex: v(3) })
+    );
+    let number = |name, given| InputError::Number { name, given };
+    assert_eq!(sim.grab(v(3), -0.5), Err(number("radius_m", -0.5)));
+    assert!(sim.grab(v(3), f64::NAN).is_err());
+    let far = Point::new(0.0, f64::INFINITY, 0.0);
+    assert_eq!(sim.lead(hand, far), Err(number("to", f64::INFINITY)));
+    let no_hand = InputError::NoHand { hand: gone };
+    assert_eq!(sim.lead(gone, positions[0]), Err(no_hand.clone()));
+    assert_eq!(sim.release(gone), Err(no_hand.clone()));
+    assert_eq!(sim.in_hand(gone), Err(no_hand));
+    assert!(!sim.cloth().system().is_held(3) && sim.cloth().system().is_held(24));
+    assert_eq!(sim.cloth().positions(), positions);
+
+    // A cut of another simulation, and a scissor that continues one.
+    let mut other = hanging(4, 1000.0, 1.0, Method::Verlet);
+    let cut: CutId = other.cut(&across(0.4)).expect("cut");
+    assert_eq!(sim.heal(Wounds::Cut(cut)), Err(InputError::NoCut { cut }));
+    let (mut mesh, mut at) = shapes::grid(4, 4);
+    let scissor = Scissor::new(ray(0.2, 0.5), ray(0.6, 0.5)).expect("rays");
+    let made = scissor.cut(CutMethod::Exact, &mut mesh, &mut at, &mut Edits::new());
+    let ends = made.expect("cut");
+    let [_, end] = ends.ends().expect("rays");
+    let continued = Scissor::continued(end, ray(0.8, 0.8), &at).expect("rays");
+    assert_eq!(sim.cut(&continued), Err(InputError::Continued));
+    assert_eq!((sim.mesh().vertex_count(), sim.events().count()), (25, 0));
+    for error in [InputError::Continued, InputError::NoCut { cut }] {
+        assert!(!error.to_string().is_empty());
+    }
+}
+
+#[test]
+fn definitions_that_make_no_simulation_are_refused() {
+    let refused = |def: SimulationDef| {
+        let (mesh, positions) = shapes::grid(2, 2);
+        Simulation::new(mesh, positions, def).expect_err("refused")
+    };
+    let def = SimulationDef::default;
+    let density_kg_per_m2 = -1.0;
+    let error = refused(SimulationDef {
+        density_kg_per_m2,
+        ..def()
+    });
+    assert!(matches!(error, SimulationError::Mass(_)), "{error}");
+    let fabric = Fabric::new(f64::NAN);
+    let error = refused(SimulationDef { fabric, ..def() });
+    assert!(matches!(error, SimulationError::Cloth(_)), "{error}");
+    let loads = Loads {
+        drag_per_s: Some(-1.0),
+        ..Loads::default()
+    };
+    let error = refused(SimulationDef { loads, ..def() });
+    assert!(matches!(error, SimulationError::Loads(_)), "{error}");
+    let error = refused(SimulationDef {
+        strengths: vec![1.0; 8],
+        ..def()
+    });
+    assert!(matches!(error, SimulationError::Tearing(_)), "{error}");
+    let error = refused(SimulationDef {
+        step_s: Some(0.0),
+        ..def()
+    });
+    assert_eq!(error, SimulationError::Step { given_s: 0.0 });
+    let error = refused(SimulationDef {
+        texture: vec![[0.0; 2]; 23],
+        ..def()
+    });
+    assert_eq!(
+        error,
+        SimulationError::Texture {
+            corners: 24,
+            given: 23
+        }
+    );
+}
+
+#[test]
+fn what_changed_brings_a_copy_of_the_buffers_up_to_date() {
+    let (mesh, positions) = shapes::grid(8, 8);
+    // A texture seam along the diagonal of each cell.
+    let texture = mesh
+        .half_edges()
+        .map(|h| [(h.face().index() % 2) as f32, 0.5]);
+    let def = SimulationDef {
+        texture: texture.collect(),
+        ..SimulationDef::default()
+    };
+    let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+    sim.hold((72..81).map(v)).expect("held");
+    let buffers = sim.draw_buffers();
+    let mut places = buffers.positions().to_vec();
+    let (mut indices, mut pieces) = (buffers.indices().to_vec(), buffers.pieces().to_vec());
+    assert!(places.len() > 81);
+    assert_eq!(buffers.take_changes(), Default::default());
+    let mut cut = None;
+    for frame in 0..40 {
+        pass(&mut sim, 1.0 / 60.0);
+        match frame {
+            10 => cut = Some(sim.cut(&across(0.43)).expect("cut")),
+            20 => drop(sim.heal(Wounds::Cut(cut.expect("cut")))),
+            _ => {}
+        }
+        let buffers = sim.draw_buffers();
+        let changes = buffers.take_changes();
+        places.resize(buffers.positions().len(), [0.0; 3]);
+        changes
+            .slots
+            .iter()
+            .for_each(|&s| places[s as usize] = buffers.positions()[s as usize]);
+        indices.resize(buffers.indices().len(), 0);
+        changes
+            .corners
+            .iter()
+            .for_each(|&c| indices[c as usize] = buffers.indices()[c as usize]);
+        pieces.resize(buffers.pieces().len(), 0);
+        changes
+            .faces
+            .iter()
+            .for_each(|&f| pieces[f as usize] = buffers.pieces()[f as usize]);
+        assert_eq!(
+            (&places[..], &indices[..]),
+            (buffers.positions(), buffers.indices())
+        );
+        assert_eq!(pieces, buffers.pieces());
+        let still = places.len() - changes.slots.len();
+        assert!(still >= 9, "held vertices do not change: {still}");
+        assert!(changes.faces.is_empty() || [10, 20, 21, 22, 23, 24].contains(&frame));
+        check(&mut sim);
+    }
+    assert_eq!(sim.open_pairs(), 0);
+    let mesh = sim.mesh();
+    let corners: Vec<_> = mesh.half_edges().map(|h| mesh.origin(h)).collect();
+    let points = sim.cloth().positions().to_vec();
+    let buffers = sim.draw_buffers();
+    for (corner, v) in corners.into_iter().enumerate() {
+        let slot = buffers.indices()[corner];
+        let at = buffers.positions()[slot as usize];
+        assert_eq!(at[1], points[v.index()].y as f32);
+        assert_eq!(buffers.texture(slot)[1], 0.5);
+    }
+}
+
+#[test]
+fn a_definition_with_positions_that_were_edited_goes_on_from_their_place_in_the_log() {
+    let (mut mesh, mut positions) = shapes::grid(4, 4);
+    let mut edits = Edits::new();
+    let scissor = across(0.55);
+    scissor
+        .cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
+        .expect("cut");
+    let vertices = mesh.vertex_count();
+    let moved: Positions = positions.clone();
+    let mut sim = Simulation::new(mesh, moved, SimulationDef::default()).expect("a simulation");
+    assert_eq!(sim.edits().cursor(), edits.cursor());
+    // Wounds that it was born with heal as well.
+    let (sewn, left) = heal(&mut sim, Wounds::All);
+    assert_eq!((left, sim.mesh().vertex_count()), (0, vertices - sewn));
+    assert_eq!(pieces(sim.mesh()).len(), 1);
+}

@@ -1,0 +1,636 @@
+//! A cloth in the hand: hold it, grab it, lead it, cut it, let it tear and heal while time passes.
+//!
+//! A [`Simulation`] owns everything that has to follow when a mesh changes (positions, masses,
+//! particles, strengths, draw buffers, hands), so that a game, a page or a script calls verbs and
+//! looks at events. Those who want the parts use [`Cloth`] and [`Tear`] themselves.
+//!
+//! Nothing here reads a clock. Time passes in whole steps of one length, whatever the caller's
+//! frames are; a budget counts steps. So the inputs and the numbers of the steps before which they
+//! came decide every byte of the result.
+
+mod buffers;
+mod error;
+mod event;
+mod hand;
+mod heal;
+mod seams;
+mod sheet;
+
+pub use buffers::{BufferChanges, ClothBuffers};
+pub use error::{InputError, SimulationError};
+pub use event::{CutId, Event};
+pub use hand::HandId;
+pub use heal::Wounds;
+
+use std::fmt;
+
+use tearmesh::geometry::{Point, Ray, Vector};
+use tearmesh::{
+    Cursor, DrawBuffers, Edit, Edits, Mesh, PerVertex, Positions, RayHit, Scissor, VertexId, pick,
+};
+
+use self::hand::Hands;
+use self::heal::Healing;
+use self::seams::Seams;
+use self::sheet::Sheet;
+use crate::fabric::Fabric;
+use crate::implicit::Implicit;
+use crate::load::{Loads, Path};
+use crate::provot::Provot;
+use crate::scene::{Method, suggested_step_s};
+use crate::sheet::Cloth;
+use crate::solver::{Solver, StepError};
+use crate::system::Unstable;
+use crate::tearing::{Tear, Tearing};
+use crate::verlet::Verlet;
+
+/// A cloth with its mesh, in motion.
+///
+/// ```
+/// use tearmesh_cloth::{Event, Simulation, SimulationDef, Wounds};
+/// use tearmesh::{Point, Ray, Scissor, Vector, VertexId, shapes};
+///
+/// let (mesh, positions) = shapes::grid(16, 16);
+/// let mut sim = Simulation::new(mesh, positions, SimulationDef::default())?;
+/// sim.hold((272..289).filter_map(VertexId::new))?; // Its upper edge.
+/// sim.advance(0.1, 1000)?;
+///
+/// // Pull at what the pointer is on.
+/// let ray = |x, y| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+/// let picked = sim.pick(&ray(0.5, 0.5)?).ok_or("the pointer is on the cloth")?;
+/// let hand = sim.grab(picked.vertex, Simulation::GRIP_RADIUS_M)?;
+/// sim.lead(hand, Point::new(0.5, 0.5, 0.1))?;
+/// sim.advance(0.1, 1000)?;
+/// sim.release(hand)?;
+///
+/// // Slit it, and let it heal.
+/// let cut = sim.cut(&Scissor::new(ray(0.3, 0.7)?, ray(0.7, 0.7)?)?)?;
+/// assert!(sim.heal(Wounds::Cut(cut))? > 0);
+/// sim.advance(0.5, 10_000)?;
+/// let healed = |event: Event| matches!(event, Event::Healed { left: 0, .. });
+/// assert!(sim.events().any(healed));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Simulation {
+    sheet: Sheet,
+    cloth: Cloth,
+    tear: Option<Tear>,
+    solver: Box<dyn Solver + Send + Sync>,
+    step_s: f64,
+    steps: u64,
+    /// The time that was asked for and is not simulated, up to half a step either way.
+    owed_s: f64,
+    /// The strengths of vertices without grips and guards.
+    strengths: PerVertex<f64>,
+    hands: Hands,
+    seams: Seams,
+    healing: Healing,
+    buffers: ClothBuffers,
+    /// The edit up to which the buffers know pieces.
+    pieces_seen: Cursor,
+    events: Vec<Event>,
+}
+
+/// The definition of a simulation beside its mesh.
+#[derive(Clone, Debug)]
+pub struct SimulationDef {
+    /// The mass of the cloth per area, in kg/m²: 0.15 by default, as of shirt cotton.
+    pub density_kg_per_m2: f64,
+    /// The material: by default springs of 1000 N/m along edges.
+    pub fabric: Fabric,
+    /// The method: by default [`Method::Verlet`].
+    pub method: Method,
+    /// The rule by which edges tear, by default at one and a half times their rest length; `None`
+    /// for never.
+    pub tearing: Option<Tearing>,
+    /// The strength of each vertex, as a multiple of the threshold; empty, as by default, for 1
+    /// everywhere.
+    pub strengths: Vec<f64>,
+    /// The loads: by default gravity along −y, and the drag of still air.
+    pub loads: Loads,
+    /// The length of a step, in seconds; `None`, as by default, for one that suits the method, the
+    /// fabric and the mesh.
+    pub step_s: Option<f64>,
+    /// Whether a step beyond the stability limit is divided, as by default, or refused.
+    pub when_unstable: Unstable,
+    /// The texture coordinates of the corners, three per face, for the draw buffers; empty, as by
+    /// default, for none.
+    pub texture: Vec<[f32; 2]>,
+}
+
+impl Default for SimulationDef {
+    fn default() -> SimulationDef {
+        SimulationDef {
+            density_kg_per_m2: 0.15,
+            fabric: Fabric::new(1000.0),
+            method: Method::Verlet,
+            tearing: Some(Tearing::default()),
+            strengths: Vec::new(),
+            loads: Loads {
+                gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+                drag_per_s: Some(0.5),
+                ..Loads::default()
+            },
+            step_s: None,
+            when_unstable: Unstable::Substep,
+            texture: Vec::new(),
+        }
+    }
+}
+
+/// The vertex that a pointer is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picked {
+    /// The corner of the face that is nearest to the point, by its weight.
+    pub vertex: VertexId,
+    /// The face, and the point in it.
+    pub hit: RayHit,
+}
+
+/// How far a simulation got: the result of [`Simulation::advance`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// The number of steps that were taken.
+    pub steps: u64,
+    /// The time simulated since the beginning, in seconds.
+    pub time_s: f64,
+    /// The time in seconds that the budget of steps left out. It is not made up for later.
+    pub dropped_s: f64,
+}
+
+impl Simulation {
+    /// Creates the simulation of a cloth that is at rest where it is. Reserves room for all that can
+    /// tear: twelve times the vertices of a regular sheet. Linear.
+    ///
+    /// # Errors
+    ///
+    /// [`SimulationError`] if the definition is not valid, or does not fit the mesh.
+    pub fn new(
+        mesh: Mesh,
+        positions: Positions,
+        def: SimulationDef,
+    ) -> Result<Simulation, SimulationError> {
+        let corners = mesh.half_edge_count();
+        let mut texture = def.texture;
+        if texture.is_empty() {
+            texture.resize(corners, [0.0; 2]);
+        } else if texture.len() != corners {
+            let given = texture.len();
+            return Err(SimulationError::Texture { corners, given });
+        }
+        let mut sheet =
+            Sheet::new(mesh, positions, def.density_kg_per_m2).map_err(SimulationError::Mass)?;
+        let (mesh, seen) = (&sheet.mesh, sheet.edits.cursor());
+        let masses = sheet.masses().clone();
+        let cloth = Cloth::new(mesh, sheet.positions(), masses, def.fabric);
+        let mut cloth = cloth.map_err(SimulationError::Cloth)?;
+        let mut strengths = def.strengths;
+        if strengths.is_empty() {
+            strengths.resize(mesh.vertex_count(), 1.0);
+        }
+        let tear = match def.tearing {
+            None => None,
+            Some(tearing) => {
+                let tear = Tear::new(&cloth, tearing);
+                let tear = tear.and_then(|tear| tear.with_strengths(strengths.clone()));
+                Some(tear.map_err(SimulationError::Tearing)?)
+            }
+        };
+        let system = cloth.system_mut();
+        system
+            .set_loads(def.loads)
+            .map_err(SimulationError::Loads)?;
+        system.when_unstable(def.when_unstable);
+        let speed_m_per_s = (def.fabric.stretch_n_per_m / def.density_kg_per_m2).sqrt();
+        let step_s = def.step_s;
+        let step_s = step_s.unwrap_or_else(|| suggested_step_s(&def.method, system, speed_m_per_s));
+        if !(step_s > 0.0 && step_s.is_finite()) {
+            return Err(SimulationError::Step { given_s: step_s });
+        }
+        let draw = DrawBuffers::new(mesh, texture).starting_at(seen);
+        let mut buffers = ClothBuffers::new(draw);
+        buffers.update(cloth.positions(), Some(mesh));
+        buffers.forget_changes();
+        let seams = Seams::of(mesh, seen);
+        sheet.reserve();
+        Ok(Simulation {
+            sheet,
+            cloth,
+            tear,
+            solver: solver_of(&def.method),
+            step_s,
+            steps: 0,
+            owed_s: 0.0,
+            strengths: PerVertex::new(strengths).starting_at(seen),
+            hands: Hands::starting_at(seen),
+            seams,
+            healing: Healing::starting_at(seen),
+            buffers,
+            pieces_seen: seen,
+            events: Vec::new(),
+        })
+    }
+
+    /// The radius within which a hand strengthens the cloth around it, in metres, that was found to
+    /// work for a sheet of a metre.
+    pub const GRIP_RADIUS_M: f64 = 0.12;
+
+    /// The largest speed of a hand, in m/s.
+    pub const HAND_SPEED_MAX_M_PER_S: f64 = hand::SPEED_MAX_M_PER_S;
+
+    /// The speed at which healing draws copies together, in m/s.
+    pub const HEALING_SPEED_M_PER_S: f64 = heal::SPEED_M_PER_S;
+
+    /// Lets `dt_s` seconds pass, in whole steps, and at most this many. What is less than half a
+    /// step is made up for by the next call; what the budget leaves out is not, so that a slow
+    /// machine shows slow motion and never falls behind for good.
+    ///
+    /// Allocates nothing if nothing tears, is sewn or cut, and the method has taken a step before.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`] if the time is negative or not finite, or a step failed. The cloth is then as
+    /// it was at the end of the last good step.
+    pub fn advance(&mut self, dt_s: f64, steps_max: u64) -> Result<Reached, StepError> {
+        if !(dt_s >= 0.0 && dt_s.is_finite()) {
+            return Err(StepError::Step { given_s: dt_s });
+        }
+        self.sheet.edits.clear();
+        self.owed_s += dt_s;
+        let wanted = (self.owed_s / self.step_s).round();
+        let steps = steps_max.min(wanted as u64);
+        let dropped_s = (wanted - steps as f64) * self.step_s;
+        self.owed_s -= wanted * self.step_s;
+        for _ in 0..steps {
+            self.step().inspect_err(|_| self.owed_s = 0.0)?;
+        }
+        Ok(Reached {
+            steps,
+            time_s: self.time_s(),
+            dropped_s,
+        })
+    }
+
+    fn step(&mut self) -> Result<(), StepError> {
+        self.cloth.step(&mut *self.solver, self.step_s)?;
+        self.steps += 1;
+        self.tear_overstretched();
+        self.heal_step();
+        Ok(())
+    }
+
+    fn tear_overstretched(&mut self) {
+        let Some(tear) = &mut self.tear else {
+            return;
+        };
+        let Sheet { mesh, edits, .. } = &mut self.sheet;
+        tear.apply(mesh, &mut self.cloth, edits, self.step_s);
+        let time_s = self.cloth.system().elapsed_s();
+        let torn = tear.torn().iter().map(|torn| Event::Tore {
+            edge: torn.edge,
+            vertex: torn.vertex,
+            time_s,
+            force_n: torn.force_n,
+        });
+        self.events.extend(torn);
+        self.follow();
+    }
+
+    /// Draws the open pairs together, leaves those whose time is over, and sews those that met.
+    fn heal_step(&mut self) {
+        if self.healing.len() == 0 {
+            return;
+        }
+        let threshold = self
+            .tear
+            .as_ref()
+            .map_or_else(Tearing::default, |tear| *tear.tearing());
+        let (mesh, step_s) = (&self.sheet.mesh, self.step_s);
+        self.healing
+            .draw(mesh, &mut self.cloth, &threshold.threshold, step_s);
+        let mut has_changed = self.healing.leave(self.time_s());
+        let mut place = 0;
+        while let Some((next, ends)) =
+            self.healing
+                .next_met(place, self.cloth.system(), &self.hands)
+        {
+            place = next;
+            self.sheet.merge(ends);
+            self.healing.note_sewn();
+            self.follow();
+            has_changed = true;
+        }
+        if has_changed {
+            self.strengthen();
+        }
+        if let Some((sewn, left)) = self.healing.end() {
+            let time_s = self.time_s();
+            self.events.push(Event::Healed { sewn, left, time_s });
+        }
+    }
+
+    /// Has everything follow the mesh.
+    fn follow(&mut self) {
+        let Simulation { sheet, cloth, .. } = self;
+        let of_vertices = (&mut self.strengths, &mut self.hands, &mut self.healing);
+        let others = (&mut self.seams, &mut self.buffers.draw);
+        sheet.follow(&mut (cloth, of_vertices, others));
+        if let Some(tear) = &mut self.tear {
+            self.sheet.edits.replay(tear);
+        }
+    }
+
+    /// Gives vertices the strengths that they have by themselves, by grips, and by open wounds
+    /// nearby.
+    fn strengthen(&mut self) {
+        let Some(tear) = self.tear.take() else {
+            return;
+        };
+        let own = self.strengths.as_slice().iter();
+        let rest = self.cloth.rest_positions().as_slice();
+        let gripped = own.zip(rest).map(|(own, at)| own * self.hands.grip(*at));
+        let mut strengths: Vec<f64> = gripped.map(|by| by.min(UNTEARABLE)).collect();
+        for v in self.healing.guarded(&self.sheet.mesh) {
+            strengths[v.index()] = UNTEARABLE;
+        }
+        let tear = tear.with_strengths(strengths);
+        self.tear = Some(tear.expect("grips and guards keep strengths positive and finite"));
+    }
+
+    /// Holds vertices where they are, for good or until they are [freed](Simulation::free). Copies
+    /// that a cut makes of them are held as well.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if one is no vertex of the mesh, or is in a hand.
+    pub fn hold(&mut self, vertices: impl IntoIterator<Item = VertexId>) -> Result<(), InputError> {
+        let vertices: Vec<_> = vertices.into_iter().collect();
+        vertices.iter().try_for_each(|&v| self.not_in_hand(v))?;
+        let system = self.cloth.system_mut();
+        vertices.iter().for_each(|v| system.hold(v.index()));
+        Ok(())
+    }
+
+    /// Lets held vertices go.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if one is no vertex of the mesh, is not held, or is in a hand.
+    pub fn free(&mut self, vertices: impl IntoIterator<Item = VertexId>) -> Result<(), InputError> {
+        let vertices: Vec<_> = vertices.into_iter().collect();
+        for &vertex in &vertices {
+            self.not_in_hand(vertex)?;
+            if !self.is_held(vertex) {
+                return Err(InputError::Free { vertex });
+            }
+        }
+        let system = self.cloth.system_mut();
+        vertices.iter().for_each(|v| system.release(v.index()));
+        Ok(())
+    }
+
+    /// Returns what a ray meets first; `None` if it misses the cloth. Linear.
+    #[must_use]
+    pub fn pick(&self, ray: &Ray) -> Option<Picked> {
+        let mesh = &self.sheet.mesh;
+        let hit = pick::first_hit(mesh, self.cloth.positions(), ray)?;
+        let [a, b, c] = hit.weights;
+        let corner = match hit.weights {
+            _ if a >= b && a >= c => 0,
+            _ if b >= c => 1,
+            _ => 2,
+        };
+        let vertex = mesh.face_vertices(hit.face)[corner];
+        Some(Picked { vertex, hit })
+    }
+
+    /// Grabs a vertex, which stays where it is until it is led. The hand grips the cloth around it:
+    /// within this radius, measured at rest, it is eight times as strong as by itself, and twice
+    /// that at half the distance. Without, a pull would tear out no more than the vertex. A radius
+    /// of 0 is no grip. Linear.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if there is no such vertex, it is held or in a hand, or the radius is negative
+    /// or not finite.
+    pub fn grab(&mut self, vertex: VertexId, radius_m: f64) -> Result<HandId, InputError> {
+        self.not_in_hand(vertex)?;
+        if self.is_held(vertex) {
+            return Err(InputError::Held { vertex });
+        }
+        if !(radius_m >= 0.0 && radius_m.is_finite()) {
+            let name = "radius_m";
+            return Err(InputError::Number {
+                name,
+                given: radius_m,
+            });
+        }
+        let centre = self.cloth.rest_positions().at(vertex);
+        let hand = self.hands.grab(vertex, centre, radius_m);
+        self.cloth.system_mut().hold(vertex.index());
+        self.strengthen();
+        Ok(hand)
+    }
+
+    /// Leads a hand straight to a point, from where it is: within a frame of 1/60 s, or at
+    /// [`HAND_SPEED_MAX_M_PER_S`](Simulation::HAND_SPEED_MAX_M_PER_S) if it is too far for that.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if there is no such hand, or a coordinate cannot be used.
+    pub fn lead(&mut self, hand: HandId, to: Point) -> Result<(), InputError> {
+        let held = self.hands.get(hand).ok_or(InputError::NoHand { hand })?;
+        let system = self.cloth.system_mut();
+        let now_s = system.elapsed_s();
+        let path = |&v: &VertexId| hand::path(system.positions()[v.index()], to, now_s);
+        let paths: Option<Vec<Path>> = held.vertices.iter().map(path).collect();
+        let Some(paths) = paths else {
+            let beyond = |x: &&f64| x.abs() > tearmesh::COORDINATE_MAX || !x.is_finite();
+            let given = *to.iter().find(beyond).unwrap_or(&to.x);
+            return Err(InputError::Number { name: "to", given });
+        };
+        for (v, path) in held.vertices.iter().zip(paths) {
+            system.grab(v.index(), path);
+        }
+        Ok(())
+    }
+
+    /// Lets go of what a hand holds, and undoes its grip.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if there is no such hand.
+    pub fn release(&mut self, hand: HandId) -> Result<(), InputError> {
+        let gone = self.hands.remove(hand).ok_or(InputError::NoHand { hand })?;
+        let system = self.cloth.system_mut();
+        gone.vertices.iter().for_each(|v| system.release(v.index()));
+        self.strengthen();
+        Ok(())
+    }
+
+    /// Cuts the cloth where it is now, by [`CutMethod::Exact`](tearmesh::CutMethod). Both halves of
+    /// a vertex that is held or in a hand are so afterwards. An [`Event::Cut`] tells how much was
+    /// cut.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if the scissor continues another cut, or the cloth is too far away.
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "the positions are in step with the mesh"
+    )]
+    pub fn cut(&mut self, scissor: &Scissor) -> Result<CutId, InputError> {
+        if scissor.is_continued() {
+            return Err(InputError::Continued);
+        }
+        self.sheet.edits.clear();
+        let moved = self.sheet.move_to(self.cloth.positions());
+        moved.map_err(InputError::Positions)?;
+        let made = self.sheet.cut(scissor);
+        let made = made.expect("positions that follow every edit are in step");
+        let is_split = |edit: &Edit<'_>| matches!(edit, Edit::Split(_));
+        let splits = self.sheet.edits.iter().filter(is_split).count();
+        self.follow();
+        let (cut, time_s) = (self.seams.add(&made), self.time_s());
+        self.events.push(Event::Cut {
+            cut,
+            splits,
+            time_s,
+        });
+        Ok(cut)
+    }
+
+    /// Begins to heal wounds, together with those that heal already, and returns the number of
+    /// pairs of copies that were added. From now on the two copies of each pair move toward each
+    /// other while time passes, and become one where they meet; edges within two rings of an open
+    /// pair do not tear. Vertices that a cut inserted stay.
+    ///
+    /// Once no pair is open, an [`Event::Healed`] says how many were sewn. A pair that loads or holds
+    /// keep apart for 5 s more than its way takes is left. Linear.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError::NoCut`] if there was no such cut.
+    pub fn heal(&mut self, wounds: Wounds) -> Result<usize, InputError> {
+        let (sheet, system) = (&self.sheet, self.cloth.system());
+        let opened = match wounds {
+            Wounds::All => self.healing.begin(sheet.mesh.half_edges(), sheet, system),
+            Wounds::Cut(cut) => {
+                let torn = self.seams.torn_by(cut).ok_or(InputError::NoCut { cut })?;
+                self.healing.begin(torn, sheet, system)
+            }
+        };
+        if opened > 0 {
+            self.strengthen();
+        }
+        Ok(opened)
+    }
+
+    fn not_in_hand(&self, vertex: VertexId) -> Result<(), InputError> {
+        let vertices = self.sheet.mesh.vertex_count();
+        if vertex.index() >= vertices {
+            return Err(InputError::NoVertex { vertex, vertices });
+        }
+        match self.hands.of(vertex) {
+            Some(hand) => Err(InputError::InHand { vertex, hand }),
+            None => Ok(()),
+        }
+    }
+
+    fn is_held(&self, v: VertexId) -> bool {
+        self.cloth.system().is_held(v.index())
+    }
+
+    /// Returns what happened since the previous call, and forgets it.
+    pub fn events(&mut self) -> impl ExactSizeIterator<Item = Event> + '_ {
+        self.events.drain(..)
+    }
+
+    /// Returns the draw buffers, up to date with the cloth. Linear.
+    pub fn draw_buffers(&mut self) -> &mut ClothBuffers {
+        let (mesh, now) = (&self.sheet.mesh, self.sheet.edits.cursor());
+        let is_edited = std::mem::replace(&mut self.pieces_seen, now) != now;
+        let positions = self.cloth.positions();
+        self.buffers.update(positions, is_edited.then_some(mesh));
+        &mut self.buffers
+    }
+
+    /// Returns the mesh.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh {
+        &self.sheet.mesh
+    }
+
+    /// Returns the cloth: positions, velocities, masses, and which vertices are held.
+    #[must_use]
+    pub fn cloth(&self) -> &Cloth {
+        &self.cloth
+    }
+
+    /// Returns the edits that the last call of [`advance`](Simulation::advance) or
+    /// [`cut`](Simulation::cut) made. A follower of the caller's replays them after each.
+    #[must_use]
+    pub fn edits(&self) -> &Edits {
+        &self.sheet.edits
+    }
+
+    /// Returns the vertices in a hand: the one that it grabbed, and its copies since.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError::NoHand`] if there is no such hand.
+    pub fn in_hand(&self, hand: HandId) -> Result<&[VertexId], InputError> {
+        let held = self.hands.get(hand).ok_or(InputError::NoHand { hand })?;
+        Ok(&held.vertices)
+    }
+
+    /// Returns the number of pairs of copies that are still drawn together.
+    #[must_use]
+    pub fn open_pairs(&self) -> usize {
+        self.healing.len()
+    }
+
+    /// Returns the time simulated so far, in seconds.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.cloth.system().elapsed_s()
+    }
+
+    /// Returns the number of steps taken so far.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Returns the length of a step, in seconds.
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+}
+
+/// The strength of what does not tear, as a multiple of the threshold: finite, so that means of it
+/// are.
+const UNTEARABLE: f64 = 1e12;
+
+fn solver_of(method: &Method) -> Box<dyn Solver + Send + Sync> {
+    match *method {
+        Method::Provot(limiter) => Box::new(Provot::new(limiter)),
+        Method::Pbd(pbd) => Box::new(pbd),
+        Method::Verlet => Box::new(Verlet::new()),
+        Method::Xpbd(xpbd) => Box::new(xpbd),
+        Method::Implicit(settings) => Box::new(Implicit::new(settings)),
+    }
+}
+
+impl fmt::Debug for Simulation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation")
+            .field("steps", &self.steps)
+            .field("step_s", &self.step_s)
+            .field("sheet", &self.sheet)
+            .field("hands", &self.hands)
+            .field("healing", &self.healing)
+            .finish_non_exhaustive()
+    }
+}

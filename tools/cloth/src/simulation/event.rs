@@ -1,0 +1,54 @@
+//! What happened to a cloth since the caller last asked.
+
+use std::fmt;
+
+use tearmesh::{HalfEdgeId, VertexId};
+
+/// The id of a cut that a [`Simulation`](super::Simulation) made, displayed as `cut 7`. Cuts are
+/// numbered from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CutId(pub(super) u32);
+
+impl fmt::Display for CutId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "cut {}", self.0)
+    }
+}
+
+/// Something that happened to the cloth of a [`Simulation`](super::Simulation). Ids of vertices are
+/// those of the time of the event: a later merge may give them to others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Event {
+    /// An edge was overstretched, and a vertex at one of its ends was split.
+    Tore {
+        /// The overstretched edge, as one of its half-edges. The edges that came apart are others
+        /// as a rule: the cloth tears across the pull.
+        edge: HalfEdgeId,
+        /// The vertex that was split.
+        vertex: VertexId,
+        /// The simulated time at the end of the step, in seconds.
+        time_s: f64,
+        /// The tension of the edge before the split, by the method, in newtons; `None` for a fabric of triangles
+        /// alone, whose edges have none.
+        force_n: Option<f64>,
+    },
+    /// The cloth was cut.
+    Cut {
+        /// The cut.
+        cut: CutId,
+        /// The number of vertices that were split; 0 if the scissor met nothing.
+        splits: usize,
+        /// The simulated time, in seconds.
+        time_s: f64,
+    },
+    /// Healing came to its end.
+    Healed {
+        /// The number of pairs of copies that were sewn together.
+        sewn: usize,
+        /// The number of pairs that a load or a hold kept apart.
+        left: usize,
+        /// The simulated time, in seconds.
+        time_s: f64,
+    },
+}

@@ -1,0 +1,144 @@
+//! Hands that hold a vertex of a cloth, lead it about, and grip the cloth around it.
+//!
+//! Two things a hand needs were found by trying without. By the rule of the paper (Souza et al.
+//! 2014 §III-A) a single vertex that is pulled tears out with the two cells around it, and the hand
+//! holds a crumb; so the cloth within the grip is stronger, the nearer the stronger, as the tension
+//! around a point that is pulled grows with 1/distance. And a hand that jumps where a pointer jumps
+//! stretches edges in no time, and tears them falsely; so it has a largest speed.
+
+use std::fmt;
+
+use tearmesh::geometry::{Point, length};
+use tearmesh::{Cursor, Edit, Follower, Merge, VertexId};
+
+use crate::load::Path;
+use crate::scene::FRAME_S;
+
+/// The id of a hand of a [`Simulation`](super::Simulation), displayed as `hand 7`. No two hands of
+/// a simulation have the same, at whatever times they hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct HandId(pub(super) u32);
+
+impl fmt::Display for HandId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "hand {}", self.0)
+    }
+}
+
+/// The strength of the cloth at the radius of a grip, as a multiple of its own.
+const GRIP_STRENGTH: f64 = 8.0;
+
+/// The strength of a grip stops growing at this fraction of its radius, so that it is finite.
+const GRIP_CORE: f64 = 1.0 / 16.0;
+
+/// The largest speed of a hand, in m/s.
+pub(super) const SPEED_MAX_M_PER_S: f64 = 3.0;
+
+/// A hand, the vertex that it grabbed, and the copies of that.
+#[derive(Clone, Debug)]
+pub(super) struct Hand {
+    pub(super) id: HandId,
+    pub(super) vertices: Vec<VertexId>,
+    /// The place of the vertex at rest when it was grabbed: the middle of the grip.
+    centre: Point,
+    radius_m: f64,
+}
+
+/// The hands that hold now, a follower of the log.
+#[derive(Clone, Debug)]
+pub(super) struct Hands {
+    hands: Vec<Hand>,
+    next: u32,
+    seen: Cursor,
+}
+
+impl Hands {
+    pub(super) fn starting_at(seen: Cursor) -> Hands {
+        Hands {
+            hands: Vec::new(),
+            next: 0,
+            seen,
+        }
+    }
+
+    /// A new hand that grips around a place at rest.
+    pub(super) fn grab(&mut self, v: VertexId, centre: Point, radius_m: f64) -> HandId {
+        let id = HandId(self.next);
+        self.next += 1;
+        self.hands.push(Hand {
+            id,
+            vertices: vec![v],
+            centre,
+            radius_m,
+        });
+        id
+    }
+
+    pub(super) fn get(&self, id: HandId) -> Option<&Hand> {
+        self.hands.iter().find(|hand| hand.id == id)
+    }
+
+    pub(super) fn remove(&mut self, id: HandId) -> Option<Hand> {
+        let place = self.hands.iter().position(|hand| hand.id == id)?;
+        Some(self.hands.remove(place))
+    }
+
+    /// The hand that has a vertex.
+    pub(super) fn of(&self, v: VertexId) -> Option<HandId> {
+        let has = |hand: &&Hand| hand.vertices.contains(&v);
+        self.hands.iter().find(has).map(|hand| hand.id)
+    }
+
+    /// How many times as strong as by itself the cloth is at a place at rest.
+    pub(super) fn grip(&self, at: Point) -> f64 {
+        let grips = self.hands.iter().map(|hand| hand.grip(at));
+        grips.fold(1.0, f64::max)
+    }
+}
+
+impl Hand {
+    fn grip(&self, at: Point) -> f64 {
+        let distance = length(at - self.centre);
+        if distance > self.radius_m || self.radius_m == 0.0 {
+            return 1.0;
+        }
+        GRIP_STRENGTH * (self.radius_m / distance.max(self.radius_m * GRIP_CORE))
+    }
+}
+
+impl Follower for Hands {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        for Hand { vertices, .. } in &mut self.hands {
+            match edit {
+                Edit::Split(split) if vertices.contains(&split.old) => vertices.push(split.new),
+                Edit::Merge(merge) => {
+                    vertices.iter_mut().for_each(|v| *v = now(*v, merge));
+                    vertices.sort_unstable();
+                    vertices.dedup();
+                }
+                Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
+            }
+        }
+    }
+}
+
+/// The id that a vertex has after a merge.
+pub(super) fn now(v: VertexId, merge: &Merge<'_>) -> VertexId {
+    match merge.renumbered {
+        _ if v == merge.gone => merge.kept,
+        Some(renumbered) if v == renumbered.from => renumbered.to,
+        _ => v,
+    }
+}
+
+/// The path of a hand to a point that was given now: it takes the time of a frame, as a pointer is
+/// read once a frame, or longer where the hand would be too fast. `None` if a coordinate cannot be
+/// used.
+pub(super) fn path(from: Point, to: Point, now_s: f64) -> Option<Path> {
+    let took_s = (length(to - from) / SPEED_MAX_M_PER_S).max(FRAME_S);
+    Path::new([(now_s, from), (now_s + took_s, to)])
+}

@@ -1,0 +1,225 @@
+//! Healing: both sides of a tear are drawn together, and sewn pair by pair where they meet.
+//!
+//! Sewing at once over sides that hang apart would stretch edges to several times their length, and
+//! tear them anew (531 vertices in one trial). So the copies of each vertex move toward each other,
+//! at a steady speed: one that falls with the gap comes to a halt under weight, an edge length
+//! before the end. Of a pair the lighter moves more, so that its momentum stays; one that is held
+//! does not move. Where the cloth is pulled so hard that it would soon tear elsewhere, a pair waits.
+
+use tearmesh::geometry::length;
+use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Mesh, VertexId};
+
+use super::event::CutId;
+use super::hand::{Hands, now};
+use super::sheet::Sheet;
+use crate::sheet::Cloth;
+use crate::system::System;
+use crate::tearing::Threshold;
+
+/// The wounds that are to heal: see [`Simulation::heal`](super::Simulation::heal).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Wounds {
+    /// All tears and cuts.
+    All,
+    /// What a cut tore, and nothing that tore beside it.
+    Cut(CutId),
+}
+
+/// The speed at which copies are drawn together, in m/s.
+pub(super) const SPEED_M_PER_S: f64 = 1.5;
+
+/// A pair that needs this much longer than its way takes at the steady speed is left, in seconds.
+const PATIENCE_S: f64 = 5.0;
+
+/// A pair waits while an edge at it bears this part of what it takes to tear it.
+const LOAD_MAX: f64 = 0.5;
+
+/// For so long before it is left a pair is not drawn any more, in seconds: what was pulled while it
+/// could not tear comes to rest first.
+const REST_S: f64 = 0.5;
+
+/// Two copies of a vertex that are drawn together.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    ends: [VertexId; 2],
+    /// How far they may be apart at the end of the step, in metres.
+    gap_m: f64,
+    /// Whether the cloth around them is pulled too hard to draw them nearer.
+    waits: bool,
+    /// The simulated time at which it is left, in seconds.
+    until_s: f64,
+}
+
+/// The pairs that are still open, a follower of the log.
+#[derive(Clone, Debug)]
+pub(super) struct Healing {
+    open: Vec<Pair>,
+    sewn: usize,
+    left: usize,
+    seen: Cursor,
+}
+
+impl Healing {
+    pub(super) fn starting_at(seen: Cursor) -> Healing {
+        Healing {
+            open: Vec::new(),
+            sewn: 0,
+            left: 0,
+            seen,
+        }
+    }
+
+    /// The number of open pairs.
+    pub(super) fn len(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Opens the pairs on both sides of torn links, but for those that are open already; how many.
+    pub(super) fn begin(
+        &mut self,
+        links: impl Iterator<Item = HalfEdgeId>,
+        sheet: &Sheet,
+        system: &System,
+    ) -> usize {
+        let mut pairs: Vec<_> = links.flat_map(|h| sheet.apart(h)).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs.retain(|pair| self.open.iter().all(|open| open.ends != *pair));
+        let timed = |&ends: &[VertexId; 2]| {
+            let gap_m = gap_m(system, ends);
+            Pair {
+                ends,
+                gap_m,
+                waits: false,
+                until_s: system.elapsed_s() + gap_m / SPEED_M_PER_S + PATIENCE_S,
+            }
+        };
+        self.open.extend(pairs.iter().map(timed));
+        pairs.len()
+    }
+
+    /// The next open pair, from place `first` on, whose copies have met; and its place.
+    pub(super) fn next_met(
+        &self,
+        first: usize,
+        system: &System,
+        hands: &Hands,
+    ) -> Option<(usize, [VertexId; 2])> {
+        let meets =
+            |&(_, pair): &(usize, &Pair)| pair.gap_m == 0.0 && may_join(pair.ends, system, hands);
+        let mut open = self.open.iter().enumerate().skip(first);
+        open.find(meets).map(|(place, pair)| (place, pair.ends))
+    }
+
+    /// Counts a pair that was sewn.
+    pub(super) fn note_sewn(&mut self) {
+        self.sewn += 1;
+    }
+
+    /// Leaves the pairs whose time is over; whether there were any.
+    pub(super) fn leave(&mut self, now_s: f64) -> bool {
+        let before = self.open.len();
+        self.open.retain(|pair| pair.until_s > now_s);
+        self.left += before - self.open.len();
+        before > self.open.len()
+    }
+
+    /// How many were sewn and left, once no pair is open.
+    pub(super) fn end(&mut self) -> Option<(usize, usize)> {
+        let counts = (self.sewn, self.left);
+        (self.open.is_empty() && counts != (0, 0)).then(|| {
+            (self.sewn, self.left) = (0, 0);
+            counts
+        })
+    }
+
+    /// Moves the copies of each pair nearer to each other by the way of a step, and has them go on
+    /// so. A pair waits, and gives way, while the cloth around it is pulled too hard.
+    pub(super) fn draw(
+        &mut self,
+        mesh: &Mesh,
+        cloth: &mut Cloth,
+        threshold: &Threshold,
+        step_s: f64,
+    ) {
+        let now_s = cloth.system().elapsed_s();
+        // First all loads, since moving anything makes a system forget forces.
+        for pair in &mut self.open {
+            let corners = pair.ends.into_iter().flat_map(|v| mesh.corners_of(v));
+            let mut edges = corners.flat_map(|h| [h, h.prev()]);
+            let load = |h| threshold.edge_load(mesh, cloth, h);
+            pair.waits = now_s > pair.until_s - REST_S
+                || edges.any(|h| load(h).is_some_and(|load| load > LOAD_MAX));
+        }
+        let system = cloth.system_mut();
+        for pair in &mut self.open {
+            let [a, b] = pair.ends.map(VertexId::index);
+            let inverse = [a, b].map(|particle| system.inverse_masses()[particle]);
+            let x = system.positions();
+            let (way, sum) = (x[b] - x[a], inverse[0] + inverse[1]);
+            let gap_m = length(way);
+            if pair.waits || sum == 0.0 || gap_m == 0.0 {
+                pair.gap_m = gap_m;
+                continue;
+            }
+            pair.gap_m = (pair.gap_m.min(gap_m) - SPEED_M_PER_S * step_s).max(0.0);
+            let (x, v) = system.state_mut();
+            let closer = way * (1.0 - pair.gap_m / gap_m);
+            let faster = way * (SPEED_M_PER_S / gap_m) + (v[b] - v[a]);
+            for (end, share) in [(a, inverse[0] / sum), (b, -inverse[1] / sum)] {
+                x[end] += closer * share;
+                v[end] += faster * share;
+            }
+        }
+    }
+
+    /// The vertices within two rings of an open pair, which do not tear. Some come twice.
+    pub(super) fn guarded(&self, mesh: &Mesh) -> Vec<VertexId> {
+        let mut guarded: Vec<_> = self.open.iter().flat_map(|pair| pair.ends).collect();
+        guarded.sort_unstable();
+        guarded.dedup();
+        let mut ring = 0;
+        for _ in 0..2 {
+            let end = guarded.len();
+            for place in ring..end {
+                for h in mesh.corners_of(guarded[place]) {
+                    guarded.extend([mesh.target(h), mesh.origin(h.prev())]);
+                }
+            }
+            guarded[end..].sort_unstable();
+            guarded.dedup();
+            ring = end;
+        }
+        guarded
+    }
+}
+
+/// How far two vertices are apart, in metres.
+fn gap_m(system: &System, ends: [VertexId; 2]) -> f64 {
+    let [a, b] = ends.map(|v| system.positions()[v.index()]);
+    length(b - a)
+}
+
+/// Whether two vertices may become one: not if one is in a hand, and the other is held otherwise.
+fn may_join(ends: [VertexId; 2], system: &System, hands: &Hands) -> bool {
+    let [one, other] = ends.map(|v| hands.of(v));
+    let is_held = ends.map(|v| system.is_held(v.index()));
+    one == other || is_held != [true, true]
+}
+
+impl Follower for Healing {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        if let Edit::Merge(merge) = edit {
+            for pair in &mut self.open {
+                let [one, other] = pair.ends.map(|v| now(v, merge));
+                pair.ends = [one.min(other), one.max(other)];
+            }
+            self.open.retain(|pair| pair.ends[0] != pair.ends[1]);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Which cut tore which links of a mesh.
+
+use tearmesh::{Cursor, Cut, Edit, Follower, HalfEdgeId, Insert, Mesh};
+
+use super::event::CutId;
+use crate::follow::lies_on;
+
+/// Which cut tore each link, a follower of the log.
+#[derive(Clone, Debug)]
+pub(super) struct Seams {
+    /// By half-edge: the number of the cut that tore its link, from 1; 0 for none.
+    cut_of: Vec<u32>,
+    cuts: u32,
+    seen: Cursor,
+}
+
+impl Seams {
+    pub(super) fn of(mesh: &Mesh, seen: Cursor) -> Seams {
+        Seams {
+            cut_of: vec![0; mesh.half_edge_count()],
+            cuts: 0,
+            seen,
+        }
+    }
+
+    /// Notes what a cut tore.
+    pub(super) fn add(&mut self, cut: &Cut) -> CutId {
+        let id = CutId(self.cuts);
+        self.cuts += 1;
+        for h in cut.seam().flat_map(|line| line.lips).flatten() {
+            self.cut_of[h.index()] = self.cuts;
+        }
+        id
+    }
+
+    /// The half-edges that a cut tore, on both sides of it; `None` if there was no such cut.
+    pub(super) fn torn_by(&self, cut: CutId) -> Option<impl Iterator<Item = HalfEdgeId> + '_> {
+        let number = cut.0.checked_add(1).filter(|number| *number <= self.cuts)?;
+        let torn = self.cut_of.iter().enumerate();
+        let torn = torn.filter(move |&(_, by)| *by == number);
+        Some(torn.filter_map(|(index, _)| HalfEdgeId::new(index)))
+    }
+
+    /// The parts of a divided edge were torn by what tore the edge.
+    fn insert(&mut self, insert: &Insert<'_>) {
+        for family in insert.families() {
+            let parent = family.parent().half_edges();
+            let before = parent.map(|h| self.cut_of[h.index()]);
+            for child in family.children() {
+                let start = 3 * child.face.index();
+                self.cut_of.resize(self.cut_of.len().max(start + 3), 0);
+                for corner in 0..3 {
+                    let ends = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
+                    let on = |&h: &usize| ends.into_iter().all(|end| lies_on(end, parent[h]));
+                    self.cut_of[start + corner] = (0..3).find(on).map_or(0, |h| before[h]);
+                }
+            }
+        }
+    }
+}
+
+impl Follower for Seams {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        match edit {
+            Edit::Insert(insert) => self.insert(insert),
+            Edit::Merge(merge) => {
+                for link in merge.sewn {
+                    self.cut_of[link.stayed.index()] = 0;
+                    self.cut_of[link.moved.index()] = 0;
+                }
+            }
+            Edit::Split(_) | Edit::Slide(_) => {}
+        }
+    }
+}
