@@ -104,6 +104,11 @@ impl Plane {
         self.normal / self.length
     }
 
+    /// The given normal, scaled by a power of two: a plane made of it is this one.
+    pub(crate) fn scaled_normal(&self) -> Vector {
+        self.normal
+    }
+
     /// Returns a number that is positive, zero or negative like the signed distance of `p` from the
     /// plane. It is n · (p − o), where o is the point of the plane and n is the normal scaled by a
     /// power of two rather than to unit length.

@@ -20,6 +20,7 @@ mod quality;
 mod seam;
 mod strip;
 mod unshare;
+mod words;
 
 use std::fmt;
 
@@ -302,13 +303,6 @@ impl Scissor {
     #[must_use]
     pub fn layers(self, layers: CutLayers) -> Scissor {
         Scissor { layers, ..self }
-    }
-
-    /// Returns whether the scissor continues another cut, as [`Scissor::continued`] and
-    /// [`Scissor::closed`] make it.
-    #[must_use]
-    pub fn is_continued(&self) -> bool {
-        self.joints.iter().any(Option::is_some)
     }
 
     /// Returns the plane along which the scissor cuts.

@@ -1,6 +1,8 @@
 //! A simulation does what its verbs say: grips hold, rips run, cuts and sewing keep everything in
 //! step, and what is refused changes nothing.
 
+mod replay;
+
 use tearmesh::geometry::length;
 use tearmesh::{
     CutMethod, Edits, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, VertexId, shapes,

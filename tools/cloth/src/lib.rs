@@ -101,8 +101,8 @@ pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use sheet::{Cloth, ClothError, EnergyLedger};
 pub use simulation::{
-    BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, Picked, Reached, Simulation,
-    SimulationDef, SimulationError, Wounds,
+    BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
+    Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
 pub use solver::{Abilities, Failure, SettingError, Solver, StepError, StepReport};
 pub use spectrum::Frequency;

@@ -13,14 +13,16 @@ mod error;
 mod event;
 mod hand;
 mod heal;
+mod log;
 mod seams;
 mod sheet;
 
 pub use buffers::{BufferChanges, ClothBuffers};
-pub use error::{InputError, SimulationError};
+pub use error::{InputError, ReplayError, SimulationError};
 pub use event::{CutId, Event};
 pub use hand::HandId;
 pub use heal::Wounds;
+pub use log::{InputLog, LogError};
 
 use std::fmt;
 
@@ -31,6 +33,7 @@ use tearmesh::{
 
 use self::hand::Hands;
 use self::heal::Healing;
+use self::log::{Record, Verb};
 use self::seams::Seams;
 use self::sheet::Sheet;
 use crate::fabric::Fabric;
@@ -89,6 +92,7 @@ pub struct Simulation {
     /// The edit up to which the buffers know pieces.
     pieces_seen: Cursor,
     events: Vec<Event>,
+    log: Option<InputLog>,
 }
 
 /// The definition of a simulation beside its mesh.
@@ -228,7 +232,115 @@ impl Simulation {
             buffers,
             pieces_seen: seen,
             events: Vec::new(),
+            log: None,
         })
+    }
+
+    /// Creates a simulation that [logs](Simulation::log) its inputs.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Simulation::new`].
+    pub fn recorded(
+        mesh: Mesh,
+        positions: Positions,
+        def: SimulationDef,
+    ) -> Result<Simulation, SimulationError> {
+        let digest = log::digest(&mesh, &positions, &def);
+        let mut sim = Simulation::new(mesh, positions, def)?;
+        sim.log = Some(InputLog::new(digest));
+        Ok(sim)
+    }
+
+    /// Repeats what a log says, with the mesh and the definition of the simulation that was
+    /// recorded. Every number is the same to the bit. (A fraction of a step that was left to the
+    /// next call of [`advance`](Simulation::advance) is not in the log.)
+    ///
+    /// ```
+    /// use tearmesh_cloth::{InputLog, Simulation, SimulationDef};
+    /// use tearmesh::{VertexId, shapes};
+    ///
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let def = SimulationDef::default();
+    /// let mut sim = Simulation::recorded(mesh.clone(), positions.clone(), def.clone())?;
+    /// sim.hold(VertexId::new(24))?;
+    /// sim.advance(0.1, 1000)?;
+    ///
+    /// let log: InputLog = sim.log().ok_or("it is recorded")?.to_string().parse()?;
+    /// let again = Simulation::replayed(mesh, positions, def, &log)?;
+    /// assert_eq!(again.cloth().positions(), sim.cloth().positions());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`ReplayError`] if the log is that of another mesh or definition, or not of a simulation.
+    pub fn replayed(
+        mesh: Mesh,
+        positions: Positions,
+        def: SimulationDef,
+        log: &InputLog,
+    ) -> Result<Simulation, ReplayError> {
+        let sim = Simulation::recorded(mesh, positions, def);
+        let mut sim = sim.map_err(ReplayError::Definition)?;
+        let own = sim.log.as_ref().map_or(0, |log| log.digest);
+        if own != log.digest {
+            let logged = log.digest;
+            return Err(ReplayError::Digest { own, logged });
+        }
+        for (number, record) in log.records.iter().enumerate() {
+            sim.reach(record.step)?;
+            sim.repeat(record)
+                .map_err(|error| ReplayError::Input { number, error })?;
+        }
+        sim.reach(log.steps)?;
+        Ok(sim)
+    }
+
+    /// Takes the steps of a log up to a number.
+    fn reach(&mut self, steps: u64) -> Result<(), ReplayError> {
+        self.sheet.edits.clear();
+        while self.steps < steps {
+            self.step().map_err(ReplayError::Step)?;
+        }
+        Ok(())
+    }
+
+    /// Repeats an input; `None` of one that was refused, or cannot be one.
+    fn repeat(&mut self, record: &Record) -> Result<(), Option<InputError>> {
+        let id = |&word: &u64| VertexId::new(usize::try_from(word).ok()?);
+        let hand = |word: u64| u32::try_from(word).ok().map(HandId);
+        let ids = || record.words.iter().map(id).collect::<Option<Vec<_>>>();
+        match (record.verb, &record.words[..]) {
+            (Verb::Hold, _) => self.hold(ids().ok_or(None)?)?,
+            (Verb::Free, _) => self.free(ids().ok_or(None)?)?,
+            (Verb::Grab, [vertex, radius_m]) => {
+                self.grab(id(vertex).ok_or(None)?, f64::from_bits(*radius_m))?;
+            }
+            (Verb::Lead, &[led, x, y, z]) => {
+                let [x, y, z] = [x, y, z].map(f64::from_bits);
+                self.lead(hand(led).ok_or(None)?, Point::new(x, y, z))?;
+            }
+            (Verb::Release, &[held]) => self.release(hand(held).ok_or(None)?)?,
+            (Verb::Cut, words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
+            (Verb::Heal, []) => drop(self.heal(Wounds::All)?),
+            (Verb::Heal, &[cut]) => {
+                let cut = u32::try_from(cut).map(CutId).map_err(|_| None)?;
+                self.heal(Wounds::Cut(cut))?;
+            }
+            (Verb::Failed, []) => {
+                let failed = self.step().is_err();
+                return failed.then(|| self.note(Verb::Failed, [])).ok_or(None);
+            }
+            _ => return Err(None),
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, verb: Verb, words: impl IntoIterator<Item = u64>) {
+        if let Some(log) = &mut self.log {
+            log.note(verb, words);
+        }
     }
 
     /// The radius within which a hand strengthens the cloth around it, in metres, that was found to
@@ -262,7 +374,11 @@ impl Simulation {
         let dropped_s = (wanted - steps as f64) * self.step_s;
         self.owed_s -= wanted * self.step_s;
         for _ in 0..steps {
-            self.step().inspect_err(|_| self.owed_s = 0.0)?;
+            if let Err(error) = self.step() {
+                self.owed_s = 0.0;
+                self.note(Verb::Failed, []);
+                return Err(error);
+            }
         }
         Ok(Reached {
             steps,
@@ -274,6 +390,9 @@ impl Simulation {
     fn step(&mut self) -> Result<(), StepError> {
         self.cloth.step(&mut *self.solver, self.step_s)?;
         self.steps += 1;
+        if let Some(log) = &mut self.log {
+            log.steps = self.steps;
+        }
         self.tear_overstretched();
         self.heal_step();
         Ok(())
@@ -368,6 +487,7 @@ impl Simulation {
         vertices.iter().try_for_each(|&v| self.not_in_hand(v))?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.hold(v.index()));
+        self.note(Verb::Hold, vertices.into_iter().map(word));
         Ok(())
     }
 
@@ -386,6 +506,7 @@ impl Simulation {
         }
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.release(v.index()));
+        self.note(Verb::Free, vertices.into_iter().map(word));
         Ok(())
     }
 
@@ -429,6 +550,7 @@ impl Simulation {
         let hand = self.hands.grab(vertex, centre, radius_m);
         self.cloth.system_mut().hold(vertex.index());
         self.strengthen();
+        self.note(Verb::Grab, [word(vertex), radius_m.to_bits()]);
         Ok(hand)
     }
 
@@ -452,6 +574,8 @@ impl Simulation {
         for (v, path) in held.vertices.iter().zip(paths) {
             system.grab(v.index(), path);
         }
+        let [x, y, z] = [to.x, to.y, to.z].map(f64::to_bits);
+        self.note(Verb::Lead, [hand.0.into(), x, y, z]);
         Ok(())
     }
 
@@ -465,6 +589,7 @@ impl Simulation {
         let system = self.cloth.system_mut();
         gone.vertices.iter().for_each(|v| system.release(v.index()));
         self.strengthen();
+        self.note(Verb::Release, [hand.0.into()]);
         Ok(())
     }
 
@@ -480,9 +605,7 @@ impl Simulation {
         reason = "the positions are in step with the mesh"
     )]
     pub fn cut(&mut self, scissor: &Scissor) -> Result<CutId, InputError> {
-        if scissor.is_continued() {
-            return Err(InputError::Continued);
-        }
+        let words = scissor.to_words().ok_or(InputError::Continued)?;
         self.sheet.edits.clear();
         let moved = self.sheet.move_to(self.cloth.positions());
         moved.map_err(InputError::Positions)?;
@@ -492,6 +615,7 @@ impl Simulation {
         let splits = self.sheet.edits.iter().filter(is_split).count();
         self.follow();
         let (cut, time_s) = (self.seams.add(&made), self.time_s());
+        self.note(Verb::Cut, words);
         self.events.push(Event::Cut {
             cut,
             splits,
@@ -523,6 +647,11 @@ impl Simulation {
         if opened > 0 {
             self.strengthen();
         }
+        let number = match wounds {
+            Wounds::All => None,
+            Wounds::Cut(cut) => Some(cut.0.into()),
+        };
+        self.note(Verb::Heal, number);
         Ok(opened)
     }
 
@@ -590,6 +719,13 @@ impl Simulation {
         self.healing.len()
     }
 
+    /// Returns the log of the inputs so far; `None` unless they are
+    /// [recorded](Simulation::recorded).
+    #[must_use]
+    pub fn log(&self) -> Option<&InputLog> {
+        self.log.as_ref()
+    }
+
     /// Returns the time simulated so far, in seconds.
     #[must_use]
     pub fn time_s(&self) -> f64 {
@@ -612,6 +748,10 @@ impl Simulation {
 /// The strength of what does not tear, as a multiple of the threshold: finite, so that means of it
 /// are.
 const UNTEARABLE: f64 = 1e12;
+
+fn word(v: VertexId) -> u64 {
+    u32::from(v).into()
+}
 
 fn solver_of(method: &Method) -> Box<dyn Solver + Send + Sync> {
     match *method {

@@ -8,6 +8,7 @@ use tearmesh::{MassError, PositionError, VertexId};
 use super::event::CutId;
 use super::hand::HandId;
 use crate::sheet::ClothError;
+use crate::solver::StepError;
 use crate::system::SystemError;
 use crate::tearing::TearingError;
 
@@ -129,3 +130,47 @@ impl fmt::Display for InputError {
 }
 
 impl Error for InputError {}
+
+/// The reason why a log could not be replayed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ReplayError {
+    /// The definition was refused.
+    Definition(SimulationError),
+    /// The log is that of another mesh or another definition.
+    Digest {
+        /// The digest of the mesh and the definition that were given.
+        own: u64,
+        /// The digest in the log.
+        logged: u64,
+    },
+    /// An input of the log was refused, or is none.
+    Input {
+        /// The number of the input, from 0.
+        number: usize,
+        /// The reason; `None` if its numbers are not those of its verb, or a step that failed did
+        /// not fail.
+        error: Option<InputError>,
+    },
+    /// A step failed that had not.
+    Step(StepError),
+}
+
+impl fmt::Display for ReplayError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ReplayError::Definition(error) => error.fmt(f),
+            ReplayError::Digest { own, logged } => write!(
+                f,
+                "the log is of {logged:016x}, and this mesh with its definition is {own:016x}"
+            ),
+            ReplayError::Input { number, error } => {
+                write!(f, "input {number} of the log was refused")?;
+                error.iter().try_for_each(|error| write!(f, ": {error}"))
+            }
+            ReplayError::Step(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for ReplayError {}

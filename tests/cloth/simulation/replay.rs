@@ -1,0 +1,346 @@
+//! A log of inputs, written, read and replayed, gives the same bytes; and whatever the inputs are,
+//! what holds of a simulation holds.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use proptest::test_runner::Config;
+
+use tearmesh::geometry::length;
+use tearmesh::{Plane, Point, Scissor, Vector, VertexId, shapes};
+use tearmesh_cloth::scene::Method;
+use tearmesh_cloth::{
+    CutId, Event, Fabric, HandId, InputLog, LogError, ReplayError, Simulation, SimulationDef,
+    Tearing, Threshold, Unstable, Wounds,
+};
+
+use super::{ALL, across, check, pass, ray, v};
+
+/// Everything that a simulation computed, as bits.
+fn bits(sim: &Simulation) -> (Vec<u64>, Vec<u32>) {
+    let system = sim.cloth().system();
+    let points = system.positions().iter().flat_map(|x| [x.x, x.y, x.z]);
+    let velocities = system.velocities().iter().flat_map(|v| [v.x, v.y, v.z]);
+    let numbers = points.chain(velocities).chain([sim.time_s()]);
+    (
+        numbers.map(f64::to_bits).collect(),
+        sim.mesh().indices().to_vec(),
+    )
+}
+
+/// Writes, reads and replays the log of a simulation of a sheet, and compares.
+fn replays(sim: &Simulation, n: u32, def: &SimulationDef) {
+    let log = sim.log().expect("it is recorded");
+    let read: InputLog = log
+        .to_string()
+        .parse()
+        .expect("what was written can be read");
+    assert_eq!(&read, log);
+    let (mesh, positions) = shapes::grid(n, n);
+    let again = Simulation::replayed(mesh, positions, def.clone(), &read).expect("replayed");
+    assert!(bits(&again) == bits(sim), "the same bytes");
+    assert_eq!(again.log(), Some(log));
+    assert_eq!(again.open_pairs(), sim.open_pairs());
+}
+
+/// A sheet is held, torn by a hand, cut and healed.
+fn played(n: u32, def: &SimulationDef) -> Simulation {
+    let (mesh, positions) = shapes::grid(n, n);
+    let mut sim = Simulation::recorded(mesh, positions, def.clone()).expect("a simulation");
+    let row = n as usize + 1;
+    sim.hold((row * (row - 1)..row * row).map(v)).expect("held");
+    pass(&mut sim, 0.1);
+    let middle = sim.pick(&ray(0.5, 0.5)).expect("on the cloth").vertex;
+    let hand = sim.grab(middle, Simulation::GRIP_RADIUS_M).expect("a hand");
+    for frame in 0..30 {
+        let s = f64::from(frame) / 30.0;
+        sim.lead(hand, Point::new(0.5, 0.5 - s, s)).expect("led");
+        pass(&mut sim, 1.0 / 60.0);
+    }
+    let cut = sim.cut(&across(0.7)).expect("cut");
+    pass(&mut sim, 0.05);
+    sim.release(hand).expect("a hand");
+    sim.heal(Wounds::Cut(cut)).expect("a cut");
+    pass(&mut sim, 0.1);
+    sim.heal(Wounds::All).expect("wounds");
+    sim.free([v(row * row - 1)]).expect("held");
+    pass(&mut sim, 0.1);
+    sim
+}
+
+#[test]
+fn a_replay_gives_the_same_bytes_by_every_method() {
+    let methods = [
+        Method::Verlet,
+        Method::xpbd(),
+        Method::pbd(),
+        Method::provot(),
+        Method::implicit(),
+    ];
+    for method in methods {
+        let def = SimulationDef {
+            method,
+            fabric: Fabric::new(200.0),
+            ..SimulationDef::default()
+        };
+        let mut sim = played(10, &def);
+        let tore = |event: Event| matches!(event, Event::Tore { .. });
+        assert!(sim.events().filter(|&event| tore(event)).count() > 3);
+        check(&mut sim);
+        replays(&sim, 10, &def);
+    }
+}
+
+/// The digits of a run that tears say nothing to anybody: a hash of them does, that they are the same
+/// on every machine, and after every change that is to change nothing.
+#[test]
+fn a_run_of_verbs_has_the_bytes_that_it_had() {
+    let def = SimulationDef {
+        method: Method::xpbd(),
+        step_s: Some(1.0 / 1200.0),
+        ..SimulationDef::default()
+    };
+    let sim = played(12, &def);
+    let (numbers, indices) = bits(&sim);
+    let words = numbers
+        .into_iter()
+        .chain(indices.into_iter().map(u64::from));
+    let hash = words.fold(0, |hash: u64, word| {
+        (hash ^ word).wrapping_mul(0x0100_0000_01b3).rotate_left(29)
+    });
+    assert_eq!(format!("{hash:016x}"), "de7bc35b3f6b8f89");
+}
+
+#[test]
+fn steps_that_failed_are_replayed_as_well() {
+    let def = SimulationDef {
+        step_s: Some(1.0 / 60.0),
+        when_unstable: Unstable::Refuse,
+        method: Method::provot(),
+        ..SimulationDef::default()
+    };
+    let (mesh, positions) = shapes::grid(4, 4);
+    let mut sim = Simulation::recorded(mesh, positions, def.clone()).expect("a simulation");
+    sim.advance(0.1, ALL).expect_err("too long a step");
+    sim.hold([v(3)]).expect("held");
+    sim.advance(0.1, ALL).expect_err("too long a step");
+    assert!(
+        sim.log()
+            .expect("recorded")
+            .to_string()
+            .ends_with("\n0 failed\n0 hold 3\n0 failed\n0 end\n")
+    );
+    replays(&sim, 4, &def);
+}
+
+#[test]
+fn a_log_of_something_else_is_refused() {
+    let def = SimulationDef::default();
+    let (mesh, positions) = shapes::grid(4, 4);
+    let mut sim = Simulation::recorded(mesh, positions, def.clone()).expect("a simulation");
+    sim.hold([v(3)]).expect("held");
+    let log = sim.log().expect("recorded").clone();
+    let replayed = |n: u32, def: &SimulationDef, log: &InputLog| {
+        let (mesh, positions) = shapes::grid(n, n);
+        Simulation::replayed(mesh, positions, def.clone(), log).map(drop)
+    };
+    assert_eq!(replayed(4, &def, &log), Ok(()));
+    let harder = SimulationDef {
+        fabric: Fabric::new(1001.0),
+        ..def.clone()
+    };
+    for (n, def) in [(5, &def), (4, &harder)] {
+        let error = replayed(n, def, &log).expect_err("another simulation");
+        assert!(matches!(error, ReplayError::Digest { .. }), "{error}");
+    }
+    let text = log.to_string();
+    for (line, is_refused) in [
+        ("0 hold 3", false),
+        ("0 hold 19", true),
+        ("0 hold ffffffffffffffff", true),
+        ("0 free 4", true),
+        ("0 grab 3", true),
+        ("0 lead 0 0 0 0", true),
+        ("0 cut 1 2 3", true),
+        ("0 heal 0", true),
+        ("0 heal 0 0", true),
+        ("0 failed", true),
+        ("0 heal", false),
+    ] {
+        let log = text.replace("0 hold 3", line).parse().expect("a log");
+        let result = replayed(4, &def, &log);
+        assert_eq!(result.is_err(), is_refused, "{line}: {result:?}");
+        if let Err(error) = result {
+            assert!(
+                matches!(error, ReplayError::Input { number: 0, .. }),
+                "{error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_text_that_is_no_log_is_refused_by_line_and_column() {
+    let good = "tearmesh inputs 1\ndigest 00ff\n3 hold 1 a\n3 end\n";
+    let log: InputLog = good.parse().expect("a log");
+    assert_eq!((log.len(), log.steps()), (1, 3));
+    let hex = "a number of up to 16 hexadecimal digits";
+    let steps = "a number of steps that does not descend";
+    for (from, to, line, column, expected) in [
+        ("inputs 1", "inputs 2", 1, 1, "`tearmesh inputs 1`"),
+        ("digest", "digits", 2, 1, "`digest`"),
+        ("00ff", "00fg", 2, 8, hex),
+        ("00ff", "00ff 1", 2, 13, "the end of the line"),
+        ("hold 1 a", "hold 1 +a", 3, 10, hex),
+        ("hold 1 a", "hold 1  a", 3, 10, hex),
+        ("hold 1 a", "hold 1 12345678123456781", 3, 10, hex),
+        ("hold", "told", 3, 3, "a verb"),
+        ("hold", "", 3, 3, "a verb"),
+        ("3 end", "2 end", 4, 1, steps),
+        ("3 end", "-3 end", 4, 1, steps),
+        ("3 end", "", 4, 1, steps),
+        ("3 end", "3 end 4", 4, 7, "the end of the line"),
+        ("3 end\n", "3 end\n3 end\n", 5, 1, "the end of the log"),
+        ("3 end\n", "", 4, 1, steps),
+    ] {
+        let text = good.replace(from, to);
+        let error = text.parse::<InputLog>().expect_err(&text);
+        assert_eq!(
+            error,
+            LogError {
+                line,
+                column,
+                expected
+            },
+            "{text}"
+        );
+    }
+}
+
+/// A verb, to whom it is done, and three numbers from 0 to 1.
+type Verb = (u8, u32, [f64; 3]);
+
+fn verbs() -> impl Strategy<Value = Vec<Verb>> {
+    let numbers = [0.0..1.0, 0.0..1.0, 0.0..1.0];
+    prop::collection::vec((0_u8..12, 0_u32..40, numbers), 1..24)
+}
+
+/// Where the vertices are that are held and in no hand.
+fn held_places(sim: &Simulation, hands: &[HandId]) -> BTreeSet<[u64; 3]> {
+    let in_hands: BTreeSet<VertexId> = hands
+        .iter()
+        .flat_map(|&hand| sim.in_hand(hand).expect("a hand"))
+        .copied()
+        .collect();
+    let system = sim.cloth().system();
+    let held = sim.mesh().vertices().filter(|v| system.is_held(v.index()));
+    held.filter(|v| !in_hands.contains(v))
+        .map(|v| system.positions()[v.index()].coords.into())
+        .map(|at: [f64; 3]| at.map(f64::to_bits))
+        .collect()
+}
+
+/// Does what a verb says, if it is not refused, and checks what must hold then.
+fn perform(sim: &mut Simulation, hands: &mut Vec<HandId>, cuts: &mut Vec<CutId>, verb: &Verb) {
+    let &(verb, whom, [x, y, z]) = verb;
+    let index = whom as usize;
+    let vertex = v(index);
+    let hand = hands.get(index % 3).copied();
+    let before = held_places(sim, hands);
+    let mut stays = true;
+    match verb {
+        0 => stays = sim.hold([vertex, v(index / 2)]).is_err(),
+        1 => stays = sim.free([vertex]).is_err(),
+        2 | 3 => hands.extend(sim.grab(vertex, 0.4 * x)),
+        4 | 5 => {
+            let to = Point::new(2.0 * x - 0.5, 2.0 * y - 0.5, z);
+            assert_eq!(
+                hand.is_some(),
+                hand.is_some_and(|hand| sim.lead(hand, to).is_ok())
+            );
+        }
+        6 => {
+            if let Some(hand) = hand {
+                sim.release(hand).expect("a hand");
+                assert!(sim.release(hand).is_err(), "it is released");
+                hands.retain(|other| *other != hand);
+            }
+        }
+        7 => {
+            let normal = Vector::new(x - 0.5, y - 0.5, 0.1 * z);
+            if let Ok(plane) = Plane::new(Point::new(z, x, 0.0), normal) {
+                cuts.push(sim.cut(&Scissor::by_plane(plane)).expect("cut"));
+            }
+        }
+        8 => {
+            if let Ok(scissor) = Scissor::new(ray(x, y), ray(y, z)) {
+                cuts.push(sim.cut(&scissor.snap(0.3 * z)).expect("cut"));
+            }
+        }
+        9 => {
+            let cut = cuts.get(index % 4).copied();
+            let opened = sim.heal(cut.map_or(Wounds::All, Wounds::Cut));
+            opened.expect("a cut that was made");
+        }
+        _ => {
+            let positions = |sim: &Simulation, hands: &[HandId]| {
+                let of = |&hand: &_| sim.in_hand(hand).expect("a hand")[0];
+                let at = hands
+                    .iter()
+                    .map(|hand| sim.cloth().positions()[of(hand).index()]);
+                at.collect::<Vec<_>>()
+            };
+            let from = positions(sim, hands);
+            let began_s = sim.time_s();
+            let _may_fail = sim.advance(0.1 * x, 400);
+            let way_m = Simulation::HAND_SPEED_MAX_M_PER_S * (sim.time_s() - began_s);
+            for (from, to) in from.iter().zip(positions(sim, hands)) {
+                assert!(length(to - from) <= way_m + 1e-9);
+            }
+        }
+    }
+    if stays {
+        assert_eq!(
+            held_places(sim, hands),
+            before,
+            "what is held stays where it is"
+        );
+    }
+    let mut taken = BTreeSet::new();
+    for &hand in hands.iter() {
+        let vertices = sim.in_hand(hand).expect("a hand");
+        let places = vertices.iter().map(|v| sim.cloth().positions()[v.index()]);
+        let places: Vec<_> = places.collect();
+        assert!(!places.is_empty() && places.iter().all(|at| *at == places[0]));
+        for &v in vertices {
+            assert!(sim.cloth().system().is_held(v.index()) && taken.insert(v));
+        }
+    }
+    check(sim);
+}
+
+proptest! {
+    #![proptest_config(Config { failure_persistence: None, ..Config::default() })]
+
+    #[test]
+    fn random_scripts_keep_what_holds_and_replay_to_the_same_bytes(
+        verbs in verbs(),
+        method in 0_usize..5,
+        ratio in 1.05..1.5,
+    ) {
+        let methods = [Method::Verlet, Method::xpbd(), Method::pbd(), Method::provot(), Method::implicit()];
+        let def = SimulationDef {
+            method: methods[method].clone(),
+            fabric: Fabric::new(50.0),
+            tearing: Some(Tearing::new(Threshold::Stretch(ratio))),
+            ..SimulationDef::default()
+        };
+        let (mesh, positions) = shapes::grid(4, 4);
+        let mut sim = Simulation::recorded(mesh, positions, def.clone()).expect("a simulation");
+        let (mut hands, mut cuts) = (Vec::new(), Vec::new());
+        for verb in &verbs {
+            perform(&mut sim, &mut hands, &mut cuts, verb);
+        }
+        replays(&sim, 4, &def);
+    }
+}
