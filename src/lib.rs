@@ -72,7 +72,7 @@
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,200 |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) | 2,100 |
 //!
-//! The solver layer is a separate crate, `tearmesh-cloth` (17,700 lines), which builds on this one.
+//! The solver layer is a separate crate, `tearmesh-cloth` (17,400 lines), which builds on this one.
 //! Nothing here depends on it: any simulation can follow the log.
 //!
 //! Architecture invariants: the library reads no file, prints nothing, uses no clock and no random numbers,

@@ -1,10 +1,11 @@
 //! What promises not to allocate does not.
 
 use allocation_counter::measure;
-use tearmesh::{Edits, Vector, shapes};
+use tearmesh::{Edits, Plane, Point, Scissor, Vector, VertexId, shapes};
+use tearmesh_cloth::scene::Method;
 use tearmesh_cloth::{
-    Bending, Cloth, Fabric, Implicit, Pbd, Provot, Solver, Tear, Tearing, Threshold, Unstable,
-    Verlet, Weave, Xpbd,
+    Bending, Cloth, Fabric, Implicit, Pbd, Provot, Simulation, SimulationDef, Solver, Tear,
+    Tearing, Threshold, Unstable, Verlet, Weave, Wounds, Xpbd,
 };
 
 use crate::parts::cloths::cloth;
@@ -94,5 +95,84 @@ fn looking_for_tears_allocates_nothing() {
             }
         });
         assert_eq!(taken, 0);
+    }
+}
+
+/// A sheet that hangs by its upper edge, with a hand at its middle.
+fn in_hand(method: Method) -> (Simulation, tearmesh_cloth::HandId) {
+    let (mesh, positions) = shapes::grid(12, 12);
+    let def = SimulationDef {
+        method,
+        ..SimulationDef::default()
+    };
+    let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+    sim.hold((156..169).filter_map(VertexId::new))
+        .expect("held");
+    let middle = VertexId::new(84).expect("an id");
+    let hand = sim.grab(middle, Simulation::GRIP_RADIUS_M).expect("a hand");
+    sim.advance(0.02, 1000).expect("stable");
+    (sim, hand)
+}
+
+#[test]
+fn steps_of_a_simulation_do_not_allocate() {
+    let methods = [
+        Method::Verlet,
+        Method::xpbd(),
+        Method::pbd(),
+        Method::provot(),
+        Method::implicit(),
+    ];
+    for method in methods {
+        let (mut sim, hand) = in_hand(method);
+        sim.lead(hand, Point::new(0.5, 0.45, 0.02)).expect("led");
+        let taken = allocations(|| {
+            let reached = sim.advance(0.05, 1000).expect("stable");
+            assert!(reached.steps > 10);
+        });
+        assert_eq!((taken, sim.events().count()), (0, 0));
+
+        // Nor while wounds are drawn together, until something is sewn.
+        let plane = Plane::new(Point::new(0.0, 0.7, 0.0), Vector::y()).expect("a plane");
+        sim.cut(&Scissor::by_plane(plane)).expect("cut");
+        sim.lead(hand, Point::new(0.5, -0.5, 0.0)).expect("led");
+        sim.advance(0.3, 10_000).expect("stable");
+        assert!(sim.heal(Wounds::All).expect("wounds") > 10);
+        let vertices = sim.mesh().vertex_count();
+        sim.advance(0.01, 1000).expect("stable");
+        let taken = allocations(|| {
+            sim.advance(0.02, 1000).expect("stable");
+        });
+        assert_eq!((taken, sim.mesh().vertex_count()), (0, vertices));
+    }
+}
+
+#[test]
+fn tears_of_a_simulation_allocate_only_where_lists_have_to_grow() {
+    let methods = [
+        Method::Verlet,
+        Method::xpbd(),
+        Method::pbd(),
+        Method::provot(),
+        Method::implicit(),
+    ];
+    for method in methods {
+        let (mut sim, hand) = in_hand(method.clone());
+        let (mut without, mut frames, mut splits) = (0, 0, 0);
+        for frame in 0..240 {
+            let s = f64::from(frame) / 60.0;
+            let before = sim.mesh().vertex_count();
+            let to = Point::new(0.5 - s, 0.5 - s, s);
+            sim.lead(hand, to).expect("led");
+            let taken = allocations(|| assert!(sim.advance(1.0 / 60.0, 1000).is_ok()));
+            let torn = sim.mesh().vertex_count() - before;
+            splits += torn;
+            if torn > 0 {
+                frames += 1;
+                without += usize::from(taken == 0);
+            }
+        }
+        println!("{method:?}: {splits} splits, {without} of {frames} frames without allocation");
+        assert!(frames >= 8 && 3 * without > frames);
     }
 }

@@ -4,6 +4,9 @@
 //! The kernel is re-exported, so that a game needs this one dependency: `tearmesh_cloth::tearmesh`.
 //! It knows nothing of this crate, and a simulation of your own can follow its log in the same way.
 //!
+//! A [`Simulation`] is a cloth to hold in the hand: a game or a page calls its verbs (hold, grab,
+//! lead, cut, heal), lets time pass, and draws it. What it is made of can be used by itself.
+//!
 //! A [`System`] is particles, springs and triangles over slices, with no mesh in sight. A
 //! [`Solver`] advances it. [`System::step`] checks stability, detects blow-up and steps that miss
 //! their tolerance, and keeps the last good state. A [`Cloth`] is a system built from a mesh, and a

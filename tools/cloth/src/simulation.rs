@@ -26,19 +26,19 @@ pub use log::{InputLog, LogError};
 
 use std::fmt;
 
-use tearmesh::geometry::{Point, Ray, Vector};
+use tearmesh::geometry::{Point, Ray, Vector, check_point};
 use tearmesh::{
-    Cursor, DrawBuffers, Edit, Edits, Mesh, PerVertex, Positions, RayHit, Scissor, VertexId, pick,
+    Cursor, Edit, Edits, Mesh, Mix, PerVertex, Positions, RayHit, Scissor, VertexId, pick,
 };
 
 use self::hand::Hands;
 use self::heal::Healing;
-use self::log::{Record, Verb};
+use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
 use crate::fabric::Fabric;
 use crate::implicit::Implicit;
-use crate::load::{Loads, Path};
+use crate::load::Loads;
 use crate::provot::Provot;
 use crate::scene::{Method, suggested_step_s};
 use crate::sheet::Cloth;
@@ -117,9 +117,8 @@ pub struct SimulationDef {
     pub step_s: Option<f64>,
     /// Whether a step beyond the stability limit is divided, as by default, or refused.
     pub when_unstable: Unstable,
-    /// The texture coordinates of the corners, three per face, for the draw buffers; empty, as by
-    /// default, for none.
-    pub texture: Vec<[f32; 2]>,
+    /// Whether inputs are [logged](Simulation::log): by default not.
+    pub is_recorded: bool,
 }
 
 impl Default for SimulationDef {
@@ -137,7 +136,7 @@ impl Default for SimulationDef {
             },
             step_s: None,
             when_unstable: Unstable::Substep,
-            texture: Vec::new(),
+            is_recorded: false,
         }
     }
 }
@@ -163,8 +162,8 @@ pub struct Reached {
 }
 
 impl Simulation {
-    /// Creates the simulation of a cloth that is at rest where it is. Reserves room for all that can
-    /// tear: twelve times the vertices of a regular sheet. Linear.
+    /// Creates the simulation of a cloth that is at rest where it is. Takes linear time, and reserves
+    /// room in the mesh, its log, positions and masses for all that can tear: three vertices per face.
     ///
     /// # Errors
     ///
@@ -172,21 +171,15 @@ impl Simulation {
     pub fn new(
         mesh: Mesh,
         positions: Positions,
-        def: SimulationDef,
+        mut def: SimulationDef,
     ) -> Result<Simulation, SimulationError> {
-        let corners = mesh.half_edge_count();
-        let mut texture = def.texture;
-        if texture.is_empty() {
-            texture.resize(corners, [0.0; 2]);
-        } else if texture.len() != corners {
-            let given = texture.len();
-            return Err(SimulationError::Texture { corners, given });
-        }
-        let mut sheet =
-            Sheet::new(mesh, positions, def.density_kg_per_m2).map_err(SimulationError::Mass)?;
+        let is_recorded = std::mem::take(&mut def.is_recorded);
+        let log = is_recorded.then(|| InputLog::new(log::digest(&mesh, &positions, &def)));
+        let sheet = Sheet::new(mesh, positions, def.density_kg_per_m2);
+        let mut sheet = sheet.map_err(|error| SimulationError::Cloth(error.into()))?;
         let (mesh, seen) = (&sheet.mesh, sheet.edits.cursor());
-        let masses = sheet.masses().clone();
-        let cloth = Cloth::new(mesh, sheet.positions(), masses, def.fabric);
+        let masses = sheet.masses.clone();
+        let cloth = Cloth::new(mesh, &sheet.positions, masses, def.fabric);
         let mut cloth = cloth.map_err(SimulationError::Cloth)?;
         let mut strengths = def.strengths;
         if strengths.is_empty() {
@@ -209,12 +202,10 @@ impl Simulation {
         let step_s = def.step_s;
         let step_s = step_s.unwrap_or_else(|| suggested_step_s(&def.method, system, speed_m_per_s));
         if !(step_s > 0.0 && step_s.is_finite()) {
-            return Err(SimulationError::Step { given_s: step_s });
+            return Err(SimulationError::Step(step_s));
         }
-        let draw = DrawBuffers::new(mesh, texture).starting_at(seen);
-        let mut buffers = ClothBuffers::new(draw);
-        buffers.update(cloth.positions(), Some(mesh));
-        buffers.forget_changes();
+        let mut buffers = ClothBuffers::new(mesh, cloth.positions());
+        buffers.draw = buffers.draw.starting_at(seen);
         let seams = Seams::of(mesh, seen);
         sheet.reserve();
         Ok(Simulation {
@@ -232,24 +223,8 @@ impl Simulation {
             buffers,
             pieces_seen: seen,
             events: Vec::new(),
-            log: None,
+            log,
         })
-    }
-
-    /// Creates a simulation that [logs](Simulation::log) its inputs.
-    ///
-    /// # Errors
-    ///
-    /// The errors of [`Simulation::new`].
-    pub fn recorded(
-        mesh: Mesh,
-        positions: Positions,
-        def: SimulationDef,
-    ) -> Result<Simulation, SimulationError> {
-        let digest = log::digest(&mesh, &positions, &def);
-        let mut sim = Simulation::new(mesh, positions, def)?;
-        sim.log = Some(InputLog::new(digest));
-        Ok(sim)
     }
 
     /// Repeats what a log says, with the mesh and the definition of the simulation that was
@@ -261,8 +236,8 @@ impl Simulation {
     /// use tearmesh::{VertexId, shapes};
     ///
     /// let (mesh, positions) = shapes::grid(4, 4);
-    /// let def = SimulationDef::default();
-    /// let mut sim = Simulation::recorded(mesh.clone(), positions.clone(), def.clone())?;
+    /// let def = SimulationDef { is_recorded: true, ..SimulationDef::default() };
+    /// let mut sim = Simulation::new(mesh.clone(), positions.clone(), def.clone())?;
     /// sim.hold(VertexId::new(24))?;
     /// sim.advance(0.1, 1000)?;
     ///
@@ -278,20 +253,25 @@ impl Simulation {
     pub fn replayed(
         mesh: Mesh,
         positions: Positions,
-        def: SimulationDef,
+        mut def: SimulationDef,
         log: &InputLog,
     ) -> Result<Simulation, ReplayError> {
-        let sim = Simulation::recorded(mesh, positions, def);
+        def.is_recorded = true;
+        let sim = Simulation::new(mesh, positions, def);
         let mut sim = sim.map_err(ReplayError::Definition)?;
-        let own = sim.log.as_ref().map_or(0, |log| log.digest);
-        if own != log.digest {
-            let logged = log.digest;
-            return Err(ReplayError::Digest { own, logged });
+        if sim.log.as_ref().map(|log| log.digest) != Some(log.digest) {
+            return Err(ReplayError::Digest);
         }
         for (number, record) in log.records.iter().enumerate() {
             sim.reach(record.step)?;
-            sim.repeat(record)
-                .map_err(|error| ReplayError::Input { number, error })?;
+            if record.verb == "failed" {
+                let failed = sim.step().is_err();
+                failed.then_some(()).ok_or(ReplayError::Step(None))?;
+                sim.note("failed", []);
+            } else {
+                let done = sim.repeat(record);
+                done.map_err(|error| ReplayError::Input(number, error))?;
+            }
         }
         sim.reach(log.steps)?;
         Ok(sim)
@@ -301,45 +281,37 @@ impl Simulation {
     fn reach(&mut self, steps: u64) -> Result<(), ReplayError> {
         self.sheet.edits.clear();
         while self.steps < steps {
-            self.step().map_err(ReplayError::Step)?;
+            let step = self.step();
+            step.map_err(|error| ReplayError::Step(Some(error)))?;
         }
         Ok(())
     }
 
-    /// Repeats an input; `None` of one that was refused, or cannot be one.
+    /// Repeats an input. The error is none where its numbers are not those of its verb.
     fn repeat(&mut self, record: &Record) -> Result<(), Option<InputError>> {
-        let id = |&word: &u64| VertexId::new(usize::try_from(word).ok()?);
-        let hand = |word: u64| u32::try_from(word).ok().map(HandId);
-        let ids = || record.words.iter().map(id).collect::<Option<Vec<_>>>();
+        let number = |word: u64| u32::try_from(word).map_err(|_| None);
+        let id = |word: u64| VertexId::new(number(word)? as usize).ok_or(None);
+        let ids = || record.words.iter().map(|&word| id(word));
         match (record.verb, &record.words[..]) {
-            (Verb::Hold, _) => self.hold(ids().ok_or(None)?)?,
-            (Verb::Free, _) => self.free(ids().ok_or(None)?)?,
-            (Verb::Grab, [vertex, radius_m]) => {
-                self.grab(id(vertex).ok_or(None)?, f64::from_bits(*radius_m))?;
-            }
-            (Verb::Lead, &[led, x, y, z]) => {
+            ("hold", _) => self.hold(ids().collect::<Result<Vec<_>, _>>()?)?,
+            ("free", _) => self.free(ids().collect::<Result<Vec<_>, _>>()?)?,
+            ("grab", &[v, radius_m]) => drop(self.grab(id(v)?, f64::from_bits(radius_m))?),
+            ("lead", &[hand, x, y, z]) => {
                 let [x, y, z] = [x, y, z].map(f64::from_bits);
-                self.lead(hand(led).ok_or(None)?, Point::new(x, y, z))?;
+                self.lead(HandId(number(hand)?), Point::new(x, y, z))?;
             }
-            (Verb::Release, &[held]) => self.release(hand(held).ok_or(None)?)?,
-            (Verb::Cut, words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
-            (Verb::Heal, []) => drop(self.heal(Wounds::All)?),
-            (Verb::Heal, &[cut]) => {
-                let cut = u32::try_from(cut).map(CutId).map_err(|_| None)?;
-                self.heal(Wounds::Cut(cut))?;
-            }
-            (Verb::Failed, []) => {
-                let failed = self.step().is_err();
-                return failed.then(|| self.note(Verb::Failed, [])).ok_or(None);
-            }
+            ("release", &[hand]) => self.release(HandId(number(hand)?))?,
+            ("cut", words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
+            ("heal", &[]) => drop(self.heal(Wounds::All)?),
+            ("heal", &[cut]) => drop(self.heal(Wounds::Cut(CutId(number(cut)?)))?),
             _ => return Err(None),
         }
         Ok(())
     }
 
-    fn note(&mut self, verb: Verb, words: impl IntoIterator<Item = u64>) {
+    fn note(&mut self, verb: &'static str, words: impl IntoIterator<Item = u64>) {
         if let Some(log) = &mut self.log {
-            log.note(verb, words);
+            log.note(verb, words.into_iter().collect());
         }
     }
 
@@ -350,14 +322,12 @@ impl Simulation {
     /// The largest speed of a hand, in m/s.
     pub const HAND_SPEED_MAX_M_PER_S: f64 = hand::SPEED_MAX_M_PER_S;
 
-    /// The speed at which healing draws copies together, in m/s.
-    pub const HEALING_SPEED_M_PER_S: f64 = heal::SPEED_M_PER_S;
-
     /// Lets `dt_s` seconds pass, in whole steps, and at most this many. What is less than half a
     /// step is made up for by the next call; what the budget leaves out is not, so that a slow
     /// machine shows slow motion and never falls behind for good.
     ///
-    /// Allocates nothing if nothing tears, is sewn or cut, and the method has taken a step before.
+    /// Allocates nothing while nothing is sewn, once the method has taken a step, but for the room that
+    /// the lists of particles and constraints need when something tears.
     ///
     /// # Errors
     ///
@@ -376,7 +346,7 @@ impl Simulation {
         for _ in 0..steps {
             if let Err(error) = self.step() {
                 self.owed_s = 0.0;
-                self.note(Verb::Failed, []);
+                self.note("failed", []);
                 return Err(error);
             }
         }
@@ -428,21 +398,17 @@ impl Simulation {
         self.healing
             .draw(mesh, &mut self.cloth, &threshold.threshold, step_s);
         let mut has_changed = self.healing.leave(self.time_s());
-        let mut place = 0;
-        while let Some((next, ends)) =
-            self.healing
-                .next_met(place, self.cloth.system(), &self.hands)
-        {
-            place = next;
+        while let Some(ends) = self.healing.met(self.cloth.system(), &self.hands) {
             self.sheet.merge(ends);
-            self.healing.note_sewn();
+            self.healing.sewn += 1;
             self.follow();
             has_changed = true;
         }
         if has_changed {
             self.strengthen();
         }
-        if let Some((sewn, left)) = self.healing.end() {
+        if self.healing.len() == 0 {
+            let [sewn, left] = [&mut self.healing.sewn, &mut self.healing.left].map(std::mem::take);
             let time_s = self.time_s();
             self.events.push(Event::Healed { sewn, left, time_s });
         }
@@ -487,26 +453,21 @@ impl Simulation {
         vertices.iter().try_for_each(|&v| self.not_in_hand(v))?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.hold(v.index()));
-        self.note(Verb::Hold, vertices.into_iter().map(word));
+        self.note("hold", vertices.into_iter().map(word));
         Ok(())
     }
 
-    /// Lets held vertices go.
+    /// Lets held vertices go. Nothing happens to those that are not held.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if one is no vertex of the mesh, is not held, or is in a hand.
+    /// [`InputError`] if one is no vertex of the mesh, or is in a hand.
     pub fn free(&mut self, vertices: impl IntoIterator<Item = VertexId>) -> Result<(), InputError> {
         let vertices: Vec<_> = vertices.into_iter().collect();
-        for &vertex in &vertices {
-            self.not_in_hand(vertex)?;
-            if !self.is_held(vertex) {
-                return Err(InputError::Free { vertex });
-            }
-        }
+        vertices.iter().try_for_each(|&v| self.not_in_hand(v))?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.release(v.index()));
-        self.note(Verb::Free, vertices.into_iter().map(word));
+        self.note("free", vertices.into_iter().map(word));
         Ok(())
     }
 
@@ -515,13 +476,8 @@ impl Simulation {
     pub fn pick(&self, ray: &Ray) -> Option<Picked> {
         let mesh = &self.sheet.mesh;
         let hit = pick::first_hit(mesh, self.cloth.positions(), ray)?;
-        let [a, b, c] = hit.weights;
-        let corner = match hit.weights {
-            _ if a >= b && a >= c => 0,
-            _ if b >= c => 1,
-            _ => 2,
-        };
-        let vertex = mesh.face_vertices(hit.face)[corner];
+        let (of, weights) = (mesh.face_vertices(hit.face), hit.weights);
+        let vertex = Mix::Weighted { of, weights }.nearest();
         Some(Picked { vertex, hit })
     }
 
@@ -537,20 +493,16 @@ impl Simulation {
     pub fn grab(&mut self, vertex: VertexId, radius_m: f64) -> Result<HandId, InputError> {
         self.not_in_hand(vertex)?;
         if self.is_held(vertex) {
-            return Err(InputError::Held { vertex });
+            return Err(InputError::Held(vertex));
         }
         if !(radius_m >= 0.0 && radius_m.is_finite()) {
-            let name = "radius_m";
-            return Err(InputError::Number {
-                name,
-                given: radius_m,
-            });
+            return Err(InputError::Number("radius_m", radius_m));
         }
         let centre = self.cloth.rest_positions().at(vertex);
         let hand = self.hands.grab(vertex, centre, radius_m);
         self.cloth.system_mut().hold(vertex.index());
         self.strengthen();
-        self.note(Verb::Grab, [word(vertex), radius_m.to_bits()]);
+        self.note("grab", [word(vertex), radius_m.to_bits()]);
         Ok(hand)
     }
 
@@ -561,21 +513,15 @@ impl Simulation {
     ///
     /// [`InputError`] if there is no such hand, or a coordinate cannot be used.
     pub fn lead(&mut self, hand: HandId, to: Point) -> Result<(), InputError> {
-        let held = self.hands.get(hand).ok_or(InputError::NoHand { hand })?;
+        let held = self.hands.get(hand).ok_or(InputError::NoHand(hand))?;
+        check_point(to).map_err(|given| InputError::Number("to", given))?;
         let system = self.cloth.system_mut();
-        let now_s = system.elapsed_s();
-        let path = |&v: &VertexId| hand::path(system.positions()[v.index()], to, now_s);
-        let paths: Option<Vec<Path>> = held.vertices.iter().map(path).collect();
-        let Some(paths) = paths else {
-            let beyond = |x: &&f64| x.abs() > tearmesh::COORDINATE_MAX || !x.is_finite();
-            let given = *to.iter().find(beyond).unwrap_or(&to.x);
-            return Err(InputError::Number { name: "to", given });
-        };
-        for (v, path) in held.vertices.iter().zip(paths) {
-            system.grab(v.index(), path);
+        for v in held.vertices.iter().map(|v| v.index()) {
+            let path = hand::path(system.positions()[v], to, system.elapsed_s());
+            system.grab(v, path);
         }
         let [x, y, z] = [to.x, to.y, to.z].map(f64::to_bits);
-        self.note(Verb::Lead, [hand.0.into(), x, y, z]);
+        self.note("lead", [hand.0.into(), x, y, z]);
         Ok(())
     }
 
@@ -585,11 +531,11 @@ impl Simulation {
     ///
     /// [`InputError`] if there is no such hand.
     pub fn release(&mut self, hand: HandId) -> Result<(), InputError> {
-        let gone = self.hands.remove(hand).ok_or(InputError::NoHand { hand })?;
+        let gone = self.hands.remove(hand).ok_or(InputError::NoHand(hand))?;
         let system = self.cloth.system_mut();
         gone.vertices.iter().for_each(|v| system.release(v.index()));
         self.strengthen();
-        self.note(Verb::Release, [hand.0.into()]);
+        self.note("release", [hand.0.into()]);
         Ok(())
     }
 
@@ -615,7 +561,7 @@ impl Simulation {
         let splits = self.sheet.edits.iter().filter(is_split).count();
         self.follow();
         let (cut, time_s) = (self.seams.add(&made), self.time_s());
-        self.note(Verb::Cut, words);
+        self.note("cut", words);
         self.events.push(Event::Cut {
             cut,
             splits,
@@ -640,7 +586,7 @@ impl Simulation {
         let opened = match wounds {
             Wounds::All => self.healing.begin(sheet.mesh.half_edges(), sheet, system),
             Wounds::Cut(cut) => {
-                let torn = self.seams.torn_by(cut).ok_or(InputError::NoCut { cut })?;
+                let torn = self.seams.torn_by(cut).ok_or(InputError::NoCut(cut))?;
                 self.healing.begin(torn, sheet, system)
             }
         };
@@ -651,17 +597,16 @@ impl Simulation {
             Wounds::All => None,
             Wounds::Cut(cut) => Some(cut.0.into()),
         };
-        self.note(Verb::Heal, number);
+        self.note("heal", number);
         Ok(opened)
     }
 
     fn not_in_hand(&self, vertex: VertexId) -> Result<(), InputError> {
-        let vertices = self.sheet.mesh.vertex_count();
-        if vertex.index() >= vertices {
-            return Err(InputError::NoVertex { vertex, vertices });
+        if vertex.index() >= self.sheet.mesh.vertex_count() {
+            return Err(InputError::NoVertex(vertex));
         }
         match self.hands.of(vertex) {
-            Some(hand) => Err(InputError::InHand { vertex, hand }),
+            Some(hand) => Err(InputError::InHand(vertex, hand)),
             None => Ok(()),
         }
     }
@@ -709,7 +654,7 @@ impl Simulation {
     ///
     /// [`InputError::NoHand`] if there is no such hand.
     pub fn in_hand(&self, hand: HandId) -> Result<&[VertexId], InputError> {
-        let held = self.hands.get(hand).ok_or(InputError::NoHand { hand })?;
+        let held = self.hands.get(hand).ok_or(InputError::NoHand(hand))?;
         Ok(&held.vertices)
     }
 
@@ -719,8 +664,8 @@ impl Simulation {
         self.healing.len()
     }
 
-    /// Returns the log of the inputs so far; `None` unless they are
-    /// [recorded](Simulation::recorded).
+    /// Returns the log of the inputs so far; `None` unless the definition
+    /// [has them recorded](SimulationDef::is_recorded).
     #[must_use]
     pub fn log(&self) -> Option<&InputLog> {
         self.log.as_ref()
@@ -766,11 +711,7 @@ fn solver_of(method: &Method) -> Box<dyn Solver + Send + Sync> {
 impl fmt::Debug for Simulation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
-            .field("steps", &self.steps)
-            .field("step_s", &self.step_s)
             .field("sheet", &self.sheet)
-            .field("hands", &self.hands)
-            .field("healing", &self.healing)
             .finish_non_exhaustive()
     }
 }

@@ -1,17 +1,18 @@
 //! The buffers that draw a cloth, and what changed in them since they were last uploaded.
 
-use tearmesh::{DrawBuffers, Mesh, Point, VertexId};
+use tearmesh::{DrawBuffers, Mesh, Point};
 
 /// The vertex and index buffers of a cloth, and the piece of each face.
 ///
-/// The vertex buffer has a *slot* for each vertex, and two or more for a vertex on a texture seam:
-/// see [`DrawBuffers`]. The index buffer has three slots per face.
+/// There is a slot for each vertex with a face, and three slots for each face. A vertex on a
+/// texture seam needs more slots: for that, have [`DrawBuffers`] with texture coordinates follow
+/// [`Simulation::edits`](super::Simulation::edits).
 #[derive(Clone, Debug)]
 pub struct ClothBuffers {
-    pub(super) draw: DrawBuffers<[f32; 2]>,
+    pub(super) draw: DrawBuffers<[f32; 0]>,
     positions: Vec<[f32; 3]>,
     pieces: Vec<u32>,
-    /// What the caller has: positions and pieces of the last time that changes were taken.
+    /// Positions and pieces when changes were last taken.
     sent: (Vec<[f32; 3]>, Vec<u32>),
 }
 
@@ -19,7 +20,7 @@ pub struct ClothBuffers {
 /// [`ClothBuffers::take_changes`], in ascending order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BufferChanges {
-    /// The slots whose position or texture coordinates changed.
+    /// The slots whose position changed.
     pub slots: Vec<u32>,
     /// The entries of the index buffer that changed.
     pub corners: Vec<u32>,
@@ -28,51 +29,35 @@ pub struct BufferChanges {
 }
 
 impl ClothBuffers {
-    pub(super) fn new(draw: DrawBuffers<[f32; 2]>) -> ClothBuffers {
-        ClothBuffers {
-            draw,
+    pub(super) fn new(mesh: &Mesh, points: &[Point]) -> ClothBuffers {
+        let mut buffers = ClothBuffers {
+            draw: DrawBuffers::new(mesh, vec![[]; mesh.half_edge_count()]),
             positions: Vec::new(),
             pieces: Vec::new(),
             sent: (Vec::new(), Vec::new()),
-        }
+        };
+        buffers.update(points, Some(mesh));
+        let _all = buffers.take_changes();
+        buffers
     }
 
     /// Takes over where the vertices are, and with a mesh the pieces that it has now.
     pub(super) fn update(&mut self, points: &[Point], mesh: Option<&Mesh>) {
+        let positions = (0..self.draw.len()).map(|slot| self.draw.place_f32(slot as u32, points));
         self.positions.clear();
-        let slots = self.draw.iter();
-        let at = |v: VertexId| points[v.index()].coords;
-        let placed = slots.map(|(v, _)| <[f64; 3]>::from(at(v)).map(|x| x as f32));
-        self.positions.extend(placed);
+        self.positions.extend(positions);
         if let Some(mesh) = mesh {
             let components = mesh.components();
-            let pieces = mesh.faces().map(|face| components.of(face) as u32);
             self.pieces.clear();
+            let pieces = mesh.faces().map(|face| components.of(face) as u32);
             self.pieces.extend(pieces);
         }
-    }
-
-    /// Counts what there is as sent.
-    pub(super) fn forget_changes(&mut self) {
-        let _all = self.draw.take_changes();
-        self.sent.0.clone_from(&self.positions);
-        self.sent.1.clone_from(&self.pieces);
     }
 
     /// Returns the positions of the slots, in metres.
     #[must_use]
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
-    }
-
-    /// Returns the texture coordinates of a slot; zero for a cloth without.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such slot.
-    #[must_use]
-    pub fn texture(&self, slot: u32) -> [f32; 2] {
-        *self.draw.value(slot)
     }
 
     /// Returns the slots of all faces, three per face.
@@ -92,26 +77,19 @@ impl ClothBuffers {
     /// the buffers may have changed as well. Linear.
     #[must_use = "what was changed is not listed again"]
     pub fn take_changes(&mut self) -> BufferChanges {
-        let edited = self.draw.take_changes();
-        let bits = |at: &[f32; 3]| at.map(f32::to_bits);
-        let moved =
-            |slot: usize| self.sent.0.get(slot).map(bits) != Some(bits(&self.positions[slot]));
-        let mut slots: Vec<u32> = (0..self.positions.len())
-            .filter(|&slot| moved(slot))
-            .map(|slot| slot as u32)
-            .collect();
-        slots.extend(&edited.slots);
-        slots.sort_unstable();
-        slots.dedup();
-        let other = |face: &usize| self.sent.1.get(*face) != Some(&self.pieces[*face]);
-        let faces = (0..self.pieces.len()).filter(other);
         let changes = BufferChanges {
-            slots,
-            corners: edited.corners,
-            faces: faces.map(|face| face as u32).collect(),
+            slots: changed(&self.sent.0, &self.positions),
+            corners: self.draw.take_changes().corners,
+            faces: changed(&self.sent.1, &self.pieces),
         };
         self.sent.0.clone_from(&self.positions);
         self.sent.1.clone_from(&self.pieces);
         changes
     }
+}
+
+fn changed<T: PartialEq>(before: &[T], now: &[T]) -> Vec<u32> {
+    let is_changed = |&index: &usize| before.get(index) != Some(&now[index]);
+    let changed = (0..now.len()).filter(is_changed);
+    changed.map(|index| index as u32).collect()
 }

@@ -91,18 +91,12 @@ impl Hands {
 
     /// How many times as strong as by itself the cloth is at a place at rest.
     pub(super) fn grip(&self, at: Point) -> f64 {
-        let grips = self.hands.iter().map(|hand| hand.grip(at));
-        grips.fold(1.0, f64::max)
-    }
-}
-
-impl Hand {
-    fn grip(&self, at: Point) -> f64 {
-        let distance = length(at - self.centre);
-        if distance > self.radius_m || self.radius_m == 0.0 {
-            return 1.0;
-        }
-        GRIP_STRENGTH * (self.radius_m / distance.max(self.radius_m * GRIP_CORE))
+        let grip = |hand: &Hand| {
+            let (distance, radius_m) = (length(at - hand.centre), hand.radius_m);
+            let is_gripped = distance <= radius_m && radius_m > 0.0;
+            is_gripped.then(|| GRIP_STRENGTH * (radius_m / distance.max(radius_m * GRIP_CORE)))
+        };
+        self.hands.iter().filter_map(grip).fold(1.0, f64::max)
     }
 }
 
@@ -136,9 +130,9 @@ pub(super) fn now(v: VertexId, merge: &Merge<'_>) -> VertexId {
 }
 
 /// The path of a hand to a point that was given now: it takes the time of a frame, as a pointer is
-/// read once a frame, or longer where the hand would be too fast. `None` if a coordinate cannot be
-/// used.
-pub(super) fn path(from: Point, to: Point, now_s: f64) -> Option<Path> {
+/// read once a frame, or longer where the hand would be too fast.
+pub(super) fn path(from: Point, to: Point, now_s: f64) -> Path {
     let took_s = (length(to - from) / SPEED_MAX_M_PER_S).max(FRAME_S);
-    Path::new([(now_s, from), (now_s + took_s, to)])
+    let points = vec![(now_s, from), (now_s + took_s, to)];
+    Path { points }
 }

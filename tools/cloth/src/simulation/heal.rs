@@ -55,8 +55,9 @@ struct Pair {
 #[derive(Clone, Debug)]
 pub(super) struct Healing {
     open: Vec<Pair>,
-    sewn: usize,
-    left: usize,
+    /// How many were sewn, and left, since no pair was open.
+    pub(super) sewn: usize,
+    pub(super) left: usize,
     seen: Cursor,
 }
 
@@ -86,35 +87,27 @@ impl Healing {
         pairs.sort_unstable();
         pairs.dedup();
         pairs.retain(|pair| self.open.iter().all(|open| open.ends != *pair));
-        let timed = |&ends: &[VertexId; 2]| {
-            let gap_m = gap_m(system, ends);
-            Pair {
-                ends,
+        for ends in &pairs {
+            let [a, b] = ends.map(|v| system.positions()[v.index()]);
+            let gap_m = length(b - a);
+            self.open.push(Pair {
+                ends: *ends,
                 gap_m,
                 waits: false,
                 until_s: system.elapsed_s() + gap_m / SPEED_M_PER_S + PATIENCE_S,
-            }
-        };
-        self.open.extend(pairs.iter().map(timed));
+            });
+        }
         pairs.len()
     }
 
-    /// The next open pair, from place `first` on, whose copies have met; and its place.
-    pub(super) fn next_met(
-        &self,
-        first: usize,
-        system: &System,
-        hands: &Hands,
-    ) -> Option<(usize, [VertexId; 2])> {
-        let meets =
-            |&(_, pair): &(usize, &Pair)| pair.gap_m == 0.0 && may_join(pair.ends, system, hands);
-        let mut open = self.open.iter().enumerate().skip(first);
-        open.find(meets).map(|(place, pair)| (place, pair.ends))
-    }
-
-    /// Counts a pair that was sewn.
-    pub(super) fn note_sewn(&mut self) {
-        self.sewn += 1;
+    /// An open pair whose copies have met. One of a hand and another that is held do not.
+    pub(super) fn met(&self, system: &System, hands: &Hands) -> Option<[VertexId; 2]> {
+        let may_join = |ends: [VertexId; 2]| {
+            let [one, other] = ends.map(|v| hands.of(v));
+            one == other || !ends.iter().all(|v| system.is_held(v.index()))
+        };
+        let meets = |pair: &&Pair| pair.gap_m == 0.0 && may_join(pair.ends);
+        Some(self.open.iter().find(meets)?.ends)
     }
 
     /// Leaves the pairs whose time is over; whether there were any.
@@ -123,15 +116,6 @@ impl Healing {
         self.open.retain(|pair| pair.until_s > now_s);
         self.left += before - self.open.len();
         before > self.open.len()
-    }
-
-    /// How many were sewn and left, once no pair is open.
-    pub(super) fn end(&mut self) -> Option<(usize, usize)> {
-        let counts = (self.sewn, self.left);
-        (self.open.is_empty() && counts != (0, 0)).then(|| {
-            (self.sewn, self.left) = (0, 0);
-            counts
-        })
     }
 
     /// Moves the copies of each pair nearer to each other by the way of a step, and has them go on
@@ -193,19 +177,6 @@ impl Healing {
         }
         guarded
     }
-}
-
-/// How far two vertices are apart, in metres.
-fn gap_m(system: &System, ends: [VertexId; 2]) -> f64 {
-    let [a, b] = ends.map(|v| system.positions()[v.index()]);
-    length(b - a)
-}
-
-/// Whether two vertices may become one: not if one is in a hand, and the other is held otherwise.
-fn may_join(ends: [VertexId; 2], system: &System, hands: &Hands) -> bool {
-    let [one, other] = ends.map(|v| hands.of(v));
-    let is_held = ends.map(|v| system.is_held(v.index()));
-    one == other || is_held != [true, true]
 }
 
 impl Follower for Healing {

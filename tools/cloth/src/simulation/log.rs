@@ -5,8 +5,7 @@
 //! numbers in hexadecimal, those with a fraction as the bits of an `f64`.
 //!
 //! ```text
-//! tearmesh inputs 1
-//! digest 8c4bd54da2f1c0e3
+//! tearmesh inputs 1 digest 8c4bd54da2f1c0e3
 //! 0 hold 110 111 112
 //! 330 grab 5f 3fbeb851eb851eb8
 //! 330 lead 0 3fe0000000000000 3fb999999999999a 0
@@ -22,7 +21,7 @@ use tearmesh::{Mesh, Positions};
 /// [`Display`](fmt::Display) writes the log as text, and [`FromStr`] reads it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputLog {
-    /// The digest of the mesh and the definition.
+    /// Of the mesh and the definition.
     pub(super) digest: u64,
     pub(super) records: Vec<Record>,
     pub(super) steps: u64,
@@ -32,36 +31,17 @@ pub struct InputLog {
 pub(super) struct Record {
     /// The number of steps taken before.
     pub(super) step: u64,
-    pub(super) verb: Verb,
+    /// One of [`VERBS`].
+    pub(super) verb: &'static str,
     pub(super) words: Vec<u64>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verb {
-    Hold,
-    Free,
-    Grab,
-    Lead,
-    Release,
-    Cut,
-    Heal,
-    /// Not an input, but a step that failed: it leaves its mark on what a method remembers.
-    Failed,
-}
-
-const HEAD: &str = "tearmesh inputs 1";
-
-/// The verbs as text.
-const VERBS: [(&str, Verb); 8] = [
-    ("hold", Verb::Hold),
-    ("free", Verb::Free),
-    ("grab", Verb::Grab),
-    ("lead", Verb::Lead),
-    ("release", Verb::Release),
-    ("cut", Verb::Cut),
-    ("heal", Verb::Heal),
-    ("failed", Verb::Failed),
+/// All inputs, and steps that failed, which leave their mark on what a method remembers.
+const VERBS: [&str; 8] = [
+    "hold", "free", "grab", "lead", "release", "cut", "heal", "failed",
 ];
+
+const HEAD: &str = "tearmesh inputs 1 digest ";
 
 impl InputLog {
     pub(super) fn new(digest: u64) -> InputLog {
@@ -72,39 +52,17 @@ impl InputLog {
         }
     }
 
-    pub(super) fn note(&mut self, verb: Verb, words: impl IntoIterator<Item = u64>) {
-        self.records.push(Record {
-            step: self.steps,
-            verb,
-            words: words.into_iter().collect(),
-        });
-    }
-
-    /// Returns the number of inputs, with the steps that failed.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.records.len()
-    }
-
-    /// Returns whether there was no input.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.records.is_empty()
-    }
-
-    /// Returns the number of steps that the simulation took.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
-        self.steps
+    pub(super) fn note(&mut self, verb: &'static str, words: Vec<u64>) {
+        let step = self.steps;
+        self.records.push(Record { step, verb, words });
     }
 }
 
 impl fmt::Display for InputLog {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{HEAD}\ndigest {:016x}", self.digest)?;
+        writeln!(f, "{HEAD}{:016x}", self.digest)?;
         for Record { step, verb, words } in &self.records {
-            let named = VERBS.iter().find(|(_, of)| of == verb);
-            write!(f, "{step} {}", named.map_or("", |(name, _)| name))?;
+            write!(f, "{step} {verb}")?;
             words.iter().try_for_each(|word| write!(f, " {word:x}"))?;
             writeln!(f)?;
         }
@@ -119,17 +77,13 @@ pub struct LogError {
     pub line: usize,
     /// The column in bytes, from 1.
     pub column: usize,
-    /// What should stand there.
+    /// A description of what should stand there.
     pub expected: &'static str,
 }
 
 impl fmt::Display for LogError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let LogError {
-            line,
-            column,
-            expected,
-        } = self;
+        let (line, column, expected) = (self.line, self.column, self.expected);
         write!(f, "line {line}, column {column}: expected {expected}")
     }
 }
@@ -140,95 +94,97 @@ impl FromStr for InputLog {
     type Err = LogError;
 
     fn from_str(text: &str) -> Result<InputLog, LogError> {
-        let mut lines = text.lines();
-        if lines.next() != Some(HEAD) {
-            return Err(Line::new(1, None).error("`tearmesh inputs 1`"));
-        }
-        let mut line = Line::new(2, lines.next());
-        line.word("`digest`", |word| (word == "digest").then_some(()))?;
-        let mut log = InputLog::new(line.word(HEX, hex)?);
-        line.ended()?;
-        for number in 3.. {
-            let mut line = Line::new(number, lines.next());
-            let last = log.steps;
-            let step = |word: &str| word.parse().ok().filter(|&step| step >= last);
+        let mut lines = (1..).zip(text.lines().chain(std::iter::repeat("")));
+        let mut line = Line::of(lines.next());
+        line.read(HEAD.len(), HEAD, |head| (head == HEAD).then_some(()))?;
+        let mut log = InputLog::new(line.number()?);
+        line.end()?;
+        loop {
+            let mut line = Line::of(lines.next());
+            let ascends = |step: &u64| *step >= log.steps;
+            let step = |word: &str| word.parse().ok().filter(ascends);
             log.steps = line.word("a number of steps that does not descend", step)?;
-            let verb = line.word("a verb", |word| match word {
-                "end" => Some(None),
-                _ => Some(Some(VERBS.iter().find(|(name, _)| *name == word)?.1)),
-            })?;
-            let Some(verb) = verb else {
-                line.ended()?;
+            let is = |word: &str| VERBS.into_iter().chain(["end"]).find(|verb| *verb == word);
+            let verb = line.word("a verb", is)?;
+            if verb == "end" {
+                line.end()?;
                 break;
-            };
+            }
             let mut words = Vec::new();
-            while !line.is_over() {
-                words.push(line.word(HEX, hex)?);
+            while line.end().is_err() {
+                words.push(line.number()?);
             }
             log.note(verb, words);
         }
-        match lines.next() {
-            None => Ok(log),
-            Some(_) => Err(LogError {
-                line: log.len() + 4,
-                column: 1,
-                expected: "the end of the log",
-            }),
-        }
+        let is_over = text.lines().count() == log.records.len() + 2;
+        let after = Line::of(lines.next());
+        is_over
+            .then_some(log)
+            .ok_or(after.error("the end of the log"))
     }
 }
 
-const HEX: &str = "a number of up to 16 hexadecimal digits";
-
-fn hex(word: &str) -> Option<u64> {
-    let is_digits = word.bytes().all(|byte| byte.is_ascii_hexdigit());
-    u64::from_str_radix(word, 16).ok().filter(|_| is_digits)
-}
-
-/// A line that is read word by word.
+/// A line that is read from left to right.
 struct Line<'t> {
-    number: usize,
+    line: usize,
     text: &'t str,
-    /// The bytes that were read.
+    /// The number of bytes read.
     read: usize,
 }
 
 impl<'t> Line<'t> {
-    /// A line of a text that may have ended: then it is empty.
-    fn new(number: usize, text: Option<&'t str>) -> Line<'t> {
+    fn of(numbered: Option<(usize, &'t str)>) -> Line<'t> {
+        let (line, text) = numbered.unwrap_or_default();
         Line {
-            number,
-            text: text.unwrap_or_default(),
+            line,
+            text,
             read: 0,
         }
     }
 
-    fn is_over(&self) -> bool {
-        self.read >= self.text.len()
+    fn read<T>(
+        &mut self,
+        length: usize,
+        expected: &'static str,
+        read: impl Fn(&str) -> Option<T>,
+    ) -> Result<T, LogError> {
+        let part = self.text.get(self.read..self.read + length);
+        let value = part.and_then(read).ok_or(self.error(expected))?;
+        self.read += length;
+        Ok(value)
     }
 
-    /// Reads a word; words are parted by one space.
+    /// Reads a word; but for the first, a space parts it from the one before.
     fn word<T>(
         &mut self,
         expected: &'static str,
         read: impl Fn(&str) -> Option<T>,
     ) -> Result<T, LogError> {
-        let rest = self.text.get(self.read..).unwrap_or_default();
-        let word = rest.split(' ').next().unwrap_or_default();
-        let found = read(word).ok_or(self.error(expected))?;
-        self.read += word.len() + 1;
-        Ok(found)
+        if self.read > 0 && !self.text[..self.read].ends_with(' ') {
+            self.read(1, "a space", |part| (part == " ").then_some(()))?;
+        }
+        let rest = &self.text[self.read..];
+        self.read(rest.find(' ').unwrap_or(rest.len()), expected, read)
     }
 
-    fn ended(&self) -> Result<(), LogError> {
-        let error = self.error("the end of the line");
-        self.is_over().then_some(()).ok_or(error)
+    fn number(&mut self) -> Result<u64, LogError> {
+        let is_digits = |word: &&str| word.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let hex = |word: &str| u64::from_str_radix(Some(word).filter(is_digits)?, 16).ok();
+        self.word("a number of up to 16 hexadecimal digits", hex)
+    }
+
+    fn end(&self) -> Result<(), LogError> {
+        let is_over = self.read == self.text.len();
+        is_over
+            .then_some(())
+            .ok_or(self.error("the end of the line"))
     }
 
     fn error(&self, expected: &'static str) -> LogError {
+        let (line, column) = (self.line, self.read + 1);
         LogError {
-            line: self.number,
-            column: self.read + 1,
+            line,
+            column,
             expected,
         }
     }
@@ -239,13 +195,10 @@ impl<'t> Line<'t> {
 /// from every other.
 pub(super) fn digest(mesh: &Mesh, positions: &Positions, def: &impl fmt::Debug) -> u64 {
     let words = mesh.indices().iter().copied().chain(mesh.roots());
-    let words = words.flat_map(u32::to_le_bytes);
-    let points = positions.as_slice().iter();
-    let places = points
-        .flat_map(|p| [p.x, p.y, p.z])
-        .flat_map(|x| x.to_bits().to_le_bytes());
-    let text = format!("{def:?}").into_bytes();
-    let bytes = words.chain(places).chain(text);
+    let points = positions.as_slice().iter().flat_map(|p| [p.x, p.y, p.z]);
+    let bytes = words.flat_map(u32::to_le_bytes);
+    let bytes = bytes.chain(points.flat_map(f64::to_le_bytes));
+    let bytes = bytes.chain(format!("{def:?}").into_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })

@@ -12,8 +12,8 @@ pub(super) struct Sheet {
     pub(super) mesh: Mesh,
     /// Where the vertices were when the mesh was last cut, and since then by its edits alone: a
     /// cloth that moves says where they are by [`Sheet::move_to`].
-    positions: Positions,
-    masses: Masses,
+    pub(super) positions: Positions,
+    pub(super) masses: Masses,
     pub(super) edits: Edits,
 }
 
@@ -33,29 +33,14 @@ impl Sheet {
         })
     }
 
-    pub(super) fn positions(&self) -> &Positions {
-        &self.positions
-    }
-
-    pub(super) fn masses(&self) -> &Masses {
-        &self.masses
-    }
-
-    /// Makes room for all splits that can follow: a vertex with a face each, so V ≤ 3F. A split
-    /// moves fewer corners than the mesh has, and a link tears once.
+    /// Makes room for all splits that can follow: each leaves every vertex a face, so V ≤ 3F.
     pub(super) fn reserve(&mut self) {
         let corners = self.mesh.half_edge_count();
-        let splits = self.splits_max();
+        let splits = corners.saturating_sub(self.mesh.vertex_count());
         self.mesh.reserve(splits);
         self.positions.reserve(splits);
         self.masses.reserve(splits);
-        self.edits.reserve(splits, corners, corners / 2);
-    }
-
-    /// How many times vertices can still be split.
-    pub(super) fn splits_max(&self) -> usize {
-        let corners = self.mesh.half_edge_count();
-        corners.saturating_sub(self.mesh.vertex_count())
+        self.edits.reserve(splits, 2 * corners, corners);
     }
 
     /// Brings positions and masses up to date with the log, and all these followers.
