@@ -12,11 +12,12 @@ mod cost;
 mod defaults;
 mod ensemble;
 mod failures;
+mod first_tears;
 mod follow;
 mod implicit;
 mod limiter;
-mod lookout;
 mod losses;
+mod overstretched;
 mod parsimony;
 mod parts;
 #[path = "../data/random.rs"]

@@ -79,7 +79,7 @@ struct Colour {
     ratios: Vec<f64>,
 }
 
-/// How many constraints of a colour are projected, or looked at, together: first all their lengths, then
+/// How many constraints of a colour are projected together: first all their lengths, then
 /// all roots and divisions, which a processor does two at a time, then all moves. Each number is what
 /// it would be one by one.
 ///
@@ -163,12 +163,6 @@ impl Constraints {
             rest_length_m: colour.rest[i],
             stiffness_n_per_m: colour.stiffness[i],
         }
-    }
-
-    /// A constraint, if there is one of this id.
-    pub(crate) fn find(&self, id: ConstraintId) -> Option<Constraint> {
-        let &[colour, _] = self.slots.get(id.index())?;
-        (colour != NONE).then(|| self.get(id))
     }
 
     /// Returns the ids of all constraints in colour order, which is the order of every sweep.

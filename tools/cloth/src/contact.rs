@@ -10,7 +10,6 @@ pub(crate) fn push_out(system: &mut System) {
         return;
     }
     system.meter.forget();
-    system.lookout.forget();
     if system.contact_j.is_some() {
         return push_out_and_sum(system);
     }

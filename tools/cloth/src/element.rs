@@ -12,7 +12,6 @@ use tearmesh::geometry::{Point, Vector};
 
 use crate::blow_up::Longest;
 use crate::crush::Crush;
-use crate::lookout::Lookout;
 use crate::matrix::Hessian;
 
 /// All constraints of one kind.
@@ -20,9 +19,8 @@ pub(crate) trait Element {
     /// How many there are.
     fn len(&self) -> usize;
 
-    /// The elastic energy in joules, added to a sum one after the other. The lookout is told of those
-    /// that are as long as it asks for.
-    fn energy(&self, x: &[Point], lookout: Option<&mut Lookout>, sum: f64) -> f64;
+    /// The elastic energy in joules, added to a sum one after the other.
+    fn energy(&self, x: &[Point], sum: f64) -> f64;
 
     /// That of the constraints of a particle.
     fn energy_at(&self, x: &[Point], particle: usize) -> f64;
@@ -38,12 +36,13 @@ pub(crate) trait Element {
         forces: &mut [Vector],
     ) -> bool;
 
-    /// Adds the forces on one particle, by what the last step left behind where it did.
+    /// Adds the forces on one particle, as `exerted` has them by the ends of a spring, its force by its
+    /// length, and the multiplier that the last step recorded.
     fn force_at(
         &self,
         x: &[Point],
         particle: usize,
-        read: &dyn Fn([usize; 2]) -> Forces,
+        exerted: &dyn Fn([usize; 2], f64, f64) -> f64,
         sum: &mut Vector,
     );
 
@@ -99,46 +98,16 @@ pub(crate) trait Element {
 pub(crate) struct Also<'a, 'v> {
     /// Adds the forces of damping where something is crushed.
     pub(crate) crush: Option<&'a mut Crush<'v>>,
-    /// Is told of those that are as long as it asks for.
-    pub(crate) lookout: Option<&'a mut Lookout>,
     /// Has the elastic energy added, in joules, as [`Element::energy`] adds it.
     pub(crate) elastic_j: Option<&'a mut f64>,
 }
 
 impl<'v> Also<'_, 'v> {
-    /// This context for the next kind of constraint. The first kind is that of stretch constraints,
-    /// and only they are watched by the lookout.
+    /// This context for the next kind of constraint.
     pub(crate) fn for_next(&mut self) -> Also<'_, 'v> {
         Also {
             crush: self.crush.as_deref_mut(),
-            lookout: self.lookout.take(),
             elastic_j: self.elastic_j.as_deref_mut(),
-        }
-    }
-}
-
-/// Where the forces of the last step are to be read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Forces {
-    /// In the lengths.
-    #[default]
-    Lengths,
-    /// In the multipliers, of springs.
-    Multipliers,
-    /// In the multipliers of what is rigid: they say what it takes to keep a length, and of a strain
-    /// nothing.
-    Rigid,
-    /// The sum of both.
-    Both,
-}
-
-impl Forces {
-    /// The force by both ways of reading it.
-    pub(crate) fn read(self, by_length: impl FnOnce() -> f64, by_multiplier: f64) -> f64 {
-        match self {
-            Forces::Lengths => by_length(),
-            Forces::Multipliers | Forces::Rigid => by_multiplier,
-            Forces::Both => by_length() + by_multiplier,
         }
     }
 }

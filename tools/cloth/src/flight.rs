@@ -6,9 +6,7 @@ use tearmesh::geometry::{Point, Vector};
 use crate::contact;
 use crate::crush::Crush;
 use crate::element::Also;
-use crate::lookout::Strains;
 use crate::meter::{Free, FreeSum};
-use crate::moment::State;
 use crate::system::{Model, System};
 
 /// What was felt when accelerations were taken.
@@ -22,16 +20,10 @@ pub(crate) struct Felt {
     pub(crate) elastic_j: Option<f64>,
 }
 
-/// Takes the accelerations now, in the state that positions are of, with wind at the velocities of
-/// now or at those that were [`foreseen`](foresee): in a step of `dt_s` seconds with the guards of
+/// Takes the accelerations now, with wind at the velocities of now or at those that were
+/// [`foreseen`](foresee): in a step of `dt_s` seconds with the guards of
 /// [`Verlet`](crate::Verlet), or without any.
-pub(crate) fn accelerate(
-    system: &mut System,
-    state: State,
-    is_foreseen: bool,
-    guarded_s: Option<f64>,
-) -> Felt {
-    system.lookout.turn_to(Strains::Lengths, state);
+pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Option<f64>) -> Felt {
     let System {
         positions,
         velocities,
@@ -39,7 +31,6 @@ pub(crate) fn accelerate(
         scratch,
         counters,
         guard,
-        lookout,
         meter,
         ..
     } = system;
@@ -51,7 +42,6 @@ pub(crate) fn accelerate(
     let mut elastic_j = meter.is_asked().then_some(0.0);
     let also = Also {
         crush: crush.as_mut(),
-        lookout: Some(lookout),
         elastic_j: elastic_j.as_mut(),
     };
     let winds = if is_foreseen {

@@ -34,19 +34,18 @@ pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
 /// Tension is positive. For methods with physical stiffness, and before any step, it is computed
 /// from the length ([`tension_n`]). For methods that project it is the multiplier
 /// ([`System::multiplier_n`]). Where a limiter helped the springs, it is the sum of both. Between
-/// two held particles a rigid method ([`Pbd`](crate::Pbd)) moves neither and has no multiplier, so
-/// the length is used.
+/// two held particles, which no method moves, the length is used.
 ///
 /// # Panics
 ///
 /// If there is no such constraint.
 #[must_use]
 pub fn force_n(system: &System, id: ConstraintId) -> f64 {
-    let by_multiplier = system.multiplier_n(id);
-    let read = system
+    let stretch = &system.model.stretch;
+    let (ends, multiplier) = (stretch.get(id).ends, stretch.memory(id).multiplier);
+    system
         .model
-        .forces_between(system.model.stretch.get(id).ends);
-    read.read(|| tension_n(system, id), by_multiplier)
+        .exerted_n(ends, tension_n(system, id), multiplier)
 }
 
 /// Returns the force, in newtons, that a hand must exert to hold or lead a particle: minus the sum
@@ -124,8 +123,8 @@ pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
     let model = &system.model;
     let mut sum = model.gravity() * model.masses[particle];
     for kind in &model.kinds() {
-        let read = |ends| model.forces_between(ends);
-        kind.force_at(&system.positions, particle, &read, &mut sum);
+        let exerted = |ends, by_length, multiplier| model.exerted_n(ends, by_length, multiplier);
+        kind.force_at(&system.positions, particle, &exerted, &mut sum);
     }
     sum
 }

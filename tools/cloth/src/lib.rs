@@ -64,7 +64,6 @@ pub mod guide;
 pub mod implicit;
 mod incidence;
 mod load;
-mod lookout;
 mod loss;
 mod material;
 mod matrix;

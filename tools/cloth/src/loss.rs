@@ -37,7 +37,7 @@
 //! In the sum of both brackets n·δ drops out, whichever f a method used, as n is f with drag and weight.
 //! What is left is the change of K + E + P, with P the potential of gravity, and what drag took,
 //! c Δt (K₀ + K₁), and what hands got. Sums over states are those that the last step left, and so the account
-//! takes one look at lengths a step, which finds the longest on the way. It also means that of
+//! takes one look at lengths a step. It also means that of
 //! these methods the remainder tells how meter and method differ about drag and hands, and no more.
 //!
 //! What air does is in those forces, as the method feels it; the balance of energy takes away what air
@@ -88,7 +88,7 @@ impl Account {
         let felt_j = taken.and_then(|felt| felt.elastic_j);
         let elastic_j = match left.map(|left| left.elastic_j).or(felt_j) {
             Some(elastic_j) => elastic_j,
-            None => system.elastic_j(system.state()),
+            None => system.elastic_j(),
         };
         let hand_j = hands_j(system, 0.5 * dt_s);
         let swung_j = match swung_j {
@@ -207,7 +207,7 @@ impl Motion {
         let left = system.meter.left(system.state());
         let elastic_j = match left {
             Some(left) => left.elastic_j,
-            None => system.elastic_j(system.state()),
+            None => system.elastic_j(),
         };
         let free = match left.map(|left| left.more) {
             Some(More::Free(free)) => free,
@@ -244,10 +244,10 @@ impl Motion {
         self.made_j += system.model.drag_per_s() * dt_s * (self.kinetic_j + free.kinetic_j);
         self.kinetic_j = free.kinetic_j;
         if !system.model.loads.colliders.is_empty() {
-            self.made_j += system.elastic_j(system.next_state()) + free.total_j();
+            self.made_j += system.elastic_j() + free.total_j();
             contact::push_out(system);
             let free = free_energy(system);
-            self.made_j -= system.elastic_j(system.next_state()) + free.total_j();
+            self.made_j -= system.elastic_j() + free.total_j();
             self.kinetic_j = free.kinetic_j;
         }
     }
@@ -256,7 +256,7 @@ impl Motion {
     /// length of the last substep, and `free` the energy that it left in free particles.
     pub(crate) fn close(mut self, system: &mut System, dt_s: f64, free: Free) {
         let state = system.next_state();
-        let elastic_j = system.elastic_j(state);
+        let elastic_j = system.elastic_j();
         self.made_j += system.model.drag_per_s() * dt_s * (self.kinetic_j + free.kinetic_j);
         let made_j = self.made_j + self.led_j;
         system.meter.note(made_j + elastic_j + free.total_j());

@@ -6,8 +6,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::constraint::{Batch, Constraint, Constraints};
 use crate::crush::Crush;
-use crate::element::{Also, Busiest, Element, Forces, Slope};
-use crate::lookout::Lookout;
+use crate::element::{Also, Busiest, Element, Slope};
 use crate::matrix::{Block, Hessian};
 
 /// A law by which constraints act, all of them alike but for their rest length and stiffness.
@@ -79,28 +78,17 @@ impl<'a, L: Law> Pairs<'a, L> {
         &self,
         x: &[Point],
         ratio_max: f64,
-        (mut crush, mut lookout): (Option<&mut Crush<'_>>, Option<&mut Lookout>),
+        mut crush: Option<&mut Crush<'_>>,
         elastic_j: &mut f64,
         forces: &mut [Vector],
     ) -> bool {
         let mut sane = true;
-        // One comparison for both questions: next to none are longer.
-        let asked = lookout
-            .as_deref_mut()
-            .map(|lookout| lookout.begin_at(self.constraints, x));
-        let mut bar = asked.map_or(ratio_max, |asked| asked.min(ratio_max));
         for batch in self.constraints.batches() {
             let mut twice_j = 0.0;
-            for (id, [a, b], rest, link) in named_links(batch, self.law) {
+            for ([a, b], rest, link) in links(batch, self.law) {
                 let d = x[b] - x[a];
                 let length = dot(d, d).sqrt();
-                let is_short = length <= bar * rest;
-                if !is_short {
-                    sane &= length <= ratio_max * rest;
-                    if let Some(lookout) = &mut lookout {
-                        bar = lookout.note(id, length / rest).min(ratio_max);
-                    }
-                }
+                sane &= length <= ratio_max * rest;
                 let mut pull = if METERED {
                     let [twice, pull] = link.twice_energy_and_force(length);
                     twice_j += twice;
@@ -135,19 +123,11 @@ impl<'a, L: Law> Pairs<'a, L> {
 
 /// The links of a colour: their ends, rest lengths, and what acts.
 fn links<L: Law>(batch: Batch<'_>, law: L) -> impl Iterator<Item = ([usize; 2], f64, L::Link)> {
-    named_links(batch, law).map(|(_, ends, rest, link)| (ends, rest, link))
-}
-
-/// The links of a family, each with its id.
-fn named_links<L: Law>(
-    batch: Batch<'_>,
-    law: L,
-) -> impl Iterator<Item = (u32, [usize; 2], f64, L::Link)> {
     let numbers = batch.rest.iter().zip(batch.stiffness);
-    let constraints = batch.ids.iter().zip(batch.ends).zip(numbers);
-    constraints.filter_map(move |((&id, &[a, b]), (&rest, &stiffness))| {
+    let constraints = batch.ends.iter().zip(numbers);
+    constraints.filter_map(move |(&[a, b], (&rest, &stiffness))| {
         let link = law.link(rest, stiffness)?;
-        Some((id, [a as usize, b as usize], rest, link))
+        Some(([a as usize, b as usize], rest, link))
     })
 }
 
@@ -162,22 +142,11 @@ impl<L: Law> Element for Pairs<'_, L> {
         self.constraints.len()
     }
 
-    fn energy(&self, x: &[Point], mut lookout: Option<&mut Lookout>, sum: f64) -> f64 {
-        let asked = lookout
-            .as_deref_mut()
-            .map(|lookout| lookout.begin_at(self.constraints, x));
-        let mut bar = asked.unwrap_or(f64::INFINITY);
+    fn energy(&self, x: &[Point], sum: f64) -> f64 {
         self.constraints.batches().fold(sum, |sum, batch| {
-            let mut twice_j = 0.0;
-            for (id, ends, rest, link) in named_links(batch, self.law) {
-                let length = length(x, ends);
-                let is_short = length <= bar * rest;
-                if !is_short && let Some(lookout) = &mut lookout {
-                    bar = lookout.note(id, length / rest);
-                }
-                twice_j += link.twice_energy(length);
-            }
-            sum + 0.5 * twice_j
+            let links = links(batch, self.law);
+            let twice = links.map(|(ends, _, link)| link.twice_energy(length(x, ends)));
+            sum + 0.5 * twice.fold(0.0, |sum, twice_j| sum + twice_j)
         })
     }
 
@@ -198,10 +167,9 @@ impl<L: Law> Element for Pairs<'_, L> {
         also: Also<'_, '_>,
         forces: &mut [Vector],
     ) -> bool {
-        let Also { crush, lookout, .. } = also;
         match also.elastic_j {
-            None => self.pull::<false>(x, ratio_max, (crush, lookout), &mut 0.0, forces),
-            Some(sum) => self.pull::<true>(x, ratio_max, (crush, lookout), sum, forces),
+            None => self.pull::<false>(x, ratio_max, also.crush, &mut 0.0, forces),
+            Some(sum) => self.pull::<true>(x, ratio_max, also.crush, sum, forces),
         }
     }
 
@@ -209,7 +177,7 @@ impl<L: Law> Element for Pairs<'_, L> {
         &self,
         x: &[Point],
         particle: usize,
-        read: &dyn Fn([usize; 2]) -> Forces,
+        exerted: &dyn Fn([usize; 2], f64, f64) -> f64,
         sum: &mut Vector,
     ) {
         for id in self.constraints.of(particle) {
@@ -219,9 +187,9 @@ impl<L: Law> Element for Pairs<'_, L> {
             let length = dot(d, d).sqrt();
             if length > 0.0 {
                 let link = self.link(&constraint);
-                let by_length = || link.map_or(0.0, |link| link.force(length));
-                let by_multiplier = -self.constraints.memory(id).multiplier;
-                *sum += d * (read([a, b]).read(by_length, by_multiplier) / length);
+                let by_length = link.map_or(0.0, |link| link.force(length));
+                let multiplier = self.constraints.memory(id).multiplier;
+                *sum += d * (exerted([a, b], by_length, multiplier) / length);
             }
         }
     }

@@ -9,12 +9,11 @@
 //! lengths are from that, and not where it hangs: pushes act along the directions that constraints
 //! had when they were projected, as those of [`Xpbd`](crate::Xpbd) do.
 
-use crate::element::Forces;
 use crate::flight::{finish, finish_metered, force_scale, predict};
 use crate::loss::Motion;
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
-use crate::system::System;
+use crate::system::{Recorded, System};
 
 /// Position based dynamics. It ignores the stiffness of constraints in N/m: they are rigid, or as
 /// soft as [`Pbd::stiffness`] makes them.
@@ -117,7 +116,7 @@ impl Solver for Pbd {
         }
         let model = &mut system.model;
         model.scale_multipliers(force_scale(model, dt_s));
-        model.forces = Forces::Rigid;
+        model.recorded = Recorded::RigidForces;
         Ok(())
     }
 }

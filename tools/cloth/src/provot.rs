@@ -10,11 +10,10 @@
 //! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
-use crate::element::Forces;
 use crate::flight::{accelerate, fly, force_scale};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
-use crate::system::System;
+use crate::system::{Recorded, System};
 
 /// Provot's mass-spring model: a step of symplectic Euler, and then a limiter of stretch. It is of
 /// first order and takes one force evaluation per step. Springs are stable up to ω Δt = 2, and wind
@@ -113,7 +112,6 @@ impl Provot {
         for (batch, memories) in model.stretch.batches_mut() {
             spring::ratios(batch, positions, memories.ratios);
         }
-        model.is_limited = true;
         model.clear_multipliers();
         let ratio_max = limiter.stretch_ratio_max;
         let mut report = LimiterReport::default();
@@ -141,7 +139,7 @@ impl Provot {
             }
         }
         model.scale_multipliers(force_scale(model, dt_s));
-        model.forces = Forces::Both;
+        model.recorded = Recorded::Limiter;
         if largest > ratio_max {
             let stretches = system.stretches().iter();
             let longest = stretches.map(|id| system.stretch_ratio(id));
@@ -168,7 +166,7 @@ impl Solver for Provot {
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         // What blew up is left as it is, for all to see.
-        Failure::unless(accelerate(system, system.state(), false, None).is_sane)?;
+        Failure::unless(accelerate(system, false, None).is_sane)?;
         fly(system, dt_s, dt_s);
         self.shorten(system, dt_s);
         Ok(())

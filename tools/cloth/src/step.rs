@@ -11,7 +11,7 @@ use crate::contact;
 use crate::moment::Moment;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
-use crate::system::{Model, System};
+use crate::system::{Model, Recorded, System};
 
 /// An observer that sees a system before and after each substep.
 pub trait Observer {
@@ -93,7 +93,7 @@ impl System {
             contact_j: self.contact_j,
             moment: self.moment,
         };
-        self.model.forget();
+        self.model.recorded = Recorded::Nothing;
         let substep = Substep {
             dt_s: dt_s / f64::from(report.substeps),
             moves_at_end: solver.abilities().frequency_limit.is_none(),
@@ -197,7 +197,7 @@ fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
     std::mem::swap(&mut system.velocities, &mut system.scratch.velocities);
     system.scratch.is_fresh = false;
     system.spectrum.jumped(true);
-    system.model.forget();
+    system.model.recorded = Recorded::Nothing;
     system.model.clear_multipliers();
     system.changes += 1;
     Began {

@@ -11,16 +11,14 @@ pub(crate) mod model;
 
 pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::SystemError;
-pub(crate) use model::{Family, KINDS, Model};
+pub(crate) use model::{Family, KINDS, Model, Recorded};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
-use crate::element::Forces;
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
-use crate::lookout::{Lookout, Sight, Strains};
 use crate::meter::Meter;
 use crate::moment::{Identity, Moment, State};
 use crate::pair;
@@ -61,7 +59,6 @@ pub struct System {
     pub(crate) spectrum: Spectrum,
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
-    pub(crate) lookout: Lookout,
     pub(crate) meter: Meter,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
@@ -170,14 +167,12 @@ impl System {
                 paths: Vec::new(),
                 grabbed: Vec::new(),
                 stretch_ratio_max: 100.0,
-                forces: Default::default(),
-                is_limited: false,
+                recorded: Recorded::default(),
             },
             counters: Counters::default(),
             spectrum: Spectrum::default(),
             guard: Guard::default(),
             scratch: Scratch::default(),
-            lookout: Lookout::default(),
             meter: Meter::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
@@ -476,7 +471,7 @@ impl System {
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
         self.spectrum.jumped(true);
-        self.model.forget();
+        self.model.recorded = Recorded::Nothing;
         self.changes += 1;
         (&mut self.positions, &mut self.velocities)
     }
@@ -565,7 +560,7 @@ impl System {
     /// If there is no such constraint.
     #[must_use]
     pub fn unlimited_ratio(&self, id: ConstraintId) -> f64 {
-        if self.model.is_limited {
+        if self.model.recorded == Recorded::Limiter {
             self.model.stretch.memory(id).ratio
         } else {
             self.stretch_ratio(id)
@@ -585,72 +580,10 @@ impl System {
         -self.model.stretch.memory(id).multiplier
     }
 
-    /// Has the lookout know all stretch constraints whose strain, by the method of the last step, makes
-    /// them at least this many times as long as at rest. From now on steps that compute lengths anyway
-    /// look out for them; where the last one did not, this is a pass over constraints.
-    pub(crate) fn look_out_from(&mut self, ratio: f64) {
-        self.lookout.ask(ratio);
-        if self.found_from(ratio).is_none() {
-            self.counters.visits.detect += self.model.stretch.len() as u64;
-            self.look(self.method_strains());
-        }
-    }
-
-    /// What the lookout knows of these; `None` before it was [asked](System::look_out_from).
-    pub(crate) fn found_from(&self, ratio: f64) -> Option<&[ConstraintId]> {
-        let sight = Sight {
-            strains: self.method_strains(),
-            state: self.state(),
-        };
-        self.lookout.found(sight, ratio)
-    }
-
-    /// The largest length of a stretch constraint as a multiple of that at rest, before a limiter; 0
-    /// without constraints. From now on steps that compute lengths anyway find it; where the last one
-    /// did not, this is a pass over constraints.
-    pub(crate) fn most_stretched(&mut self) -> f64 {
-        self.lookout.ask_most();
-        let strains = if self.model.is_limited {
-            Strains::Ratios
-        } else {
-            Strains::Lengths
-        };
-        let state = self.state();
-        let sight = Sight { strains, state };
-        if self.lookout.most(sight).is_none() {
-            self.counters.visits.meter += self.model.stretch.len() as u64;
-            self.look(strains);
-        }
-        let most = self.lookout.most(sight);
-        most.expect("a look finds what was asked for")
-    }
-
-    /// Where the method of the last step left the strains by which edges tear.
-    fn method_strains(&self) -> Strains {
-        match self.model.forces {
-            Forces::Multipliers => Strains::Multipliers,
-            _ if self.model.is_limited => Strains::Ratios,
-            _ => Strains::Lengths,
-        }
-    }
-
-    fn look(&mut self, strains: Strains) {
-        self.lookout.turn_to(strains, self.state());
-        let (stretch, x) = (&self.model.stretch, &self.positions[..]);
-        match strains {
-            Strains::Multipliers => self.lookout.look_at_multipliers(stretch),
-            Strains::Ratios => self.lookout.look_at_ratios(stretch),
-            Strains::Lengths => self.lookout.look(stretch, x),
-        }
-    }
-
-    /// The elastic energy now, in a pass over all constraints that looks out for long ones on the way.
-    /// Counts as one by the meter.
-    pub(crate) fn elastic_j(&mut self, state: State) -> f64 {
+    /// The elastic energy now, in a pass over all constraints that counts as one by the meter.
+    pub(crate) fn elastic_j(&mut self) -> f64 {
         self.counters.visits.meter += self.model.constraint_count();
-        self.lookout.turn_to(Strains::Lengths, state);
-        self.model
-            .elastic_and_look_j(&self.positions, Some(&mut self.lookout))
+        self.model.elastic_j(&self.positions)
     }
 
     /// Returns the root mean square of the strains l/L − 1 of all stretch constraints; 0 if there

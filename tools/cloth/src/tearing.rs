@@ -23,9 +23,7 @@
 //!    next: its length is what it was before the tear only because nothing has moved yet.
 //!
 //! Every loop is bounded: a split adds a vertex with a face, and there are at most three vertices
-//! a face. Cost a step: nothing to speak of where the method computes lengths at the end of its step
-//! ([`Verlet`](crate::Verlet)), and a pass over edges elsewhere; without allocation once there was
-//! room.
+//! a face. Cost a step: a pass over edges, without allocation once there was room.
 //!
 //! How many pieces a cloth tears into depends on the time step, as it does on the mesh: a cascade
 //! is the answer of a method to forces that change faster than it steps. The cap bounds how much

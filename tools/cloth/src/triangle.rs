@@ -29,9 +29,8 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::crush::Crush;
-use crate::element::{Also, Busiest, Element, Forces, Slope};
+use crate::element::{Also, Busiest, Element, Slope};
 use crate::incidence::Incidence;
-use crate::lookout::Lookout;
 use crate::matrix::{Block, Hessian};
 
 /// A triangle that resists stretch and shear.
@@ -398,7 +397,7 @@ impl Element for Triangles {
         self.list.len()
     }
 
-    fn energy(&self, x: &[Point], _lookout: Option<&mut Lookout>, sum: f64) -> f64 {
+    fn energy(&self, x: &[Point], sum: f64) -> f64 {
         let triangles = self.list.iter();
         triangles.fold(sum, |sum, t| sum + t.energy(t.corners(x)))
     }
@@ -442,7 +441,7 @@ impl Element for Triangles {
         &self,
         x: &[Point],
         particle: usize,
-        _read: &dyn Fn([usize; 2]) -> Forces,
+        _exerted: &dyn Fn([usize; 2], f64, f64) -> f64,
         sum: &mut Vector,
     ) {
         for (t, corner) in self.of(particle) {

@@ -151,7 +151,7 @@ impl Solver for Verlet {
         }
         let guarded_s = (!self.is_plain).then_some(dt_s);
         let is_fresh = self.is_fresh(system, dt_s);
-        let began = (!is_fresh).then(|| accelerate(system, system.state(), false, guarded_s));
+        let began = (!is_fresh).then(|| accelerate(system, false, guarded_s));
         let mut account = Account::open(system, began, dt_s);
         fly(system, half_s, dt_s);
         if let Some(account) = &mut account {
@@ -164,7 +164,7 @@ impl Solver for Verlet {
         if blows {
             foresee(system, half_s);
         }
-        let felt = accelerate(system, system.next_state(), blows, guarded_s);
+        let felt = accelerate(system, blows, guarded_s);
         if let Some(account) = &mut account {
             account.land(system);
         }

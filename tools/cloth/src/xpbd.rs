@@ -19,13 +19,12 @@
 use tearmesh::geometry::{Vector, dot};
 
 use crate::constraint::Constraint;
-use crate::element::Forces;
 use crate::flight::{finish, finish_and_predict, finish_metered, force_scale, predict};
 use crate::loss::Motion;
 use crate::pair::{Law, Link};
 use crate::solver::{Abilities, Failure, Solver};
 use crate::spring::{self, Hooke};
-use crate::system::System;
+use crate::system::{Recorded, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
@@ -164,7 +163,7 @@ impl Solver for Xpbd {
         // Who asks for forces asks for those of the last substep.
         let model = &mut system.model;
         model.scale_multipliers(force_scale(model, substep_s));
-        model.forces = Forces::Multipliers;
+        model.recorded = Recorded::SpringForces;
         Ok(())
     }
 }

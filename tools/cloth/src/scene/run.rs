@@ -33,7 +33,7 @@ use crate::load::{Collider, Loads};
 use crate::sheet::{Cloth, ClothError};
 use crate::solver::{Solver, StepError};
 use crate::stability;
-use crate::system::Unstable;
+use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport, Tearing};
 
 /// A scene in progress, with its mesh and its cloth.
@@ -83,8 +83,8 @@ pub struct RunTally {
     pub steps_at_cap: u64,
     /// The elastic energy of the edges that tore, in joules, which turned into motion.
     pub edge_energy_j: f64,
-    /// The largest ratio of an edge's length to its rest length after a step, before tearing and
-    /// before Provot's limiter.
+    /// The largest ratio of an edge's length to its rest length, before Provot's limiter: in each frame
+    /// of 1/60 s, at the end, and in each step in which an edge was overstretched.
     pub stretch_ratio_max: f64,
     /// The farthest that a vertex moved in one substep, in metres. It is measured only if the scene
     /// has a ball, since a fast vertex may pass through one; otherwise it is 0.
@@ -332,11 +332,16 @@ impl Run {
         let report = self.cloth.step_observed(engine, self.step_s, balance)?;
         self.tally.steps += 1;
         self.measure_moves(self.step_s / f64::from(report.substeps));
-        let most = self.cloth.system_mut().most_stretched();
-        self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(most);
+        let is_frame = self.watch.is_time(self.tally.steps);
         let tear = self.tear_overstretched();
-        let (steps, elapsed_s) = (self.tally.steps, self.elapsed_s());
-        if self.watch.is_time(steps) {
+        let is_overstretched = tear.is_some_and(|tear| tear.overstretched > 0);
+        if is_frame || is_overstretched || self.is_over() {
+            // Splits move nothing: edges are as long as they were before.
+            let ratio = longest_ratio(self.cloth.system());
+            self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(ratio);
+        }
+        if is_frame {
+            let elapsed_s = self.elapsed_s();
             self.watch.judge(elapsed_s, &self.energy_balance());
         }
         Ok(Step { tear })
@@ -660,6 +665,15 @@ fn strong(
         }
     }
     tear.with_strengths(strengths).map_err(RunError::Tearing)
+}
+
+/// The largest ratio of an edge's length to its rest length, before Provot's limiter; 0 without edges.
+fn longest_ratio(system: &System) -> f64 {
+    let ratios = system
+        .stretches()
+        .iter()
+        .map(|id| system.unlimited_ratio(id));
+    ratios.fold(0.0, f64::max)
 }
 
 /// The momentum, and the sum of its parts' sizes, in kg m/s.

@@ -35,10 +35,9 @@ pub struct Visits {
     /// The number of visits for forces, for the stiffness matrix and products with it, for the
     /// energies of an implicit step's line search, and for the check for blow-up.
     pub force: u64,
-    /// The number of visits to find constraints that are about to tear. Constraints that are found
-    /// while forces are summed do not count again.
+    /// The number of visits to find constraints that are about to tear.
     pub detect: u64,
-    /// The number of visits to measure the largest stretch and the energy.
+    /// The number of visits to measure the energy.
     pub meter: u64,
 }
 

@@ -9,9 +9,8 @@ use crate::bend::Buckling;
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
-use crate::element::{Also, Element, Forces, Slope};
+use crate::element::{Also, Element, Slope};
 use crate::load::{Loads, Path};
-use crate::lookout::Lookout;
 use crate::pair::{Law, Link, Pairs, length};
 use crate::spring::Hooke;
 use crate::triangle::Triangles;
@@ -35,10 +34,21 @@ pub(crate) struct Model {
     /// Particles and their paths.
     pub(crate) grabbed: Vec<(u32, u32)>,
     pub(crate) stretch_ratio_max: f64,
-    /// Where the forces of the last step are to be read.
-    pub(crate) forces: Forces,
-    /// Whether a limiter left ratios behind.
-    pub(crate) is_limited: bool,
+    pub(crate) recorded: Recorded,
+}
+
+/// What the method of the last step recorded in constraints, because their lengths do not tell it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Recorded {
+    /// Nothing: forces and strains are those of lengths.
+    #[default]
+    Nothing,
+    /// Multipliers of rigid constraints, which are forces and say nothing of a strain (PBD).
+    RigidForces,
+    /// Multipliers of springs: their forces, and so their strains (XPBD).
+    SpringForces,
+    /// The forces of a limiter beside those of springs, and lengths before it (Provot).
+    Limiter,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,16 +139,8 @@ impl Model {
 
     /// The elastic energy of all constraints, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
-        self.elastic_and_look_j(x, None)
-    }
-
-    /// The elastic energy in joules. The lookout is told of stretch constraints that are as long as
-    /// it asks for.
-    pub(crate) fn elastic_and_look_j(&self, x: &[Point], mut lookout: Option<&mut Lookout>) -> f64 {
         let kinds = self.kinds();
-        kinds
-            .iter()
-            .fold(0.0, |sum, kind| kind.energy(x, lookout.take(), sum))
+        kinds.iter().fold(0.0, |sum, kind| kind.energy(x, sum))
     }
 
     /// That of all constraints that a particle has a part in.
@@ -309,20 +311,21 @@ impl Model {
         }
     }
 
-    /// Where the force between two particles is to be read. A rigid method has no multiplier for what
-    /// it cannot move: of that, the length alone tells.
-    pub(crate) fn forces_between(&self, ends: [usize; 2]) -> Forces {
+    /// The force of a spring as the method of the last step exerted it, by its length and its
+    /// multiplier. What no method can move has the force of its length.
+    pub(crate) fn exerted_n(&self, ends: [usize; 2], by_length: f64, multiplier: f64) -> f64 {
         let is_free = |end: usize| self.inverse_masses[end] > 0.0;
-        match self.forces {
-            Forces::Rigid if !ends.into_iter().any(is_free) => Forces::Lengths,
-            forces => forces,
+        match self.recorded {
+            Recorded::Nothing => by_length,
+            Recorded::Limiter => by_length - multiplier,
+            Recorded::RigidForces | Recorded::SpringForces => {
+                if ends.into_iter().any(is_free) {
+                    -multiplier
+                } else {
+                    by_length
+                }
+            }
         }
-    }
-
-    /// Forgets what the last step left behind in constraints.
-    pub(crate) fn forget(&mut self) {
-        self.forces = Forces::Lengths;
-        self.is_limited = false;
     }
 
     /// Sets all multipliers to zero.

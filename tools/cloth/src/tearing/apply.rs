@@ -3,13 +3,12 @@
 use tearmesh::geometry::{Plane, Vector, dot, length};
 use tearmesh::{Cursor, Edits, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
 
-use super::load::strain;
+use super::load::{find_stretched, strain};
 use super::{Tearing, TearingError};
-use crate::element::Forces;
 use crate::energy;
 use crate::force;
 use crate::sheet::Cloth;
-use crate::system::Family;
+use crate::system::{Family, Recorded};
 
 /// The state of tearing of a cloth: the strength of each vertex, and how long each edge has been
 /// overloaded.
@@ -30,8 +29,8 @@ pub struct Tear {
     /// The number of this step, for clocks.
     pub(super) now: u64,
     /// From where on an edge may tear, with what that depends on: the number of changes of the
-    /// system, and the forces of its method.
-    bound: Option<((u64, Forces), Option<f64>)>,
+    /// system, and what its method records.
+    bound: Option<((u64, Recorded), Option<f64>)>,
     /// Edges that may tear.
     candidates: Vec<HalfEdgeId>,
     due: Vec<Due>,
@@ -235,10 +234,9 @@ impl Tear {
     /// log advance, and the cloth and this state follow them. Other followers can replay the log
     /// later.
     ///
-    /// Edits that are already in the log are replayed first. The cost is a walk round the ends of
-    /// each overstretched edge. If the method did not compute lengths at the end of the step, a
-    /// pass over edges is added. With [`Threshold::PrincipalStretch`](super::Threshold) it is a
-    /// pass over edges and the faces beside them.
+    /// Edits that are already in the log are replayed first. The cost is a pass over edges, and a
+    /// walk round the ends of each overstretched edge. With
+    /// [`Threshold::PrincipalStretch`](super::Threshold) the pass includes the faces beside edges.
     ///
     /// # Panics
     ///
@@ -324,7 +322,7 @@ impl Tear {
     /// Finds the edges that may tear: all that do, and maybe some more.
     fn look(&mut self, mesh: &Mesh, cloth: &mut Cloth) {
         self.candidates.clear();
-        let of = (cloth.system().changes, cloth.system().model.forces);
+        let of = (cloth.system().changes, cloth.system().model.recorded);
         let bound = match self.bound {
             Some((known, bound)) if known == of => bound,
             _ => {
@@ -333,15 +331,13 @@ impl Tear {
             }
         };
         self.bound = Some((of, bound));
-        if let Some(ratio) = bound {
-            cloth.system_mut().look_out_from(ratio);
-            let found = cloth.system().found_from(ratio);
-            let found = found.expect("a look finds what was asked for").iter();
-            let edges = found.map(|&id| whole_edge(mesh, cloth.edge(id)));
-            self.candidates.extend(edges);
-        } else {
-            cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
-            self.candidates.extend(mesh.edges());
+        cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
+        let candidates = &mut self.candidates;
+        match bound {
+            None => candidates.extend(mesh.edges()),
+            Some(ratio) => find_stretched(cloth.system(), ratio, |id| {
+                candidates.push(whole_edge(mesh, cloth.edge(id)));
+            }),
         }
     }
 
@@ -470,7 +466,7 @@ fn whole_edge(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 fn energy_j(cloth: &Cloth, edge: HalfEdgeId) -> f64 {
     let (system, id) = (cloth.system(), cloth.stretch(edge));
     let spring = system.stretches().get(id);
-    if system.model.forces == Forces::Multipliers {
+    if system.model.recorded == Recorded::SpringForces {
         let extension = strain(system, id) * spring.rest_length_m;
         return 0.5 * spring.stiffness_n_per_m * extension * extension;
     }

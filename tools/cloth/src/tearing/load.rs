@@ -5,11 +5,10 @@ use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
 use crate::constraint::{Constraint, ConstraintId};
-use crate::element::Forces;
 use crate::fabric::Copies;
 use crate::force;
 use crate::sheet::Cloth;
-use crate::system::System;
+use crate::system::{Recorded, System};
 
 impl Threshold {
     /// Returns the load of a link in a system without a mesh. The link tears at 1 or more. The load
@@ -88,7 +87,10 @@ impl Threshold {
                 strain_borne(g, modulus(cloth), most(|edge| edge.rest_length_m))
             }
             Threshold::Force(_)
-                if matches!(cloth.system().model.forces, Forces::Rigid | Forces::Both) =>
+                if matches!(
+                    cloth.system().model.recorded,
+                    Recorded::RigidForces | Recorded::Limiter
+                ) =>
             {
                 return None;
             }
@@ -122,10 +124,48 @@ fn is_most_stretched(cloth: &Cloth, h: HalfEdgeId) -> bool {
 /// rest forces balance whatever they are.
 pub(super) fn strain(system: &System, id: ConstraintId) -> f64 {
     let spring = system.stretches().get(id);
-    if system.model.forces == Forces::Multipliers && spring.stiffness_n_per_m > 0.0 {
+    if system.model.recorded == Recorded::SpringForces && spring.stiffness_n_per_m > 0.0 {
         return force::force_n(system, id) / (spring.stiffness_n_per_m * spring.rest_length_m);
     }
     system.unlimited_ratio(id) - 1.0
+}
+
+/// Finds the stretch constraints that are at least `ratio` times as long as at rest by [`strain`], and
+/// some that rounding brings there. Takes one pass, without a root.
+pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(ConstraintId)) {
+    let (strain, square, x) = (ratio - 1.0, ratio * ratio, &system.positions[..]);
+    for (batch, memories) in system.model.stretch.batches_remembered() {
+        let constraints = batch.ids.iter().zip(batch.rest);
+        // What is not a number is found as well.
+        match system.model.recorded {
+            Recorded::Nothing | Recorded::RigidForces => {
+                for ((&id, &rest), &[a, b]) in constraints.zip(batch.ends) {
+                    let d = x[b as usize] - x[a as usize];
+                    let is_short = dot(d, d) < square * (rest * rest);
+                    if !is_short {
+                        found(ConstraintId(id));
+                    }
+                }
+            }
+            Recorded::SpringForces => {
+                let forces = memories.multipliers.iter().zip(batch.compliance);
+                for ((&id, &rest), (&multiplier, &compliance)) in constraints.zip(forces) {
+                    let is_short = -multiplier * compliance < strain * rest;
+                    if !is_short {
+                        found(ConstraintId(id));
+                    }
+                }
+            }
+            Recorded::Limiter => {
+                for (&id, &before) in batch.ids.iter().zip(memories.ratios) {
+                    let is_short = before < ratio;
+                    if !is_short {
+                        found(ConstraintId(id));
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// What a cloth's strain is multiplied by for its tension, in N/m: of springs and, the mean of
