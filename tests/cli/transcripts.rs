@@ -18,13 +18,13 @@ const NOTHING_DIGESTED: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0xf665_b17b_8293_a976),
-    ("tear.txt", 0x0159_23b9_b66b_ca9a),
+    ("README.md", 0x045a_d7e5_fce0_27a7),
+    ("tear.txt", 0x2429_6705_48b9_29af),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x1ba2_b248_8f59_222c;
+const DIGEST: u64 = 0x8596_11d5_0bca_6755;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

@@ -524,14 +524,9 @@ fn methods_say_where_their_steps_fall_short() {
                 assert_eq!(solved.halvings, 0);
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
-            ("verlet", Quality::Guards(guarded)) => {
+            ("verlet", Quality::Carried(carried)) => {
                 let free = system.inverse_masses().iter().filter(|w| **w > 0.0).count();
-                assert!(10 * guarded.carried <= free, "{guarded:?} of {free}");
-                let lost = -run.energy_balance().made_j();
-                assert!(
-                    (0.0..1.5 * lost).contains(&guarded.damped_j),
-                    "{guarded:?} {lost}"
-                );
+                assert!(10 * carried <= free, "{carried} of {free}");
             }
             (name, other) => panic!("{name}: {other:?}"),
         }

@@ -276,7 +276,7 @@ pub(crate) struct Energy {
     pub(crate) kinetic: f64,
     pub(crate) elastic: f64,
     pub(crate) gravity: f64,
-    /// As `method` and the numbers of `gain`, not said where Provot's limiter has worked: that grows
+    /// As `numerical_dissipation` and the numbers of `gain`, not said where Provot's limiter has worked: that grows
     /// without bound as steps get shorter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) held: Option<f64>,
@@ -284,13 +284,10 @@ pub(crate) struct Energy {
     pub(crate) drag: f64,
     pub(crate) colliders: f64,
     pub(crate) edits: f64,
-    /// What the method made, or lost where negative, by its own account; not said by Provot's.
+    /// The remainder, which the method lost, or made where negative.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) method: Option<f64>,
-    /// What is left of it all, and nobody accounts for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) remainder: Option<f64>,
-    /// Where the method made far more than it may: W-SIM-ENERGY.
+    pub(crate) numerical_dissipation: Option<f64>,
+    /// Where the method made more than it may: W-SIM-ENERGY.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) gain: Option<EnergyGain>,
 }
@@ -311,7 +308,6 @@ pub(crate) struct EnergyGain {
 pub(crate) enum Quality {
     Guarded {
         carried: usize,
-        damped_j: f64,
     },
     Limiter {
         passes: u64,
@@ -362,7 +358,6 @@ pub(crate) struct Visits {
     pub(crate) project: u64,
     pub(crate) force: u64,
     pub(crate) detect: u64,
-    pub(crate) meter: u64,
 }
 
 /// Pieces that were written, each into a file of its own.

@@ -225,7 +225,9 @@ impl Play<'_> {
         session.words.push(words::simulation(&tear));
         session.words.extend(told::first_tear(&chronicle));
         session.words.push(words::balance(&run));
-        session.words.push(words::work(&tear.counters.features));
+        if self.args.verbose {
+            session.words.push(words::cost(&tear.counters.features));
+        }
         if let Some(check) = &tear.step_check {
             session.words.extend(step::words(check));
             session.faults.extend(step::warnings(check));

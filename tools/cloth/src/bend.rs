@@ -169,11 +169,6 @@ impl Link for Bend {
         self.axial(length).force
     }
 
-    fn twice_energy_and_force(self, length: f64) -> [f64; 2] {
-        let axial = self.axial(length);
-        [2.0 * axial.energy, axial.force]
-    }
-
     /// A fold is where it is meant to be short.
     #[inline]
     fn damped_stiffness(self) -> f64 {

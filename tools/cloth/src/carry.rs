@@ -29,8 +29,6 @@
 
 use std::ops::{AddAssign, Mul};
 
-use tearmesh::geometry::{Vector, dot};
-
 /// The stiffness of a net of springs, as far as masses are concerned.
 pub(crate) trait Net {
     /// The neighbours of a particle with the stiffness between, in N/m.
@@ -56,8 +54,6 @@ struct Star {
     particle: u32,
     /// Where its legs end.
     legs: u32,
-    /// What it weighed before, of which each leg got its share.
-    weighed: f64,
 }
 
 impl Carry {
@@ -130,7 +126,6 @@ impl Carry {
         self.stars.push(Star {
             particle: particle as u32,
             legs: self.legs.len() as u32,
-            weighed: own,
         });
     }
 
@@ -142,33 +137,6 @@ impl Carry {
     /// Whether no two of them are neighbours, so that stability is proven.
     pub(crate) fn is_proven(&self) -> bool {
         self.is_proven
-    }
-
-    /// u M′w − u M w over the particles that are not held: what carrying adds. It costs the valence of
-    /// those that are carried, and vanishes where all have one velocity.
-    pub(crate) fn beyond(&self, u: &[Vector], w: impl Fn(usize) -> Vector) -> f64 {
-        let mut first = 0;
-        let mut sum = 0.0;
-        for star in &self.stars {
-            let particle = star.particle as usize;
-            let own = [u[particle], w(particle)];
-            let mut against = own;
-            let mut given = 0.0;
-            for &(other, share) in &self.legs[first..star.legs as usize] {
-                let other = other as usize;
-                if self.inverse[other] > 0.0 {
-                    let leg = [u[other], w(other)];
-                    against[0] -= leg[0] * share;
-                    against[1] -= leg[1] * share;
-                    given += share * dot(leg[0], leg[1]);
-                }
-            }
-            first = star.legs as usize;
-            let weight = 1.0 / self.inverse[particle];
-            sum +=
-                weight * dot(against[0], against[1]) - star.weighed * (dot(own[0], own[1]) - given);
-        }
-        sum
     }
 
     /// Makes accelerations of forces: M′⁻¹ f. Only where something is carried.
@@ -268,41 +236,6 @@ mod tests {
             let mut weight = masses.clone();
             carry.accelerate(&mut weight);
             assert!(weight.iter().all(|a| (a - 1.0).abs() < 1e-14), "{weight:?}");
-        }
-    }
-
-    /// M′u is f where u is M′⁻¹ f; of who is held neither counts.
-    #[test]
-    fn what_carrying_adds_is_what_the_matrix_is_beyond_the_masses() {
-        let force = |i: usize| Vector::new(1.0 + i as f64, ((i * i) % 7) as f64 - 3.0, 0.5);
-        for (masses, springs) in nets() {
-            for held in 0..=masses.len() {
-                let mut inverse: Vec<f64> = masses.iter().map(|m| 1.0 / m).collect();
-                inverse.iter_mut().skip(held).take(1).for_each(|w| *w = 0.0);
-                let carry = weighed([&masses, &inverse], &springs, 0.1);
-                assert!(carry.len() > 0 || held == 0);
-                if carry.len() == 0 {
-                    continue; // Its product is asked for only where something is carried.
-                }
-                let forces: Vec<Vector> = (0..masses.len()).map(force).collect();
-                let mut u = forces.clone();
-                carry.accelerate(&mut u);
-                let free = (0..masses.len()).filter(|&i| i != held);
-                let expected = free.map(|i| dot(u[i], forces[i]) - masses[i] * dot(u[i], u[i]));
-                let expected: f64 = expected.sum();
-                if held < masses.len() {
-                    u[held] = Vector::new(5.0, 7.0, -3.0);
-                }
-                let found = carry.beyond(&u, |i| u[i]);
-                assert!(
-                    (found - expected).abs() < 1e-10 * (1.0 + expected.abs()),
-                    "{held}: {found} {expected}"
-                );
-            }
-            let masses = [&masses[..], &vec![1.0; masses.len()]];
-            let all = vec![Vector::new(1.0, 2.0, 3.0); masses[0].len()];
-            let found = weighed(masses, &springs, 0.1).beyond(&all, |i| all[i]);
-            assert!(found.abs() < 1e-12, "{found}");
         }
     }
 

@@ -9,7 +9,6 @@ pub(crate) fn push_out(system: &mut System) {
     if system.model.loads.colliders.is_empty() {
         return;
     }
-    system.meter.forget();
     if system.contact_j.is_some() {
         return push_out_and_sum(system);
     }

@@ -25,14 +25,14 @@ pub(crate) trait Element {
     /// That of the constraints of a particle.
     fn energy_at(&self, x: &[Point], particle: usize) -> f64;
 
-    /// Adds the forces, in newtons, to those of the particles, and does what is to be done on the
-    /// way. False where one is longer than `ratio_max` times its rest length, or not a number.
+    /// Adds the forces, in newtons, to those of the particles, with those of damping where something is
+    /// crushed. False where one is longer than `ratio_max` times its rest length, or not a number.
     #[must_use]
     fn forces(
         &self,
         x: &[Point],
         ratio_max: f64,
-        also: Also<'_, '_>,
+        crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> bool;
 
@@ -91,25 +91,6 @@ pub(crate) trait Element {
     /// Adds the second derivatives of the energy, each pair's to its slot by that number. With
     /// `clamp` every term is positive semidefinite; returns how many had a part dropped for it.
     fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64;
-}
-
-/// What is to be done on the way while forces are summed up: by default nothing.
-#[derive(Debug, Default)]
-pub(crate) struct Also<'a, 'v> {
-    /// Adds the forces of damping where something is crushed.
-    pub(crate) crush: Option<&'a mut Crush<'v>>,
-    /// Has the elastic energy added, in joules, as [`Element::energy`] adds it.
-    pub(crate) elastic_j: Option<&'a mut f64>,
-}
-
-impl<'v> Also<'_, 'v> {
-    /// This context for the next kind of constraint.
-    pub(crate) fn for_next(&mut self) -> Also<'_, 'v> {
-        Also {
-            crush: self.crush.as_deref_mut(),
-            elastic_j: self.elastic_j.as_deref_mut(),
-        }
-    }
 }
 
 /// Which stiffness counts of what is not equally stiff at every length.

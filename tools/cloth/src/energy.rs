@@ -2,13 +2,32 @@
 
 use tearmesh::geometry::dot;
 
-use crate::constraint::Constraint;
-use crate::system::{Family, System};
+use crate::constraint::{Constraint, Constraints};
+use crate::system::{Family, Recorded, System};
 
 /// Returns the elastic energy of all constraints and triangles, in joules.
 #[must_use]
 pub fn elastic_j(system: &System) -> f64 {
     system.model.elastic_j(&system.positions)
+}
+
+/// The elastic energy that the method of the last step stores, in joules: that of the forces which it
+/// recorded, none where it takes constraints for rigid, and that of lengths otherwise.
+pub(crate) fn stored_j(system: &System) -> f64 {
+    let families = [&system.model.stretch, &system.model.bend];
+    match system.model.recorded {
+        Recorded::Nothing | Recorded::Limiter => elastic_j(system),
+        Recorded::RigidForces => 0.0,
+        Recorded::SpringForces => {
+            let batches = families
+                .into_iter()
+                .flat_map(Constraints::batches_remembered);
+            0.5 * batches.fold(0.0, |sum, (batch, memories)| {
+                let forces = memories.multipliers.iter().zip(batch.compliance);
+                forces.fold(sum, |sum, (f, compliance)| sum + f * f * compliance)
+            })
+        }
+    }
 }
 
 /// Returns the kinetic energy of the particles that are not held, in joules.

@@ -5,25 +5,14 @@ use tearmesh::geometry::{Point, Vector};
 
 use crate::contact;
 use crate::crush::Crush;
-use crate::element::Also;
-use crate::meter::{Free, FreeSum};
 use crate::system::{Model, System};
-
-/// What was felt when accelerations were taken.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Felt {
-    /// Whether no constraint is longer than the system's largest stretch ratio.
-    pub(crate) is_sane: bool,
-    /// What damping takes in such a step from what is crushed, in joules.
-    pub(crate) damped_j: f64,
-    /// The elastic energy, in joules, where someone asks.
-    pub(crate) elastic_j: Option<f64>,
-}
 
 /// Takes the accelerations now, with wind at the velocities of now or at those that were
 /// [`foreseen`](foresee): in a step of `dt_s` seconds with the guards of
-/// [`Verlet`](crate::Verlet), or without any.
-pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Option<f64>) -> Felt {
+/// [`Verlet`](crate::Verlet), or without any. False where a constraint is longer than the system's
+/// largest stretch ratio.
+#[must_use]
+pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Option<f64>) -> bool {
     let System {
         positions,
         velocities,
@@ -31,36 +20,22 @@ pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Opti
         scratch,
         counters,
         guard,
-        meter,
         ..
     } = system;
     let count = positions.len();
     scratch.is_fresh = false;
     scratch.accelerations.resize(count, Vector::zeros());
-    scratch.forces.resize(count, Vector::zeros());
-    let mut crush = guarded_s.map(|dt_s| Crush::new(velocities, dt_s));
-    let mut elastic_j = meter.is_asked().then_some(0.0);
-    let also = Also {
-        crush: crush.as_mut(),
-        elastic_j: elastic_j.as_mut(),
-    };
+    let crush = guarded_s.map(|dt_s| Crush { velocities, dt_s });
     let winds = if is_foreseen {
         &scratch.foreseen
     } else {
         &*velocities
     };
-    let forces = &mut scratch.forces;
-    let is_sane = model.pull(positions, winds, also, forces, counters);
-    let carry = guarded_s.map(|_| guard.carry());
-    model.weigh(forces, carry, &mut scratch.accelerations);
-    let damped_j = crush.map_or(0.0, |crush| crush.lost_j);
-    let is_other = damped_j > 0.0 || carry.is_some_and(|carry| carry.len() > 0);
-    scratch.guarded_s = guarded_s.filter(|_| is_other).unwrap_or(0.0);
-    Felt {
-        is_sane,
-        damped_j,
-        elastic_j,
-    }
+    let accelerations = &mut scratch.accelerations;
+    let is_sane = model.pull(positions, winds, crush, accelerations, counters);
+    model.weigh(guarded_s.map(|_| guard.carry()), accelerations);
+    scratch.guarded_s = guarded_s.unwrap_or(0.0);
+    is_sane
 }
 
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
@@ -155,21 +130,6 @@ pub(crate) fn finish(system: &mut System, dt_s: f64) {
     for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
         *v = (x - before) * per_s;
     }
-}
-
-/// [`finish`], with the energy that free particles have then.
-pub(crate) fn finish_metered(system: &mut System, dt_s: f64) -> Free {
-    let per_s = 1.0 / dt_s;
-    let model = &system.model;
-    let moves = system.positions.iter().zip(&system.scratch.before);
-    let weights = model.masses.iter().zip(&model.inverse_masses);
-    let mut sum = FreeSum::default();
-    let particles = system.velocities.iter_mut().zip(moves).zip(weights);
-    for ((v, (&x, before)), (&mass, &inverse_mass)) in particles {
-        *v = (x - before) * per_s;
-        sum.add([mass, inverse_mass], x, *v);
-    }
-    sum.energy(model.gravity())
 }
 
 /// [`finish`], the push of colliders, and [`predict`] of the next substep: in one pass where nobody

@@ -1,7 +1,6 @@
 //! Which system a state is of, and which substep led to it.
 //!
-//! By these a method that remembers the last step knows whether it led to the state that it is given,
-//! and whoever has looked at a state knows whether it is still that.
+//! By these a method that remembers the last step knows whether it led to the state that it is given.
 //! None is part of what a system is, nor of any output: a clone is another system, in the same
 //! state.
 
@@ -51,12 +50,4 @@ pub(crate) enum Moment {
     Unknown,
     /// This one.
     After(u64),
-}
-
-/// Which of its states a system is in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct State {
-    pub(crate) moment: Moment,
-    /// How often the state was changed but by a step.
-    pub(crate) changes: u64,
 }

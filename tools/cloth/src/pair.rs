@@ -6,7 +6,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::constraint::{Batch, Constraint, Constraints};
 use crate::crush::Crush;
-use crate::element::{Also, Busiest, Element, Slope};
+use crate::element::{Busiest, Element, Slope};
 use crate::matrix::{Block, Hessian};
 
 /// A law by which constraints act, all of them alike but for their rest length and stiffness.
@@ -29,12 +29,6 @@ pub(crate) trait Link: Copy {
 
     /// The pull, in newtons: the derivative of the energy. Negative where it pushes apart.
     fn force(self, length: f64) -> f64;
-
-    /// Both.
-    #[inline]
-    fn twice_energy_and_force(self, length: f64) -> [f64; 2] {
-        [self.twice_energy(length), self.force(length)]
-    }
 
     /// The stiffness that is damped where it is crushed; zero where being short is being bent.
     fn damped_stiffness(self) -> f64;
@@ -68,51 +62,6 @@ impl<'a, L: Law> Pairs<'a, L> {
             law,
             site,
         }
-    }
-
-    /// [`Element::forces`], which adds up energy if it is `METERED`.
-    // Where both loops are inlined into one function, that without energy takes 3 instructions more
-    // for each constraint.
-    #[inline(never)]
-    fn pull<const METERED: bool>(
-        &self,
-        x: &[Point],
-        ratio_max: f64,
-        mut crush: Option<&mut Crush<'_>>,
-        elastic_j: &mut f64,
-        forces: &mut [Vector],
-    ) -> bool {
-        let mut sane = true;
-        for batch in self.constraints.batches() {
-            let mut twice_j = 0.0;
-            for ([a, b], rest, link) in links(batch, self.law) {
-                let d = x[b] - x[a];
-                let length = dot(d, d).sqrt();
-                sane &= length <= ratio_max * rest;
-                let mut pull = if METERED {
-                    let [twice, pull] = link.twice_energy_and_force(length);
-                    twice_j += twice;
-                    pull
-                } else {
-                    link.force(length)
-                };
-                if length > 0.0 {
-                    if let Some(crush) = &mut crush
-                        && length < Crush::BELOW * rest
-                    {
-                        let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
-                        pull += crush.pull(link.damped_stiffness(), length / rest, speed);
-                    }
-                    let force = d * (pull / length);
-                    forces[a] += force;
-                    forces[b] -= force;
-                }
-            }
-            if METERED {
-                *elastic_j += 0.5 * twice_j;
-            }
-        }
-        sane
     }
 
     fn link(&self, constraint: &Constraint) -> Option<L::Link> {
@@ -164,13 +113,30 @@ impl<L: Law> Element for Pairs<'_, L> {
         &self,
         x: &[Point],
         ratio_max: f64,
-        also: Also<'_, '_>,
+        crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> bool {
-        match also.elastic_j {
-            None => self.pull::<false>(x, ratio_max, also.crush, &mut 0.0, forces),
-            Some(sum) => self.pull::<true>(x, ratio_max, also.crush, sum, forces),
+        let mut sane = true;
+        for batch in self.constraints.batches() {
+            for ([a, b], rest, link) in links(batch, self.law) {
+                let d = x[b] - x[a];
+                let length = dot(d, d).sqrt();
+                sane &= length <= ratio_max * rest;
+                let mut pull = link.force(length);
+                if length > 0.0 {
+                    if let Some(crush) = crush
+                        && length < Crush::BELOW * rest
+                    {
+                        let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
+                        pull += crush.pull(link.damped_stiffness(), length / rest, speed);
+                    }
+                    let force = d * (pull / length);
+                    forces[a] += force;
+                    forces[b] -= force;
+                }
+            }
         }
+        sane
     }
 
     fn force_at(

@@ -9,8 +9,7 @@
 //! lengths are from that, and not where it hangs: pushes act along the directions that constraints
 //! had when they were projected, as those of [`Xpbd`](crate::Xpbd) do.
 
-use crate::flight::{finish, finish_metered, force_scale, predict};
-use crate::loss::Motion;
+use crate::flight::{finish, force_scale, predict};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::{Recorded, System};
@@ -76,7 +75,6 @@ impl Solver for Pbd {
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
-        let account = Motion::open(system);
         predict(system, dt_s);
         let [stretch, bend] = self.fractions();
         let System {
@@ -106,14 +104,7 @@ impl Solver for Pbd {
                 }
             }
         }
-        match account {
-            None => finish(system, dt_s),
-            Some(mut account) => {
-                account.project(system, dt_s);
-                let free = finish_metered(system, dt_s);
-                account.close(system, dt_s, free);
-            }
-        }
+        finish(system, dt_s);
         let model = &mut system.model;
         model.scale_multipliers(force_scale(model, dt_s));
         model.recorded = Recorded::RigidForces;

@@ -15,8 +15,8 @@ mod run;
 pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
-    CutMade, EnergyGain, GuardStats, LimiterStats, Names, NewtonStats, Quality, Run, RunError,
-    RunTally, Softness, StableSteps, Step, suggested_step_s,
+    CutMade, EnergyGain, LimiterStats, Names, NewtonStats, Quality, Run, RunError, RunTally,
+    Softness, StableSteps, Step, suggested_step_s,
 };
 
 use tearmesh::geometry::{Point, Ray, Vector, length};

@@ -21,12 +21,6 @@ pub trait Observer {
     /// Called after each substep that was taken, with its report.
     fn after(&mut self, system: &System, substep: Substep);
 
-    /// Returns whether methods must compute the energy that they themselves make
-    /// ([`Substep::made_j`]), which costs up to a pass over constraints. The default is false.
-    fn meters(&self) -> bool {
-        false
-    }
-
     /// Called at the end of a step, after its substeps. If `is_taken` is false, the step failed and
     /// the system is back where it began, so all observations of the step are void. Not called for
     /// a step that was refused before its first substep.
@@ -50,10 +44,6 @@ pub struct Substep {
     /// Whether the method moved particles by the forces at the end of the substep, as methods
     /// without a stability limit do.
     pub moves_at_end: bool,
-    /// The energy that the method itself made in the substep, in joules, including its error in the
-    /// work of wind; negative if it removed energy. `None` if the method does not compute it, or if
-    /// [no observer wants it](Observer::meters).
-    pub made_j: Option<f64>,
 }
 
 impl System {
@@ -97,7 +87,6 @@ impl System {
         let substep = Substep {
             dt_s: dt_s / f64::from(report.substeps),
             moves_at_end: solver.abilities().frequency_limit.is_none(),
-            made_j: None,
         };
         let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
@@ -145,12 +134,10 @@ fn advance(
     system.counters.substeps += 1;
     system.drive(substep.dt_s);
     observer.before(system);
-    system.meter.begin(observer.meters());
     solver.advance(system, substep.dt_s)?;
     contact::push_out(system);
     Failure::unless(is_finite(system))?;
-    let made_j = system.meter.made_j();
-    observer.after(system, Substep { made_j, ..substep });
+    observer.after(system, substep);
     system.elapsed_s += substep.dt_s;
     system.moment = Moment::After(system.counters.substeps);
     Ok(())

@@ -19,8 +19,7 @@ use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
-use crate::meter::Meter;
-use crate::moment::{Identity, Moment, State};
+use crate::moment::{Identity, Moment};
 use crate::pair;
 use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
@@ -59,7 +58,6 @@ pub struct System {
     pub(crate) spectrum: Spectrum,
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
-    pub(crate) meter: Meter,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
     pub(crate) margin: f64,
@@ -76,11 +74,9 @@ pub struct System {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
-    /// The forces that these are by, without weight.
-    pub(crate) forces: Vec<Vector>,
     /// Whether these are the accelerations now.
     pub(crate) is_fresh: bool,
-    /// The step in seconds whose carried and crushed particles are in them; zero without any.
+    /// The step in seconds for which they are guarded; zero without guards.
     pub(crate) guarded_s: f64,
     /// The part of a step's limit that wind takes in a second, as a step found it.
     pub(crate) air_per_s: f64,
@@ -173,7 +169,6 @@ impl System {
             spectrum: Spectrum::default(),
             guard: Guard::default(),
             scratch: Scratch::default(),
-            meter: Meter::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             margin: 0.95,
@@ -580,12 +575,6 @@ impl System {
         -self.model.stretch.memory(id).multiplier
     }
 
-    /// The elastic energy now, in a pass over all constraints that counts as one by the meter.
-    pub(crate) fn elastic_j(&mut self) -> f64 {
-        self.counters.visits.meter += self.model.constraint_count();
-        self.model.elastic_j(&self.positions)
-    }
-
     /// Returns the root mean square of the strains l/L − 1 of all stretch constraints; 0 if there
     /// are none.
     #[must_use]
@@ -595,22 +584,6 @@ impl System {
             strain * strain
         });
         (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
-    }
-
-    /// The state that the system is in.
-    pub(crate) fn state(&self) -> State {
-        State {
-            moment: self.moment,
-            changes: self.changes,
-        }
-    }
-
-    /// The state that the present substep leads to.
-    pub(crate) fn next_state(&self) -> State {
-        State {
-            moment: Moment::After(self.counters.substeps),
-            changes: self.changes,
-        }
     }
 
     /// Gives the grabbed particles the velocity that leads them along their paths.

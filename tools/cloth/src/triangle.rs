@@ -29,7 +29,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::crush::Crush;
-use crate::element::{Also, Busiest, Element, Slope};
+use crate::element::{Busiest, Element, Slope};
 use crate::incidence::Incidence;
 use crate::matrix::{Block, Hessian};
 
@@ -148,7 +148,7 @@ impl Triangle {
         &self,
         corners: [Point; 3],
         velocities: [Vector; 3],
-        crush: &mut Crush<'_>,
+        crush: Crush<'_>,
     ) -> [Vector; 3] {
         let w = self.derivatives(corners);
         let (a, b) = (velocities[1] - velocities[0], velocities[2] - velocities[0]);
@@ -411,7 +411,7 @@ impl Element for Triangles {
         &self,
         x: &[Point],
         ratio_max: f64,
-        mut also: Also<'_, '_>,
+        crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> bool {
         let mut sane = true;
@@ -421,10 +421,7 @@ impl Element for Triangles {
             for (v, pull) in t.vertices.into_iter().zip(t.forces(corners)) {
                 forces[v as usize] += pull;
             }
-            if let Some(sum) = &mut also.elastic_j {
-                **sum += t.energy(corners);
-            }
-            if let Some(crush) = &mut also.crush
+            if let Some(crush) = crush
                 && t.is_crushed(corners)
             {
                 let velocities = t.vertices.map(|v| crush.velocities[v as usize]);

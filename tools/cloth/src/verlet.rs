@@ -52,7 +52,6 @@
 //! with shorter ones.
 
 use crate::flight::{accelerate, fly, foresee, kick};
-use crate::loss::Account;
 use crate::solver::{Abilities, Failure, Solver};
 use crate::stability::{carried_count, weigh_for};
 use crate::system::System;
@@ -89,13 +88,11 @@ use crate::system::System;
 ///     system.step(&mut verlet, 0.13)?;
 ///     assert!(energy::kinetic_j(&system) + energy::elastic_j(&system) < 1.05 * before);
 /// }
-/// assert!(verlet.damped_j() > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Verlet {
     is_plain: bool,
-    damped_j: f64,
 }
 
 impl Verlet {
@@ -109,18 +106,7 @@ impl Verlet {
     /// crushed, and for comparisons.
     #[must_use]
     pub fn plain() -> Verlet {
-        Verlet {
-            is_plain: true,
-            ..Verlet::default()
-        }
-    }
-
-    /// Returns the energy that the damping of crushed constraints has removed in all steps so far,
-    /// in joules. An energy balance includes it in [`method_j`](crate::EnergyBalance::method_j), as
-    /// a loss.
-    #[must_use]
-    pub fn damped_j(&self) -> f64 {
-        self.damped_j
+        Verlet { is_plain: true }
     }
 
     /// Whether the last accelerations of the step before are those of now: unless something has changed
@@ -151,12 +137,8 @@ impl Solver for Verlet {
         }
         let guarded_s = (!self.is_plain).then_some(dt_s);
         let is_fresh = self.is_fresh(system, dt_s);
-        let began = (!is_fresh).then(|| accelerate(system, false, guarded_s));
-        let mut account = Account::open(system, began, dt_s);
+        let began_sane = is_fresh || accelerate(system, false, guarded_s);
         fly(system, half_s, dt_s);
-        if let Some(account) = &mut account {
-            account.fly(system);
-        }
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
         // as without wind. (Those of the middle err by O(Δt).)
@@ -164,17 +146,9 @@ impl Solver for Verlet {
         if blows {
             foresee(system, half_s);
         }
-        let felt = accelerate(system, blows, guarded_s);
-        if let Some(account) = &mut account {
-            account.land(system);
-        }
+        let is_sane = accelerate(system, blows, guarded_s);
         kick(system, half_s);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
-        Failure::unless(felt.is_sane && began.is_none_or(|began| began.is_sane))?;
-        self.damped_j += felt.damped_j;
-        if let Some(account) = account {
-            account.close(system, felt);
-        }
-        Ok(())
+        Failure::unless(began_sane && is_sane)
     }
 }

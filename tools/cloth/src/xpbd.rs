@@ -19,8 +19,7 @@
 use tearmesh::geometry::{Vector, dot};
 
 use crate::constraint::Constraint;
-use crate::flight::{finish, finish_and_predict, finish_metered, force_scale, predict};
-use crate::loss::Motion;
+use crate::flight::{finish, finish_and_predict, force_scale, predict};
 use crate::pair::{Law, Link};
 use crate::solver::{Abilities, Failure, Solver};
 use crate::spring::{self, Hooke};
@@ -134,32 +133,15 @@ impl Solver for Xpbd {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
-        let mut account = Motion::open(system);
         predict(system, substep_s);
         let sane = (0..substeps).all(|substep| {
-            match &mut account {
-                _ if substep == 0 => {}
-                None => finish_and_predict(system, substep_s),
-                Some(account) => {
-                    let free = finish_metered(system, substep_s);
-                    account.turn(system, substep_s, free);
-                    predict(system, substep_s);
-                }
+            if substep > 0 {
+                finish_and_predict(system, substep_s);
             }
-            let is_sane = self.sweep(system, substep_s);
-            if let Some(account) = &mut account {
-                account.project(system, substep_s);
-            }
-            is_sane
+            self.sweep(system, substep_s)
         });
         Failure::unless(sane)?;
-        match account {
-            None => finish(system, substep_s),
-            Some(account) => {
-                let free = finish_metered(system, substep_s);
-                account.close(system, substep_s, free);
-            }
-        }
+        finish(system, substep_s);
         // Who asks for forces asks for those of the last substep.
         let model = &mut system.model;
         model.scale_multipliers(force_scale(model, substep_s));

@@ -53,8 +53,8 @@ fn has_limited(run: &Run) -> bool {
     matches!(run.quality(), Quality::Limiter(limited) if limited.steps_limited > 0)
 }
 
-/// The line of the summary that says where the energy went: what the method lost by its own account,
-/// and apart from it what nobody accounts for.
+/// The line of the summary that says where the energy went. What neither loads nor hands took is the
+/// method's.
 pub(super) fn balance(run: &Run) -> String {
     let balance = run.energy_balance();
     if has_limited(run) {
@@ -63,20 +63,18 @@ pub(super) fn balance(run: &Run) -> String {
             three_digits(balance.kinetic_j + balance.elastic_j)
         );
     }
-    let words = format!(
-        "energy: {} J put in, {} J stored, {} J lost to drag",
+    let made_j = balance.made_j();
+    let how = if made_j > 0.0 {
+        "made by the method"
+    } else {
+        "of numerical dissipation"
+    };
+    format!(
+        "energy: {} J put in, {} J stored, {} J lost to drag, {} J {how}",
         three_digits(balance.put_in_j()),
         three_digits(balance.kinetic_j + balance.elastic_j),
         three_digits(-balance.drag_j),
-    );
-    let Some(method) = balance.method_j else {
-        return words;
-    };
-    let how = if method > 0.0 { "made" } else { "lost" };
-    format!(
-        "{words}, {} J {how} by the method, {} J unaccounted for",
-        three_digits(method.abs()),
-        three_digits(balance.remainder_j())
+        three_digits(made_j.abs()),
     )
 }
 
@@ -104,9 +102,10 @@ pub(super) fn gain(run: &Run) -> Option<Fault> {
 }
 
 /// Says that the method damps motion more than the scene's own drag does, so much that it shows in the time
-/// there was. What Verlet takes is from what is crushed alone, and nothing from what swings.
+/// there was. What Verlet takes is from what is crushed alone, and nothing from what swings; nor do Provot's
+/// springs, and of what the limiter takes nothing is known.
 pub(super) fn damped(run: &Run) -> Option<Fault> {
-    if matches!(run.scene().solver, Method::Verlet) {
+    if matches!(run.scene().solver, Method::Verlet | Method::Provot(_)) {
         return None;
     }
     let rate_per_s = run.damping_per_s()?;
@@ -164,8 +163,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         drag: balance.drag_j,
         colliders: balance.colliders_j,
         edits: balance.edits_j,
-        method: balance.method_j,
-        remainder: said(balance.remainder_j()),
+        numerical_dissipation: said(-balance.made_j()),
         gain: run.energy_gain().map(|gain| report::EnergyGain {
             since_s: gain.since_s,
             made_j: said(gain.made_j),
@@ -176,10 +174,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
 
 pub(super) fn quality(run: &Run) -> Option<report::Quality> {
     match run.quality() {
-        Quality::Guards(guarded) => Some(report::Quality::Guarded {
-            carried: guarded.carried,
-            damped_j: guarded.damped_j,
-        }),
+        Quality::Carried(carried) => Some(report::Quality::Guarded { carried }),
         Quality::Limiter(limited) => Some(report::Quality::Limiter {
             passes: limited.passes,
             steps_short: limited.steps_short,
@@ -267,14 +262,12 @@ pub(super) fn counters(run: &Run) -> report::Counters {
             project: counters.visits.project,
             force: counters.visits.force,
             detect: counters.visits.detect,
-            meter: counters.visits.meter,
         },
         features: features(run),
     }
 }
 
-/// The features that a scene uses, and which part of the work each is. What is measured is the balance
-/// of energy, the largest stretch, and the bound of frequencies.
+/// The features that a scene uses, and which part of the work each is.
 fn features(run: &Run) -> Vec<report::FeatureCost> {
     let (system, scene) = (run.cloth().system(), run.scene());
     let counters = system.counters();
@@ -286,7 +279,6 @@ fn features(run: &Run) -> Vec<report::FeatureCost> {
         ("wind", scene.wind.is_some(), cost.wind),
         ("colliders", !scene.colliders.is_empty(), cost.collider),
         ("tearing", scene.tearing.is_some(), counters.visits.detect),
-        ("measuring", true, counters.visits.meter),
     ];
     let all: u64 = features.iter().map(|&(_, _, visits)| visits).sum();
     let used = features.into_iter().filter(|&(_, is_used, _)| is_used);
@@ -298,8 +290,8 @@ fn features(run: &Run) -> Vec<report::FeatureCost> {
     .collect()
 }
 
-/// The line of the summary that says what the work was for.
-pub(super) fn work(features: &[report::FeatureCost]) -> String {
+/// The line of `--verbose` that says what the work was for.
+pub(super) fn cost(features: &[report::FeatureCost]) -> String {
     let shares = features
         .iter()
         .map(|feature| format!("{} {:.0} %", feature.name, 100.0 * feature.share));
@@ -309,7 +301,7 @@ pub(super) fn work(features: &[report::FeatureCost]) -> String {
         _ => format!("{:.1} million", visits as f64 / 1e6),
     };
     let shares = shares.collect::<Vec<_>>().join(", ");
-    format!("work: {visits} visits of elements: {shares}")
+    format!("cost: {visits} element visits: {shares}")
 }
 
 /// The code of a step that was not taken.

@@ -3,7 +3,6 @@
 use tearmesh::geometry::{Point, Vector, dot};
 
 use super::Layout;
-use crate::element::Also;
 use crate::matrix::Hessian;
 use crate::system::Model;
 
@@ -41,7 +40,7 @@ impl<'a> Problem<'a> {
         forces.extend(weights.map(|(g, m)| g * *m));
         for kind in &self.model.kinds() {
             // Constraints that are far too long are found in the state in which a step ends.
-            let _ = kind.forces(x, f64::INFINITY, Also::default(), forces);
+            let _ = kind.forces(x, f64::INFINITY, None, forces);
         }
     }
 

@@ -53,7 +53,6 @@ use super::newton;
 use super::pcg::End;
 use super::problem::Problem;
 use super::settings::{Method, Settings, StepError, StepReport, Tolerance, Work};
-use crate::loss::{Motion, free_energy};
 use crate::moment::{Identity, Moment, Note};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::System;
@@ -382,7 +381,6 @@ impl Solver for Implicit {
         if !self.history.leads_to(system.moment) {
             self.history.forget();
         }
-        let account = Motion::open(system);
         let System {
             positions,
             velocities,
@@ -436,11 +434,6 @@ impl Solver for Implicit {
         self.history.leave(Moment::After(counters.substeps));
         self.report = Some(report);
         counters.overshoots += u64::from(report.overshot);
-        if let Some(mut account) = account {
-            account.lead(system, dt_s);
-            let free = free_energy(system);
-            account.close(system, dt_s, free);
-        }
         Ok(())
     }
 }

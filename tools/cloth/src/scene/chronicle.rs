@@ -7,7 +7,7 @@ use tearmesh::geometry::{Vector, between, length};
 
 use super::run::{Run, Step};
 use super::{FRAME_S, HeldVertices, Method};
-use crate::balance::WIND_S;
+use crate::balance::AIR_S;
 use crate::force;
 
 /// A step in which something tore.
@@ -151,7 +151,7 @@ impl Chronicle {
     fn weigh(&mut self, run: &Run) {
         self.waited_s += run.step_s();
         let system = run.cloth().system();
-        let is_due = system.loads().wind.is_none() || self.waited_s >= WIND_S;
+        let is_due = system.loads().wind.is_none() || self.waited_s >= AIR_S;
         if !is_due && !run.is_over() {
             return;
         }

@@ -347,7 +347,7 @@ pub fn member(
 
 fn visits(run: &Run) -> u64 {
     let visits = run.cloth().system().counters().visits;
-    visits.project + visits.force + visits.detect + visits.meter
+    visits.project + visits.force + visits.detect
 }
 
 /// A run of the subject on `mesh`, with its step divided.

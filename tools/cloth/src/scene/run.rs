@@ -14,7 +14,7 @@ mod step_size;
 
 pub use self::error::{Names, RunError};
 pub use self::gain::EnergyGain;
-pub use self::quality::{GuardStats, LimiterStats, NewtonStats, Quality};
+pub use self::quality::{LimiterStats, NewtonStats, Quality};
 pub use self::step_size::{Softness, suggested_step_s};
 
 use std::num::NonZero;
@@ -215,7 +215,7 @@ impl Run {
         let balance = Balance::new(cloth.system_mut());
         Ok(Run {
             engine,
-            watch: Watch::new(&scene.solver, cloth.system(), step_s),
+            watch: Watch::new(cloth.system(), step_s),
             mesh,
             cloth,
             edits: Edits::new(),
@@ -278,7 +278,7 @@ impl Run {
         self.step_s /= f64::from(parts.get());
         self.steps_planned = self.steps_planned.saturating_mul(parts.get().into());
         assert!(self.steps_planned <= Run::STEPS_MAX, "steps can be counted");
-        self.watch = Watch::new(&self.scene.solver, self.cloth.system(), self.step_s);
+        self.watch = Watch::new(self.cloth.system(), self.step_s);
         self
     }
 
@@ -536,7 +536,7 @@ impl Run {
         self.balance.now(self.cloth.system(), edits_j)
     }
 
-    /// Returns the energy that the method made out of nothing; `None` unless it exceeded a quarter
+    /// Returns the energy that the method made out of nothing; `None` unless it exceeded a hundredth
     /// of the energy that was put in. The cloth then tears more than it should, and its pieces fly
     /// about. This is checked every 1/60 s. A shorter step helps, as does drag or a method that
     /// damps.
@@ -546,9 +546,8 @@ impl Run {
     }
 
     /// Returns the rate of damping by the method, in 1/s: that of a drag that would have removed as
-    /// much energy as the method did so far, by its own account. For backward Euler it is ½ω²Δt for
-    /// a mode of frequency ω. `None` if the method removed none or does not compute it, and before
-    /// 1/60 s. Costs a pass over all constraints.
+    /// much energy as the method did so far. For backward Euler it is ½ω²Δt for a mode of frequency
+    /// ω. `None` if the method removed none, and before 1/60 s. Costs a pass over all constraints.
     ///
     /// ```
     /// use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
@@ -569,8 +568,7 @@ impl Run {
     /// ```
     #[must_use]
     pub fn damping_per_s(&self) -> Option<f64> {
-        let method_j = self.energy_balance().method_j?;
-        self.watch.damping_per_s(method_j)
+        self.watch.damping_per_s(self.energy_balance().made_j())
     }
 
     /// Returns the scene that this run carries out.

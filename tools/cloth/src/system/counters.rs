@@ -37,8 +37,6 @@ pub struct Visits {
     pub force: u64,
     /// The number of visits to find constraints that are about to tear.
     pub detect: u64,
-    /// The number of visits to measure the energy.
-    pub meter: u64,
 }
 
 /// Counts of visits to single elements, by the feature of the model to which they belong. They

@@ -9,7 +9,8 @@ use crate::bend::Buckling;
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
-use crate::element::{Also, Element, Slope};
+use crate::crush::Crush;
+use crate::element::{Element, Slope};
 use crate::load::{Loads, Path};
 use crate::pair::{Law, Link, Pairs, length};
 use crate::spring::Hooke;
@@ -111,15 +112,15 @@ impl Model {
     pub(crate) fn axial(&self, family: Family, constraint: &Constraint, x: &[Point]) -> [f64; 2] {
         let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
         let length = length(x, constraint.ends);
-        let twice = match (family, self.buckling) {
+        let both = match (family, self.buckling) {
             (Family::Bend, Some(law)) => law
                 .link(rest, stiffness)
-                .map(|link| link.twice_energy_and_force(length)),
+                .map(|link| [link.twice_energy(length), link.force(length)]),
             _ => Hooke
                 .link(rest, stiffness)
-                .map(|link| link.twice_energy_and_force(length)),
+                .map(|link| [link.twice_energy(length), link.force(length)]),
         };
-        let [twice, force] = twice.unwrap_or_default();
+        let [twice, force] = both.unwrap_or_default();
         [0.5 * twice, force]
     }
 
@@ -193,7 +194,7 @@ impl Model {
         accelerations: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, Also::default(), accelerations, counters);
+        let sane = self.inner(positions, None, accelerations, counters);
         self.external(positions, velocities, accelerations, counters);
         sane
     }
@@ -204,42 +205,36 @@ impl Model {
         &self,
         positions: &[Point],
         velocities: &[Vector],
-        also: Also<'_, '_>,
+        crush: Option<Crush<'_>>,
         forces: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, also, forces, counters);
+        let sane = self.inner(positions, crush, forces, counters);
         self.blow(positions, velocities, forces, counters);
         sane
     }
 
-    /// Makes accelerations of such forces, with gravity, and with what is carried as heavy as that
-    /// makes it; held particles have none.
-    pub(crate) fn weigh(
-        &self,
-        forces: &[Vector],
-        carry: Option<&Carry>,
-        accelerations: &mut [Vector],
-    ) {
+    /// Makes accelerations of forces, with gravity, and with what is carried as heavy as that makes it;
+    /// held particles have none.
+    pub(crate) fn weigh(&self, carry: Option<&Carry>, forces: &mut [Vector]) {
         let gravity = self.gravity();
-        let particles = accelerations.iter_mut().zip(forces);
         let Some(carry) = carry.filter(|carry| carry.len() > 0) else {
-            for ((a, &force), &w) in particles.zip(&self.inverse_masses) {
-                *a = accelerated(force, w, gravity);
+            for (a, &w) in forces.iter_mut().zip(&self.inverse_masses) {
+                *a = accelerated(*a, w, gravity);
             }
             return;
         };
-        for ((a, &force), &mass) in particles.zip(&self.masses) {
-            *a = force + gravity * mass;
+        for (a, &mass) in forces.iter_mut().zip(&self.masses) {
+            *a += gravity * mass;
         }
-        carry.accelerate(accelerations);
+        carry.accelerate(forces);
     }
 
     /// Fills in the forces of springs and triangles. False where one has blown up.
     fn inner(
         &self,
         positions: &[Point],
-        mut also: Also<'_, '_>,
+        crush: Option<Crush<'_>>,
         forces: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
@@ -249,7 +244,7 @@ impl Model {
         forces.fill(Vector::zeros());
         let mut sane = true;
         for kind in &self.kinds() {
-            sane &= kind.forces(positions, self.stretch_ratio_max, also.for_next(), forces);
+            sane &= kind.forces(positions, self.stretch_ratio_max, crush, forces);
         }
         sane
     }
@@ -305,10 +300,7 @@ impl Model {
         counters: &mut Counters,
     ) {
         self.blow(positions, velocities, accelerations, counters);
-        let gravity = self.gravity();
-        for (a, &w) in accelerations.iter_mut().zip(&self.inverse_masses) {
-            *a = accelerated(*a, w, gravity);
-        }
+        self.weigh(None, accelerations);
     }
 
     /// The force of a spring as the method of the last step exerted it, by its length and its

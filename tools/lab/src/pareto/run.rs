@@ -59,7 +59,7 @@ pub(super) fn run(
         let step = system.step(&mut *solver, dt_s);
         cpu += bounds.now().saturating_sub(began);
         let counted = system.counters().visits;
-        visits = counted.project + counted.force + counted.detect + counted.meter;
+        visits = counted.project + counted.force + counted.detect;
         if let Err(error) = step {
             (status, why) = (status_of(&error), error.to_string());
             break;

@@ -1,6 +1,6 @@
 //! The methods of scenes, behind one solver.
 
-use super::quality::{GuardStats, LimiterStats, NewtonStats, Quality};
+use super::quality::{LimiterStats, NewtonStats, Quality};
 use crate::scene::Method;
 use crate::stability::carried_count;
 use crate::{
@@ -47,10 +47,7 @@ impl Engine {
         match self {
             Engine::Provot(_, limited) => Quality::Limiter(*limited),
             Engine::Pbd(_) => Quality::Strain(system.strain_rms()),
-            Engine::Verlet(verlet) => Quality::Guards(GuardStats {
-                carried: carried_count(system),
-                damped_j: verlet.damped_j(),
-            }),
+            Engine::Verlet(_) => Quality::Carried(carried_count(system)),
             Engine::Xpbd(xpbd) => Quality::Residual(xpbd.residual_n(system)),
             Engine::Implicit(_, solved) => Quality::Newton(*solved),
         }

@@ -7,8 +7,9 @@ use crate::provot::LimiterReport;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Quality {
-    /// The report of the guards of velocity Verlet.
-    Guards(GuardStats),
+    /// For Verlet: the number of vertices that are too light for the step, and so are carried by
+    /// their neighbours at present.
+    Carried(usize),
     /// The report of the limiter of Provot's method.
     Limiter(LimiterStats),
     /// For PBD: the root mean square of the present strains. PBD treats constraints as rigid, so
@@ -20,16 +21,6 @@ pub enum Quality {
     Residual(f64),
     /// The report of the Newton iterations of an implicit method.
     Newton(NewtonStats),
-}
-
-/// The report of the guards of velocity Verlet in a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GuardStats {
-    /// The number of vertices that are too light for the step, and so are carried by their
-    /// neighbours at present.
-    pub carried: usize,
-    /// The energy that the damping of crushed constraints removed in all steps, in joules.
-    pub damped_j: f64,
 }
 
 /// The report of Provot's limiter over all steps of a run.
