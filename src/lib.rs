@@ -63,16 +63,16 @@
 //!
 //! Imports run downward only, and no two files import each other, directly or indirectly:
 //!
-//! | floor | modules | lines |
-//! |---|---|---|
-//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) | 9,500 |
-//! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) | |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (of these), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] | |
-//! | kernel, 3 | [`tear`] (the rule for an overstretched edge) | |
-//! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) | 4,200 |
-//! | script | `script` (drives a kernel from bytes or text; behind a feature) | 2,100 |
+//! | floor | modules |
+//! |---|---|
+//! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) |
+//! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (of these), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] |
+//! | kernel, 3 | [`tear`] (the rule for an overstretched edge) |
+//! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) |
+//! | script | `script` (drives a kernel from bytes or text; behind a feature) |
 //!
-//! The solver layer is a separate crate, `tearmesh-cloth` (17,400 lines), which builds on this one.
+//! The solver layer is a separate crate, `tearmesh-cloth`, which builds on this one.
 //! Nothing here depends on it: any simulation can follow the log.
 //!
 //! Architecture invariants: the library reads no file, prints nothing, uses no clock and no random numbers,

@@ -401,49 +401,6 @@ fn the_kernel_knows_no_cloth() {
     }
 }
 
-/// The lines of Rust in a file or a folder of the project.
-fn lines_in(path: &Path) -> usize {
-    if path.is_dir() {
-        let entries = fs::read_dir(path).expect("a folder");
-        return entries
-            .map(|entry| lines_in(&entry.expect("an entry").path()))
-            .sum();
-    }
-    let is_rust = path.extension().is_some_and(|extension| extension == "rs");
-    if !is_rust {
-        return 0;
-    }
-    fs::read_to_string(path).expect("a file").lines().count()
-}
-
-#[test]
-fn the_sizes_that_are_told_are_true() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let lines = |name: &str| lines_in(&root.join(name));
-    let scissor = lines("src/scissor.rs") + lines("src/scissor");
-    let script = lines("src/script.rs") + lines("src/script");
-    let kernel = lines("src") - scissor - script;
-    let cloth = lines("tools/cloth/src");
-    println!("kernel {kernel}, scissor {scissor}, script {script}, cloth {cloth}");
-    let told = |name: &str, text: &str, size: usize| {
-        // To a hundred lines, and at most two hundred off.
-        let near = (size - 200..=size + 200).filter(|size| size % 100 == 0);
-        let mut near = near.map(|size| format!("{},{:03}", size / 1000, size % 1000));
-        let numbers = || text.split(|c: char| !c.is_ascii_digit() && c != ',');
-        assert!(
-            near.any(|size| numbers().any(|number| number == size)),
-            "{name} has no number near {size}"
-        );
-    };
-    for (name, sizes) in [
-        ("README.md", &[kernel, scissor, cloth][..]),
-        ("src/lib.rs", &[kernel, scissor, script, cloth]),
-    ] {
-        let text = fs::read_to_string(root.join(name)).expect(name);
-        sizes.iter().for_each(|&size| told(name, &text, size));
-    }
-}
-
 #[test]
 fn one_file_names_nalgebra() {
     for Source { path, code, .. } in sources() {
