@@ -339,7 +339,7 @@ impl Simulation {
         }
         self.sheet.edits.clear();
         self.owed_s += dt_s;
-        let wanted = (self.owed_s / self.step_s).round();
+        let wanted = (self.owed_s / self.step_s).round().max(0.0);
         let steps = steps_max.min(wanted as u64);
         let dropped_s = (wanted - steps as f64) * self.step_s;
         self.owed_s -= wanted * self.step_s;
@@ -390,13 +390,10 @@ impl Simulation {
         if self.healing.len() == 0 {
             return;
         }
-        let threshold = self
-            .tear
-            .as_ref()
-            .map_or_else(Tearing::default, |tear| *tear.tearing());
+        let tearing = self.tear.as_ref().map(|tear| *tear.tearing());
+        let threshold = tearing.unwrap_or_default().threshold;
         let (mesh, step_s) = (&self.sheet.mesh, self.step_s);
-        self.healing
-            .draw(mesh, &mut self.cloth, &threshold.threshold, step_s);
+        self.healing.draw(mesh, &mut self.cloth, threshold, step_s);
         let mut has_changed = self.healing.leave(self.time_s());
         while let Some(ends) = self.healing.met(self.cloth.system(), &self.hands) {
             self.sheet.merge(ends);

@@ -124,7 +124,7 @@ impl Healing {
         &mut self,
         mesh: &Mesh,
         cloth: &mut Cloth,
-        threshold: &Threshold,
+        threshold: Threshold,
         step_s: f64,
     ) {
         let now_s = cloth.system().elapsed_s();
