@@ -9,43 +9,37 @@
 //! came decide every byte of the result.
 
 mod buffers;
+mod definition;
 mod error;
-mod event;
 mod hand;
 mod heal;
 mod log;
+mod report;
 mod seams;
 mod sheet;
 
 pub use buffers::{BufferChanges, ClothBuffers};
+pub use definition::SimulationDef;
 pub use error::{InputError, ReplayError, SimulationError};
-pub use event::{CutId, Event};
 pub use hand::HandId;
 pub use heal::Wounds;
 pub use log::{InputLog, LogError};
+pub use report::{CutId, Event, Picked, Reached};
 
 use std::fmt;
 
-use tearmesh::geometry::{Point, Ray, Vector, check_point};
-use tearmesh::{
-    Cursor, Edit, Edits, Mesh, Mix, PerVertex, Positions, RayHit, Scissor, VertexId, pick,
-};
+use tearmesh::geometry::{Point, Ray, check_point};
+use tearmesh::{Cursor, Edit, Edits, Mesh, Mix, PerVertex, Positions, Scissor, VertexId, pick};
 
 use self::hand::Hands;
 use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
-use crate::fabric::Fabric;
-use crate::implicit::Implicit;
-use crate::load::Loads;
-use crate::provot::Provot;
-use crate::scene::{Method, suggested_step_s};
+use crate::scene::suggested_step_s;
 use crate::sheet::Cloth;
 use crate::solver::{Solver, StepError};
-use crate::system::Unstable;
-use crate::tearing::{Tear, Tearing};
-use crate::verlet::Verlet;
+use crate::tearing::Tear;
 
 /// A cloth with its mesh, in motion.
 ///
@@ -95,72 +89,6 @@ pub struct Simulation {
     log: Option<InputLog>,
 }
 
-/// The definition of a simulation beside its mesh.
-#[derive(Clone, Debug)]
-pub struct SimulationDef {
-    /// The mass of the cloth per area, in kg/m²: 0.15 by default, as of shirt cotton.
-    pub density_kg_per_m2: f64,
-    /// The material: by default springs of 1000 N/m along edges.
-    pub fabric: Fabric,
-    /// The method: by default [`Method::Verlet`].
-    pub method: Method,
-    /// The rule by which edges tear, by default at one and a half times their rest length; `None`
-    /// for never.
-    pub tearing: Option<Tearing>,
-    /// The strength of each vertex, as a multiple of the threshold; empty, as by default, for 1
-    /// everywhere.
-    pub strengths: Vec<f64>,
-    /// The loads: by default gravity along −y, and the drag of still air.
-    pub loads: Loads,
-    /// The length of a step, in seconds; `None`, as by default, for one that suits the method, the
-    /// fabric and the mesh.
-    pub step_s: Option<f64>,
-    /// Whether a step beyond the stability limit is divided, as by default, or refused.
-    pub when_unstable: Unstable,
-    /// Whether inputs are [logged](Simulation::log): by default not.
-    pub is_recorded: bool,
-}
-
-impl Default for SimulationDef {
-    fn default() -> SimulationDef {
-        SimulationDef {
-            density_kg_per_m2: 0.15,
-            fabric: Fabric::new(1000.0),
-            method: Method::Verlet,
-            tearing: Some(Tearing::default()),
-            strengths: Vec::new(),
-            loads: Loads {
-                gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
-                drag_per_s: Some(0.5),
-                ..Loads::default()
-            },
-            step_s: None,
-            when_unstable: Unstable::Substep,
-            is_recorded: false,
-        }
-    }
-}
-
-/// The vertex that a pointer is on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Picked {
-    /// The corner of the face that is nearest to the point, by its weight.
-    pub vertex: VertexId,
-    /// The face, and the point in it.
-    pub hit: RayHit,
-}
-
-/// How far a simulation got: the result of [`Simulation::advance`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reached {
-    /// The number of steps that were taken.
-    pub steps: u64,
-    /// The time simulated since the beginning, in seconds.
-    pub time_s: f64,
-    /// The time in seconds that the budget of steps left out. It is not made up for later.
-    pub dropped_s: f64,
-}
-
 impl Simulation {
     /// Creates the simulation of a cloth that is at rest where it is. Takes linear time, and reserves
     /// room in the mesh, its log, positions and masses for all that can tear: three vertices per face.
@@ -181,6 +109,7 @@ impl Simulation {
         let masses = sheet.masses.clone();
         let cloth = Cloth::new(mesh, &sheet.positions, masses, def.fabric);
         let mut cloth = cloth.map_err(SimulationError::Cloth)?;
+        let solver = def.solver();
         let mut strengths = def.strengths;
         if strengths.is_empty() {
             strengths.resize(mesh.vertex_count(), 1.0);
@@ -212,7 +141,7 @@ impl Simulation {
             sheet,
             cloth,
             tear,
-            solver: solver_of(&def.method),
+            solver,
             step_s,
             steps: 0,
             owed_s: 0.0,
@@ -693,16 +622,6 @@ const UNTEARABLE: f64 = 1e12;
 
 fn word(v: VertexId) -> u64 {
     u32::from(v).into()
-}
-
-fn solver_of(method: &Method) -> Box<dyn Solver + Send + Sync> {
-    match *method {
-        Method::Provot(limiter) => Box::new(Provot::new(limiter)),
-        Method::Pbd(pbd) => Box::new(pbd),
-        Method::Verlet => Box::new(Verlet::new()),
-        Method::Xpbd(xpbd) => Box::new(xpbd),
-        Method::Implicit(settings) => Box::new(Implicit::new(settings)),
-    }
 }
 
 impl fmt::Debug for Simulation {

@@ -5,8 +5,8 @@ use std::fmt;
 
 use tearmesh::{PositionError, VertexId};
 
-use super::event::CutId;
 use super::hand::HandId;
+use super::report::CutId;
 use crate::sheet::ClothError;
 use crate::solver::StepError;
 use crate::system::SystemError;

@@ -9,8 +9,8 @@
 use tearmesh::geometry::length;
 use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Mesh, VertexId};
 
-use super::event::CutId;
 use super::hand::{Hands, now};
+use super::report::CutId;
 use super::sheet::Sheet;
 use crate::sheet::Cloth;
 use crate::system::System;

@@ -2,7 +2,7 @@
 
 use tearmesh::{Cursor, Cut, Edit, Follower, HalfEdgeId, Insert, Mesh};
 
-use super::event::CutId;
+use super::report::CutId;
 use crate::follow::lies_on;
 
 /// Which cut tore each link, a follower of the log.

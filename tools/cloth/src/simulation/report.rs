@@ -1,8 +1,8 @@
-//! What happened to a cloth since the caller last asked.
+//! What a simulation reports: events, how far it got, and what a pointer is on.
 
 use std::fmt;
 
-use tearmesh::{HalfEdgeId, VertexId};
+use tearmesh::{HalfEdgeId, RayHit, VertexId};
 
 /// The id of a cut that a [`Simulation`](super::Simulation) made, displayed as `cut 7`. Cuts are
 /// numbered from 0.
@@ -51,4 +51,24 @@ pub enum Event {
         /// The simulated time, in seconds.
         time_s: f64,
     },
+}
+
+/// The vertex that a pointer is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picked {
+    /// The corner of the face that is nearest to the point, by its weight.
+    pub vertex: VertexId,
+    /// The face, and the point in it.
+    pub hit: RayHit,
+}
+
+/// How far a simulation got: the result of [`Simulation::advance`](super::Simulation::advance).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// The number of steps that were taken.
+    pub steps: u64,
+    /// The time simulated since the beginning, in seconds.
+    pub time_s: f64,
+    /// The time in seconds that the budget of steps left out. It is not made up for later.
+    pub dropped_s: f64,
 }

@@ -1,0 +1,72 @@
+//! The definition of a simulation: its material, method, loads and rules.
+
+use tearmesh::Vector;
+
+use crate::fabric::Fabric;
+use crate::implicit::Implicit;
+use crate::load::Loads;
+use crate::provot::Provot;
+use crate::scene::Method;
+use crate::solver::Solver;
+use crate::system::Unstable;
+use crate::tearing::Tearing;
+use crate::verlet::Verlet;
+
+/// The definition of a simulation beside its mesh.
+#[derive(Clone, Debug)]
+pub struct SimulationDef {
+    /// The mass of the cloth per area, in kg/m²: 0.15 by default, as of shirt cotton.
+    pub density_kg_per_m2: f64,
+    /// The material: by default springs of 1000 N/m along edges.
+    pub fabric: Fabric,
+    /// The method: by default [`Method::Verlet`].
+    pub method: Method,
+    /// The rule by which edges tear, by default at one and a half times their rest length; `None`
+    /// for never.
+    pub tearing: Option<Tearing>,
+    /// The strength of each vertex, as a multiple of the threshold; empty, as by default, for 1
+    /// everywhere.
+    pub strengths: Vec<f64>,
+    /// The loads: by default gravity along −y, and the drag of still air.
+    pub loads: Loads,
+    /// The length of a step, in seconds; `None`, as by default, for one that suits the method, the
+    /// fabric and the mesh.
+    pub step_s: Option<f64>,
+    /// Whether a step beyond the stability limit is divided, as by default, or refused.
+    pub when_unstable: Unstable,
+    /// Whether inputs are [logged](super::Simulation::log): by default not.
+    pub is_recorded: bool,
+}
+
+impl Default for SimulationDef {
+    fn default() -> SimulationDef {
+        SimulationDef {
+            density_kg_per_m2: 0.15,
+            fabric: Fabric::new(1000.0),
+            method: Method::Verlet,
+            tearing: Some(Tearing::default()),
+            strengths: Vec::new(),
+            loads: Loads {
+                gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
+                drag_per_s: Some(0.5),
+                ..Loads::default()
+            },
+            step_s: None,
+            when_unstable: Unstable::Substep,
+            is_recorded: false,
+        }
+    }
+}
+
+impl SimulationDef {
+    /// The method, before its first step.
+    pub(super) fn solver(&self) -> Box<dyn Solver + Send + Sync> {
+        match self.method {
+            Method::Provot(limiter) => Box::new(Provot::new(limiter)),
+            Method::Pbd(pbd) => Box::new(pbd),
+            Method::Verlet => Box::new(Verlet::new()),
+            Method::Xpbd(xpbd) => Box::new(xpbd),
+            Method::Implicit(settings) => Box::new(Implicit::new(settings)),
+        }
+    }
+}
