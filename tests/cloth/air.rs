@@ -5,7 +5,7 @@ use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::{
     Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
-    Xpbd, air, frequency,
+    Xpbd, air, frequency_bound,
 };
 
 use crate::parts::gravity;
@@ -188,7 +188,7 @@ fn springs_and_air_together_are_stable_at_the_limit_of_the_watch() {
             for drag_per_s in [None, Some(20.0), Some(1e3)] {
                 let mut cloth = sheet(4, 50.0, wind(0.0, 0.0));
                 let system = cloth.system_mut();
-                let coefficient = air * DENSITY_KG_PER_M2 * frequency::bound(system);
+                let coefficient = air * DENSITY_KG_PER_M2 * frequency_bound(system).omega_rad_per_s;
                 let loads = Loads {
                     wind: Some(wind(0.0, coefficient)),
                     drag_per_s,

@@ -1,15 +1,15 @@
 //! Bends that buckle, in systems and cloths: against the formulas of Choi and Ko, the implicit
 //! solver by itself, and dense eigenvalues.
 
-use nalgebra::DMatrix;
 use tearmesh::{Point, Positions, Vector, shapes};
-use tearmesh_cloth::implicit::{Hessian, Layout, Settings, Tolerance};
+use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::{
     Bending, Buckling, Cloth, Fabric, Implicit, Pbd, Provot, Solver, StepError, System, Verlet,
-    Xpbd, energy, force, frequency, stable_step_s,
+    Xpbd, energy, force, frequency_bound, stable_step_s,
 };
 
 use crate::parts::cloths::cloth;
+use crate::parts::vibration::largest_frequency;
 use crate::parts::{G, gravity, mechanical_j, near};
 use crate::random::Random;
 use crate::rk4::Rk4;
@@ -133,52 +133,14 @@ fn forces_of_a_crumpled_cloth_are_the_gradient_of_its_energy() {
     }
 }
 
-/// The product with the stiffness matrix, column by column; and that of the implicit solver.
-#[test]
-fn the_stiffness_is_that_of_the_implicit_solver() {
-    for seed in 0..4 {
-        let mut cloth = crumpled(arcs(2e-3, 0.9), 0.2, seed);
-        let system = cloth.system_mut();
-        let (mut layout, mut hessian) = (Layout::default(), Hessian::default());
-        layout.follow(system);
-        assert!(layout.hessian(system, true, &mut hessian) > 0);
-        let n = system.positions().len();
-        let mut expected = Vec::new();
-        for column in 0..3 * n {
-            let mut unit = vec![Vector::zeros(); n];
-            unit[column / 3][column % 3] = 1.0;
-            hessian.product(layout.pairs(), &unit, &mut expected);
-            for (have, want) in force::stiffness_times(system, &unit).iter().zip(&expected) {
-                near((have - want).norm(), 0.0, 1e-9);
-            }
-        }
-    }
-}
-
-/// The largest eigenvalue of M^-½ K M^-½.
-fn square_max(system: &mut System) -> f64 {
-    let n = system.positions().len();
-    let weights: Vec<f64> = system.inverse_masses().iter().map(|w| w.sqrt()).collect();
-    let mut matrix = DMatrix::zeros(3 * n, 3 * n);
-    for column in 0..3 * n {
-        let mut unit = vec![Vector::zeros(); n];
-        unit[column / 3][column % 3] = weights[column / 3];
-        let product = force::stiffness_times(system, &unit);
-        for row in 0..3 * n {
-            matrix[(row, column)] = product[row / 3][row % 3] * weights[row / 3];
-        }
-    }
-    matrix.symmetric_eigen().eigenvalues.max()
-}
-
 /// However it is crumpled, and also where arcs are far stiffer than the springs before them.
 #[test]
-fn no_frequency_is_beyond_the_bound_and_a_measure_on_the_flat_holds_when_folded() {
+fn no_frequency_is_beyond_the_bound() {
     for (flexural, below) in [(1e-3, 0.95), (1e-2, 0.6), (0.3, 0.6), (0.05, 0.9)] {
         let fabric = arcs(flexural, below);
         let mut flat = crumpled(fabric, 0.0, 0);
-        let measured = frequency::measure(flat.system_mut(), 1e-9, 20_000);
-        let bound = frequency::bound(flat.system_mut());
+        let measured = largest_frequency(flat.system());
+        let bound = frequency_bound(flat.system_mut()).omega_rad_per_s;
         let mut most = 0.0_f64;
         for seed in 0..12 {
             let by = [0.02, 0.1, 0.3, 1.0][seed as usize % 4];
@@ -186,17 +148,11 @@ fn no_frequency_is_beyond_the_bound_and_a_measure_on_the_flat_holds_when_folded(
             // Some ends meet.
             let meet = cloth.system().positions()[3];
             cloth.system_mut().state_mut().0[9] = meet;
-            most = most.max(square_max(cloth.system_mut()).sqrt());
+            most = most.max(largest_frequency(cloth.system()));
         }
-        println!(
-            "k {flexural}, {below}: bound {bound:.1}, flat {:.1}, folded {most:.1}",
-            measured.omega_rad_per_s
-        );
+        println!("k {flexural}, {below}: bound {bound:.1}, flat {measured:.1}, folded {most:.1}");
         assert!(most <= bound, "{most} {bound}");
-        assert!(measured.omega_rad_per_s <= bound * (1.0 + 1e-9));
-        // Springs turn aside and so does the measure; arcs must not add to that.
-        let springs = most / measured.omega_rad_per_s;
-        assert!(springs < 1.25, "{springs}");
+        assert!(measured <= bound);
     }
 }
 
@@ -208,18 +164,16 @@ fn the_limit_is_known_before_it_folds() {
         let points = [Point::origin(), Point::new(l, 0.0, 0.0)];
         let mut system = System::new(points, vec![m; 2]).expect("two particles");
         system.bend([0, 1], l, c).expect("a bend");
-        let of_springs = frequency::largest(&mut system).omega_rad_per_s;
+        let of_springs = frequency_bound(&mut system).omega_rad_per_s;
         near(of_springs, (2.0 * c / m).sqrt(), 1e-6);
         system.set_buckling(Some(law(below)));
         system.hold(0);
-        let omega = frequency::largest(&mut system).omega_rad_per_s;
-        let bound = frequency::bound(&mut system);
+        let omega = frequency_bound(&mut system).omega_rad_per_s;
         // By a difference of the paper's force near the place where the ends meet.
         let k = c * (below * l - l) / arc_force(1.0, l, below * l);
         let h = 1e-7 * l;
         let slope = (arc_force(k, l, 3.0 * h) - arc_force(k, l, h)) / (2.0 * h);
         near(omega * omega * m / slope.max(c), 1.0, 1e-4);
-        assert!(bound >= omega * (1.0 - 1e-12), "{bound} {omega}");
     }
 }
 

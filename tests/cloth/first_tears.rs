@@ -20,9 +20,9 @@ pbd force: step 156 of 1/240 s, v72-v60
 verlet stretch: step 1529 of 1/2160 s, v71-v82
 verlet toughness: step 1529 of 1/2160 s, v71-v82
 verlet force: step 1504 of 1/2160 s, v72-v60
-provot stretch: step 1328 of 1/1980 s, v71-v82
-provot toughness: step 1328 of 1/1980 s, v71-v82
-provot force: step 1124 of 1/1980 s, v71-v82
+provot stretch: step 1290 of 1/1920 s, v71-v82
+provot toughness: step 1290 of 1/1920 s, v71-v82
+provot force: step 1090 of 1/1920 s, v71-v82
 implicit stretch: step 171 of 1/240 s, v71-v82
 implicit toughness: step 171 of 1/240 s, v71-v82
 implicit force: step 167 of 1/240 s, v60-v70

@@ -13,9 +13,10 @@
 //! So there is no threshold to be quoted as a part of 2/ω: it is the load that decides.
 
 use tearmesh::Vector;
-use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable, energy, frequency};
+use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable, energy};
 
 use crate::parts::nets::{framed, row};
+use crate::parts::vibration::largest_frequency;
 use crate::parts::{gravity, mechanical_j};
 use crate::random::Random;
 
@@ -34,7 +35,7 @@ fn limited(passes_max: u32, rewrites_velocities: bool) -> Provot {
 }
 
 fn omega(system: &mut System) -> f64 {
-    frequency::measure(system, 1e-6, 20_000).omega_rad_per_s
+    largest_frequency(system)
 }
 
 /// Nets without weight, kicked.

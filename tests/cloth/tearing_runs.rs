@@ -8,7 +8,7 @@ use tearmesh::{
 };
 use tearmesh_cloth::{
     Bending, Copies, Fabric, Loads, Path, Tear, Tearing, Threshold, Unbend, Unstable, Verlet, Xpbd,
-    force, frequency, stable_step_s,
+    force, frequency_bound, stable_step_s,
 };
 
 use crate::parts::cloths::{cloth, sheet};
@@ -95,7 +95,7 @@ fn pull(rows: usize, tearing: Tearing, speed_m_per_s: f64, finer: f64) -> Pulled
     }
     let mut tear = Tear::new(&cloth, tearing).expect("a tear");
     let mut edits = Edits::new();
-    let dt = 1.0 / (finer * frequency::bound(cloth.system_mut()));
+    let dt = 1.0 / (finer * frequency_bound(cloth.system_mut()).omega_rad_per_s);
     let (mut smooth, mut sum, mut count, mut apart) = (0.0, 0.0, 0.0, false);
     let mut pulled = Pulled {
         force_max_n: 0.0,

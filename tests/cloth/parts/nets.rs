@@ -1,9 +1,10 @@
 //! Systems of springs alone, and what is known of them by statics.
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Loads, System, force};
+use tearmesh_cloth::{Loads, System};
 
 use super::{G, gravity};
+use crate::parts::vibration::stiffness_times;
 
 /// A number of springs in a row, whose particles are `apart` from each other; held at the first.
 /// Units: kg a particle, N/m and metres a spring.
@@ -107,10 +108,10 @@ pub(crate) fn modulus(cell_area: f64, springs: &[[f64; 2]], k: f64) -> [f64; 5] 
     let energy = |f: &dyn Fn([f64; 2]) -> [f64; 2]| -> f64 {
         let of = |&spring: &[f64; 2]| {
             let d = Vector::new(spring[0], spring[1], 0.0);
-            let mut pair = row(1, 1.0, k, d.norm(), d);
+            let pair = row(1, 1.0, k, d.norm(), d);
             let [x, y] = f(spring);
             let u = [Vector::zeros(), Vector::new(x, y, 0.0)];
-            force::stiffness_times(&mut pair, &u)[1].dot(&u[1])
+            stiffness_times(&pair, &u)[1].dot(&u[1])
         };
         springs.iter().map(of).sum::<f64>() / cell_area
     };

@@ -1,10 +1,11 @@
 //! Cloth of triangles.
 
 use tearmesh::{Mesh, Point, Positions, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, System, Unstable, Weave, force};
+use tearmesh_cloth::{Cloth, Fabric, System, Unstable, Weave};
 
 use super::cloths::cloth;
 use super::gravity;
+use crate::parts::vibration::stiffness_times;
 
 /// A strip two columns wide, whose rows are a chain with these numbers: particles 2 i and 2 i + 1 are
 /// row i. `apart` leads from row to row; held at row 0.
@@ -83,7 +84,7 @@ pub(crate) fn moduli(cloth: &mut Cloth, area: f64, [e, f]: [Vector; 2]) -> [[f64
         points.iter().map(of).collect()
     };
     [0, 1, 2].map(|i| {
-        let product = force::stiffness_times(cloth.system_mut(), &affine(i));
+        let product = stiffness_times(cloth.system(), &affine(i));
         [0, 1, 2].map(|j| {
             let pairs = affine(j);
             let sum: f64 = pairs.iter().zip(&product).map(|(u, p)| u.dot(p)).sum();

@@ -27,9 +27,6 @@
 //! and the force is −4 k / (L² p(u)) without cancellation at d = L, where the formula above
 //! divides zero by zero. Only + − × ÷ in a fixed order: the same bits on every machine.
 
-use tearmesh::geometry::{Vector, dot};
-
-use crate::element::Slope;
 use crate::pair::{Law, Link};
 
 /// The law by which bend constraints yield under compression: like a spring at first, and then as a
@@ -177,18 +174,6 @@ impl Link for Bend {
     fn stiffness(self, length: f64) -> [f64; 2] {
         let axial = self.axial(length);
         [axial.slope, axial.force / length]
-    }
-
-    fn pull(self, slope: Slope, d: Vector, u: Vector) -> Vector {
-        let square = dot(d, d);
-        let stiffness = match slope {
-            Slope::Now => self.axial(square.sqrt()).slope,
-            Slope::Steepest => self.compression * self.law.stiffest(),
-        };
-        if square == 0.0 {
-            return u * stiffness;
-        }
-        d * (dot(d, u) / square * stiffness)
     }
 }
 

@@ -53,36 +53,12 @@ pub(crate) trait Element {
     /// Looks for the one that is longest for its rest length.
     fn find_longest(&self, x: &[Point], longest: &mut Longest);
 
-    /// Adds K u: minus the change of forces, to first order, when the particles move by `u`.
-    /// Negative stiffness counts as zero, so that K has no negative direction.
-    fn stiffness_times(&self, slope: Slope, x: &[Point], u: &[Vector], product: &mut [Vector]);
-
-    /// Looks for the one with the most energy in a vibration.
-    fn find_busiest(&self, x: &[Point], u: &[Vector], busiest: &mut Busiest);
-
     /// Visits springs that together are as stiff as these constraints or stiffer, in every direction
     /// and in any state within `reach`: their particles, and their stiffness in N/m.
     fn each_spring(&self, reach: f64, visit: &mut dyn FnMut([usize; 2], f64));
 
     /// Visits those springs of a particle: the other one, and the stiffness.
     fn springs_at(&self, particle: usize, reach: f64, visit: &mut dyn FnMut(usize, f64));
-
-    /// Adds up √k over the constraints of a particle, with k the largest stiffness of each in any
-    /// state within `reach`.
-    fn roots_at(&self, particle: usize, reach: f64, sum: f64) -> f64;
-
-    /// The largest of Gershgorin's rows √k Σ w S, with w S of each particle in `sums`.
-    fn largest_row(&self, reach: f64, sums: &[f64]) -> f64;
-
-    /// The largest row among the constraints of a particle, whose own w S is given; that of others
-    /// is asked for.
-    fn largest_row_at(
-        &self,
-        particle: usize,
-        reach: f64,
-        own: f64,
-        sum: &dyn Fn(usize) -> f64,
-    ) -> f64;
 
     /// The pairs of particles that act on each other, each with a number that stays that of its
     /// constraint.
@@ -91,33 +67,4 @@ pub(crate) trait Element {
     /// Adds the second derivatives of the energy, each pair's to its slot by that number. With
     /// `clamp` every term is positive semidefinite; returns how many had a part dropped for it.
     fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64;
-}
-
-/// Which stiffness counts of what is not equally stiff at every length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Slope {
-    /// That at its present length.
-    Now,
-    /// The largest that it has at any. A flat cloth has none to bends that buckle, and gets stiffer
-    /// as it folds; so the stability limit is asked with this.
-    Steepest,
-}
-
-/// The constraint that has the most energy in a vibration, of those that were looked at.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Busiest {
-    most: Option<(f64, [usize; 2])>,
-}
-
-impl Busiest {
-    /// Looks at one, which moves most between these particles.
-    pub(crate) fn weigh(&mut self, energy: f64, ends: impl FnOnce() -> [usize; 2]) {
-        if self.most.is_none_or(|(most, _)| energy > most) {
-            self.most = Some((energy, ends()));
-        }
-    }
-
-    pub(crate) fn ends(self) -> Option<[usize; 2]> {
-        self.most.map(|(_, ends)| ends)
-    }
 }

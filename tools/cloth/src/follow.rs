@@ -55,13 +55,11 @@ impl Cloth {
             }
             let each = energy::elastic_of_j(&self.system, Family::Stretch, &copy);
             gained += 2.0 * each - before;
-            let far = copy.ends[0] + copy.ends[1] - old;
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
             let copied = self.system.model.stretch.add(copy);
             self.system.model.stretch.remember(copied, memory);
             self.join(link.stayed, id);
             self.join(link.moved, copied);
-            self.system.touched(&[far]);
             gained -= self.unbend(link.stayed);
         }
         for &corner in split.corners {
@@ -88,7 +86,7 @@ impl Cloth {
         }
         self.split_triangles(split);
         self.ledger.split_elastic_j += gained;
-        self.system.touched(&[old, new]);
+        self.system.touched();
     }
 
     fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
@@ -178,7 +176,6 @@ impl Cloth {
                 let k = before.stiffness_n_per_m * (before.rest_length_m / rest_length_m);
                 stretch.set_stiffness(id, k);
                 stretch.set_rest_length(id, rest_length_m);
-                self.system.touched(&before.ends);
             }
         }
         ids.clear();
@@ -186,9 +183,9 @@ impl Cloth {
         for &id in &ids {
             self.measure_bend(id);
         }
-        self.system.touched(&[particle]);
         self.room.ids = ids;
         self.weave_again(particle);
+        self.system.touched();
     }
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
@@ -280,7 +277,7 @@ impl Cloth {
         }
         gained += self.insert_triangles(insert);
         self.ledger.insert_elastic_j += gained;
-        self.system.touched(&room.vertices);
+        self.system.touched();
         self.room = room;
     }
 

@@ -13,7 +13,6 @@
 use tearmesh::geometry::Vector;
 
 use crate::constraint::ConstraintId;
-use crate::element::Slope;
 use crate::system::{Family, System};
 
 /// Returns the force in a stretch constraint, computed from its length as k (l − L), in newtons.
@@ -95,27 +94,6 @@ pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bo
         accelerations,
         &mut system.counters,
     )
-}
-
-/// Returns the product K u of the stiffness matrix with displacements in metres, in newtons: minus
-/// the change of forces, to first order. Negative stiffness, such as that of a compressed spring
-/// across its line or of a buckling bend, counts as zero.
-///
-/// # Panics
-///
-/// Unless there is one displacement per particle.
-#[must_use]
-pub fn stiffness_times(system: &mut System, displacements: &[Vector]) -> Vec<Vector> {
-    assert_eq!(
-        displacements.len(),
-        system.positions.len(),
-        "one displacement a particle"
-    );
-    let mut product = vec![Vector::zeros(); displacements.len()];
-    let (model, counters) = (&system.model, &mut system.counters);
-    let x = &system.positions;
-    model.stiffness_times(Slope::Now, x, displacements, &mut product, counters);
-    product
 }
 
 /// The force of constraints, triangles and gravity on a particle, in newtons.

@@ -6,7 +6,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::constraint::{Batch, Constraint, Constraints};
 use crate::crush::Crush;
-use crate::element::{Busiest, Element, Slope};
+use crate::element::Element;
 use crate::matrix::{Block, Hessian};
 
 /// A law by which constraints act, all of them alike but for their rest length and stiffness.
@@ -36,10 +36,6 @@ pub(crate) trait Link: Copy {
     /// The derivative of that along the line, and that of the force across it for a turn, force
     /// over length, in newtons per metre.
     fn stiffness(self, length: f64) -> [f64; 2];
-
-    /// The change of the force when the line `d` changes by `u`, to first order and without
-    /// negative stiffness.
-    fn pull(self, slope: Slope, d: Vector, u: Vector) -> Vector;
 }
 
 /// All constraints of one law.
@@ -176,26 +172,6 @@ impl<L: Law> Element for Pairs<'_, L> {
         }
     }
 
-    fn stiffness_times(&self, slope: Slope, x: &[Point], u: &[Vector], product: &mut [Vector]) {
-        for batch in self.constraints.batches() {
-            for ([a, b], _, link) in links(batch, self.law) {
-                let change = link.pull(slope, x[b] - x[a], u[b] - u[a]);
-                product[a] -= change;
-                product[b] += change;
-            }
-        }
-    }
-
-    fn find_busiest(&self, x: &[Point], u: &[Vector], busiest: &mut Busiest) {
-        for batch in self.constraints.batches() {
-            for ([a, b], _, link) in links(batch, self.law) {
-                let between = u[b] - u[a];
-                let change = link.pull(Slope::Steepest, x[b] - x[a], between);
-                busiest.weigh(dot(between, change), || [a, b]);
-            }
-        }
-    }
-
     fn each_spring(&self, _reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
         for batch in self.constraints.batches() {
             for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
@@ -215,42 +191,6 @@ impl<L: Law> Element for Pairs<'_, L> {
                 visit(a + b - particle, stiffness);
             }
         }
-    }
-
-    fn roots_at(&self, particle: usize, _reach: f64, sum: f64) -> f64 {
-        let constraints = self.constraints.of(particle);
-        let stiffness = constraints.map(|id| self.constraints.get(id).stiffness_n_per_m);
-        sum + stiffness
-            .map(|k| (k * self.law.stiffest()).sqrt())
-            .sum::<f64>()
-    }
-
-    fn largest_row(&self, _reach: f64, sums: &[f64]) -> f64 {
-        let mut largest = 0.0_f64;
-        for batch in self.constraints.batches() {
-            for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
-                let root = (k * self.law.stiffest()).sqrt();
-                largest = largest.max(root * (sums[a as usize] + sums[b as usize]));
-            }
-        }
-        largest
-    }
-
-    fn largest_row_at(
-        &self,
-        particle: usize,
-        _reach: f64,
-        own: f64,
-        sum: &dyn Fn(usize) -> f64,
-    ) -> f64 {
-        let constraints = self.constraints.of(particle);
-        let row = |constraint: Constraint| {
-            let [a, b] = constraint.ends;
-            let root = (constraint.stiffness_n_per_m * self.law.stiffest()).sqrt();
-            root * (own + sum(a + b - particle))
-        };
-        let rows = constraints.map(|id| row(self.constraints.get(id)));
-        rows.fold(0.0, f64::max)
     }
 
     fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2])) {

@@ -25,7 +25,6 @@ pub(super) fn push(system: &mut System, from: Mix<VertexId>) {
     if let Some(&(_, path)) = model.grabbed.iter().find(led) {
         model.grabbed.push((new, path));
     }
-    system.spectrum.push_particle(like);
 }
 
 /// Makes two particles one, where the held one is if only one is held; `gone` has no
@@ -61,5 +60,4 @@ pub(super) fn join(system: &mut System, kept: usize, gone: usize, share: f64) {
             *particle = gone as u32;
         }
     }
-    system.spectrum.swap_remove_particle(gone);
 }

@@ -10,7 +10,6 @@ use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
 use crate::follow::room::Room;
-use crate::frequency;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::step::Observer;
 use crate::system::System;
@@ -232,7 +231,6 @@ impl Cloth {
             }
         }
         cloth.weave()?;
-        frequency::bound(&mut cloth.system);
         Ok(cloth)
     }
 
@@ -423,7 +421,7 @@ impl Cloth {
         let bend = &mut self.system.model.bend;
         bend.set_rest_length(id, rest_length_m);
         bend.set_stiffness(id, stiffness.unwrap_or(0.0));
-        self.system.touched(&ends);
+        self.system.touched();
     }
 
     /// Adds the bend constraint across an edge, unless there is no distance across it.
@@ -445,7 +443,7 @@ impl Cloth {
             self.bent_edge.resize(id.index() + 1, edge);
         }
         self.bent_edge[id.index()] = edge;
-        self.system.touched(&apexes);
+        self.system.touched();
         Some(id)
     }
 }

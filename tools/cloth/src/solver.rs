@@ -6,8 +6,8 @@ use std::fmt;
 use crate::air::AirRate;
 use crate::blow_up::BlowUpSite;
 use crate::digits::Digits;
+use crate::guard::Frequency;
 use crate::implicit;
-use crate::spectrum::Frequency;
 use crate::system::System;
 
 /// A method that advances a system.

@@ -10,7 +10,6 @@
 use tearmesh::geometry::{Point, Vector, dot};
 
 use crate::constraint::{Batch, TOGETHER};
-use crate::element::Slope;
 use crate::pair::{Law, Link, length};
 
 /// The law of springs.
@@ -60,17 +59,6 @@ impl Link for Spring {
     fn stiffness(self, length: f64) -> [f64; 2] {
         let across = self.stiffness * ((length - self.rest) / length);
         [self.stiffness, across]
-    }
-
-    #[inline]
-    fn pull(self, _slope: Slope, d: Vector, u: Vector) -> Vector {
-        let square = dot(d, d);
-        if square == 0.0 {
-            return u * self.stiffness;
-        }
-        let across = (1.0 - self.rest / square.sqrt()).max(0.0);
-        let along = d * (dot(d, u) / square);
-        (along + (u - along) * across) * self.stiffness
     }
 }
 

@@ -1,8 +1,7 @@
 //! The stability limit of a step of an explicit method, given by springs and air.
 
 use crate::air::{self, AirRate};
-use crate::frequency;
-use crate::guard::Guard;
+use crate::guard::{Frequency, Guard};
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::{System, Unstable};
 
@@ -32,28 +31,17 @@ pub(crate) fn admit(
     }
 }
 
-/// How many substeps a step takes because of the springs. The cheap bound is tried first. The share
-/// of the air shortens either limit.
-///
-/// The bound holds wherever the particles go. A measured frequency is that of one
-/// configuration: springs that turn toward each other at a light particle can raise it to the
-/// bound within a few steps. So a step is divided by the bound, and one that is longer than
-/// that and admitted whole is measured again and again.
+/// How many substeps a step takes because of the springs, by the bound of their frequencies. The share
+/// of the air shortens the limit.
 fn admit_springs(
     system: &mut System,
     limit: f64,
     air: Option<AirShare>,
     dt_s: f64,
 ) -> Result<StepReport, StepError> {
-    let springs_s = limit / frequency::bound(system);
-    let bound_s = with_air(springs_s, air);
-    if dt_s <= bound_s || system.unstable == Unstable::Substep {
-        return divided(dt_s, bound_s);
-    }
-    let omega_rad_per_s = frequency::recent(system).omega_rad_per_s;
-    let springs_s = (system.margin * limit / omega_rad_per_s).max(springs_s);
+    let springs_s = stable_step_s(system, limit);
     let limit_s = with_air(springs_s, air);
-    if dt_s <= limit_s {
+    if dt_s <= limit_s || system.unstable == Unstable::Substep {
         return divided(dt_s, limit_s);
     }
     Err(refused(system, [dt_s, limit_s], springs_s, air))
@@ -71,7 +59,7 @@ fn refused(
         None => StepError::Unstable {
             given_s,
             limit_s,
-            frequency: frequency::recent(system),
+            frequency: frequency_bound(system),
         },
     }
 }
@@ -112,9 +100,8 @@ fn admit_carried(
 /// are none. Cuts and tears do not shorten it, since particles that become light are carried. Costs
 /// a pass over all constraints if something has changed.
 pub fn suited_step_s(system: &mut System) -> f64 {
-    let (model, counters) = (&system.model, &mut system.counters);
-    let reach = system.spectrum.reach(model, &system.positions, counters);
-    system.guard.suited_s(model, reach)
+    reach_out(system);
+    system.guard.suited_s(&system.model)
 }
 
 /// Returns the number of particles that were too light for the last step of
@@ -126,11 +113,8 @@ pub fn carried_count(system: &System) -> usize {
 
 /// Weighs particles for steps of this length.
 pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
-    let (reach, air) = (
-        system.spectrum.known_reach(),
-        dt_s * system.scratch.air_per_s,
-    );
-    if system.guard.weigh(&system.model, reach, dt_s, air) {
+    let air = dt_s * system.scratch.air_per_s;
+    if system.guard.weigh(&system.model, dt_s, air) {
         system.scratch.is_fresh = false;
     }
 }
@@ -150,13 +134,26 @@ fn admit_air(system: &System, air: AirShare, dt_s: f64) -> Result<StepReport, St
     Err(air.refused(dt_s, limit_s))
 }
 
-/// Returns the largest step in seconds that is taken whole in the present configuration by a method
-/// with this limit of ω Δt, which is 2 for [`Verlet::plain`](crate::Verlet::plain). Measures the
-/// frequency. It does not consider wind, which shortens the step further
-/// ([`Abilities::air_limit`](crate::Abilities::air_limit), [`wind_rate`](air::wind_rate)).
+/// Returns an upper bound of the frequencies of a system, and the constraint that sets it. It holds in
+/// every configuration; with triangles that resist shear, as long as none is stretched more than now.
+/// Costs a pass over all constraints if something has changed, and over all triangles.
+pub fn frequency_bound(system: &mut System) -> Frequency {
+    reach_out(system);
+    system.guard.frequency(&system.model)
+}
+
+/// Returns the largest step in seconds that is taken whole by a method with this limit of ω Δt, which
+/// is 2 for [`Provot`](crate::Provot); infinite without springs. It follows from the
+/// [bound](frequency_bound) of frequencies, so it is safe in every configuration. It does not consider
+/// wind, which shortens the step further ([`Abilities::air_limit`](crate::Abilities::air_limit),
+/// [`wind_rate`](air::wind_rate)).
 pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
-    let bound_s = frequency_limit / frequency::bound(system);
-    (system.margin * frequency_limit / frequency::largest(system).omega_rad_per_s).max(bound_s)
+    frequency_limit / frequency_bound(system).omega_rad_per_s
+}
+
+fn reach_out(system: &mut System) {
+    let (model, counters) = (&system.model, &mut system.counters);
+    system.guard.reach_out(model, &system.positions, counters);
 }
 
 /// The largest step that is taken whole by this method with the present wind; `None` if nothing

@@ -88,7 +88,6 @@ impl System {
             dt_s: dt_s / f64::from(report.substeps),
             moves_at_end: solver.abilities().frequency_limit.is_none(),
         };
-        let had_jumped = self.spectrum.jumped(false);
         for _ in 0..report.substeps {
             if let Err(failure) = advance(self, solver, substep, observer) {
                 let error = go_back(self, failure, began);
@@ -98,8 +97,6 @@ impl System {
         }
         observer.ended(true);
         self.elapsed_s = began.elapsed_s + dt_s;
-        // A method may set the state, and still moves it by no more than a step.
-        self.spectrum.jumped(had_jumped);
         Ok(report)
     }
 }
@@ -183,7 +180,6 @@ fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
     std::mem::swap(&mut system.positions, &mut system.scratch.positions);
     std::mem::swap(&mut system.velocities, &mut system.scratch.velocities);
     system.scratch.is_fresh = false;
-    system.spectrum.jumped(true);
     system.model.recorded = Recorded::Nothing;
     system.model.clear_multipliers();
     system.changes += 1;

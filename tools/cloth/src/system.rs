@@ -21,7 +21,6 @@ use crate::guard::Guard;
 use crate::load::{Loads, Path};
 use crate::moment::{Identity, Moment};
 use crate::pair;
-use crate::spectrum::Spectrum;
 use crate::triangle::{Triangle, Triangles};
 
 /// A mass-spring system: particles, constraints, triangles and loads.
@@ -55,12 +54,10 @@ pub struct System {
     pub(crate) velocities: Vec<Vector>,
     pub(crate) model: Model,
     pub(crate) counters: Counters,
-    pub(crate) spectrum: Spectrum,
     pub(crate) guard: Guard,
     pub(crate) scratch: Scratch,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
-    pub(crate) margin: f64,
     /// What the push of colliders made in all, in joules, where someone keeps a balance of energy.
     pub(crate) contact_j: Option<f64>,
     /// How often the state was changed but by a step.
@@ -166,12 +163,10 @@ impl System {
                 recorded: Recorded::default(),
             },
             counters: Counters::default(),
-            spectrum: Spectrum::default(),
             guard: Guard::default(),
             scratch: Scratch::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
-            margin: 0.95,
             contact_j: None,
             changes: 0,
             identity: Identity::default(),
@@ -252,7 +247,6 @@ impl System {
         self.model.buckling = buckling;
         self.scratch.is_fresh = false;
         self.changes += 1;
-        self.spectrum.forget();
         self.guard.forget();
     }
 
@@ -295,7 +289,7 @@ impl System {
     pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
         let index = self.model.triangles.as_slice().len();
         self.model.triangles.push(triangle);
-        self.touched(&triangle.vertices.map(|corner| corner as usize));
+        self.touched();
         self.guard.forget();
         index
     }
@@ -316,7 +310,7 @@ impl System {
         check_constraint(&constraint, self.positions.len())?;
         let id = self.model.family_mut(family).add(constraint);
         self.guard.forget();
-        self.touched(&ends);
+        self.touched();
         Ok(id)
     }
 
@@ -327,10 +321,9 @@ impl System {
         );
     }
 
-    /// Notes that masses or constraints at these particles have changed. Costs their valence.
-    pub(crate) fn touched(&mut self, particles: &[usize]) {
+    /// Notes that masses or constraints have changed.
+    pub(crate) fn touched(&mut self) {
         self.scratch.is_fresh = false;
-        self.spectrum.touched(&self.model, particles);
         self.guard.edited();
         self.changes += 1;
     }
@@ -356,7 +349,7 @@ impl System {
         check_constraint(&constraint, self.positions.len())?;
         self.model.stretch.set_stiffness(id, stiffness_n_per_m);
         self.guard.forget();
-        self.touched(&constraint.ends);
+        self.touched();
         Ok(())
     }
 
@@ -371,7 +364,7 @@ impl System {
         self.is_no_cloth();
         let constraint = self.model.stretch.remove(id);
         self.guard.forget();
-        self.touched(&constraint.ends);
+        self.touched();
         constraint
     }
 
@@ -417,7 +410,7 @@ impl System {
     pub(crate) fn weigh(&mut self, particle: usize) {
         let model = &mut self.model;
         model.inverse_masses[particle] = inverse(model.masses[particle], model.held[particle]);
-        self.touched(&[particle]);
+        self.touched();
     }
 
     /// Sets the external loads.
@@ -465,7 +458,6 @@ impl System {
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.scratch.is_fresh = false;
-        self.spectrum.jumped(true);
         self.model.recorded = Recorded::Nothing;
         self.changes += 1;
         (&mut self.positions, &mut self.velocities)

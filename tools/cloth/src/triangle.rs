@@ -29,7 +29,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::blow_up::{BlowUpSite, Longest};
 use crate::crush::Crush;
-use crate::element::{Busiest, Element, Slope};
+use crate::element::Element;
 use crate::incidence::Incidence;
 use crate::matrix::{Block, Hessian};
 
@@ -166,34 +166,6 @@ impl Triangle {
         [-(f1 + f2), f1, f2]
     }
 
-    /// The change of the forces on the corners when these move by `u`, negated, to first order: what
-    /// [`Triangle::hessian`] with `clamp` gives, without the matrix.
-    #[inline]
-    fn stiffness_times(&self, corners: [Point; 3], u: [Vector; 3]) -> [Vector; 3] {
-        let [w_u, w_v] = self.derivatives(corners);
-        let [k_u, k_v, k_s] = self.stiffness;
-        let (a, b) = (u[1] - u[0], u[2] - u[0]);
-        let d = &self.rest_inverse;
-        let [d_u, d_v] = [0, 1].map(|c| a * d[0][c] + b * d[1][c]);
-        let along = |w: Vector, k: f64, change: Vector| {
-            let square = dot(w, w);
-            if square == 0.0 {
-                return Vector::zeros();
-            }
-            let across = stretch(w).max(0.0);
-            let part = w * (dot(w, change) / square);
-            (part + (change - part) * across) * k
-        };
-        let shear = dot(w_u, w_v);
-        let sheared = dot(w_v, d_u) + dot(w_u, d_v);
-        let both = d_u * shear.abs() + d_v * shear;
-        let sign = if shear < 0.0 { -1.0 } else { 1.0 };
-        let p_u = along(w_u, k_u, d_u) + (w_v * sheared + both * 0.5) * k_s;
-        let p_v = along(w_v, k_v, d_v) + (w_u * sheared + both * (0.5 * sign)) * k_s;
-        let [f1, f2] = [0, 1].map(|e| (p_u * d[e][0] + p_v * d[e][1]) * self.area);
-        [-(f1 + f2), f1, f2]
-    }
-
     /// |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|: `k_s` times this bounds the second derivative of the shear
     /// term by `w_u` and `w_v`. It is 2 at rest.
     #[inline]
@@ -281,14 +253,6 @@ impl Triangle {
             };
             part(0) + part(1)
         })
-    }
-
-    /// The larger row, with the product of inverse mass and sum of each corner.
-    fn row(&self, reach: f64, sums: [f64; 3]) -> f64 {
-        let row =
-            |roots: [f64; 3]| -> f64 { roots.into_iter().zip(sums).map(|(r, s)| r * s).sum() };
-        let [along_u, along_v] = self.roots(reach).map(row);
-        along_u.max(along_v)
     }
 
     /// Whether neither warp nor weft is longer than `ratio_max` times its rest length, or not a number.
@@ -463,33 +427,6 @@ impl Element for Triangles {
         }
     }
 
-    fn stiffness_times(&self, _slope: Slope, x: &[Point], u: &[Vector], product: &mut [Vector]) {
-        for t in &self.list {
-            let moved = t.vertices.map(|v| u[v as usize]);
-            let changes = t.stiffness_times(t.corners(x), moved);
-            for (v, change) in t.vertices.into_iter().zip(changes) {
-                product[v as usize] += change;
-            }
-        }
-    }
-
-    /// Names the edge that changes most.
-    fn find_busiest(&self, x: &[Point], u: &[Vector], busiest: &mut Busiest) {
-        for t in &self.list {
-            let moved = t.vertices.map(|v| u[v as usize]);
-            let forces = t.stiffness_times(t.corners(x), moved);
-            let energy = (0..3).fold(0.0, |sum, i| sum + dot(moved[i], forces[i]));
-            busiest.weigh(energy, || {
-                let apart = |i: usize| {
-                    let between = moved[(i + 1) % 3] - moved[i];
-                    dot(between, between)
-                };
-                let edge = (1..3).fold(0, |most, i| if apart(i) > apart(most) { i } else { most });
-                [edge, (edge + 1) % 3].map(|i| t.vertices[i] as usize)
-            });
-        }
-    }
-
     fn each_spring(&self, reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
         for t in &self.list {
             let [a, b, c] = t.vertices.map(|v| v as usize);
@@ -510,37 +447,6 @@ impl Element for Triangles {
                 }
             }
         }
-    }
-
-    fn roots_at(&self, particle: usize, reach: f64, sum: f64) -> f64 {
-        self.of(particle).fold(sum, |sum, (t, corner)| {
-            let [along_u, along_v] = self.list[t].roots(reach);
-            sum + (along_u[corner] + along_v[corner])
-        })
-    }
-
-    fn largest_row(&self, reach: f64, sums: &[f64]) -> f64 {
-        let rows = self
-            .list
-            .iter()
-            .map(|t| t.row(reach, t.vertices.map(|v| sums[v as usize])));
-        rows.fold(0.0, f64::max)
-    }
-
-    fn largest_row_at(
-        &self,
-        particle: usize,
-        reach: f64,
-        own: f64,
-        sum: &dyn Fn(usize) -> f64,
-    ) -> f64 {
-        let sum = |v: u32| match v as usize {
-            v if v == particle => own,
-            v => sum(v),
-        };
-        let triangles = self.of(particle).map(|(t, _)| &self.list[t]);
-        let rows = triangles.map(|t| t.row(reach, t.vertices.map(sum)));
-        rows.fold(0.0, f64::max)
     }
 
     /// The edges of triangle t have the numbers 3 t and on.

@@ -116,13 +116,9 @@ impl Cloth {
     pub(super) fn weave_again(&mut self, particle: usize) {
         let around = self.system.model.triangles.of(particle);
         let around: Vec<usize> = around.map(|(t, _)| t).collect();
-        for &t in &around {
+        for t in around {
             let triangle = self.woven(FaceId::new(t).expect("I1: ids fit"));
             self.system.model.triangles.set(t, triangle);
-        }
-        for t in around {
-            let corners = self.system.triangles()[t].vertices;
-            self.system.touched(&corners.map(|v| v as usize));
         }
     }
 

@@ -2,7 +2,7 @@
 //! and of triangles in their place.
 
 use tearmesh_cloth::implicit::Settings;
-use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd, frequency};
+use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd, frequency_bound};
 
 use super::bullet::{Bullet, Order, Program};
 use super::sheet::{STEP_S, hanging, woven};
@@ -183,7 +183,7 @@ fn nanoseconds(method: &Method, cloth: &Cloth, edges: usize) -> (f64, f64) {
     let (mut cloth, mut solver) = (cloth.clone(), (method.solver)());
     let step_s = match method.step {
         Step::Frame => STEP_S,
-        Step::Bound(times) => times * 2.0 / frequency::bound(cloth.system_mut()),
+        Step::Bound(times) => times * 2.0 / frequency_bound(cloth.system_mut()).omega_rad_per_s,
     };
     // The first steps make room.
     for _ in 0..2 {

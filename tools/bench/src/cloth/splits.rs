@@ -1,7 +1,7 @@
 //! A step with a hundred splits in it beside one with none: of ours alone.
 
 use tearmesh::{Edits, Mesh, VertexId, split};
-use tearmesh_cloth::{Cloth, Pbd, Solver, Verlet, Xpbd, frequency};
+use tearmesh_cloth::{Cloth, Pbd, Solver, Verlet, Xpbd, frequency_bound};
 
 use super::sheet::{STEP_S, hanging};
 use crate::measure::{median, timed_on_cpu};
@@ -95,7 +95,7 @@ fn rounds(mesh: &Mesh, cloth: &Cloth, options: &Options) -> Vec<Vec<Times>> {
 fn measured(solver: &mut dyn Solver, mut mesh: Mesh, mut cloth: Cloth) -> Times {
     let step_s = match solver.abilities().frequency_limit {
         // Splits may raise the bound.
-        Some(limit) => 0.5 * limit / frequency::bound(cloth.system_mut()),
+        Some(limit) => 0.5 * limit / frequency_bound(cloth.system_mut()).omega_rad_per_s,
         None => STEP_S,
     };
     let inner = mesh.vertices().filter(|&v| {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, Softness, TimedCut};
-use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency};
+use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency_bound};
 
 use super::words::two_digits;
 use crate::args::TearArgs;
@@ -289,12 +289,12 @@ fn endless(run: &Run, number: &dyn Fn(usize) -> usize) -> Option<Fault> {
     if !is_explicit || run.steps_planned() < STEPS_MANY {
         return None;
     }
-    let frequency = frequency::largest(&mut run.cloth().system().clone());
+    let frequency = frequency_bound(&mut run.cloth().system().clone());
     let at = frequency.ends.map(|[a, b]| {
         let omega = frequency.omega_rad_per_s;
         let [a, b] = [a, b].map(number);
         format!(
-            ": the edge {a}-{b} swings at {omega:.1e} rad/s, as it is stiff and its ends are light"
+            ": the edge {a}-{b} may swing at {omega:.1e} rad/s, as it is stiff and its ends are light"
         )
     });
     let message = format!(

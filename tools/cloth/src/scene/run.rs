@@ -28,7 +28,6 @@ use self::held::Held;
 use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
-use crate::frequency;
 use crate::load::{Collider, Loads};
 use crate::sheet::{Cloth, ClothError};
 use crate::solver::{Solver, StepError};
@@ -401,7 +400,7 @@ impl Run {
         StableSteps {
             before_s,
             after_s: self.stable_step_s().unwrap_or(before_s),
-            ends: frequency::largest(self.cloth.system_mut()).ends,
+            ends: stability::frequency_bound(self.cloth.system_mut()).ends,
         }
     }
 

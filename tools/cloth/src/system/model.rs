@@ -10,7 +10,7 @@ use crate::blow_up::{BlowUpSite, Longest};
 use crate::carry::Carry;
 use crate::constraint::{Constraint, Constraints};
 use crate::crush::Crush;
-use crate::element::{Element, Slope};
+use crate::element::Element;
 use crate::load::{Loads, Path};
 use crate::pair::{Law, Link, Pairs, length};
 use crate::spring::Hooke;
@@ -272,23 +272,6 @@ impl Model {
         self.kinds()
             .iter()
             .all(|kind| kind.is_within(positions, ratio_max))
-    }
-
-    /// Adds K u; see [`stiffness_times`](crate::force::stiffness_times).
-    pub(crate) fn stiffness_times(
-        &self,
-        slope: Slope,
-        positions: &[Point],
-        displacements: &[Vector],
-        product: &mut [Vector],
-        counters: &mut Counters,
-    ) {
-        counters.matrix_products += 1;
-        self.count_visits(1, counters);
-        counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
-        for kind in &self.kinds() {
-            kind.stiffness_times(slope, positions, displacements, product);
-        }
     }
 
     /// Adds the force of wind, and makes accelerations of forces, with gravity.
