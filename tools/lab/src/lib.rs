@@ -18,6 +18,7 @@ pub mod method;
 pub mod pareto;
 pub mod plot;
 pub mod pool;
+pub mod reference;
 pub mod rk4;
 pub mod sheet;
 pub mod stability;

@@ -1,12 +1,12 @@
 //! The runs of a case: references, the gate, and every method at every step, each with an estimate of its cost.
 
-use tearmesh_cloth::implicit::{self, Tolerance};
 use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::scene::suggested_step_s;
-use tearmesh_cloth::{Implicit, Solver, System, Unstable};
+use tearmesh_cloth::{Solver, System, Unstable};
 
 use super::scene::{Case, Until};
 use crate::method::{DefaultMethod, Family, METHODS, Method, STEP_FRACTIONS};
+use crate::reference::Reference;
 
 /// A planned run of a case.
 #[derive(Clone, Debug)]
@@ -158,7 +158,10 @@ impl Planned {
         };
         let solver = match &self.role {
             Role::Verlet | Role::Rest | Role::Gate(_) => reference(case).solver(),
-            Role::Newton => Box::new(Implicit::new(newton(case.scene.until))),
+            Role::Newton => match case.scene.until {
+                Until::Rest(_) => Box::new(Reference::to_rest()),
+                Until::Time(_) | Until::Tears(_) => Box::new(Reference::new(&[])),
+            },
             Role::Budget(method, _) => method.solver(),
             Role::Default(method) => {
                 // A step that the program chose is divided where it gets too long, and not refused.
@@ -183,22 +186,5 @@ impl Role {
     /// Whether the run is a reference, which has no limit of visits and comes nearer to rest.
     pub(super) fn is_reference(&self) -> bool {
         matches!(self, Role::Verlet | Role::Newton)
-    }
-}
-
-/// Newton's method with each step solved to convergence: of second order, but at rest of the first, which comes
-/// to rest.
-fn newton(until: Until) -> implicit::Settings {
-    let (method, tolerance) = match until {
-        Until::Rest(_) => (implicit::Method::BackwardEuler, Tolerance::Fixed(1e-8)),
-        Until::Time(_) => (implicit::Method::Bdf2, Tolerance::Tied(0.1)),
-        // With led particles, rounding leaves less of the potential for the line search to compare.
-        Until::Tears(_) => (implicit::Method::Bdf2, Tolerance::Fixed(1e-8)),
-    };
-    implicit::Settings {
-        method,
-        tolerance,
-        newton_iterations_max: 40,
-        ..implicit::Settings::default()
     }
 }

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Settings, Tolerance};
 use tearmesh_cloth::statistics::Random;
-use tearmesh_cloth::{Implicit, Loads, Path, System};
+use tearmesh_cloth::{Loads, Path, System};
 
 use self::Observable::*;
+use crate::reference::Reference;
 use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
 
 /// A scene of the experiment.
@@ -410,11 +410,7 @@ fn placed(p: &Point, scene: &Scene) -> Point {
 /// The positions of a system at rest without gravity. Random diagonals are not balanced in the flat sheet, so
 /// it would ring from the start, in ways that no reference resolves.
 fn relaxed(mut system: System) -> Vec<Point> {
-    let mut newton = Implicit::new(Settings {
-        tolerance: Tolerance::Fixed(1e-10),
-        newton_iterations_max: 40,
-        ..Settings::default()
-    });
+    let mut newton = Reference::to_rest();
     let loads = Loads {
         drag_per_s: Some(20.0),
         ..Loads::default()

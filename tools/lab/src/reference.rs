@@ -1,0 +1,433 @@
+//! The second reference: BDF2 with each step solved to convergence, in code of its own.
+//!
+//! A floor of errors is the distance between two references. It says something only if they share no mistake,
+//! so this one has its own springs, loads and solver, and takes from a system no more than its numbers: of
+//! stretch and bend constraints, masses, weight, drag, holds and wind. Bends that buckle, triangles and
+//! colliders are not supported.
+//!
+//! Newton's method with conjugate gradients solves M (v − v*) = h [f(x* + h v, v) − c M v] for the new velocity
+//! v, where h, x* and v* are those of BDF2 with steps of one length. The first step, those for states of rest,
+//! and steps after a tear are of backward Euler. Wind is taken at the end of the step.
+
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::{Abilities, Failure, Loads, Solver, System};
+
+/// A solver of second order for motions, or of first order for states of rest.
+#[derive(Clone, Debug, Default)]
+pub struct Reference {
+    faces: Vec<u32>,
+    is_to_rest: bool,
+    last: Option<Last>,
+}
+
+/// The last step: positions and velocities where it began, positions where it ended, and its length.
+#[derive(Clone, Debug)]
+struct Last {
+    began: (Vec<Point>, Vec<Vector>),
+    ended: Vec<Point>,
+    dt_s: f64,
+}
+
+/// The largest number of iterations of Newton's method in a step.
+const ITERATIONS: usize = 100;
+
+/// The rms error of the velocity at which a step is solved, in m/s.
+const SOLVED: f64 = 1e-12;
+
+/// The largest rms error of the velocity that a step may leave, in m/s, if rounding ends the iterations.
+const LEFT: f64 = 1e-8;
+
+impl Reference {
+    /// Returns the method for motions. Wind blows on these faces, of three particles each.
+    #[must_use]
+    pub fn new(faces: &[u32]) -> Reference {
+        Reference {
+            faces: faces.to_vec(),
+            ..Reference::default()
+        }
+    }
+
+    /// Returns the method for states of rest: backward Euler, which comes to rest.
+    #[must_use]
+    pub fn to_rest() -> Reference {
+        Reference {
+            is_to_rest: true,
+            ..Reference::default()
+        }
+    }
+}
+
+impl Solver for Reference {
+    fn abilities(&self) -> Abilities {
+        Abilities::default()
+    }
+
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        let (x, v) = (system.positions().to_vec(), system.velocities().to_vec());
+        let goes_on = |last: &Last| !self.is_to_rest && last.ended == x && last.dt_s == dt_s;
+        let last = self.last.take().filter(goes_on);
+        let h = if last.is_some() { dt_s / 1.5 } else { dt_s };
+        let mut step = Step {
+            model: Model::new(system, &self.faces),
+            h,
+            start: x.clone(),
+            start_velocities: v.clone(),
+        };
+        let mut velocities = v.clone();
+        for i in 0..x.len() {
+            if step.model.masses[i].is_none() {
+                step.start[i] += v[i] * (dt_s - h);
+            } else if let Some(Last { began, .. }) = &last {
+                step.start[i] += (x[i] - began.0[i]) / 3.0;
+                step.start_velocities[i] += (v[i] - began.1[i]) / 3.0;
+                velocities[i] += v[i] - began.1[i];
+            }
+        }
+        if step.solve(&mut velocities) > LEFT {
+            return Err(Failure::BlowUp);
+        }
+        let ended = step.reached(&velocities);
+        let (positions, speeds) = system.state_mut();
+        positions.copy_from_slice(&ended);
+        speeds.copy_from_slice(&velocities);
+        self.last = Some(Last {
+            began: (x, v),
+            ended,
+            dt_s,
+        });
+        Ok(())
+    }
+}
+
+/// The equation of a step.
+struct Step {
+    model: Model,
+    h: f64,
+    start: Vec<Point>,
+    start_velocities: Vec<Vector>,
+}
+
+impl Step {
+    fn reached(&self, v: &[Vector]) -> Vec<Point> {
+        let particles = self.start.iter().zip(v);
+        particles.map(|(x, v)| x + v * self.h).collect()
+    }
+
+    /// f − M ((1 + hc) v − v*)/h, of free particles.
+    fn residual(&self, v: &[Vector]) -> Vec<Vector> {
+        let mut residual = self.model.forces(&self.reached(v), v);
+        for (i, r) in residual.iter_mut().enumerate() {
+            *r = match self.model.masses[i] {
+                Some(m) => *r - (v[i] - self.start_velocities[i]) * (m / self.h),
+                None => Vector::zeros(),
+            };
+        }
+        residual
+    }
+
+    /// The rms error of the velocity that a residual is.
+    fn error(&self, residual: &[Vector]) -> f64 {
+        let masses = self.model.masses.iter().flatten();
+        let squares = residual.iter().zip(&self.model.masses);
+        let squares = squares.filter_map(|(r, m)| Some(r.norm_squared() / (*m)?));
+        self.h * (squares.sum::<f64>() / masses.sum::<f64>().max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// Newton's method from these velocities, to convergence. Returns the error that is left.
+    fn solve(&self, v: &mut Vec<Vector>) -> f64 {
+        let mut residual = self.residual(v);
+        let mut error = self.error(&residual);
+        for _ in 0..ITERATIONS {
+            if error <= SOLVED {
+                break;
+            }
+            let x = self.reached(v);
+            let moved = self.direction(&x, &residual);
+            let along = |part: f64| {
+                let pairs = v.iter().zip(&moved);
+                let next: Vec<Vector> = pairs.map(|(v, d)| v + d * (part / self.h)).collect();
+                let residual = self.residual(&next);
+                let left = self.error(&residual);
+                (next, residual, left)
+            };
+            // A full step, or the first part of it that leaves less. None does where rounding is left.
+            let mut parts = (0..20).map(|halvings| along(0.5_f64.powi(halvings)));
+            let Some(next) = parts.find(|(_, _, left)| *left < error) else {
+                break;
+            };
+            (*v, residual, error) = next;
+        }
+        error
+    }
+
+    /// The change of positions that answers a residual, by conjugate gradients: with the exact stiffness, or
+    /// without its negative parts if the matrix is not definite.
+    fn direction(&self, x: &[Point], residual: &[Vector]) -> Vec<Vector> {
+        let exact = self.conjugate_gradients(x, residual, false);
+        exact.unwrap_or_else(|| {
+            let positive = self.conjugate_gradients(x, residual, true);
+            positive.expect("a matrix without negative parts is definite")
+        })
+    }
+
+    /// `None` if the matrix shows that it is not definite.
+    fn conjugate_gradients(
+        &self,
+        x: &[Point],
+        residual: &[Vector],
+        is_clamped: bool,
+    ) -> Option<Vec<Vector>> {
+        let mut solution = vec![Vector::zeros(); x.len()];
+        let mut left = residual.to_vec();
+        let mut direction = left.clone();
+        let mut square = dot(&left, &left);
+        // Much smaller than what Newton's method gains in an iteration.
+        let enough = 1e-14 * square;
+        for _ in 0..20 * x.len() {
+            if square <= enough {
+                break;
+            }
+            let product = self.product(x, &direction, is_clamped);
+            let curvature = dot(&direction, &product);
+            if curvature <= 0.0 {
+                return None;
+            }
+            let far = square / curvature;
+            let before = square;
+            for i in 0..x.len() {
+                solution[i] += direction[i] * far;
+                left[i] -= product[i] * far;
+            }
+            square = dot(&left, &left);
+            for (p, r) in direction.iter_mut().zip(&left) {
+                *p = r + *p * (square / before);
+            }
+        }
+        Some(solution)
+    }
+
+    /// (M (1 + hc)/h² + K) u, of free particles.
+    fn product(&self, x: &[Point], u: &[Vector], is_clamped: bool) -> Vec<Vector> {
+        let inertia = (1.0 + self.h * self.model.drag_per_s) / (self.h * self.h);
+        let mut product = vec![Vector::zeros(); u.len()];
+        for spring in &self.model.springs {
+            let [a, b] = spring.ends;
+            let pull = spring.stiffness(x[b] - x[a], u[b] - u[a], is_clamped);
+            product[a] -= pull;
+            product[b] += pull;
+        }
+        for (i, p) in product.iter_mut().enumerate() {
+            *p = match self.model.masses[i] {
+                Some(m) => *p + u[i] * (m * inertia),
+                None => Vector::zeros(),
+            };
+        }
+        product
+    }
+}
+
+fn dot(a: &[Vector], b: &[Vector]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+}
+
+/// What acts on the particles of a system.
+struct Model {
+    /// Edges, and pairs across an edge.
+    springs: Vec<Spring>,
+    /// `None` for a particle that is held.
+    masses: Vec<Option<f64>>,
+    weights: Vec<f64>,
+    faces: Vec<u32>,
+    loads: Loads,
+    drag_per_s: f64,
+}
+
+/// A spring along an edge, or one that resists bending.
+#[derive(Clone, Copy)]
+struct Spring {
+    ends: [usize; 2],
+    rest_m: f64,
+    n_per_m: f64,
+}
+
+impl Spring {
+    /// The force on the first end, with the second at the difference `d` from it.
+    fn pull(self, d: Vector) -> Vector {
+        let length = d.norm();
+        d * (self.n_per_m * (length - self.rest_m) / length)
+    }
+
+    /// The change of that force if `d` changes by `u`.
+    fn stiffness(self, d: Vector, u: Vector, is_clamped: bool) -> Vector {
+        let length = d.norm();
+        let direction = d / length;
+        let along = direction * direction.dot(&u);
+        let tension = (length - self.rest_m) / length;
+        let across = if is_clamped {
+            tension.max(0.0)
+        } else {
+            tension
+        };
+        (along + (u - along) * across) * self.n_per_m
+    }
+}
+
+impl Model {
+    fn new(system: &System, faces: &[u32]) -> Model {
+        let families = [system.stretches(), system.bends()];
+        let springs = families.iter().flat_map(|family| {
+            family.iter().map(|id| {
+                let constraint = family.get(id);
+                Spring {
+                    ends: constraint.ends,
+                    rest_m: constraint.rest_length_m,
+                    n_per_m: constraint.stiffness_n_per_m,
+                }
+            })
+        });
+        let weights = system.masses().to_vec();
+        let masses = weights.iter().enumerate();
+        Model {
+            springs: springs.collect(),
+            masses: masses
+                .map(|(i, m)| (!system.is_held(i)).then_some(*m))
+                .collect(),
+            weights,
+            faces: faces.to_vec(),
+            loads: system.loads().clone(),
+            drag_per_s: system.loads().drag_per_s.unwrap_or(0.0),
+        }
+    }
+
+    /// All forces, with drag.
+    fn forces(&self, x: &[Point], v: &[Vector]) -> Vec<Vector> {
+        let gravity = self.loads.gravity_m_per_s2.unwrap_or_default();
+        let particles = self.weights.iter().zip(v);
+        let mut forces: Vec<Vector> = particles
+            .map(|(m, v)| (gravity - v * self.drag_per_s) * *m)
+            .collect();
+        for spring in &self.springs {
+            let [a, b] = spring.ends;
+            let pull = spring.pull(x[b] - x[a]);
+            forces[a] += pull;
+            forces[b] -= pull;
+        }
+        let Some(wind) = self.loads.wind else {
+            return forces;
+        };
+        for face in self.faces.chunks_exact(3) {
+            let corners = [face[0], face[1], face[2]].map(|corner| corner as usize);
+            let [a, b, c] = corners;
+            let normal = (x[b] - x[a]).cross(&(x[c] - x[a]));
+            let area = 0.5 * normal.norm();
+            if area > 0.0 {
+                let unit = normal / (2.0 * area);
+                let speed = unit.dot(&(wind.velocity_m_per_s - (v[a] + v[b] + v[c]) / 3.0));
+                let third = unit * (wind.coefficient * area * speed / 3.0);
+                corners.iter().for_each(|&corner| forces[corner] += third);
+            }
+        }
+        forces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tearmesh::{Masses, shapes};
+    use tearmesh_cloth::implicit::{self, Settings};
+    use tearmesh_cloth::{Bending, Cloth, Fabric, Implicit, Wind, force};
+
+    use super::*;
+
+    /// A crumpled sheet in wind, with springs across its edges.
+    fn crumpled() -> Cloth {
+        let (mesh, positions) = shapes::grid(5, 4);
+        let masses = Masses::area(&mesh, &positions, 0.15).expect("an area");
+        let fabric = Fabric {
+            bend: Some(Bending::Spring {
+                stiffness_n_per_m: 3.0,
+            }),
+            ..Fabric::new(70.0)
+        };
+        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+        let system = cloth.system_mut();
+        let loads = Loads {
+            gravity_m_per_s2: Some(Vector::new(0.5, 0.0, -9.81)),
+            drag_per_s: Some(2.0),
+            wind: Some(Wind {
+                velocity_m_per_s: Vector::new(1.0, 3.0, 2.0),
+                coefficient: 1.5,
+            }),
+            ..Loads::default()
+        };
+        system.set_loads(loads).expect("loads");
+        let (x, v) = system.state_mut();
+        for (i, (x, v)) in x.iter_mut().zip(v).enumerate() {
+            let i = i as f64;
+            *x += Vector::new((3.0 * i).sin(), (5.0 * i).cos(), (7.0 * i).sin()) * 0.05;
+            *v = Vector::new(i.cos(), (2.0 * i).sin(), (4.0 * i).cos());
+        }
+        cloth
+    }
+
+    #[test]
+    fn forces_are_those_of_the_product() {
+        let mut cloth = crumpled();
+        let faces = cloth.indices().to_vec();
+        let system = cloth.system_mut();
+        let own = Model::new(system, &faces).forces(system.positions(), system.velocities());
+        let mut accelerations = Vec::new();
+        assert!(force::accelerations(system, &mut accelerations));
+        let largest = own.iter().map(|f| f.norm()).fold(0.0, f64::max);
+        for (i, own) in own.iter().enumerate() {
+            let product = (accelerations[i] - system.velocities()[i] * 2.0) * system.masses()[i];
+            let apart = (own - product).norm();
+            assert!(apart <= 1e-12 * largest, "{i}: {own} {product}");
+        }
+    }
+
+    #[test]
+    fn stiffness_is_the_derivative_of_a_pull() {
+        let spring = Spring {
+            ends: [0, 1],
+            rest_m: 0.7,
+            n_per_m: 30.0,
+        };
+        let u = Vector::new(-0.3, 0.8, 0.2);
+        for scale in [0.4, 0.7, 1.9] {
+            let d = Vector::new(0.6, 0.64, -0.48) * scale;
+            let h = 1e-5;
+            let difference = (spring.pull(d + u * h) - spring.pull(d - u * h)) / (2.0 * h);
+            let apart = (difference - spring.stiffness(d, u, false)).norm();
+            assert!(apart < 1e-7, "{scale}: {apart}");
+        }
+    }
+
+    /// At the same steps both are of second order, so a quarter is left of their distance at half the step.
+    #[test]
+    fn motions_are_those_of_the_product_to_second_order() {
+        let distance = |steps: u32| {
+            let mut own = crumpled();
+            own.system_mut().hold(0);
+            own.system_mut().state_mut().1[0] = Vector::zeros();
+            let mut product = own.clone();
+            let mut reference = Reference::new(own.indices());
+            let mut bdf2 = Implicit::new(Settings {
+                method: implicit::Method::Bdf2,
+                ..Settings::default()
+            });
+            for _ in 0..steps {
+                let dt_s = 0.05 / f64::from(steps);
+                own.step(&mut reference, dt_s).expect("a step");
+                product.step(&mut bdf2, dt_s).expect("a step");
+            }
+            let pairs = own.positions().iter().zip(product.positions());
+            pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+        };
+        let [coarse, fine] = [200, 400].map(distance);
+        assert!(
+            fine < 1e-3 && (3.0..5.0).contains(&(coarse / fine)),
+            "{coarse} {fine}"
+        );
+    }
+}
