@@ -190,7 +190,6 @@ fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_co
         ("short steps", "pbd", "W-SIM-RIGID"),
         ("ringing", "implicit", "W-SIM-DAMPED"),
         ("crushed", "provot", "W-SIM-ENERGY"),
-        ("compression", "implicit", "E-SIM-UNSOLVED"),
         ("wind", "implicit", "E-SIM-UNSTABLE"),
         ("too far apart", "provot", "W-SIM-LIMIT"),
     ] {

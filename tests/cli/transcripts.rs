@@ -286,7 +286,7 @@ fn bad_inputs(folder: &Folder) {
         ),
         (
             "strict.toml",
-            "base = \"rip\"\n[solver]\nmethod = \"implicit\"\ndt_s = 0.01\nnewton_iterations = 2\ntolerance = 0.1\n"
+            "base = \"rip\"\ngravity_m_per_s2 = 0\n[fabric]\nstretch_n_per_m = 1e8\n[solver]\nmethod = \"implicit\"\ndt_s = 0.05\n"
                 .to_owned(),
         ),
         (

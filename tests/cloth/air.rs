@@ -2,7 +2,7 @@
 //! and of which order they are.
 
 use tearmesh::{Masses, Point, Vector, shapes};
-use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+use tearmesh_cloth::implicit::{self, Settings};
 use tearmesh_cloth::{
     Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
     Xpbd, air, frequency_bound,
@@ -36,7 +36,7 @@ const METHODS: [Method; 8] = [
 fn bdf2(tolerance: f64) -> Implicit {
     Implicit::new(Settings {
         method: implicit::Method::Bdf2,
-        tolerance: Tolerance::Tied(tolerance),
+        tolerance,
         ..Settings::default()
     })
 }

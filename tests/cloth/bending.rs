@@ -2,7 +2,7 @@
 //! solver by itself, and dense eigenvalues.
 
 use tearmesh::{Point, Positions, Vector, shapes};
-use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
     Bending, Buckling, Cloth, Fabric, Implicit, Pbd, Provot, Solver, StepError, System, Verlet,
     Xpbd, energy, force, frequency_bound, stable_step_s,
@@ -10,7 +10,7 @@ use tearmesh_cloth::{
 
 use crate::parts::cloths::cloth;
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{G, gravity, mechanical_j, near};
+use crate::parts::{G, gravity, implicit, mechanical_j, near};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -206,12 +206,7 @@ fn a_folded_strip_rests_where_the_forces_of_the_paper_balance() {
             (x.x, x.z) = (x.x * gap, arch);
         }
         hung(&mut cloth, &ends);
-        let settings = Settings {
-            tolerance: Tolerance::Fixed(1e-10),
-            newton_iterations_max: 100,
-            ..Settings::default()
-        };
-        let mut solver = Implicit::new(settings);
+        let mut solver = implicit(Method::BackwardEuler);
         for _ in 0..1500 {
             cloth.step(&mut solver, 0.05).expect("a step");
         }

@@ -1,7 +1,7 @@
 //! What is stored, put in and lost, method by method, against answers on paper.
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+use tearmesh_cloth::implicit::{self, Settings};
 use tearmesh_cloth::scene::{HeldVertices, Method, Region, Scene};
 use tearmesh_cloth::{Balance, Implicit, Loads, Path, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
@@ -12,7 +12,7 @@ fn methods() -> [(&'static str, Box<dyn Solver>); 6] {
     let by = |method| {
         Implicit::new(Settings {
             method,
-            tolerance: Tolerance::Fixed(1e-9),
+            tolerance: 1e-6,
             ..Settings::default()
         })
     };

@@ -8,7 +8,7 @@ pub(crate) mod vibration;
 pub(crate) mod woven;
 
 use tearmesh::Vector;
-use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
+use tearmesh_cloth::implicit::{Method, Settings};
 use tearmesh_cloth::{Implicit, Loads, Solver, System, Unstable, energy};
 
 use crate::random::Random;
@@ -66,13 +66,11 @@ pub(crate) fn mechanical_j(system: &System) -> f64 {
     energy::elastic_j(system) + energy::kinetic_j(system)
 }
 
-/// The implicit solver with Newton's method taken to a residual in m/s, in thirty iterations at the
-/// most.
-pub(crate) fn implicit(method: Method, tolerance_m_per_s: f64) -> Implicit {
+/// The implicit solver, with each linear equation solved to about rounding.
+pub(crate) fn implicit(method: Method) -> Implicit {
     Implicit::new(Settings {
         method,
-        tolerance: Tolerance::Fixed(tolerance_m_per_s),
-        newton_iterations_max: 30,
+        tolerance: 1e-9,
         ..Settings::default()
     })
 }

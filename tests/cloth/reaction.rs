@@ -1,24 +1,19 @@
 //! Forces in constraints and at hands, against weights and accelerations.
 
 use tearmesh::{Masses, Point, Positions, Vector, shapes};
-use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
-    Bending, Cloth, Fabric, Implicit, Loads, Path, Pbd, Provot, Solver, System, Threshold, Verlet,
-    Weave, Wind, Xpbd, force,
+    Bending, Cloth, Fabric, Loads, Path, Pbd, Provot, Solver, System, Threshold, Verlet, Weave,
+    Wind, Xpbd, force,
 };
 
 use crate::parts::nets::{chain, row};
-use crate::parts::{G, gravity, near, run};
+use crate::parts::{G, gravity, implicit, near, run};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
 #[test]
 fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
-    let tolerance = Tolerance::Fixed(1e-12);
-    let settings = Settings {
-        tolerance,
-        ..Settings::default()
-    };
     let methods: [(&str, &mut dyn Solver, f64); 7] = [
         ("Verlet", &mut Verlet::new(), 0.008),
         ("RK4", &mut Rk4::new(), 0.008),
@@ -27,7 +22,7 @@ fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
         ("Provot", &mut Provot::default(), 0.008),
         ("PBD", &mut Pbd::new(400), 0.02),
         ("XPBD", &mut Xpbd::new(1, 400), 0.02),
-        ("implicit", &mut Implicit::new(settings), 0.1),
+        ("implicit", &mut implicit(Method::BackwardEuler), 0.1),
     ];
     for (name, solver, dt) in methods {
         let mut chain = chain(4.0);

@@ -519,9 +519,7 @@ fn methods_say_where_their_steps_fall_short() {
                 assert!(newtons > 1.0, "one sweep does not converge: {newtons}");
                 assert_eq!(newtons, Xpbd::new(1, 1).residual_n(system));
             }
-            ("implicit", Quality::Newton(solved)) => {
-                assert_eq!(solved.newton_iterations, run.tally().steps);
-                assert_eq!(solved.halvings, 0);
+            ("implicit", Quality::Implicit(solved)) => {
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
             ("verlet", Quality::Carried(carried)) => {

@@ -4,7 +4,7 @@
 use std::error::Error as _;
 
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
-use tearmesh_cloth::implicit::{self, Method, Settings, Tolerance};
+use tearmesh_cloth::implicit::{self, Method, Settings};
 use tearmesh_cloth::{
     BlowUpSite, Cloth, Fabric, Implicit, Path, StepError, System, Verlet, energy,
 };
@@ -13,15 +13,11 @@ use crate::parts::cloths::cloth;
 use crate::parts::nets::{chain, row};
 use crate::parts::{gravity, implicit, mechanical_j};
 
-fn exact(method: Method) -> Implicit {
-    implicit(method, 1e-11)
-}
-
 /// R1: k = 40 N/m, m = 0.01 kg, Δt = 0.01 s. Backward Euler keeps this part of the amplitude.
 #[test]
 fn an_oscillator_fades_by_the_factor_of_backward_euler() {
     let mut system = row(1, 0.01, 40.0, 1.0, Vector::new(1.1, 0.0, 0.0));
-    let mut solver = exact(Method::BackwardEuler);
+    let mut solver = implicit(Method::BackwardEuler);
     let energy = |system: &System| {
         let (x, v) = (system.positions()[1].x - 1.0, system.velocities()[1].x);
         40.0 * x * x + 0.01 * v * v
@@ -40,7 +36,7 @@ fn a_hanging_chain_is_as_long_as_it_should_be_at_every_step() {
     for method in [Method::BackwardEuler, Method::Bdf2] {
         for dt_s in [1.0, 0.1, 1.0 / 60.0] {
             let mut chain = chain(5.0);
-            let mut solver = exact(method);
+            let mut solver = implicit(method);
             for _ in 0..3000 {
                 chain.step(&mut solver, dt_s).expect("a step");
             }
@@ -82,7 +78,7 @@ fn a_falling_cloth_keeps_its_shape_while_it_is_torn() {
     let mut cloth = cloth(&mesh, &positions, Fabric::new(1000.0));
     cloth.system_mut().set_loads(gravity(0.0)).expect("loads");
     let mut edits = Edits::new();
-    let mut solver = exact(Method::BackwardEuler);
+    let mut solver = implicit(Method::BackwardEuler);
     for step in 0..60 {
         cloth.step(&mut solver, 1.0 / 60.0).expect("a step");
         if step % 10 == 5 {
@@ -114,13 +110,9 @@ fn a_step_that_misses_its_tolerance_is_no_blow_up() {
     system.hold(0);
     system.set_loads(gravity(0.0)).expect("loads");
     system.state_mut().1[1] = Vector::new(20.0, 0.0, 0.0);
-    let settings = Settings {
-        tolerance: Tolerance::Fixed(1e-6),
-        newton_iterations_max: 2,
-        ..Settings::default()
-    };
-    let mut solver = Implicit::new(settings);
+    let mut solver = Implicit::default();
     system.step(&mut solver, 1e-4).expect("a short step");
+    solver.settings.solver_iterations_max = 0;
     let before = (system.positions().to_vec(), system.velocities().to_vec());
     let elapsed = system.elapsed_s();
     let error = system.step(&mut solver, 0.1).expect_err("a long step");
@@ -134,14 +126,13 @@ fn a_step_that_misses_its_tolerance_is_no_blow_up() {
     let implicit::StepError::NotConverged {
         residual,
         limit,
-        newton_iterations,
-        ..
+        solver_iterations,
     } = why
     else {
         panic!("{why}");
     };
     assert!(residual > limit, "{residual} {limit}");
-    assert_eq!((limit, newton_iterations), (1e-6, 2));
+    assert_eq!(solver_iterations, 0);
     assert_eq!((elapsed_s, system.elapsed_s()), (elapsed, elapsed));
     assert_eq!(
         before,
@@ -150,6 +141,7 @@ fn a_step_that_misses_its_tolerance_is_no_blow_up() {
     let source = error.source().expect("the reason");
     assert_eq!(source.to_string(), why.to_string());
     assert!(error.to_string().contains(&why.to_string()), "{error}");
+    solver.settings = Settings::default();
     system.step(&mut solver, 1e-4).expect("a short step");
 
     // What is nowhere before the step is a blow-up for every method.
@@ -186,61 +178,67 @@ fn stretched(system: &System) -> f64 {
 }
 
 /// The tangent of a step is √(1 + (ω Δt)²) times as long as the radius, and linearised forces do
-/// not feel it. A step that ends above the potential that it came from is taken back, and
-/// counted, so what a crumb stretches by is bounded by its energy.
+/// not feel it. A step that would stretch it by more than 15 %, or store more energy than there is in
+/// motion, is divided, and counted.
 #[test]
-fn a_crumb_that_spins_fast_keeps_its_size_and_is_counted() {
+fn a_crumb_that_spins_fast_keeps_its_size_and_makes_no_energy() {
     let dt_s = 1.0 / 240.0;
     for turn in [0.01, 0.1, 0.5, 1.0, 3.0, 10.0] {
         let mut crumb = crumb(turn / dt_s);
-        let tied = Settings {
-            tolerance: Tolerance::Tied(10.0),
-            ..Settings::default()
-        };
-        let mut solver = Implicit::new(tied);
+        let mut solver = Implicit::default();
         let energy = energy::kinetic_j(&crumb);
-        // What the tangent makes of it, and what its energy does, were it all in one edge.
         let tangent = (1.0 + turn * turn).sqrt();
-        let flown = {
+        let flown_j = {
             let mut flown = crumb.clone();
             let (points, velocities) = flown.state_mut();
-            points
-                .iter_mut()
-                .zip(velocities)
-                .for_each(|(x, v)| *x += *v * dt_s);
+            let particles = points.iter_mut().zip(velocities);
+            particles.for_each(|(x, v)| *x += *v * dt_s);
             energy::elastic_j(&flown)
         };
-        let by_energy = 1.0 + (2.0 * energy / 1000.0).sqrt() * 64.0;
-        let (mut most, mut first) = (0.0_f64, 0.0);
+        let is_far = tangent > 1.15 || flown_j > energy;
+        let mut most = 0.0_f64;
         for step in 0..50 {
             crumb.step(&mut solver, dt_s).expect("a step");
             most = most.max(stretched(&crumb));
             if step == 0 {
-                first = most;
                 let overshot = crumb.counters().overshoots == 1;
-                assert_eq!(overshot, flown > energy, "{turn}");
-                assert!(
-                    energy::elastic_j(&crumb) <= energy * (1.0 + 1e-12),
-                    "{turn}"
-                );
+                let parts = solver.report().expect("a step").parts;
+                assert_eq!((overshot, parts > 1), (is_far, is_far), "{turn}");
             }
         }
-        let overshoots = crumb.counters().overshoots;
+        let left = mechanical_j(&crumb) / energy;
         println!(
-            "{turn} rad a step: {first:.4} of its size, then {most:.4}; the tangent {tangent:.4}, \
-             its energy {by_energy:.4}; {overshoots} overshoots"
+            "{turn} rad a step: {most:.4} of its size, {left:.1e} of its energy is left; {} overshoots",
+            crumb.counters().overshoots
         );
         assert!(
-            first <= by_energy.min(1.0 + 1.001 * (tangent - 1.0)),
-            "{turn}"
+            most <= tangent.min(1.2) * 1.001 && left < 1.0,
+            "{turn}: {most} {left}"
         );
-        assert!(most <= 1.0 + 2.0 * (by_energy - 1.0), "{turn}: {most}");
     }
+}
+
+/// A crumb that spins so fast that no part of the step that is tried would do.
+#[test]
+fn a_step_that_no_division_helps_is_refused() {
+    let dt_s = 1.0 / 240.0;
+    let mut crumb = crumb(1e3 / dt_s);
+    let before = crumb.velocities().to_vec();
+    let refused = crumb.step(&mut Implicit::default(), dt_s);
+    let error = implicit::StepError::Overshot;
+    assert_eq!(
+        refused,
+        Err(StepError::Implicit {
+            elapsed_s: 0.0,
+            error
+        })
+    );
+    assert_eq!(crumb.velocities(), before);
 }
 
 /// Between two springs, nearly straight and compressed: at the step where the matrix is all but
 /// singular, 9.75 ms (F12), linearised forces throw the middle as far as one likes. A step that
-/// ends above the potential that it came from is taken back.
+/// stretches the springs by more than 15 % by turning them is divided.
 #[test]
 fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
     let (k, m, l, rest, speed) = (1e3, 0.01, 0.095, 0.1, 0.1);
@@ -254,34 +252,24 @@ fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
         row.hold(0);
         row.hold(2);
         row.state_mut().1[1] = Vector::new(0.0, speed, 0.0);
-        let before = mechanical_j(&row);
-        let settings = Settings {
-            tolerance: Tolerance::Fixed(1e-9),
-            ..Settings::default()
-        };
-        row.step(&mut Implicit::new(settings), dt_s)
+        row.step(&mut implicit(Method::BackwardEuler), dt_s)
             .expect("a step");
         let y = row.positions()[1].y;
-        assert!(
-            energy::elastic_j(&row) <= before * (1.0 + 1e-12),
-            "{i}: {y}"
-        );
-        // The linearised answer, by hand; and whether it is above.
+        // The linearised answer, by hand; and how long it would make the springs.
         let inertia = m / (dt_s * dt_s);
         let linear = m * speed / dt_s / (inertia - 2.0 * k * (rest / l - 1.0));
-        let gap = (l * l + linear * linear).sqrt() - rest;
-        let above = k * gap * gap + 0.5 * inertia * (linear - speed * dt_s).powi(2) > before;
         let overshot = row.counters().overshoots == 1;
-        assert_eq!(overshot, above, "{i}: {linear}");
+        let is_long = (l * l + linear * linear).sqrt() > 1.15 * rest;
+        assert_eq!(overshot, is_long, "{i}: {linear}");
         if overshot {
-            assert!(y.abs() < 0.05, "{i}: {y}");
+            assert!(y.abs() < 0.07, "{i}: {y}");
         } else {
             assert!((y - linear).abs() < 1e-8, "{i}: {y} {linear}");
         }
         thrown += u32::from(overshot);
         farthest = farthest.max(linear);
     }
-    println!("{thrown} of 200 steps were taken back, of up to {farthest} m");
+    println!("{thrown} of 200 steps were divided, of up to {farthest} m");
     assert!(thrown > 0 && thrown < 200 && farthest > 100.0);
 }
 
@@ -348,7 +336,7 @@ fn a_refused_step_is_no_history() {
     let mut system = System::new(points, vec![0.1; 2]).expect("two particles");
     system.stretch([0, 1], 1.0, 10.0).expect("a spring");
     system.state_mut().1[1] = Vector::new(3.0, 1.0, 0.0);
-    let mut solver = exact(Method::Bdf2);
+    let mut solver = implicit(Method::Bdf2);
     for _ in 0..3 {
         system.step(&mut solver, 0.01).expect("a step");
     }
@@ -361,7 +349,8 @@ fn a_refused_step_is_no_history() {
     system.set_stretch_ratio_max(100.0);
     let mut twin = system.clone();
     system.step(&mut solver, 0.01).expect("a step");
-    twin.step(&mut exact(Method::Bdf2), 0.01).expect("a step");
+    twin.step(&mut implicit(Method::Bdf2), 0.01)
+        .expect("a step");
     assert_eq!(system.positions(), twin.positions());
     assert_eq!(system.velocities(), twin.velocities());
 }
@@ -379,7 +368,7 @@ fn the_work_of_a_refused_step_is_counted() {
     }
     let mut solver = Implicit::new(Settings {
         solver_iterations_max: 5,
-        tolerance: Tolerance::Fixed(1e-12),
+        tolerance: 1e-9,
         ..Settings::default()
     });
     let before = cloth.system().counters();
@@ -398,19 +387,16 @@ fn the_work_of_a_refused_step_is_counted() {
     assert_eq!(after.force_evaluations - before.force_evaluations, 1);
     // One product for the right-hand side, and one an iteration.
     let products = after.matrix_products - before.matrix_products;
-    assert_eq!(products, solver_iterations + 1);
+    assert_eq!(products, u64::from(solver_iterations) + 1);
 
     // A step that is taken counts what its report says, once.
     solver.settings = Settings::default();
     cloth.step(&mut solver, 0.02).expect("a step");
-    let work = solver.report().expect("a step").work;
+    let iterations = solver.report().expect("a step").solver_iterations;
     let taken = cloth.system().counters();
     assert_eq!(
         taken.matrix_products - after.matrix_products,
-        work.matrix_products
+        iterations + 1
     );
-    assert_eq!(
-        taken.force_evaluations - after.force_evaluations,
-        work.force_evaluations
-    );
+    assert_eq!(taken.force_evaluations - after.force_evaluations, 1);
 }

@@ -22,15 +22,15 @@ use crate::rk4::Rk4;
 /// The methods, in the order of the tables' columns.
 pub(crate) const METHODS: [&str; 7] = ["Provot", "Verlet", "RK4", "Euler", "BDF2", "XPBD", "PBD"];
 
-/// A method by its name: the limiter off, sweeps for those that sweep, Newton to 1e-11 m/s for those
-/// that are implicit.
+/// A method by its name: the limiter off, sweeps for those that sweep, equations solved to rounding for
+/// those that are implicit.
 pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
     match name {
         "Provot" => Box::new(Provot::unlimited()),
         "Verlet" => Box::new(Verlet::plain()),
         "RK4" => Box::new(Rk4::new()),
-        "Euler" => Box::new(implicit(Method::BackwardEuler, 1e-11)),
-        "BDF2" => Box::new(implicit(Method::Bdf2, 1e-11)),
+        "Euler" => Box::new(implicit(Method::BackwardEuler)),
+        "BDF2" => Box::new(implicit(Method::Bdf2)),
         "XPBD" => Box::new(Xpbd::new(1, sweeps)),
         "PBD" => Box::new(Pbd::new(sweeps)),
         other => panic!("no method is called {other}"),

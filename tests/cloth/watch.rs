@@ -2,7 +2,7 @@
 //! set, a step that failed.
 
 use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
-use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::{
     Balance, Cloth, EnergyBalance, Fabric, Failure, Implicit, Limiter, Loads, Path, Pbd, Provot,
     SettingError, Solver, StepError, System, Verlet, Wind, Xpbd, force,
@@ -276,13 +276,12 @@ fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
         let provot = Provot::new(limiter);
         refused.push((Box::new(provot), "stretch_ratio_max", stretch_ratio_max));
     }
-    for tolerance in [Tolerance::Fixed(f64::NAN), Tolerance::Tied(-1.0)] {
-        let (Tolerance::Fixed(given) | Tolerance::Tied(given)) = tolerance;
+    for tolerance in [f64::NAN, -1.0] {
         let settings = Settings {
             tolerance,
             ..Settings::default()
         };
-        refused.push((Box::new(Implicit::new(settings)), "tolerance", given));
+        refused.push((Box::new(Implicit::new(settings)), "tolerance", tolerance));
     }
     for (mut solver, name, number) in refused {
         let mut system = stiff();

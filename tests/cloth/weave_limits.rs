@@ -286,8 +286,8 @@ fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted(
     let [springs, woven] = [&springs, &woven].map(|cloth| cloth.system().counters());
     assert_eq!(springs.triangle_evaluations, 0);
     // When asked here, and for each of ten steps the bound; eleven sums of forces for ten steps; and
-    // for the implicit one, one of forces, one of the matrix and two of the energy.
-    assert_eq!(woven.triangle_evaluations, 1 + 10 + 11 + 4);
+    // for the implicit one, one of forces and one of the matrix.
+    assert_eq!(woven.triangle_evaluations, 1 + 10 + 11 + 2);
     assert_eq!(woven.force_evaluations, springs.force_evaluations);
     assert_eq!((woven.matrix_products > 0, woven.visits.project), (true, 0));
 }

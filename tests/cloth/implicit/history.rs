@@ -1,9 +1,9 @@
-//! What BDF2 remembers of the last step goes with the system and the moment that it is of.
+//! What BDF2 remembers of the last step, and when it begins anew.
 
 use super::matrix::crumpled;
-use super::{G, Scene, norm, step};
+use super::{G, Scene, step};
 use tearmesh::{Edits, Masses, Plane, Point, Vector, VertexId, mend, shapes, split};
-use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
+use tearmesh_cloth::implicit::{Method, Settings};
 use tearmesh_cloth::{
     Abilities, Cloth, Fabric, Failure, Implicit, Loads, Solver, StepError, System, Unstable, Verlet,
 };
@@ -38,56 +38,47 @@ fn alone(system: &System, steps: &[f64]) -> (Vec<Point>, Vec<Vector>) {
     state(&system)
 }
 
+/// A state that the last step did not lead to, of another system or of this one at another time.
 #[test]
-fn systems_of_one_size_stepped_in_turn_by_one_solver_equal_those_with_solvers_of_their_own() {
-    let steps = [0.01, 0.008, 0.012, 0.01, 0.01, 0.01];
-    let mut systems = [scene(1).system(), scene(2).system(), scene(1).system()];
-    let expected = systems.each_ref().map(|system| alone(system, &steps));
+fn a_system_that_the_last_step_did_not_lead_to_has_no_history() {
     let mut solver = bdf2();
-    for &dt_s in &steps {
-        for system in &mut systems {
-            step(system, &mut solver, dt_s).expect("a step");
+    let mut systems = [scene(1).system(), scene(2).system()];
+    for system in &mut systems {
+        let expected = alone(system, &[0.01, 0.008]);
+        for (dt_s, method) in [(0.01, Method::BackwardEuler), (0.008, Method::Bdf2)] {
+            let report = step(system, &mut solver, dt_s).expect("a step");
+            assert_eq!(report.method, method);
         }
+        assert_eq!(state(system), expected);
     }
-    assert_eq!(systems.each_ref().map(state), expected);
-    // One after the other.
-    let mut solver = bdf2();
-    for (seed, expected) in [1, 2].into_iter().zip(&expected) {
-        let mut system = scene(seed).system();
-        for &dt_s in &steps {
-            step(&mut system, &mut solver, dt_s).expect("a step");
-        }
-        assert_eq!(state(&system), *expected, "{seed}");
-    }
+    // A clone in the same state goes on as the system would have.
+    let mut clone = systems[1].clone();
+    let mut other = solver.clone();
+    let report = step(&mut systems[1], &mut solver, 0.01).expect("a step");
+    assert_eq!(report.method, Method::Bdf2);
+    step(&mut clone, &mut other, 0.01).expect("a step");
+    assert_eq!(state(&clone), state(&systems[1]));
+    // One that stands where the system stood a step ago does not.
+    let expected = alone(&systems[0], &[0.01]);
+    let report = step(&mut systems[0], &mut solver, 0.01).expect("a step");
+    assert_eq!(report.method, Method::BackwardEuler);
+    assert_eq!(state(&systems[0]), expected);
 }
 
-/// Also where one of them is torn: sums are in the order that it would have alone.
+/// Steps that grow too fast would make the method unstable.
 #[test]
-fn clones_stepped_in_turn_by_one_solver_equal_those_with_solvers_of_their_own() {
-    let steps = [0.01; 8];
-    let mut made = scene(3).system();
-    for &dt_s in &steps[..3] {
-        step(&mut made, &mut bdf2(), dt_s).expect("a step");
+fn a_step_that_is_far_longer_than_the_last_begins_again() {
+    let mut system = scene(6).system();
+    let mut solver = bdf2();
+    for (dt_s, method) in [
+        (0.002, Method::BackwardEuler),
+        (0.0048, Method::Bdf2),
+        (0.0117, Method::BackwardEuler),
+        (0.001, Method::Bdf2),
+    ] {
+        let report = step(&mut system, &mut solver, dt_s).expect("a step");
+        assert_eq!((report.method, report.parts), (method, 1), "{dt_s}");
     }
-    let run = |solvers: &mut [Implicit]| {
-        let last = solvers.len() - 1;
-        let mut systems = [made.clone(), made.clone()];
-        for (turn, &dt_s) in steps.iter().enumerate() {
-            if turn % 3 == 2 {
-                let id = systems[1].stretches().iter().nth(turn).expect("a spring");
-                systems[1].cut(id);
-                systems[1].stretch([turn, 15], 0.4, 3.0).expect("a spring");
-            }
-            for (i, system) in systems.iter_mut().enumerate() {
-                let report = step(system, &mut solvers[i.min(last)], dt_s).expect("a step");
-                assert_eq!(report.method == Method::Bdf2, turn > 0);
-            }
-        }
-        systems.map(|system| state(&system))
-    };
-    let expected = run(&mut [bdf2(), bdf2()]);
-    assert_ne!(expected[0], expected[1]);
-    assert_eq!(run(&mut [bdf2()]), expected);
 }
 
 /// A solver that comes back to a system that has been elsewhere meanwhile.
@@ -166,40 +157,29 @@ fn substeps_of_a_step_that_was_refused_are_no_history() {
     }
 }
 
-/// What moves all particles alike between two steps moves what is remembered with them.
+/// What pushes some particles between two steps leaves the others' history, and theirs is that of
+/// their accelerations: each flies on as it would have with the push from the start.
 #[test]
-fn a_system_that_is_moved_from_outside_goes_on_as_it_would_have() {
-    let exact = Settings {
-        tolerance: Tolerance::Fixed(1e-12),
-        ..bdf2().settings
-    };
-    let mut scene = scene(5);
-    scene.held[0] = false;
-    scene.drag = 0.0;
-    let mut systems = [scene.system(), scene.system()];
-    let mut solvers = [exact; 2].map(Implicit::new);
-    let (by, push) = (Vector::new(0.3, -2.0, 1.0), Vector::new(-1.0, 0.5, 2.0));
+fn particles_that_are_pushed_from_outside_go_on_with_their_acceleration() {
+    let mut scene = Scene::particles([[0.0; 3], [1.0, 0.0, 0.0]], 1.0);
+    scene.gravity = Vector::new(0.0, 0.0, -G);
+    let (mut system, mut solver) = (scene.system(), bdf2());
+    let push = Vector::new(-1.0, 0.5, 2.0);
     for turn in 0..8 {
         if turn == 4 {
-            let (x, v) = systems[1].state_mut();
-            x.iter_mut().for_each(|x| *x += by);
-            v.iter_mut().for_each(|v| *v += push);
+            let (x, v) = system.state_mut();
+            x[1] += Vector::y();
+            v[1] += push;
         }
-        for (system, solver) in systems.iter_mut().zip(&mut solvers) {
-            let report = step(system, solver, 0.01).expect("a step");
-            assert_eq!(report.method == Method::Bdf2, turn > 0);
-        }
+        let report = step(&mut system, &mut solver, 0.01).expect("a step");
+        assert_eq!(report.method == Method::Bdf2, turn > 0);
     }
-    let [left, moved] = systems.each_ref().map(System::positions);
-    let apart: Vec<Vector> = left
-        .iter()
-        .zip(moved)
-        .map(|(x, y)| y - x - by - push * 0.04)
-        .collect();
-    assert!(norm(&apart) < 1e-9, "{}", norm(&apart));
+    let (x, v) = (system.positions(), system.velocities());
+    let flown = x[1] - x[0] - Vector::x() - Vector::y() - push * 0.04;
+    assert!(flown.norm() < 1e-14, "{flown}");
+    assert!((v[1] - v[0] - push).norm() < 1e-14, "{}", v[1]);
 }
 
-/// Numbers of particles mean others after an edit, even where there are as many.
 #[test]
 fn particles_that_came_and_went_have_no_history() {
     let (mut mesh, positions) = shapes::grid(3, 3);
@@ -213,20 +193,21 @@ fn particles_that_came_and_went_have_no_history() {
     cloth.system_mut().set_loads(loads).expect("loads");
     cloth.system_mut().hold(0);
     let (mut solver, mut edits) = (bdf2(), Edits::new());
-    for turn in 0..6 {
-        let before = cloth.positions().len();
+    let vertex = VertexId::new(5).expect("an id");
+    let mut copy = None;
+    for turn in 0..8 {
         if turn == 3 {
-            let vertex = VertexId::new(5).expect("an id");
             let plane = Plane::new(cloth.positions()[5], Vector::x()).expect("a plane");
             let split = split::by_plane(&mut mesh, vertex, &plane, cloth.positions(), &mut edits);
-            let copy = split.expect("faces on both sides").new;
-            edits.replay(&mut cloth);
+            copy = Some(split.expect("faces on both sides").new);
+        } else if turn == 6 {
+            let copy = copy.expect("a split");
             mend::merge(&mut mesh, vertex, copy, [1.0, 1.0], &mut edits).expect("a merge");
-            edits.replay(&mut cloth);
         }
-        assert_eq!(cloth.positions().len(), before);
+        edits.replay(&mut cloth);
         cloth.step(&mut solver, 0.01).expect("a step");
         let method = solver.report().expect("a step").method;
-        assert_eq!(method == Method::Bdf2, turn != 0 && turn != 3, "{turn}");
+        let begins = [0, 3, 6].contains(&turn);
+        assert_eq!(method == Method::BackwardEuler, begins, "{turn}");
     }
 }

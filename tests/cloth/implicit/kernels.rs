@@ -1,6 +1,5 @@
-//! Forces are gradients, Jacobians are derivatives, and clamped ones are semidefinite.
+//! Forces are gradients.
 
-use super::dense::{dense, is_definite};
 use super::{Scene, Triangle, forces, order, spring};
 use crate::random::Random;
 use tearmesh::Vector;
@@ -76,50 +75,34 @@ fn moved(system: &System, coordinate: usize, by: f64) -> System {
     system
 }
 
-/// The error of central differences of width h, of the gradient and of its derivative,
-/// relative to the largest force and second derivative.
-fn errors(scene: &Scene, h: f64) -> [f64; 2] {
-    let mut system = scene.system();
-    let exact = forces(&mut system);
-    let (hessian, _) = dense(&system, false);
-    let mut errors = [0.0f64; 2];
-    let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(1e-300f64, |m, x| m.max(x.abs()));
-    let force = largest(&mut exact.iter().flat_map(|v| [v.x, v.y, v.z]));
-    let second = largest(&mut hessian.iter().flatten().copied());
-    for (c, column) in hessian.iter().enumerate() {
-        let [mut plus, mut minus] = [h, -h].map(|by| moved(&system, c, by));
-        let gradient = (energy::elastic_j(&plus) - energy::elastic_j(&minus)) / (2.0 * h);
-        errors[0] = errors[0].max((gradient + exact[c / 3][c % 3]).abs() / force);
-        let (plus, minus) = (forces(&mut plus), forces(&mut minus));
-        for (r, entry) in column.iter().enumerate() {
-            let difference = (minus[r / 3][r % 3] - plus[r / 3][r % 3]) / (2.0 * h);
-            errors[1] = errors[1].max((difference - entry).abs() / second);
-        }
-    }
-    errors
+/// The error of central differences of width h of the energy, relative to the largest force.
+fn error(scene: &Scene, h: f64) -> f64 {
+    let system = scene.system();
+    let exact = forces(&mut scene.system());
+    let largest = exact.iter().fold(1e-300f64, |m, f| m.max(f.amax()));
+    let off = (0..3 * exact.len()).map(|c| {
+        let [plus, minus] = [h, -h].map(|by| energy::elastic_j(&moved(&system, c, by)));
+        ((plus - minus) / (2.0 * h) + exact[c / 3][c % 3]).abs() / largest
+    });
+    off.fold(0.0, f64::max)
 }
 
 #[test]
-fn forces_are_gradients_and_jacobians_their_derivatives_to_order_two() {
+fn forces_are_gradients_to_order_two() {
     let mut measured = 0;
     for (name, scene) in specimens() {
-        let (coarse, fine) = (errors(&scene, 1e-3), errors(&scene, 5e-4));
-        for (what, (coarse, fine)) in coarse.into_iter().zip(fine).enumerate() {
-            if fine < 1e-12 {
-                // Nothing acts, or a parabola: differences are exact.
-                continue;
-            }
-            let order = order(coarse, fine);
-            println!(
-                "{name}, derivative {}: {fine:.1e}, order {order:.3}",
-                what + 1
-            );
-            assert!(fine < 1e-3, "{name}, derivative {}: {fine}", what + 1);
-            assert!((order - 2.0).abs() < 0.05, "{name}: order {order}");
-            measured += 1;
+        let (coarse, fine) = (error(&scene, 1e-3), error(&scene, 5e-4));
+        if fine < 1e-12 {
+            // Nothing acts, or a parabola: differences are exact.
+            continue;
         }
+        let order = order(coarse, fine);
+        println!("{name}: {fine:.1e}, order {order:.3}");
+        assert!(fine < 1e-3, "{name}: {fine}");
+        assert!((order - 2.0).abs() < 0.05, "{name}: order {order}");
+        measured += 1;
     }
-    assert!(measured >= 16, "only {measured} orders were measured");
+    assert!(measured >= 8, "only {measured} orders were measured");
 }
 
 #[test]
@@ -136,54 +119,6 @@ fn internal_forces_sum_to_zero() {
             .sum();
         assert!(torque.norm() <= 4e-15 * size, "{name}: torque {torque}");
     }
-}
-
-#[test]
-fn clamped_jacobians_are_semidefinite_where_exact_ones_are_not() {
-    let mut random = Random(11);
-    let (mut indefinite, mut clamps) = (0, 0);
-    for _ in 0..300 {
-        for (name, mut scene) in specimens() {
-            for p in &mut scene.x {
-                *p += Vector::from_fn(|_, _| random.next() - 0.5);
-            }
-            let shifted = |clamp| {
-                let (mut a, clamped) = dense(&scene.system(), clamp);
-                let largest = a.iter().flatten().fold(1e-3f64, |m, x| m.max(x.abs()));
-                for (i, row) in a.iter_mut().enumerate() {
-                    row[i] += 1e-12 * largest;
-                }
-                (is_definite(a), clamped)
-            };
-            let (definite, none) = shifted(false);
-            assert_eq!(none, 0, "{name}");
-            let (always, clamped) = shifted(true);
-            assert!(always, "{name} is clamped and not semidefinite");
-            assert!(
-                definite || clamped > 0,
-                "{name} is indefinite and nothing was dropped"
-            );
-            indefinite += u32::from(!definite);
-            clamps += clamped;
-        }
-    }
-    println!("{indefinite} indefinite of 2700, {clamps} terms clamped");
-    assert!(indefinite > 500);
-}
-
-#[test]
-fn where_nothing_is_compressed_or_sheared_nothing_is_dropped() {
-    let mut scene = Scene::sheet(3, 0.1, [10.0, 7.0, 2.0]);
-    for x in &mut scene.x {
-        x.x *= 1.1;
-        x.y *= 1.02;
-    }
-    let ((exact, _), (clamped, count)) =
-        (dense(&scene.system(), false), dense(&scene.system(), true));
-    let apart = exact.iter().flatten().zip(clamped.iter().flatten());
-    let apart = apart.fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
-    // Shear is rounding here, and its negative half may be dropped.
-    assert!(apart < 1e-13 && count <= 18, "{apart} {count}");
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! The matrix, its layout, held particles, and bytes.
 
-use super::dense::{dense, solve};
+use super::dense::{clamped, jacobian, solve};
 use super::{Scene, forces, spring, step};
+use crate::parts::implicit;
 use crate::random::Random;
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
-use tearmesh_cloth::implicit::{Hessian, Layout, Method, Settings, Tolerance};
-use tearmesh_cloth::{Bending, Buckling, Cloth, Fabric, Implicit, System, Weave};
+use tearmesh_cloth::implicit::{Method, Settings};
+use tearmesh_cloth::{Bending, Buckling, Cloth, Fabric, Implicit, Weave};
 
 /// A sheet with triangles, springs along its rows and bends two apart, crumpled.
 pub(super) fn crumpled(n: u32, seed: u64) -> Scene {
@@ -31,32 +32,91 @@ pub(super) fn crumpled(n: u32, seed: u64) -> Scene {
     scene
 }
 
-/// A layout gives the matrix that a new one gives, and has no more slots in use.
-fn is_that_of_a_new_one(layout: &Layout, system: &System) {
-    let mut new = Layout::default();
-    new.follow(system);
-    assert_eq!(layout.pieces(), new.pieces());
-    let mut random = Random(9);
-    let mut next = || random.next() - 0.5;
-    let v: Vec<Vector> = system
-        .positions()
-        .iter()
-        .map(|_| Vector::from_fn(|_, _| next()))
-        .collect();
-    let [a, b] = [layout, &new].map(|layout| {
-        let (mut hessian, mut product) = (Hessian::default(), Vec::new());
-        layout.hessian(system, false, &mut hessian);
-        hessian.product(layout.pairs(), &v, &mut product);
-        product
-    });
-    let apart: Vec<Vector> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
-    assert!(super::norm(&apart) < 1e-14 * super::norm(&a));
-    let live = layout.pairs().iter().filter(|p| p[0] != p[1]).count();
-    assert_eq!(live, new.pairs().len());
+/// The change of all velocities in a step of backward Euler, by a matrix H of second derivatives:
+/// (M (1 + hc) + h² H) Δv = h (f − h H v − c M v) for the free particles. A penalty would be inexact,
+/// so each held coordinate adds the row Δv = 0 with a multiplier.
+fn dense_step(scene: &Scene, hessian: &[Vec<f64>], h: f64) -> Vec<Vector> {
+    let forces = forces(&mut scene.system());
+    let v: Vec<f64> = scene.v.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+    let n = scene.x.len();
+    let held: Vec<usize> = (0..3 * n).filter(|c| scene.held[c / 3]).collect();
+    let size = 3 * n + held.len();
+    let mut a = vec![vec![0.0; size]; size];
+    let mut b = vec![0.0; size];
+    for r in 0..3 * n {
+        let m = scene.masses[r / 3];
+        a[r][r] += m * (1.0 + h * scene.drag);
+        b[r] += h * (forces[r / 3][r % 3] - scene.drag * m * v[r]);
+        for c in 0..3 * n {
+            a[r][c] += h * h * hessian[r][c];
+            b[r] -= h * h * hessian[r][c] * v[c];
+        }
+    }
+    for (k, coordinate) in held.into_iter().enumerate() {
+        a[3 * n + k][coordinate] = 1.0;
+        a[coordinate][3 * n + k] = 1.0;
+    }
+    let change = solve(a, b);
+    let vectors = change[..3 * n].chunks_exact(3);
+    vectors.map(|c| Vector::new(c[0], c[1], c[2])).collect()
 }
 
+/// In short steps the matrix is that of all derivatives of the forces, here by differences; where that
+/// is indefinite, what is negative is left out, and counted.
 #[test]
-fn a_layout_that_follows_a_tear_gives_the_matrix_of_a_new_one() {
+fn a_step_is_the_dense_solution_where_some_are_held() {
+    let mut seen = [0; 2];
+    for seed in 0..16 {
+        let mut scene = crumpled(3, seed);
+        scene.law = scene.law.filter(|_| seed % 4 == 0);
+        (scene.held[0], scene.held[5]) = (true, true);
+        scene.gravity = Vector::new(0.3, 0.0, -9.81);
+        scene.drag = 2.0;
+        for h in [0.004, 0.03] {
+            let mut system = scene.system();
+            let mut solver = implicit(Method::BackwardEuler);
+            let report = step(&mut system, &mut solver, h).expect("a step");
+            let is_indefinite = report.indefinite > 0;
+            if report.parts > 1 || is_indefinite && scene.law.is_some() {
+                continue;
+            }
+            assert_eq!(
+                (report.clamped > 0, report.indefinite),
+                (is_indefinite, u32::from(is_indefinite))
+            );
+            seen[usize::from(is_indefinite)] += 1;
+            let matrix = match is_indefinite {
+                false => jacobian(&scene.system()),
+                true => clamped(&scene),
+            };
+            let change = dense_step(&scene, &matrix, h);
+            let (x, moved) = (system.positions(), system.velocities());
+            for i in 0..scene.x.len() {
+                let truth = scene.v[i] + change[i];
+                assert!(
+                    (moved[i] - truth).norm() < 1e-7,
+                    "{seed} {h} {i}: {} {truth}",
+                    moved[i]
+                );
+                assert!((x[i] - (scene.x[i] + moved[i] * h)).norm() < 1e-15);
+            }
+            assert_eq!(
+                moved[0], scene.v[0],
+                "what is held keeps its velocity, to the bit"
+            );
+        }
+    }
+    println!(
+        "{} steps with the exact matrix, {} without negative parts",
+        seen[0], seen[1]
+    );
+    assert!(seen[0] >= 6 && seen[1] >= 2, "{seen:?}");
+}
+
+/// The order of sums depends on the constraints alone: a solver that has followed tears gives what a
+/// new one gives, to the bit.
+#[test]
+fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
     let (mut mesh, positions) = shapes::grid(6, 6);
     let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let weave = Weave {
@@ -78,121 +138,32 @@ fn a_layout_that_follows_a_tear_gives_the_matrix_of_a_new_one() {
     for x in cloth.system_mut().state_mut().0 {
         *x += Vector::from_fn(|_, _| 0.05 * (random.next() - 0.5));
     }
-    let mut layout = Layout::default();
-    assert!(layout.follow(cloth.system()) > 0);
-    assert_eq!(layout.follow(cloth.system()), 0);
+    let mut solver = Implicit::default();
     let mut edits = Edits::new();
-    for v in [24, 17, 31] {
-        let bends = cloth.system().bends().len();
-        let v = mesh.vertices().nth(v).expect("a vertex");
-        let faces: Vec<_> = mesh.faces_of(v).take(2).collect();
-        split::vertex(&mut mesh, v, &faces, &mut edits).expect("more than two faces");
-        edits.replay(&mut cloth);
-        edits.clear();
-        let system = cloth.system();
-        let copy = system.positions().len() - 1;
-        let moved = system.stretches().of(copy).count() + system.bends().of(copy).count();
-        // Two edges of each face that went to the copy have another end.
-        let gone = bends - system.bends().len();
-        let expected = moved + gone + 2 * faces.len();
-        assert_eq!(
-            layout.follow(system),
-            expected,
-            "only what was torn is touched"
-        );
-        is_that_of_a_new_one(&layout, system);
-    }
-}
-
-#[test]
-fn a_slot_that_was_freed_is_used_again() {
-    let mut system = crumpled(4, 3).system();
-    let mut layout = Layout::default();
-    layout.follow(&system);
-    let cut = system.stretches().iter().nth(3).expect("a spring");
-    system.cut(cut);
-    assert_eq!(layout.follow(&system), 1);
-    is_that_of_a_new_one(&layout, &system);
-    let slots = layout.pairs().len();
-    for turn in 0..20 {
-        let ends = [[0, 13], [1, 17]][turn % 2];
-        let id = system.stretch(ends, 1.0, 1.0).expect("a spring");
-        assert_eq!(layout.follow(&system), 1);
-        is_that_of_a_new_one(&layout, &system);
-        system.cut(id);
-        assert_eq!(layout.follow(&system), 1);
-    }
-    assert!(layout.pairs().len() <= slots + 1);
-}
-
-#[test]
-fn pieces_are_what_constraints_join() {
-    let mut scene = Scene::particles((0..7).map(|i| [f64::from(i), 0.0, 0.0]), 1.0);
-    scene.springs = vec![
-        spring(5, 1, 1.0, 1.0),
-        spring(3, 2, 1.0, 1.0),
-        spring(6, 5, 1.0, 1.0),
-    ];
-    let mut layout = Layout::default();
-    layout.follow(&scene.system());
-    assert_eq!(layout.pieces(), [0, 1, 2, 2, 4, 1, 1]);
-}
-
-#[test]
-fn a_step_is_the_dense_solution_where_some_are_held() {
-    let mut scene = crumpled(3, 8);
-    (scene.held[0], scene.held[5]) = (true, true);
-    scene.gravity = Vector::new(0.3, 0.0, -9.81);
-    scene.drag = 2.0;
-    let mut system = scene.system();
-    let (h, n) = (0.004, scene.x.len());
-    // (M (1 + hc) + h² H) Δv = h (f − h H v − c M v) for the free particles: a penalty would be
-    // inexact, so each held coordinate adds the row Δv = 0 with a multiplier.
-    let (hessian, _) = dense(&system, false);
-    let forces = forces(&mut system);
-    let v: Vec<f64> = scene.v.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
-    let held = [0, 1, 2, 15, 16, 17];
-    let size = 3 * n + held.len();
-    let mut a = vec![vec![0.0; size]; size];
-    let mut b = vec![0.0; size];
-    for r in 0..3 * n {
-        let m = scene.masses[r / 3];
-        a[r][r] += m * (1.0 + h * scene.drag);
-        b[r] += h * (forces[r / 3][r % 3] - scene.drag * m * v[r]);
-        for c in 0..3 * n {
-            a[r][c] += h * h * hessian[r][c];
-            b[r] -= h * h * hessian[r][c] * v[c];
+    for turn in 0..6 {
+        if turn % 2 == 1 {
+            let v = mesh.vertices().nth(10 + 3 * turn).expect("a vertex");
+            let faces: Vec<_> = mesh.faces_of(v).take(2).collect();
+            split::vertex(&mut mesh, v, &faces, &mut edits).expect("more than two faces");
+            edits.replay(&mut cloth);
         }
+        let mut other = cloth.clone();
+        cloth.step(&mut solver, 0.005).expect("a step");
+        other.step(&mut Implicit::default(), 0.005).expect("a step");
+        assert_eq!(cloth.positions(), other.positions(), "{turn}");
     }
-    for (k, coordinate) in held.into_iter().enumerate() {
-        a[3 * n + k][coordinate] = 1.0;
-        a[coordinate][3 * n + k] = 1.0;
+    // As many springs as before, of which one has other ends.
+    let mut system = crumpled(4, 3).system();
+    for turn in 0..6 {
+        let cut = system.stretches().iter().nth(turn).expect("a spring");
+        system.cut(cut);
+        let added = system.stretch([turn, 13 + turn], 0.5, 5.0);
+        added.expect("a spring");
+        let mut other = system.clone();
+        step(&mut system, &mut solver, 0.005).expect("a step");
+        step(&mut other, &mut Implicit::default(), 0.005).expect("a step");
+        assert_eq!(system.positions(), other.positions(), "{turn}");
     }
-    let change = solve(a, b);
-    let mut solver = Implicit::new(Settings {
-        tolerance: Tolerance::Fixed(1e-14),
-        ..Settings::default()
-    });
-    let report = step(&mut system, &mut solver, h).expect("a step");
-    assert_eq!(
-        (report.indefinite, report.clamped),
-        (0, 0),
-        "the case is to be definite"
-    );
-    let (x, moved) = (system.positions(), system.velocities());
-    for i in 0..n {
-        let truth = scene.v[i] + Vector::new(change[3 * i], change[3 * i + 1], change[3 * i + 2]);
-        assert!(
-            (moved[i] - truth).norm() < 1e-11,
-            "{i}: {} {truth}",
-            moved[i]
-        );
-        assert!((x[i] - (scene.x[i] + truth * h)).norm() < 1e-13);
-    }
-    assert_eq!(
-        moved[0], scene.v[0],
-        "what is held keeps its velocity, to the bit"
-    );
 }
 
 #[test]
@@ -222,11 +193,7 @@ fn what_is_held_and_stands_still_does_so_to_the_last_bit() {
 
 #[test]
 fn each_free_piece_keeps_its_momentum_to_rounding_at_any_tolerance() {
-    for (method, newton) in [
-        (Method::BackwardEuler, 1),
-        (Method::Bdf2, 1),
-        (Method::Bdf2, 20),
-    ] {
+    for method in [Method::BackwardEuler, Method::Bdf2] {
         // Three pieces: a sheet that moves, another that is held at one corner, and a particle.
         let mut scene = crumpled(3, 21);
         let other = crumpled(2, 22);
@@ -247,8 +214,7 @@ fn each_free_piece_keeps_its_momentum_to_rounding_at_any_tolerance() {
         scene.held[n] = true;
         let mut solver = Implicit::new(Settings {
             method,
-            newton_iterations_max: newton,
-            tolerance: Tolerance::Fixed(1e-3),
+            tolerance: 1e3,
             ..Settings::default()
         });
         let momentum = |v: &[Vector]| -> Vector { (0..n).map(|i| v[i] * scene.masses[i]).sum() };
@@ -292,7 +258,7 @@ fn the_same_input_gives_the_same_bytes_on_every_machine() {
     let hash = run();
     assert_eq!(hash, run());
     assert_eq!(
-        hash, 0xd6e5_ecd9_643f_dd2c,
+        hash, 0xd2c7_0a8f_de27_fb87,
         "the bytes changed: 0x{hash:016x}"
     );
 }
@@ -302,17 +268,10 @@ fn a_step_after_the_first_allocates_nothing() {
     let mut scene = crumpled(4, 30);
     scene.gravity = Vector::new(0.0, 0.0, -9.81);
     let mut system = scene.system();
-    for newton_iterations_max in [1, 30] {
-        let mut solver = Implicit::new(Settings {
-            method: Method::Bdf2,
-            newton_iterations_max,
-            ..Settings::default()
-        });
-        let mut take = || {
-            step(&mut system, &mut solver, 0.004).expect("a step");
-        };
-        take();
-        let count = allocation_counter::measure(take).count_total;
-        assert_eq!(count, 0, "{newton_iterations_max}");
-    }
+    let mut solver = implicit(Method::Bdf2);
+    let mut take = || {
+        step(&mut system, &mut solver, 0.004).expect("a step");
+    };
+    take();
+    assert_eq!(allocation_counter::measure(take).count_total, 0);
 }

@@ -1,11 +1,11 @@
-//! Orders of convergence against a fine solution by Runge and Kutta's method, and what a fixed
-//! tolerance of the solver does to them (F13).
+//! Orders of convergence against a fine solution by Runge and Kutta's method: with a tolerance that
+//! falls with Δt no error of the solver shows (F13).
 
 use super::{Scene, forces, order, spring, step};
 use crate::parts::G;
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::Implicit;
-use tearmesh_cloth::implicit::{Jacobian, Method, Settings, Tolerance};
+use tearmesh_cloth::implicit::{Method, Settings};
 
 /// A frame with 2 % pretension and drag, pushed in the middle: smooth and well conditioned.
 fn frame() -> Scene {
@@ -60,15 +60,13 @@ fn reference(scene: &Scene, end: f64, steps: u32) -> Vec<Point> {
     x
 }
 
-/// The error of displacements at the end, relative; and the iterations of the solver.
-fn error(scene: &Scene, truth: &[Point], end: f64, steps: u32, settings: &Settings) -> (f64, u64) {
+/// The error of displacements at the end, relative.
+fn error(scene: &Scene, truth: &[Point], end: f64, steps: u32, settings: &Settings) -> f64 {
     let (mut system, mut solver) = (scene.system(), Implicit::new(*settings));
-    let mut iterations = 0;
     for _ in 0..steps {
         let time_step = end / f64::from(steps);
         let report = step(&mut system, &mut solver, time_step).expect("a step");
         assert!(report.residual <= report.limit);
-        iterations += report.work.solver_iterations;
     }
     let apart: Vec<Vector> = system
         .positions()
@@ -77,7 +75,7 @@ fn error(scene: &Scene, truth: &[Point], end: f64, steps: u32, settings: &Settin
         .map(|(x, t)| x - t)
         .collect();
     let way: Vec<Vector> = scene.x.iter().zip(truth).map(|(x, t)| x - t).collect();
-    (super::norm(&apart) / super::norm(&way), iterations)
+    super::norm(&apart) / super::norm(&way)
 }
 
 #[test]
@@ -90,72 +88,19 @@ fn backward_euler_is_of_order_one_and_bdf2_of_order_two() {
         super::norm(&apart) < 1e-9,
         "the reference has an error of its own"
     );
-    for (method, newton, p) in [
-        (Method::BackwardEuler, 1, 1.0),
-        (Method::BackwardEuler, 20, 1.0),
-        (Method::Bdf2, 1, 2.0),
-        (Method::Bdf2, 20, 2.0),
-    ] {
+    for (method, p) in [(Method::BackwardEuler, 1.0), (Method::Bdf2, 2.0)] {
         let settings = Settings {
             method,
-            newton_iterations_max: newton,
             ..Settings::default()
         };
         let steps = [40, 80, 160, 320];
-        let errors = steps.map(|n| error(&scene, &truth, end, n, &settings).0);
+        let errors = steps.map(|n| error(&scene, &truth, end, n, &settings));
         let orders: Vec<f64> = errors.windows(2).map(|e| order(e[0], e[1])).collect();
-        println!("{method:?}, {newton} iterations: errors {errors:?} orders {orders:.3?}");
+        println!("{method:?}: errors {errors:?} orders {orders:.3?}");
         for order in &orders[1..] {
             assert!((order - p).abs() < 0.2, "{method:?}: order {order}");
         }
     }
-}
-
-#[test]
-fn dropping_terms_always_costs_bdf2_its_order() {
-    // Squeezed along x, so that what is dropped is not small.
-    let mut scene = frame();
-    for p in &mut scene.x {
-        p.x *= 0.93;
-    }
-    let end = 0.1;
-    let truth = reference(&scene, end, 2000);
-    let run = |jacobian| {
-        let settings = Settings {
-            method: Method::Bdf2,
-            jacobian,
-            ..Settings::default()
-        };
-        let errors = [160, 320].map(|n| error(&scene, &truth, end, n, &settings).0);
-        (errors[1], order(errors[0], errors[1]))
-    };
-    let (exact, clamped) = (run(Jacobian::UnlessIndefinite), run(Jacobian::Clamped));
-    println!("compressed frame, BDF2: exact {exact:.3?}, clamped {clamped:.3?}");
-    assert!((exact.1 - 2.0).abs() < 0.2, "{exact:?}");
-    assert!(clamped.1 < 1.4 && clamped.0 > 4.0 * exact.0, "{clamped:?}");
-}
-
-#[test]
-fn f13_with_a_fixed_tolerance_the_error_rises_as_the_step_falls() {
-    let (scene, end) = (frame(), 0.2);
-    let truth = reference(&scene, end, 2000);
-    let run = |tolerance| {
-        let settings = Settings {
-            method: Method::Bdf2,
-            tolerance,
-            ..Settings::default()
-        };
-        [80, 320, 1280].map(|n| error(&scene, &truth, end, n, &settings))
-    };
-    let fixed = run(Tolerance::Fixed(2e-3));
-    let tied = run(Tolerance::Tied(1.0));
-    println!("fixed: {fixed:?}");
-    println!("tied:  {tied:?}");
-    assert!(fixed[2].0 > 2.0 * fixed[1].0, "{fixed:?}");
-    assert!(
-        tied[1].0 < 0.1 * tied[0].0 && tied[2].0 < 0.1 * tied[1].0,
-        "{tied:?}"
-    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! leave the state as it was, and work.
 
 use super::{Scene, damping, spring, step};
-use tearmesh_cloth::implicit::{Jacobian, Method, Settings, StepError, StepReport, Tolerance};
+use tearmesh_cloth::implicit::{Method, Settings, StepError, StepReport};
 use tearmesh_cloth::{BlowUpSite, Implicit, System};
 
 /// F12: one free particle between two compressed springs, k = 1e3, m = .01, L₀ = .1, l = .095.
@@ -26,25 +26,17 @@ fn one(scene: &Scene, time_step: f64, settings: &Settings) -> (Outcome, System) 
 
 #[test]
 fn f12_the_threshold_of_indefiniteness_is_the_closed_form() {
-    let exact = Settings {
-        jacobian: Jacobian::Exact,
-        ..Settings::default()
-    };
     for drag in [0.0, 3.0] {
         let scene = Scene { drag, ..squeezed() };
         let (mut low, mut high) = (1e-3, 1e-1);
         for _ in 0..70 {
             let middle = 0.5 * (low + high);
-            match one(&scene, middle, &exact).0 {
-                Ok(report) => {
-                    assert_eq!((report.indefinite, report.clamped), (0, 0));
-                    low = middle;
-                }
-                Err(StepError::Indefinite { time_step_s }) => {
-                    assert_eq!(time_step_s, middle);
-                    high = middle;
-                }
-                Err(other) => panic!("{other}"),
+            let report = one(&scene, middle, &Settings::default()).0.expect("a step");
+            // What is dropped are the two springs' negative parts.
+            assert_eq!(report.clamped, 2 * u64::from(report.indefinite));
+            match report.indefinite {
+                0 => low = middle,
+                _ => high = middle,
             }
         }
         // With drag c: m (1 + c Δt) = Δt² q, q = 2k (L₀/l − 1).
@@ -59,79 +51,6 @@ fn f12_the_threshold_of_indefiniteness_is_the_closed_form() {
             );
         }
     }
-}
-
-#[test]
-fn f12_terms_are_dropped_only_where_the_matrix_is_indefinite_and_counted() {
-    let mut scene = squeezed();
-    scene.x[1].y = 1e-4;
-    let take = |time_step, jacobian| {
-        let settings = Settings {
-            jacobian,
-            ..Settings::default()
-        };
-        one(&scene, time_step, &settings).0
-    };
-    let counts = |r: Outcome| r.map(|r| (r.indefinite, r.clamped, r.work.hessian_evaluations));
-    assert_eq!(
-        counts(take(9e-3, Jacobian::UnlessIndefinite)),
-        Ok((0, 0, 1))
-    );
-    assert_eq!(
-        counts(take(11e-3, Jacobian::UnlessIndefinite)),
-        Ok((1, 2, 2))
-    );
-    assert_eq!(counts(take(9e-3, Jacobian::Clamped)), Ok((0, 2, 1)));
-    assert!(matches!(
-        take(11e-3, Jacobian::Exact),
-        Err(StepError::Indefinite { .. })
-    ));
-}
-
-#[test]
-fn f12_newton_converges_beyond_the_threshold_and_reports_its_halvings() {
-    // Nearly on the ridge, with a step ten times beyond the threshold: it has to buckle.
-    let mut scene = squeezed();
-    scene.x[1].y = 1e-5;
-    scene.drag = 1.0;
-    let settings = Settings {
-        newton_iterations_max: 60,
-        tolerance: Tolerance::Fixed(1e-12),
-        ..Settings::default()
-    };
-    let (report, system) = one(&scene, 0.1, &settings);
-    let (x, v) = (system.positions(), system.velocities());
-    let report = report.expect("Newton's method converges");
-    println!("F12 Newton: {report:?}");
-    assert!(report.indefinite > 0 && report.clamped > 0 && report.halvings > 0);
-    assert!(report.residual <= report.limit);
-    // The equation itself, with forces computed here.
-    let l = (0.095f64 * 0.095 + x[1].y * x[1].y).sqrt();
-    let force = -2e3 * (l - 0.1) * x[1].y / l;
-    let change = 0.01 * v[1].y - 0.1 * (force - 0.01 * v[1].y);
-    assert!(change.abs() < 1e-12, "{change}");
-    assert!((x[1].y - 1e-5 - 0.1 * v[1].y).abs() < 1e-15);
-    assert!(x[1].y.abs() > 0.03, "it buckled: {}", x[1].y);
-    // Too few iterations: an error with the residual, and nothing is moved.
-    let few = Settings {
-        newton_iterations_max: 2,
-        ..settings
-    };
-    let (refused, system) = one(&scene, 0.1, &few);
-    let Err(StepError::NotConverged {
-        residual,
-        limit,
-        newton_iterations,
-        solver_iterations,
-    }) = refused
-    else {
-        panic!("{refused:?}");
-    };
-    assert_eq!(newton_iterations, 2);
-    assert!(solver_iterations >= 2);
-    assert!(residual > limit && (limit - 1e-12).abs() < 1e-25);
-    assert_eq!(system.positions(), scene.x);
-    assert_eq!(system.velocities(), scene.v);
 }
 
 #[test]
@@ -151,7 +70,6 @@ fn steps_that_fail_leave_everything_as_it_was() {
     let before = good(&system);
     solver.settings = Settings {
         solver_iterations_max: 1,
-        tolerance: Tolerance::Fixed(1e-12),
         ..bdf2
     };
     let refused = step(&mut system, &mut solver, 0.01);
@@ -200,29 +118,4 @@ fn f10_five_hertz_lose_all_in_a_second_of_backward_euler() {
             "{z}: {loss}"
         );
     }
-}
-
-#[test]
-fn work_is_counted() {
-    let scene = super::matrix::crumpled(3, 9);
-    let (report, _) = one(&scene, 0.005, &Settings::default());
-    let work = report.expect("a step").work;
-    assert_eq!((work.force_evaluations, work.hessian_evaluations), (1, 1));
-    // One product for the right-hand side, one for each iteration.
-    assert_eq!(work.matrix_products, work.solver_iterations + 1);
-    assert_eq!(
-        work.energy_evaluations, 2,
-        "a linearised step is compared with where it started"
-    );
-    let newton = Settings {
-        newton_iterations_max: 20,
-        ..Settings::default()
-    };
-    let report = one(&scene, 0.005, &newton).0.expect("a step");
-    assert_eq!(
-        report.work.hessian_evaluations,
-        u64::from(report.newton_iterations)
-    );
-    assert!(report.work.energy_evaluations > u64::from(report.newton_iterations));
-    assert_eq!(report.work.matrix_products, report.work.solver_iterations);
 }

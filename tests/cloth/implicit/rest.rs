@@ -3,10 +3,10 @@
 
 use super::dense::solve;
 use super::{Scene, forces, rest, spring, step};
-use crate::parts::G;
+use crate::parts::{G, implicit};
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Method, Settings, Tolerance};
-use tearmesh_cloth::{Buckling, Implicit, System, energy};
+use tearmesh_cloth::implicit::Method;
+use tearmesh_cloth::{Buckling, System, energy};
 
 type P = [f64; 3];
 
@@ -180,11 +180,7 @@ fn r11_a_drape_agrees_with_an_independent_method() {
             ..scene.clone()
         }
         .system();
-        let mut solver = Implicit::new(Settings {
-            method: Method::Bdf2,
-            tolerance: Tolerance::Fixed(1e-12),
-            ..Settings::default()
-        });
+        let mut solver = implicit(Method::Bdf2);
         for _ in 0..1200 {
             step(&mut settled, &mut solver, 0.02).expect("a step");
         }

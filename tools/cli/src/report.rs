@@ -319,13 +319,9 @@ pub(crate) enum Quality {
     StrainRms(f64),
     ResidualN(f64),
     Implicit {
-        newton_iterations: u64,
-        halvings: u64,
         indefinite: u64,
         clamped: u64,
         residual_max_m_per_s: f64,
-        unsolved: u64,
-        excess_max: f64,
     },
 }
 

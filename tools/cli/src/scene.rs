@@ -150,7 +150,7 @@ mod tests {
             ("solver", "substeps" | "sweeps") => "method = \"xpbd\"",
             ("solver", "stiffness" | "bend_stiffness") => "method = \"pbd\"",
             ("solver", "limit_ratio" | "limit_passes") => "method = \"provot\"",
-            ("solver", "order" | "newton_iterations" | "tolerance") => "method = \"implicit\"",
+            ("solver", "order" | "tolerance") => "method = \"implicit\"",
             ("wind", "velocity_m_per_s") => "",
             ("wind", _) => "velocity_m_per_s = [1, 0, 0]",
             ("collider", "point") => "normal = [0, 1, 0]",

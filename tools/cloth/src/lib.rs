@@ -65,7 +65,6 @@ mod incidence;
 mod load;
 mod material;
 mod matrix;
-mod moment;
 mod pair;
 mod particle;
 mod pbd;

@@ -1,46 +1,43 @@
-//! Blocks of 3 × 3 numbers, and symmetric matrices made of them.
+//! The linear algebra of an implicit step: a symmetric matrix in 3 × 3 blocks, and conjugate
+//! gradients.
 //!
 //! A [`Hessian`] holds the second derivatives of an energy: one block on the diagonal for each
 //! particle, one off it for each *slot*, which is a pair of particles (i, j), i < j, that
-//! something acts between. The block (j, i) is the transpose and is not stored. Which pairs
-//! have a slot is the business of [`Layout`](super::Layout).
+//! something acts between. The block (j, i) is the transpose and is not stored. A [`Layout`] says
+//! which pairs have a slot, and [`Pcg`] solves.
 //!
-//! Slots are visited in the order of their numbers, so sums are formed in a fixed order. That
-//! order is not sorted by particle once the layout was changed in place: the same changes give
-//! the same bits, a rebuilt layout gives results that differ by rounding.
+//! Slots are in ascending order of their pairs, so a sum depends on the present constraints alone,
+//! and not on what was torn before.
 //!
-//! Why not compressed rows? A tear would have to move every block behind the one that it
-//! inserts. Here it takes a free slot, or a new one at the end.
+//! Why not compressed rows? Symmetry halves the blocks, and a product reads each of them once.
 
-use tearmesh::geometry::Vector;
+use tearmesh::DisjointSets;
+use tearmesh::geometry::{Vector, dot};
 
 /// A 3 × 3 matrix: three rows of three numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Block(pub [[f64; 3]; 3]);
+pub(crate) struct Block(pub(crate) [[f64; 3]; 3]);
 
 impl Block {
     /// The matrix of zeros.
-    pub const ZERO: Block = Block([[0.0; 3]; 3]);
+    pub(crate) const ZERO: Block = Block([[0.0; 3]; 3]);
 
     /// Returns the identity matrix, scaled by `s`.
     #[inline]
-    #[must_use]
-    pub fn identity_times(s: f64) -> Block {
+    pub(crate) fn identity_times(s: f64) -> Block {
         Block([[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]])
     }
 
     /// Returns the outer product a bᵀ.
     #[inline]
-    #[must_use]
-    pub fn outer(a: Vector, b: Vector) -> Block {
+    pub(crate) fn outer(a: Vector, b: Vector) -> Block {
         let row = |s: f64| [s * b.x, s * b.y, s * b.z];
         Block([row(a.x), row(a.y), row(a.z)])
     }
 
     /// Returns the transpose of this matrix.
     #[inline]
-    #[must_use]
-    pub fn transposed(&self) -> Block {
+    pub(crate) fn transposed(&self) -> Block {
         let m = &self.0;
         Block([
             [m[0][0], m[1][0], m[2][0]],
@@ -51,8 +48,7 @@ impl Block {
 
     /// Returns the sum of this matrix and `s` times another.
     #[inline]
-    #[must_use]
-    pub fn plus(&self, s: f64, other: &Block) -> Block {
+    pub(crate) fn plus(&self, s: f64, other: &Block) -> Block {
         let mut sum = *self;
         for (row, from) in sum.0.iter_mut().zip(&other.0) {
             for (x, y) in row.iter_mut().zip(from) {
@@ -64,16 +60,14 @@ impl Block {
 
     /// Returns the product of this matrix with a vector.
     #[inline]
-    #[must_use]
-    pub fn times(&self, v: Vector) -> Vector {
+    pub(crate) fn times(&self, v: Vector) -> Vector {
         let row = |r: &[f64; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
         Vector::new(row(&self.0[0]), row(&self.0[1]), row(&self.0[2]))
     }
 
     /// Returns the product of the transpose of this matrix with a vector.
     #[inline]
-    #[must_use]
-    pub fn transposed_times(&self, v: Vector) -> Vector {
+    pub(crate) fn transposed_times(&self, v: Vector) -> Vector {
         let m = &self.0;
         let column = |c: usize| m[0][c] * v.x + m[1][c] * v.y + m[2][c] * v.z;
         Vector::new(column(0), column(1), column(2))
@@ -82,8 +76,7 @@ impl Block {
     /// Returns the inverse of a symmetric positive definite block, computed by Cholesky
     /// factorisation; `None` if a pivot is not positive, which shows that the block is not positive
     /// definite.
-    #[must_use]
-    pub fn inverse_if_definite(&self) -> Option<Block> {
+    pub(crate) fn inverse_if_definite(&self) -> Option<Block> {
         let m = &self.0;
         let d0 = m[0][0];
         let l10 = m[1][0] / d0;
@@ -107,64 +100,25 @@ impl Block {
 }
 
 /// The symmetric matrix of second derivatives of an energy, in 3 × 3 blocks by particle.
-///
-/// ```
-/// use tearmesh::Vector;
-/// use tearmesh_cloth::implicit::{Block, Hessian};
-///
-/// // Two particles and one slot between them.
-/// let mut hessian = Hessian::default();
-/// hessian.clear(2, 1);
-/// let k = Block::identity_times(3.0);
-/// hessian.add_pair(0, [0, 1], &k);
-/// let mut product = Vec::new();
-/// hessian.product(&[[0, 1]], &[Vector::x(), Vector::zeros()], &mut product);
-/// assert_eq!(product, [Vector::x() * 3.0, Vector::x() * -3.0]);
-/// ```
 #[derive(Clone, Debug, Default)]
-pub struct Hessian {
-    pub(crate) diagonal: Vec<Block>,
+pub(crate) struct Hessian {
+    diagonal: Vec<Block>,
     off: Vec<Block>,
 }
 
 impl Hessian {
-    /// Sets the matrix to zero, with room for `particles` particles and `slots` slots. Keeps the
-    /// allocated memory.
-    pub fn clear(&mut self, particles: usize, slots: usize) {
+    /// Sets the matrix to zero, with the slots of `layout`. Keeps the allocated memory.
+    pub(crate) fn clear(&mut self, layout: &Layout) {
         self.diagonal.clear();
-        self.diagonal.resize(particles, Block::ZERO);
+        self.diagonal.resize(layout.pieces.len(), Block::ZERO);
         self.off.clear();
-        self.off.resize(slots, Block::ZERO);
-    }
-
-    /// Returns the block of a particle on the diagonal.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such particle.
-    #[must_use]
-    pub fn diagonal(&self, particle: usize) -> &Block {
-        &self.diagonal[particle]
-    }
-
-    /// Returns the block of a slot: row i, column j for the pair (i, j), i < j.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such slot.
-    #[must_use]
-    pub fn slot(&self, slot: u32) -> &Block {
-        &self.off[slot as usize]
+        self.off.resize(layout.pairs.len(), Block::ZERO);
     }
 
     /// Adds the second derivative of a force along the line between two particles: `k` to both
     /// diagonal blocks, and −`k` off the diagonal. `k` must be symmetric.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such slot or particle.
     #[inline]
-    pub fn add_pair(&mut self, slot: u32, ends: [u32; 2], k: &Block) {
+    pub(crate) fn add_pair(&mut self, slot: u32, ends: [u32; 2], k: &Block) {
         for end in ends {
             let sum = &mut self.diagonal[end as usize];
             *sum = sum.plus(1.0, k);
@@ -175,12 +129,8 @@ impl Hessian {
 
     /// Adds a block at row `i`, column `j`. If both are equal, it is added to the diagonal, and
     /// `slot` is ignored.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such slot or particle.
     #[inline]
-    pub fn add(&mut self, slot: u32, [i, j]: [u32; 2], block: &Block) {
+    pub(crate) fn add(&mut self, slot: u32, [i, j]: [u32; 2], block: &Block) {
         if i == j {
             let sum = &mut self.diagonal[i as usize];
             *sum = sum.plus(1.0, block);
@@ -194,23 +144,262 @@ impl Hessian {
         }
     }
 
-    /// Computes the product with a vector for each particle, into `out`. `pairs` are the particles
-    /// of each slot, as [`Layout::pairs`](crate::implicit::Layout::pairs) returns them.
-    ///
-    /// # Panics
-    ///
-    /// If the lengths of the slices do not match the matrix.
-    pub fn product(&self, pairs: &[[u32; 2]], x: &[Vector], out: &mut Vec<Vector>) {
+    /// Computes the product with a vector for each particle, into `out`.
+    pub(crate) fn product(&self, layout: &Layout, x: &[Vector], out: &mut Vec<Vector>) {
         assert!(x.len() == self.diagonal.len(), "one vector a particle");
-        assert!(pairs.len() == self.off.len(), "one block a slot");
+        assert!(layout.pairs.len() == self.off.len(), "one block a slot");
         out.clear();
         out.extend(self.diagonal.iter().zip(x).map(|(b, &x)| b.times(x)));
-        for (block, &[i, j]) in self.off.iter().zip(pairs) {
+        for (block, &[i, j]) in self.off.iter().zip(&layout.pairs) {
             let (i, j) = (i as usize, j as usize);
             let (xi, xj) = (x[i], x[j]);
             out[i] += block.times(xj);
             out[j] += block.transposed_times(xi);
         }
+    }
+}
+
+/// The particles of each slot of a [`Hessian`], and the slot to which each constraint adds.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Layout {
+    /// The pair (i, j), i < j, of each slot, in ascending order.
+    pairs: Vec<[u32; 2]>,
+    /// The lowest particle of the piece of each particle.
+    pieces: Vec<u32>,
+    /// By kind of constraint and by the number of a constraint's pair; [`NO_SLOT`] without a pair.
+    slots: Vec<Vec<u32>>,
+    /// How many pairs the constraints have, where those of several coincide counted for each.
+    count: usize,
+    sets: DisjointSets,
+}
+
+const NO_SLOT: u32 = u32::MAX;
+
+/// Visits the pairs of all constraints: kind, number and particles.
+pub(crate) type EachPair<'a> = &'a dyn Fn(&mut dyn FnMut(usize, usize, [u32; 2]));
+
+impl Layout {
+    /// Takes the pairs of the present constraints. Costs a comparison for each, and O(n log n) if
+    /// one has come, gone or got other ends.
+    pub(crate) fn follow(&mut self, particles: usize, each_pair: EachPair<'_>) {
+        let (mut count, mut is_same) = (0, self.pieces.len() == particles);
+        each_pair(&mut |kind, number, ends| {
+            count += 1;
+            let slot = self.slots.get(kind).and_then(|slots| slots.get(number));
+            let pair = slot.and_then(|&slot| self.pairs.get(slot as usize));
+            is_same &= pair == Some(&sorted(ends));
+        });
+        if is_same && count == self.count {
+            return;
+        }
+        self.count = count;
+        self.pairs.clear();
+        each_pair(&mut |_, _, ends| self.pairs.push(sorted(ends)));
+        self.pairs.sort_unstable();
+        self.pairs.dedup();
+        self.slots.iter_mut().for_each(|slots| slots.fill(NO_SLOT));
+        each_pair(&mut |kind, number, ends| {
+            let slot = self.pairs.binary_search(&sorted(ends));
+            if self.slots.len() <= kind {
+                self.slots.resize(kind + 1, Vec::new());
+            }
+            let slots = &mut self.slots[kind];
+            if slots.len() <= number {
+                slots.resize(number + 1, NO_SLOT);
+            }
+            slots[number] = slot.expect("each pair has a slot") as u32;
+        });
+        self.sets.reset(particles as u32);
+        self.pairs.iter().for_each(|&[i, j]| self.sets.join(i, j));
+        let particles = 0..particles as u32;
+        self.pieces.clear();
+        self.pieces.extend(particles.map(|i| self.sets.leader(i)));
+    }
+
+    /// The slots of the constraints of a kind, by the numbers of their pairs.
+    pub(crate) fn slots(&self, kind: usize) -> &[u32] {
+        self.slots.get(kind).map_or(&[], |slots| slots)
+    }
+
+    /// For each particle, the lowest among those that constraints connect with it, itself included.
+    pub(crate) fn pieces(&self) -> &[u32] {
+        &self.pieces
+    }
+}
+
+fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// What each particle weighs, and whether it is held, which makes its inverse mass zero.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights<'a> {
+    pub(crate) masses: &'a [f64],
+    pub(crate) inverse_masses: &'a [f64],
+}
+
+impl Weights<'_> {
+    pub(crate) fn is_free(self, particle: usize) -> bool {
+        self.inverse_masses[particle] > 0.0
+    }
+
+    /// A force on each particle as an rms acceleration over those that are free, √(rᵀ M⁻¹ r / Σm);
+    /// zero where nothing has a mass.
+    pub(crate) fn rms(self, force: impl Fn(usize) -> Vector) -> f64 {
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (i, &m) in self.masses.iter().enumerate() {
+            total += m;
+            if self.is_free(i) {
+                let force = force(i);
+                sum += dot(force, force) / m;
+            }
+        }
+        if total > 0.0 {
+            (sum / total).sqrt()
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Conjugate gradients where some particles are held: Baraff and Witkin 1998 §5.2–5.3, in the
+/// corrected form of Ascher and Boxerman 2003.
+///
+/// Solves S (s M + H) S δ = S b for δ = S δ, where S takes away the particles that are held. The
+/// preconditioner is the inverse of each block on the diagonal. Vectors start and stay in the range
+/// of S, so what is held is held exactly.
+///
+/// The residual r is measured as an acceleration, √(rᵀ M⁻¹ r / Σm). Where H is positive
+/// semidefinite, that divided by s bounds the rms error of δ.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pcg {
+    /// The right-hand side; on return the residual.
+    pub(crate) b: Vec<Vector>,
+    /// The solution δ.
+    pub(crate) delta: Vec<Vector>,
+    preconditioned: Vec<Vector>,
+    direction: Vec<Vector>,
+    product: Vec<Vector>,
+    inverses: Vec<Block>,
+}
+
+/// What a solve did.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Solution {
+    /// Whether the matrix showed that it is not positive definite, by a block on the diagonal
+    /// without a Cholesky factor or by a direction p with pᵀAp ≤ 0. (One that does not show it in
+    /// the directions visited is solved nonetheless.)
+    pub(crate) is_indefinite: bool,
+    /// The rms acceleration that is left, in m/s².
+    pub(crate) residual: f64,
+    /// What could be left, in m/s²: what was asked for, or rounding where that is more.
+    pub(crate) limit: f64,
+    pub(crate) iterations: u32,
+}
+
+impl Pcg {
+    /// Solves from the right-hand side in `b`, from δ = 0, until no more than `residual_max` is left
+    /// or as much as rounding makes at coordinates of the size `size`.
+    pub(crate) fn solve(
+        &mut self,
+        (hessian, layout): (&Hessian, &Layout),
+        weights: Weights<'_>,
+        inertia: f64,
+        (residual_max, iterations_max): (f64, u32),
+        size: impl Fn(usize) -> f64,
+    ) -> Solution {
+        let n = weights.masses.len();
+        for (i, b) in self.b.iter_mut().enumerate() {
+            if !weights.is_free(i) {
+                *b = Vector::zeros();
+            }
+        }
+        for vectors in [
+            &mut self.delta,
+            &mut self.direction,
+            &mut self.product,
+            &mut self.preconditioned,
+        ] {
+            vectors.clear();
+            vectors.resize(n, Vector::zeros());
+        }
+        let start = weights.rms(|i| self.b[i]);
+        // The forces that the rounding of coordinates alone makes: below them there is nothing to
+        // solve, nor below the rounding of the right-hand side.
+        let rounding = weights.rms(|i| {
+            let [[a, _, _], [_, b, _], [_, _, c]] = hessian.diagonal[i].0;
+            Vector::x() * ((a + b + c) * (f64::EPSILON * size(i)))
+        });
+        let mut solution = Solution {
+            is_indefinite: !self.precondition_by(hessian, weights, inertia),
+            residual: start,
+            limit: residual_max.max(rounding).max(1e-14 * start),
+            iterations: 0,
+        };
+        if solution.is_indefinite || start <= solution.limit {
+            return solution;
+        }
+        let mut rz = self.advance(weights, 0.0);
+        self.direction.clone_from(&self.preconditioned);
+        while solution.iterations < iterations_max {
+            solution.iterations += 1;
+            hessian.product(layout, &self.direction, &mut self.product);
+            let mut curvature = 0.0;
+            for (i, (q, &p)) in self.product.iter_mut().zip(&self.direction).enumerate() {
+                *q = if weights.is_free(i) {
+                    *q + p * (inertia * weights.masses[i])
+                } else {
+                    Vector::zeros()
+                };
+                curvature += dot(p, *q);
+            }
+            if curvature.is_nan() || curvature <= 0.0 {
+                solution.is_indefinite = true;
+                break;
+            }
+            let before = rz;
+            rz = self.advance(weights, rz / curvature);
+            solution.residual = weights.rms(|i| self.b[i]);
+            if solution.residual <= solution.limit {
+                break;
+            }
+            let turn = rz / before;
+            for (p, z) in self.direction.iter_mut().zip(&self.preconditioned) {
+                *p = z + *p * turn;
+            }
+        }
+        solution
+    }
+
+    /// Goes `step` along the direction: new δ and r, and z = P⁻¹ r. Returns r · z.
+    fn advance(&mut self, weights: Weights<'_>, step: f64) -> f64 {
+        let mut rz = 0.0;
+        for i in 0..weights.masses.len() {
+            self.delta[i] += self.direction[i] * step;
+            self.b[i] -= self.product[i] * step;
+            let z = self.inverses[i].times(self.b[i]);
+            rz += dot(self.b[i], z);
+            self.preconditioned[i] = z;
+        }
+        rz
+    }
+
+    /// Inverts the blocks on the diagonal; false if one is not definite.
+    fn precondition_by(&mut self, hessian: &Hessian, weights: Weights<'_>, inertia: f64) -> bool {
+        self.inverses.clear();
+        for (i, block) in hessian.diagonal.iter().enumerate() {
+            let mass = Block::identity_times(inertia * weights.masses[i]);
+            let inverse = if weights.is_free(i) {
+                block.plus(1.0, &mass).inverse_if_definite()
+            } else {
+                Some(Block::ZERO)
+            };
+            let Some(inverse) = inverse else {
+                return false;
+            };
+            self.inverses.push(inverse);
+        }
+        true
     }
 }
 

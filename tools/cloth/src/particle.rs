@@ -3,13 +3,11 @@
 use tearmesh::geometry::{Vector, between};
 use tearmesh::{Blend, Mix, VertexId};
 
-use crate::moment::Moment;
 use crate::system::System;
 
 /// Appends a particle that is where others are, or between them, and as fast; a copy is also held and
 /// led like the one that it is of.
 pub(super) fn push(system: &mut System, from: Mix<VertexId>) {
-    system.moment = Moment::Unknown;
     let new = system.positions.len() as u32;
     let x = Blend::blend(from.map(|v| &system.positions[v.index()]));
     let v = Blend::blend(from.map(|v| &system.velocities[v.index()]));
@@ -30,7 +28,6 @@ pub(super) fn push(system: &mut System, from: Mix<VertexId>) {
 /// Makes two particles one, where the held one is if only one is held; `gone` has no
 /// constraints any more, and the last particle takes its index.
 pub(super) fn join(system: &mut System, kept: usize, gone: usize, share: f64) {
-    system.moment = Moment::Unknown;
     let model = &mut system.model;
     let (x, v) = (&mut system.positions, &mut system.velocities);
     x[kept] = match (model.held[kept], model.held[gone]) {

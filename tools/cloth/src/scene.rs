@@ -15,7 +15,7 @@ mod run;
 pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
-    CutMade, EnergyGain, LimiterStats, Names, NewtonStats, Quality, Run, RunError, RunTally,
+    CutMade, EnergyGain, ImplicitStats, LimiterStats, Names, Quality, Run, RunError, RunTally,
     Softness, StableSteps, Step, suggested_step_s,
 };
 
@@ -23,7 +23,7 @@ use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, VertexId};
 
 use crate::fabric::Fabric;
-use crate::implicit::{Settings, Tolerance};
+use crate::implicit::Settings;
 use crate::load::{Collider, Wind};
 use crate::pbd::Pbd;
 use crate::provot::Limiter;
@@ -108,7 +108,7 @@ impl Method {
     #[must_use]
     pub fn implicit() -> Method {
         Method::Implicit(Settings {
-            tolerance: Tolerance::Tied(10.0),
+            tolerance: 10.0,
             ..Settings::default()
         })
     }

@@ -7,7 +7,7 @@ use crate::air::AirRate;
 use crate::blow_up::BlowUpSite;
 use crate::digits::Digits;
 use crate::guard::Frequency;
-use crate::implicit;
+use crate::implicit::settings as implicit;
 use crate::system::System;
 
 /// A method that advances a system.
@@ -233,8 +233,8 @@ pub enum StepError {
         at: BlowUpSite,
     },
     /// An implicit method found no state that solves its equation within the tolerance of its
-    /// [`Settings`](implicit::Settings). This is not a blow-up. A shorter step helps, as do more
-    /// Newton iterations or a larger tolerance.
+    /// [`Settings`](implicit::Settings). This is not a blow-up. A shorter step helps, as does a
+    /// larger tolerance.
     Implicit {
         /// The simulated time of the last good state, in seconds. The system is in that state.
         elapsed_s: f64,

@@ -8,7 +8,6 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::blow_up::BlowUpSite;
 use crate::contact;
-use crate::moment::Moment;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
 use crate::system::{Model, Recorded, System};
@@ -81,7 +80,6 @@ impl System {
         let began = Began {
             elapsed_s: self.elapsed_s,
             contact_j: self.contact_j,
-            moment: self.moment,
         };
         self.model.recorded = Recorded::Nothing;
         let substep = Substep {
@@ -136,7 +134,6 @@ fn advance(
     Failure::unless(is_finite(system))?;
     observer.after(system, substep);
     system.elapsed_s += substep.dt_s;
-    system.moment = Moment::After(system.counters.substeps);
     Ok(())
 }
 
@@ -164,7 +161,6 @@ fn unless_broken(system: &System, error: StepError) -> StepError {
 struct Began {
     elapsed_s: f64,
     contact_j: Option<f64>,
-    moment: Moment,
 }
 
 /// Puts the system back to where the step began, and says why the step was not taken.
@@ -186,7 +182,6 @@ fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
     Began {
         elapsed_s: system.elapsed_s,
         contact_j: system.contact_j,
-        moment: system.moment,
     } = began;
     error
 }

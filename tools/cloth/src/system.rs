@@ -11,7 +11,7 @@ pub(crate) mod model;
 
 pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::SystemError;
-pub(crate) use model::{Family, KINDS, Model, Recorded};
+pub(crate) use model::{Family, Model, Recorded};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
@@ -19,7 +19,6 @@ use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::guard::Guard;
 use crate::load::{Loads, Path};
-use crate::moment::{Identity, Moment};
 use crate::pair;
 use crate::triangle::{Triangle, Triangles};
 
@@ -62,9 +61,6 @@ pub struct System {
     pub(crate) contact_j: Option<f64>,
     /// How often the state was changed but by a step.
     pub(crate) changes: u64,
-    pub(crate) identity: Identity,
-    /// The substep that led to the state.
-    pub(crate) moment: Moment,
 }
 
 /// Room for a step, so that none allocates.
@@ -169,8 +165,6 @@ impl System {
             unstable: Unstable::default(),
             contact_j: None,
             changes: 0,
-            identity: Identity::default(),
-            moment: Moment::default(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Methods with their settings, and the steps that each is tried with.
 
 use serde::{Deserialize, Serialize};
-use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+use tearmesh_cloth::implicit::{self, Settings};
 use tearmesh_cloth::scene;
 use tearmesh_cloth::{
     Implicit, Limiter, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
@@ -160,7 +160,7 @@ impl Method {
         let implicit = |method| {
             Box::new(Implicit::new(Settings {
                 method,
-                tolerance: Tolerance::Tied(self.setting.into()),
+                tolerance: self.setting.into(),
                 ..Settings::default()
             }))
         };

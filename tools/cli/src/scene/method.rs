@@ -1,7 +1,7 @@
 //! What `[solver]` says, and the methods with their defaults.
 
 use clap::ValueEnum;
-use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+use tearmesh_cloth::implicit::{self, Settings};
 use tearmesh_cloth::scene::{Method, Scene};
 use tearmesh_cloth::{Limiter, Pbd};
 
@@ -49,7 +49,7 @@ impl SceneFile {
 }
 
 /// The keys of [solver] that not all methods read, and which do.
-const OF_METHODS: [(&str, &[&str]); 9] = [
+const OF_METHODS: [(&str, &[&str]); 8] = [
     ("substeps", &["xpbd"]),
     ("sweeps", &["xpbd", "pbd"]),
     ("stiffness", &["pbd"]),
@@ -57,7 +57,6 @@ const OF_METHODS: [(&str, &[&str]); 9] = [
     ("limit_ratio", &["provot"]),
     ("limit_passes", &["provot"]),
     ("order", &["implicit"]),
-    ("newton_iterations", &["implicit"]),
     ("tolerance", &["implicit"]),
 ];
 
@@ -77,12 +76,7 @@ fn set_pbd(table: &Table, pbd: &mut Pbd) {
 }
 
 fn set_implicit(table: &Table, settings: &mut Settings) {
-    if let Some(iterations) = table.count("newton_iterations") {
-        settings.newton_iterations_max = iterations;
-    }
-    if let Some(tolerance) = table.number("tolerance") {
-        settings.tolerance = Tolerance::Tied(tolerance);
-    }
+    settings.tolerance = table.number("tolerance").unwrap_or(settings.tolerance);
     match table.word("order") {
         Some("2") => settings.method = implicit::Method::Bdf2,
         Some(_) => settings.method = implicit::Method::BackwardEuler,

@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::file::{Content, SceneFile, Source, Table, Value};
-use super::schema::{Key, Kind, LISTS, keys_of, tables};
+use super::schema::{Key, Kind, LISTS, REMOVED, keys_of, tables};
 use crate::rays::{self, Pair};
 use crate::say::Fault;
 
@@ -126,6 +126,16 @@ impl Reader<'_> {
             "" => "a scene file".to_owned(),
             table => format!("[{table}]"),
         };
+        let removed = REMOVED
+            .iter()
+            .find(|(of, key, _)| *of == table && *key == word);
+        if let Some((_, _, instead)) = removed {
+            let message = format!("`{word}` of {place} was removed");
+            let label = "no longer a key";
+            let fault = self.source.fault("E-SCENE-KEY", message, &span, label);
+            self.faults.push(fault.help(*instead));
+            return;
+        }
         let message = format!("{place} has no key `{word}`");
         let mut names: Vec<&str> = keys_of(table).map(|key| key.name).collect();
         if table.is_empty() {

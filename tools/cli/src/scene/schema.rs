@@ -102,9 +102,16 @@ pub(crate) const LISTS: [&str; 4] = ["collider", "hold", "cut", "strength"];
 const METHODS: &[&str] = &["provot", "pbd", "verlet", "xpbd", "implicit"];
 const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
 
+/// Keys that scene files once had, by table, and what to do without them.
+pub(crate) const REMOVED: [(&str, &str, &str); 1] = [(
+    "solver",
+    "newton_iterations",
+    "leave it out; a shorter `dt_s` makes implicit steps more exact",
+)];
+
 /// All keys, table by table.
 #[rustfmt::skip]
-pub(crate) const KEYS: [Key; 74] = [
+pub(crate) const KEYS: [Key; 73] = [
     key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
     key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
     key("", "up", Kind::Word(&AXES), "which way is up; y"),
@@ -133,7 +140,6 @@ pub(crate) const KEYS: [Key; 74] = [
     key("solver", "limit_ratio", Kind::Ratio, "provot: the longest the limiter leaves; 1.1"),
     key("solver", "limit_passes", Kind::Count, "provot: passes of the limiter; 20"),
     key("solver", "order", Kind::Word(&["1", "2"]), "implicit: backward Euler, or BDF2; \"1\""),
-    key("solver", "newton_iterations", Kind::Count, "implicit: the most per step; 1, linearised"),
     key("solver", "tolerance", Kind::Positive, "implicit: a step's error of velocity, by dt^(order + 1); 10"),
 
     key("wind", "velocity_m_per_s", Kind::Vector, "required"),

@@ -15,9 +15,7 @@ pub(crate) fn before(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) 
 
 /// What showed in the steps that were taken.
 pub(crate) fn after(run: &Run) -> Vec<Fault> {
-    let fell_short = words::infeasible(run)
-        .into_iter()
-        .chain(words::residual(run));
+    let fell_short = words::infeasible(run).into_iter();
     let passed = reach::after(run);
     let energy = words::gain(run).into_iter().chain(words::damped(run));
     fell_short.chain(passed).chain(energy).collect()

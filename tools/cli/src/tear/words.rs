@@ -184,14 +184,10 @@ pub(super) fn quality(run: &Run) -> Option<report::Quality> {
         }),
         Quality::Strain(rms) => Some(report::Quality::StrainRms(rms)),
         Quality::Residual(newtons) => Some(report::Quality::ResidualN(newtons)),
-        Quality::Newton(solved) => Some(report::Quality::Implicit {
-            newton_iterations: solved.newton_iterations,
-            halvings: solved.halvings,
+        Quality::Implicit(solved) => Some(report::Quality::Implicit {
             indefinite: solved.indefinite,
             clamped: solved.clamped,
             residual_max_m_per_s: solved.residual_max_m_per_s,
-            unsolved: solved.unsolved,
-            excess_max: solved.excess_max,
         }),
         _ => None,
     }
@@ -216,26 +212,6 @@ pub(super) fn infeasible(run: &Run) -> Option<Fault> {
     );
     let help = "a larger limit_ratio in [solver] of a scene file, or --solver verlet";
     Some(Fault::warning("W-SIM-LIMIT", message).help(help))
-}
-
-/// What an implicit method left unsolved, and went on from.
-pub(super) fn residual(run: &Run) -> Option<Fault> {
-    let Quality::Newton(solved) = run.quality() else {
-        return None;
-    };
-    if solved.unsolved == 0 {
-        return None;
-    }
-    let message = format!(
-        "{} of {} were taken before they were solved: their velocities may be off by {} m/s, up to {} \
-         times what the tolerance allows, and so may be what tore",
-        solved.unsolved,
-        of_steps(run),
-        three_digits(solved.residual_max_m_per_s),
-        three_digits(solved.excess_max),
-    );
-    let help = format!("--dt {}, --solver verlet", two_digits(run.step_s() / 2.0));
-    Some(Fault::warning("W-SIM-RESIDUAL", message).help(help))
 }
 
 /// How many steps were taken; where they were divided, and the method had each part, how many parts.
@@ -410,33 +386,17 @@ pub(super) fn failure(error: &StepError, run: &Run) -> Fault {
 /// What an implicit step left undone.
 fn unsolved(error: &implicit::StepError, run: &Run) -> String {
     let dt = short(run.step_s());
-    match (error, &run.scene().solver) {
-        (
-            implicit::StepError::NotConverged {
-                residual,
-                limit,
-                newton_iterations,
-                solver_iterations,
-            },
-            Method::Implicit(settings),
-        ) => {
-            let newton = match *newton_iterations {
-                1 => "linearised".to_owned(),
-                // The linearised step had overshot.
-                n if settings.newton_iterations_max <= 1 => format!("after {n} Newton iterations"),
-                n => format!(
-                    "after {n} of {} Newton iterations",
-                    settings.newton_iterations_max
-                ),
-            };
-            format!(
-                "an implicit step of {dt} s, {newton}, leaves an error of {} m/s after \
-                 {solver_iterations} iterations of the linear solver, and the tolerance allows \
-                 {} m/s",
-                short(*residual),
-                short(*limit)
-            )
-        }
+    match error {
+        implicit::StepError::NotConverged {
+            residual,
+            limit,
+            solver_iterations,
+        } => format!(
+            "an implicit step of {dt} s leaves an error of {} m/s after {solver_iterations} iterations \
+             of the linear solver, and the tolerance allows {} m/s",
+            short(*residual),
+            short(*limit)
+        ),
         _ => format!("an implicit step of {dt} s failed: {error}"),
     }
 }
@@ -444,12 +404,8 @@ fn unsolved(error: &implicit::StepError, run: &Run) -> String {
 /// The keys of a scene file that can help beside a shorter step.
 fn settings_that_help(error: &implicit::StepError) -> &'static str {
     match error {
-        implicit::StepError::NotConverged {
-            newton_iterations: 0..=1,
-            ..
-        } => ", or a larger `tolerance` in [solver] of a scene file",
         implicit::StepError::NotConverged { .. } => {
-            ", or more `newton_iterations` or a larger `tolerance` in [solver] of the scene file"
+            ", or a larger `tolerance` in [solver] of a scene file"
         }
         _ => "",
     }

@@ -14,7 +14,7 @@ mod step_size;
 
 pub use self::error::{Names, RunError};
 pub use self::gain::EnergyGain;
-pub use self::quality::{LimiterStats, NewtonStats, Quality};
+pub use self::quality::{ImplicitStats, LimiterStats, Quality};
 pub use self::step_size::{Softness, suggested_step_s};
 
 use std::num::NonZero;

@@ -8,8 +8,8 @@ pub struct Counters {
     pub force_evaluations: u64,
     /// The number of products of the stiffness matrix with a vector.
     pub matrix_products: u64,
-    /// The number of sums over all triangles: of forces, of products with the stiffness matrix, of
-    /// energy for line searches, and of stretch for the bound of frequencies.
+    /// The number of sums over all triangles: of forces, of products with the stiffness matrix, and
+    /// of stretch for the bound of frequencies.
     pub triangle_evaluations: u64,
     /// The number of sums of wind over all faces.
     pub wind_evaluations: u64,
@@ -19,7 +19,7 @@ pub struct Counters {
     pub collider_passes: u64,
     /// The number of substeps taken.
     pub substeps: u64,
-    /// The number of linearised implicit steps that overshot and were redone by Newton's method.
+    /// The number of implicit steps that overshot and were divided.
     pub overshoots: u64,
     /// Counts of visits to single constraints, by purpose.
     pub visits: Visits,
@@ -32,8 +32,8 @@ pub struct Counters {
 pub struct Visits {
     /// The number of visits to project or shorten a constraint.
     pub project: u64,
-    /// The number of visits for forces, for the stiffness matrix and products with it, for the
-    /// energies of an implicit step's line search, and for the check for blow-up.
+    /// The number of visits for forces, for the stiffness matrix and products with it, and for the
+    /// check for blow-up.
     pub force: u64,
     /// The number of visits to find constraints that are about to tear.
     pub detect: u64,

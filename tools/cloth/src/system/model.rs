@@ -67,7 +67,7 @@ impl Model {
     }
 
     /// All kinds of constraints, in the order of every sum.
-    pub(crate) fn kinds(&self) -> [Kind<'_>; KINDS] {
+    pub(crate) fn kinds(&self) -> [Kind<'_>; 3] {
         let stretch: fn([usize; 2], f64) -> BlowUpSite =
             |ends, stretch_ratio| BlowUpSite::Constraint {
                 ends,
@@ -332,9 +332,6 @@ fn accelerated(force: Vector, inverse_mass: f64, gravity: Vector) -> Vector {
         Vector::zeros()
     }
 }
-
-/// How many kinds of constraints there are.
-pub(crate) const KINDS: usize = 3;
 
 /// A kind of constraints, as [`Model::kinds`] lists it.
 #[derive(Debug)]

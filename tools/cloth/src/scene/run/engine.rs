@@ -1,6 +1,6 @@
 //! The methods of scenes, behind one solver.
 
-use super::quality::{LimiterStats, NewtonStats, Quality};
+use super::quality::{ImplicitStats, LimiterStats, Quality};
 use crate::scene::Method;
 use crate::stability::carried_count;
 use crate::{
@@ -15,7 +15,7 @@ pub(super) enum Engine {
     Pbd(Pbd),
     Verlet(Verlet),
     Xpbd(Xpbd),
-    Implicit(Box<Implicit>, NewtonStats),
+    Implicit(Box<Implicit>, ImplicitStats),
 }
 
 impl Engine {
@@ -28,7 +28,7 @@ impl Engine {
             Method::Verlet => Engine::Verlet(Verlet::new()),
             Method::Xpbd(xpbd) => Engine::Xpbd(xpbd),
             Method::Implicit(settings) => {
-                Engine::Implicit(Box::new(Implicit::new(settings)), NewtonStats::default())
+                Engine::Implicit(Box::new(Implicit::new(settings)), ImplicitStats::default())
             }
         }
     }
@@ -49,7 +49,7 @@ impl Engine {
             Engine::Pbd(_) => Quality::Strain(system.strain_rms()),
             Engine::Verlet(_) => Quality::Carried(carried_count(system)),
             Engine::Xpbd(xpbd) => Quality::Residual(xpbd.residual_n(system)),
-            Engine::Implicit(_, solved) => Quality::Newton(*solved),
+            Engine::Implicit(_, solved) => Quality::Implicit(*solved),
         }
     }
 }

@@ -19,8 +19,8 @@ pub enum Quality {
     /// substep used and the one that the springs have now
     /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
     Residual(f64),
-    /// The report of the Newton iterations of an implicit method.
-    Newton(NewtonStats),
+    /// The report of an implicit method.
+    Implicit(ImplicitStats),
 }
 
 /// The report of Provot's limiter over all steps of a run.
@@ -41,13 +41,9 @@ pub struct LimiterStats {
     pub steps_limited: u64,
 }
 
-/// The report of the Newton iterations of an implicit method over all steps of a run.
+/// The report of an implicit method over all steps of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NewtonStats {
-    /// The number of Newton iterations; one per step if steps are linearised.
-    pub newton_iterations: u64,
-    /// The number of times that a line search halved a step.
-    pub halvings: u64,
+pub struct ImplicitStats {
     /// The number of matrices that proved to be indefinite, which happens to cloth under
     /// compression.
     pub indefinite: u64,
@@ -55,12 +51,6 @@ pub struct NewtonStats {
     pub clamped: u64,
     /// The largest residual of a step, as a bound on the rms error of the velocity in m/s.
     pub residual_max_m_per_s: f64,
-    /// The number of steps (or substeps) that were taken with a residual above the tolerance:
-    /// linearised steps that overshot, after which Newton's method did not converge fully.
-    pub unsolved: u64,
-    /// The largest ratio of a step's residual to the one that the tolerance allowed; 1 or less if
-    /// all steps met it.
-    pub excess_max: f64,
 }
 
 impl LimiterStats {
@@ -74,18 +64,10 @@ impl LimiterStats {
     }
 }
 
-impl NewtonStats {
+impl ImplicitStats {
     pub(super) fn note(&mut self, report: &StepReport) {
-        self.newton_iterations += u64::from(report.newton_iterations);
-        self.halvings += u64::from(report.halvings);
         self.indefinite += u64::from(report.indefinite);
         self.clamped += report.clamped;
         self.residual_max_m_per_s = self.residual_max_m_per_s.max(report.residual);
-        if report.residual > report.limit {
-            self.unsolved += 1;
-        }
-        if report.residual > 0.0 {
-            self.excess_max = self.excess_max.max(report.residual / report.limit);
-        }
     }
 }
