@@ -270,12 +270,9 @@ impl Implicit {
         ratio: Option<f64>,
         dt_s: f64,
     ) -> Stage {
-        for (to, from) in [(&mut self.start_velocities, v), (&mut self.velocities, v)] {
-            to.clear();
-            to.extend_from_slice(from);
-        }
-        self.start.clear();
-        self.start.extend_from_slice(x);
+        x.clone_into(&mut self.start);
+        v.clone_into(&mut self.start_velocities);
+        v.clone_into(&mut self.velocities);
         let mut h = dt_s;
         if let Some(ratio) = ratio {
             let weight = ratio * ratio / (1.0 + 2.0 * ratio);
@@ -469,10 +466,8 @@ impl History {
             .extend(reached.0.iter().zip(x).map(|(to, x)| to - x));
         self.sped
             .extend(reached.1.iter().zip(v).map(|(to, v)| to - v));
-        self.positions.clear();
-        self.velocities.clear();
-        self.positions.extend_from_slice(reached.0);
-        self.velocities.extend_from_slice(reached.1);
+        reached.0.clone_into(&mut self.positions);
+        reached.1.clone_into(&mut self.velocities);
         self.time_step_s = time_step_s;
     }
 
