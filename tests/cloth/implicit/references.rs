@@ -245,7 +245,7 @@ fn r8_moduli_of_nets_and_of_the_triangle() {
     let c = moduli(&one, 0.5 * (b[0] * c[1] - b[1] * c[0]));
     let truth = [[1000.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 70.0]];
     for (c, truth) in c.iter().flatten().zip(truth.iter().flatten()) {
-        assert!((c - truth).abs() < 1e-10, "{c} {truth}");
+        assert!((c - truth).abs() < 1e-6, "{c} {truth}");
     }
     // And at any strain: pulled to λ, a width of one carries k_u (λ − 1).
     let mut sheet = Scene::sheet(3, 1.0, [1000.0, 300.0, 70.0]);
