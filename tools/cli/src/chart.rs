@@ -263,9 +263,8 @@ fn conducted<E: Experiment>(
             .then_some(&|| ThreadTime::now().as_duration()),
         stop: &|| guard.is_interrupted(),
     };
-    let conducted = conduct(experiment, &bounds, |name, fraction| {
+    let conducted = conduct(experiment, &bounds, |fraction| {
         bar.set_position((BAR * fraction) as u64);
-        bar.set_message(name.to_owned());
     });
     bar.finish_and_clear();
     let missing = conducted.planned - conducted.done;
@@ -282,7 +281,7 @@ const BAR: f64 = 1000.0;
 
 fn bar(target: ProgressDrawTarget) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(BAR as u64), target);
-    match ProgressStyle::with_template("{wide_bar} {percent} % {eta} {msg}") {
+    match ProgressStyle::with_template("{wide_bar} {percent} % {eta}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }

@@ -153,11 +153,6 @@ impl Experiment for Cuts {
         vec![keys.collect()]
     }
 
-    fn name(&self, key: &Key) -> String {
-        let row = self.row(key);
-        format!("{} of {} faces", row.method, row.faces)
-    }
-
     fn guess_s(&self, key: &Key) -> f64 {
         FACE_S * f64::from(self.options.cuts) * self.row(key).faces as f64
     }

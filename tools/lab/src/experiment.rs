@@ -37,20 +37,12 @@ pub trait Experiment: Sync {
         NonZero::<usize>::MIN
     }
 
-    /// Returns the keys of all runs, in groups that are assessed together.
+    /// Returns the keys of all runs, in groups that are assessed together, and in the order in which they begin.
+    /// The costliest of a group are best first, since the last ones may leave a thread idle.
     fn plan(&self) -> Vec<Vec<Self::Key>>;
-
-    /// Returns the name of a run.
-    fn name(&self, key: &Self::Key) -> String;
 
     /// Returns an estimate of the CPU time of a run, in seconds.
     fn guess_s(&self, key: &Self::Key) -> f64;
-
-    /// Returns the round of a run. Runs of a round begin when those of all rounds before it have begun, so that
-    /// repeated runs are not next to each other.
-    fn round(&self, _key: &Self::Key) -> u32 {
-        0
-    }
 
     /// Carries out a run. Returns `None` if it was interrupted.
     fn run(&self, key: &Self::Key, bounds: &Bounds<'_>) -> Option<Self::Outcome>;
@@ -103,17 +95,14 @@ pub struct Conducted<R> {
     pub planned: usize,
 }
 
-/// A time that no run takes, in seconds: rounds are this far apart in the order of runs.
-const ROUND_S: f64 = 1e9;
-
 /// Carries out the plan of an experiment.
 ///
-/// `watch` is called after each run with its name and the estimated fraction of all work that is done. Once
-/// `bounds.stop` returns true, no other run is begun.
+/// `watch` is called after each run with the estimated fraction of all work that is done. Once `bounds.stop`
+/// returns true, no other run is begun.
 pub fn conduct<E: Experiment>(
     experiment: &E,
     bounds: &Bounds<'_>,
-    mut watch: impl FnMut(&str, f64),
+    mut watch: impl FnMut(f64),
 ) -> Conducted<E::Row> {
     let plan = experiment.plan();
     let whole_s = guess_s(experiment, &plan);
@@ -127,15 +116,13 @@ pub fn conduct<E: Experiment>(
         let outcomes = side_by_side(
             keys,
             experiment.threads(),
-            // The costliest run of a round first, since the last ones may leave a thread idle.
-            |key| experiment.guess_s(key) - ROUND_S * f64::from(experiment.round(key)),
             |key| match (bounds.stop)() {
                 true => None,
                 false => experiment.run(key, bounds),
             },
             |i| {
                 done_s += experiment.guess_s(&keys[i]);
-                watch(&experiment.name(&keys[i]), done_s / whole_s);
+                watch(done_s / whole_s);
             },
         );
         conducted.done += outcomes.iter().filter(|outcome| outcome.is_some()).count();
@@ -240,14 +227,22 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns the provenance as the footer of a figure.
-    #[must_use]
-    pub fn footer(&self) -> String {
+    /// Returns the footer of a figure: how to read it, its origin, and whether runs are missing.
+    pub(crate) fn footer(
+        &self,
+        reading: &str,
+        mut statuses: impl Iterator<Item = Status>,
+    ) -> Vec<String> {
         let processor = self.processor.as_ref();
         let processor = processor.map_or(String::new(), |name| format!(" · {name}"));
-        format!(
+        let origin = format!(
             "{} · version {}, commit {} · {}{processor}",
             self.command, self.version, self.commit, self.compiler
-        )
+        );
+        let mut footer = vec![reading.to_owned(), origin];
+        if statuses.any(|status| status == Status::Interrupted) {
+            footer.push("INTERRUPTED: runs that were not done are missing.".to_owned());
+        }
+        footer
     }
 }

@@ -12,7 +12,6 @@
 pub mod cut;
 pub mod experiment;
 pub mod fig7;
-mod front;
 pub mod guide;
 pub mod method;
 pub mod pareto;

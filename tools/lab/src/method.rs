@@ -4,16 +4,17 @@ use serde::{Deserialize, Serialize};
 use tearmesh_cloth::implicit::{self, Settings, Tolerance};
 use tearmesh_cloth::scene;
 use tearmesh_cloth::{
-    Implicit, Limiter, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
+    Implicit, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
 };
 
 use crate::plot::{COLOURS, Colour, Mark, Shape};
 use crate::rk4::Rk4;
 
 /// A method with its settings.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
-    /// The name in tables, such as `bdf2-100`: the family, and the sweeps per step or the tolerance.
+    /// The name: as on the command line for default settings, and else such as `bdf2-100`, with the sweeps per
+    /// step or the tolerance.
     pub name: &'static str,
     /// The family of methods to which it belongs.
     pub family: Family,
@@ -86,26 +87,6 @@ impl Family {
         let (_, shape, colour) = self.style();
         Mark::new(shape, colour)
     }
-
-    /// Returns the way in which the energy stored in springs is computed.
-    pub(crate) fn stored_energy(self) -> StoredEnergy {
-        match self {
-            Family::Pbd => StoredEnergy::None,
-            Family::Xpbd => StoredEnergy::ByForce,
-            _ => StoredEnergy::ByLength,
-        }
-    }
-}
-
-/// The ways in which the energy stored in springs is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum StoredEnergy {
-    /// From their lengths.
-    ByLength,
-    /// From the forces of the method. The lengths that its sweeps leave do not belong to them.
-    ByForce,
-    /// Springs are rigid, and store nothing.
-    None,
 }
 
 /// All methods with all settings, grouped by family.
@@ -131,6 +112,18 @@ pub const METHODS: [Method; 19] = [
     method("bdf2-1000", Family::Bdf2, 1000),
 ];
 
+/// The methods of the command with their default settings.
+pub const DEFAULTS: [Method; 5] = [
+    method(DEFAULT, Family::Verlet, 0),
+    method("xpbd", Family::Xpbd, 1),
+    method("implicit", Family::BackwardEuler, 10),
+    method("pbd", Family::Pbd, 10),
+    method("provot", Family::Provot, 0),
+];
+
+/// The name of the method that is used where none is named.
+pub const DEFAULT: &str = "verlet";
+
 const fn method(name: &'static str, family: Family, setting: u32) -> Method {
     Method {
         name,
@@ -148,38 +141,55 @@ pub const STEP_FRACTIONS: [f64; 8] = [2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.125, 0.0
 const MARGIN: f64 = 0.95;
 
 impl Method {
-    /// Returns the method of this name.
+    /// Returns the method of this name, of [`METHODS`] or [`DEFAULTS`].
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Method> {
-        METHODS.iter().find(|method| method.name == name)
+        let mut all = METHODS.iter().chain(&DEFAULTS);
+        all.find(|method| method.name == name)
+    }
+
+    /// Returns the method as scenes have it; `None` for methods of the lab alone.
+    #[must_use]
+    pub fn settings(&self) -> Option<scene::Method> {
+        let implicit = |method| {
+            scene::Method::Implicit(Settings {
+                method,
+                tolerance: Tolerance::Tied(self.setting.into()),
+                ..Settings::default()
+            })
+        };
+        Some(match self.family {
+            Family::Verlet => scene::Method::Verlet,
+            Family::Provot => scene::Method::provot(),
+            Family::Pbd => scene::Method::Pbd(Pbd::new(self.setting)),
+            Family::Xpbd => scene::Method::Xpbd(Xpbd::new(1, self.setting)),
+            Family::BackwardEuler => implicit(implicit::Method::BackwardEuler),
+            Family::Bdf2 => implicit(implicit::Method::Bdf2),
+            Family::PlainVerlet | Family::Rk4 | Family::SymplecticEuler => return None,
+        })
     }
 
     /// Returns a new solver with these settings.
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
-        let implicit = |method| {
-            Box::new(Implicit::new(Settings {
-                method,
-                tolerance: Tolerance::Tied(self.setting.into()),
-                ..Settings::default()
-            }))
-        };
-        match self.family {
-            Family::Verlet => Box::new(Verlet::new()),
-            Family::PlainVerlet => Box::new(Verlet::plain()),
-            Family::Rk4 => Box::new(Rk4::new()),
-            Family::SymplecticEuler => Box::new(Provot::unlimited()),
-            Family::Provot => Box::new(Provot::new(Limiter::default())),
-            Family::Pbd => Box::new(Pbd::new(self.setting)),
-            Family::Xpbd => Box::new(Xpbd::new(1, self.setting)),
-            Family::BackwardEuler => implicit(implicit::Method::BackwardEuler),
-            Family::Bdf2 => implicit(implicit::Method::Bdf2),
+        match self.settings() {
+            Some(scene::Method::Verlet) => Box::new(Verlet::new()),
+            Some(scene::Method::Provot(limiter)) => Box::new(Provot::new(limiter)),
+            Some(scene::Method::Pbd(pbd)) => Box::new(pbd),
+            Some(scene::Method::Xpbd(xpbd)) => Box::new(xpbd),
+            Some(scene::Method::Implicit(settings)) => Box::new(Implicit::new(settings)),
+            None if self.family == Family::Rk4 => Box::new(Rk4::new()),
+            None if self.family == Family::PlainVerlet => Box::new(Verlet::plain()),
+            None => Box::new(Provot::unlimited()),
         }
     }
 
-    /// Returns the number of sweeps per step; `None` for a method that does not sweep.
-    pub(crate) fn sweeps(&self) -> Option<u32> {
-        matches!(self.family, Family::Pbd | Family::Xpbd).then_some(self.setting)
+    /// Returns the number of sweeps per step; 1 for a method that does not sweep.
+    pub(crate) fn sweeps(&self) -> u32 {
+        match self.family {
+            Family::Pbd | Family::Xpbd => self.setting,
+            _ => 1,
+        }
     }
 
     /// Returns the base step in seconds, which [`STEP_FRACTIONS`] multiply, for a system in which a pull
@@ -211,59 +221,34 @@ fn limit_s(system: &mut System, solver: &dyn Solver) -> f64 {
     }
 }
 
-/// A method at its default settings, by its name on the command line.
-#[derive(Clone, Debug)]
-pub struct DefaultMethod {
-    /// The name on the command line.
-    pub name: &'static str,
-    /// The family of methods to which it belongs.
-    pub family: Family,
-    /// The settings.
-    pub settings: scene::Method,
+/// The settings of Newton's method with each step solved to convergence: those of all second references, and of
+/// shapes at rest.
+#[must_use]
+pub(crate) fn converged(method: implicit::Method, tolerance: Tolerance) -> Settings {
+    Settings {
+        method,
+        tolerance,
+        newton_iterations_max: 40,
+        ..Settings::default()
+    }
 }
 
-/// The name of the method that is used where none is named.
-pub const DEFAULT: &str = "verlet";
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl DefaultMethod {
-    /// The names of all methods, in the order of [`DefaultMethod::all`].
-    pub const NAMES: [&str; 5] = ["verlet", "xpbd", "implicit", "pbd", "provot"];
-
-    /// Returns all methods that have a name on the command line.
-    #[must_use]
-    pub fn all() -> [DefaultMethod; 5] {
-        let [verlet, xpbd, implicit, pbd, provot] = DefaultMethod::NAMES;
-        let method = |name, family, settings| DefaultMethod {
-            name,
-            family,
-            settings,
-        };
-        [
-            method(verlet, Family::Verlet, scene::Method::Verlet),
-            method(xpbd, Family::Xpbd, scene::Method::xpbd()),
-            method(implicit, Family::BackwardEuler, scene::Method::implicit()),
-            method(pbd, Family::Pbd, scene::Method::pbd()),
-            method(provot, Family::Provot, scene::Method::provot()),
-        ]
-    }
-
-    /// Returns the method of this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<DefaultMethod> {
-        DefaultMethod::all()
-            .into_iter()
-            .find(|method| method.name == name)
-    }
-
-    /// Returns a new solver with the default settings.
-    #[must_use]
-    pub fn solver(&self) -> Box<dyn Solver> {
-        match &self.settings {
-            scene::Method::Provot(limiter) => Box::new(Provot::new(*limiter)),
-            scene::Method::Pbd(pbd) => Box::new(*pbd),
-            scene::Method::Verlet => Box::new(Verlet::new()),
-            scene::Method::Xpbd(xpbd) => Box::new(*xpbd),
-            scene::Method::Implicit(settings) => Box::new(Implicit::new(*settings)),
+    #[test]
+    fn defaults_are_those_of_scenes() {
+        let of_scenes = [
+            scene::Method::Verlet,
+            scene::Method::xpbd(),
+            scene::Method::implicit(),
+            scene::Method::pbd(),
+            scene::Method::provot(),
+        ];
+        for (method, known) in DEFAULTS.iter().zip(of_scenes) {
+            let settings = method.settings().expect("scenes have it");
+            assert_eq!(format!("{settings:?}"), format!("{known:?}"));
         }
     }
 }

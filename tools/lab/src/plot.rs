@@ -1,8 +1,7 @@
 //! Plots: figures of panels, described as data and drawn as SVG.
 //!
 //! A [`Figure`] has a title that says the finding, panels side by side, at most one legend, and a footer with
-//! the provenance. A [`Panel`] has two [`Axis`]es and [`Layer`]s: lines, marks, bars with intervals, bands,
-//! rules, cells of a heat map, and labels. Axes are fitted to what is drawn unless they have a range. Labels
+//! the provenance. A [`Panel`] has two [`Axis`]es and [`Layer`]s: lines, marks, bands, rules, cells of a heat map, and labels. Axes are fitted to what is drawn unless they have a range. Labels
 //! are moved apart, so that none stands on another. The same figure gives the same bytes.
 //!
 //! This is our own drawing and not a library's, since with axes, marks and labels described here a library
@@ -14,7 +13,7 @@ mod axis;
 mod canvas;
 mod draw;
 
-pub use self::axis::{Axis, short};
+pub use self::axis::{Axis, percent, short};
 pub use self::draw::svg;
 
 use std::ops::Range;
@@ -90,13 +89,8 @@ pub struct Strip {
 /// What is drawn in a panel.
 #[derive(Clone, Debug)]
 pub enum Layer {
-    /// A band over the whole width.
-    Band {
-        /// The ends along the vertical axis. Ends beyond the axis are cut off.
-        y: Range<f64>,
-        /// The colour.
-        colour: Colour,
-    },
+    /// A band over the whole width, between these ends along the vertical axis. Ends beyond it are cut off.
+    Band(Range<f64>),
     /// A dashed vertical line over the whole height, with a label at its upper end.
     Rule {
         /// The place along the horizontal axis.
@@ -121,15 +115,6 @@ pub enum Layer {
         mark: Mark,
         /// Words to hover over; empty for none.
         hover: String,
-    },
-    /// An interval with its middle, at a place along the horizontal axis.
-    Interval {
-        /// The place along the horizontal axis.
-        x: f64,
-        /// The lower end, the middle and the upper end.
-        y: [f64; 3],
-        /// The colour.
-        colour: Colour,
     },
     /// A cell of a heat map: one unit wide and high, with words in it.
     Cell {
@@ -168,6 +153,14 @@ impl Layer {
     #[must_use]
     pub fn mark(at: [f64; 2], mark: Mark, hover: String) -> Layer {
         Layer::Mark { at, mark, hover }
+    }
+
+    /// Returns an interval at a place along the horizontal axis: a line from its lower to its upper end, and a mark
+    /// at its middle.
+    #[must_use]
+    pub fn interval(x: f64, [low, middle, high]: [f64; 3], mark: Mark) -> [Layer; 2] {
+        let line = Layer::line(vec![[x, low], [x, high]], mark.colour, 2.0);
+        [line, Layer::mark([x, middle], mark, String::new())]
     }
 
     /// Returns a label beside a point.

@@ -10,8 +10,8 @@ pub fn workers() -> NonZero<usize> {
     thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
 }
 
-/// Does `work` for each job on up to `workers` threads, the costliest jobs first, and returns the results in
-/// the order of the jobs. `watch` is called on this thread after each job, with its index.
+/// Does `work` for each job on up to `workers` threads, and returns the results. Jobs are begun in their order.
+/// `watch` is called on this thread after each job, with its index.
 ///
 /// Results are handed over one at a time, so a thread starts at most one more job before `watch` has been
 /// called for its last. Work that can end early must return that as its result.
@@ -22,20 +22,17 @@ pub fn workers() -> NonZero<usize> {
 pub fn side_by_side<J: Sync, R: Send>(
     jobs: &[J],
     workers: NonZero<usize>,
-    cost: impl Fn(&J) -> f64,
     work: impl Fn(&J) -> R + Sync,
     mut watch: impl FnMut(usize),
 ) -> Vec<R> {
-    let mut order: Vec<usize> = (0..jobs.len()).collect();
-    order.sort_by(|&i, &j| cost(&jobs[i]).total_cmp(&cost(&jobs[j])));
-    let waiting = Mutex::new(order);
+    let waiting = Mutex::new(jobs.iter().enumerate());
     let (done, results) = mpsc::sync_channel(0);
     thread::scope(|scope| {
         for _ in 0..workers.get().min(jobs.len()) {
             let (waiting, done, work) = (&waiting, done.clone(), &work);
             scope.spawn(move || {
-                while let Some(i) = waiting.lock().ok().and_then(|mut list| list.pop()) {
-                    if done.send((i, work(&jobs[i]))).is_err() {
+                while let Some((i, job)) = waiting.lock().ok().and_then(|mut jobs| jobs.next()) {
+                    if done.send((i, work(job))).is_err() {
                         break;
                     }
                 }
@@ -65,18 +62,12 @@ mod tests {
             begun.fetch_add(1, Ordering::SeqCst);
             2 * job
         };
-        let doubled = side_by_side(
-            &jobs,
-            workers,
-            |_| 1.0,
-            work,
-            |_| {
-                heard += 1;
-                thread::sleep(Duration::from_millis(2));
-                let ahead = begun.load(Ordering::SeqCst) - heard;
-                assert!(ahead <= workers.get(), "{ahead}");
-            },
-        );
+        let doubled = side_by_side(&jobs, workers, work, |_| {
+            heard += 1;
+            thread::sleep(Duration::from_millis(2));
+            let ahead = begun.load(Ordering::SeqCst) - heard;
+            assert!(ahead <= workers.get(), "{ahead}");
+        });
         let expected: Vec<usize> = jobs.iter().map(|job| 2 * job).collect();
         assert_eq!((doubled, heard), (expected, jobs.len()));
     }

@@ -52,6 +52,15 @@ pub enum Key {
     Trial(&'static Trial),
 }
 
+impl Key {
+    fn name(&self) -> &'static str {
+        match self {
+            Key::Limit(method, _) => method,
+            Key::Trial(trial) => trial.name,
+        }
+    }
+}
+
 /// The CPU time of all steps at one stiffness, and of all scenes, in seconds, on the machine on which charts were
 /// first made.
 const LIMITS_S: f64 = 3.0;
@@ -77,13 +86,6 @@ impl Experiment for Stability {
         vec![limits.chain(TRIALS.iter().map(Key::Trial)).collect()]
     }
 
-    fn name(&self, key: &Key) -> String {
-        match key {
-            Key::Limit(method, _) => format!("limit of {method}"),
-            Key::Trial(trial) => trial.name.to_owned(),
-        }
-    }
-
     fn guess_s(&self, key: &Key) -> f64 {
         match key {
             Key::Limit(..) => LIMITS_S / LIMITS.len() as f64 * self.stiffness_n_per_m.len() as f64,
@@ -103,7 +105,7 @@ impl Experiment for Stability {
 
     fn rows(&self, keys: &[Key], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
         let interrupted = |key: &Key| Row {
-            place: self.name(key),
+            place: key.name().to_owned(),
             ..Row::default()
         };
         let each = keys.iter().zip(outcomes);
@@ -119,7 +121,7 @@ mod tests {
     use super::*;
 
     use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
-    use crate::method::DefaultMethod;
+    use crate::method::DEFAULTS;
 
     /// The experiment with one word about what failed, or with none.
     fn experiment(is_mute: bool) -> Stability {
@@ -141,7 +143,7 @@ mod tests {
         };
         let plan = experiment.plan().concat();
         let keys = plan.into_iter();
-        let keys = keys.filter(|key| names.contains(&experiment.name(key).as_str()));
+        let keys = keys.filter(|key| names.contains(&key.name()));
         let keys: Vec<Key> = keys.collect();
         assert_eq!(keys.len(), names.len());
         let outcomes = keys.iter().map(|key| experiment.run(key, &bounds));
@@ -157,7 +159,7 @@ mod tests {
                 .map(|row| (&*row.place, &*row.method, row.is_silent));
             let expected = [("free fall", false), ("wind", is_mute)];
             let expected = expected.into_iter().flat_map(|(place, is_silent)| {
-                DefaultMethod::NAMES.map(|method| (place, method, Some(is_silent)))
+                DEFAULTS.map(|method| (place, method.name, Some(is_silent)))
             });
             assert!(silent.eq(expected), "{rows:?}");
         }
@@ -166,7 +168,7 @@ mod tests {
     #[test]
     fn the_figure_of_a_table_that_was_read_back_is_the_same() {
         let experiment = experiment(false);
-        let names = ["limit of rk4", "limit of pbd-10", "wind"];
+        let names = ["rk4", "pbd-10", "wind"];
         let rows = rows_of(&experiment, &names);
         assert_eq!(rows.len(), 4 * 8 + 4 * 8 + 5);
         let text = table(&rows).expect("a table");
@@ -187,7 +189,7 @@ mod tests {
             clock: None,
             stop: &stop,
         };
-        let conducted = conduct(&experiment, &bounds, |_, _| {});
+        let conducted = conduct(&experiment, &bounds, |_| {});
         assert_eq!(
             (conducted.done, conducted.rows.len()),
             (0, conducted.planned)

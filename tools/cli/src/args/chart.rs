@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use tearmesh_lab::guide::Options as Guide;
-use tearmesh_lab::method::DefaultMethod;
+use tearmesh_lab::method::DEFAULTS;
 use tearmesh_lab::pareto::{SCENES, VISITS_MAX};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
@@ -46,7 +46,7 @@ pub(crate) enum What {
     /// The force that tears strips of five meshes, by stretch ratio and by toughness; and what follows the first
     /// tear, over many seeds.
     Tear(TearChartArgs),
-    /// The time of cuts by every method, against the distance of their seams from the plane.
+    /// The time of cuts by every method, the distance of their seams from the plane, their pieces and their faces.
     Cut(CutChartArgs),
     /// The time to split vertices while a cloth is ripped, with ghost pairs and without (Figure 7 of the paper).
     Fig7(Fig7Args),
@@ -201,8 +201,8 @@ pub(crate) struct TearChartArgs {
 
     /// Methods that play them.
     #[arg(long, value_name = "NAME", value_delimiter = ',',
-        default_values_t = DefaultMethod::NAMES.map(str::to_owned),
-        value_parser = clap::builder::PossibleValuesParser::new(DefaultMethod::NAMES))]
+        default_values_t = DEFAULTS.map(|method| method.name.to_owned()),
+        value_parser = clap::builder::PossibleValuesParser::new(DEFAULTS.map(|method| method.name)))]
     pub(crate) method: Vec<String>,
 
     /// Seeds of an ensemble; 0 for no ensembles.

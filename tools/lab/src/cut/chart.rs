@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{Cuts, Row};
 use crate::experiment::{Chart, Provenance, Status};
-use crate::plot::{Axis, COLOURS, Figure, GREY, Layer, Mark, PALE, Panel, Shape, short};
+use crate::plot::{Axis, COLOURS, Figure, GREY, Layer, Mark, Panel, Shape, short};
 
 /// The largest deviation that counts as rounding, in mean edge lengths. Smaller ones are drawn there.
 const ROUNDING_EDGES: f64 = 1e-9;
@@ -51,18 +51,14 @@ const MEASURES: [Measure; 4] = [
     },
 ];
 
+/// How to read the figure.
+const READING: &str = "The number of a method is its snap: a crossing moves to the end of its edge if it is closer \
+     than this fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for larger \
+     sheets. Lines lead from the median over all cuts to the worst cut.";
+
 impl Chart for Cuts {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        let mut footer = vec![provenance.footer()];
-        if rows.iter().any(|row| row.status == Status::Interrupted) {
-            footer.push("INTERRUPTED: some methods are missing.".to_owned());
-        }
-        footer.push(
-            "The number of a method is its snap: a crossing moves to the end of its edge if it is closer than \
-             this fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for \
-             larger sheets. Lines lead from the median over all cuts to the worst cut."
-                .to_owned(),
-        );
+        let mut footer = provenance.footer(READING, rows.iter().map(|row| row.status));
         let record = rows.iter().find_map(|row| row.processor.as_ref());
         footer.extend(
             record.map(|processor| {
@@ -150,10 +146,7 @@ fn panel(rows: &[Row], measure: &Measure) -> Panel {
     let mut layers = Vec::new();
     for (i, name) in names.iter().enumerate() {
         if i % 2 == 0 {
-            layers.push(Layer::Band {
-                y: i as f64..(i + 1) as f64,
-                colour: PALE,
-            });
+            layers.push(Layer::Band(i as f64..(i + 1) as f64));
         }
         let own = shown.iter().filter(|(row, _)| row.method == *name);
         let count = own.clone().count();

@@ -40,7 +40,7 @@ fn measured(cuts: &Cuts) -> Vec<Row> {
         clock: Some(&clock),
         stop: &|| false,
     };
-    conduct(cuts, &bounds, |_, _| {}).rows
+    conduct(cuts, &bounds, |_| {}).rows
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn an_interrupted_table_has_a_row_for_each_method() {
         clock: None,
         stop: &stop,
     };
-    let conducted = conduct(&cuts(&[8, 6]), &bounds, |_, _| {});
+    let conducted = conduct(&cuts(&[8, 6]), &bounds, |_| {});
     assert_eq!((conducted.done, conducted.planned), (2, 20));
     let rows = conducted.rows;
     assert_eq!(rows.len(), 2 * METHODS.len() + 2);

@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{Settings, Tolerance};
+use tearmesh_cloth::implicit::{self, Tolerance};
 use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Implicit, Loads, Path, System};
 
 use self::Observable::*;
+use crate::method::converged;
 use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
 
 /// A scene of the experiment.
@@ -410,11 +411,8 @@ fn placed(p: &Point, scene: &Scene) -> Point {
 /// The positions of a system at rest without gravity. Random diagonals are not balanced in the flat sheet, so
 /// it would ring from the start, in ways that no reference resolves.
 fn relaxed(mut system: System) -> Vec<Point> {
-    let mut newton = Implicit::new(Settings {
-        tolerance: Tolerance::Fixed(1e-10),
-        newton_iterations_max: 40,
-        ..Settings::default()
-    });
+    let (method, tolerance) = (implicit::Method::BackwardEuler, Tolerance::Fixed(1e-10));
+    let mut newton = Implicit::new(converged(method, tolerance));
     let loads = Loads {
         drag_per_s: Some(20.0),
         ..Loads::default()
@@ -430,7 +428,7 @@ fn relaxed(mut system: System) -> Vec<Point> {
     system.positions().to_vec()
 }
 
-pub(super) fn fastest_m_per_s(system: &System) -> f64 {
+pub(crate) fn fastest_m_per_s(system: &System) -> f64 {
     let squares = system.velocities().iter().map(|v| v.norm_squared());
     squares.fold(0.0, f64::max).sqrt()
 }

@@ -176,6 +176,12 @@ pub fn short(number: f64, digits: u32) -> String {
     format!("{}", (number * scale).round() / scale)
 }
 
+/// Returns a fraction in per cent, with two significant digits.
+#[must_use]
+pub fn percent(fraction: f64) -> String {
+    format!("{} %", short(100.0 * fraction, 2))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use super::axis::Placed;
 use super::canvas::{BOLD, Canvas, END, HALO, MIDDLE, Style, text_width, upward};
-use super::{Colour, Figure, GREY, INK, Layer, Mark, PINK, Panel, Shape, Strip};
+use super::{Colour, Figure, GREY, INK, Layer, Mark, PALE, PINK, Panel, Strip};
 
 /// The margin around a figure, in pixels.
 const MARGIN: f64 = 16.0;
@@ -19,7 +19,6 @@ const WORDS: Style<'_> = (12.0, INK, "");
 
 const GRID: Colour = [0xe2; 3];
 const THIN: &str = "stroke-width=\"1\"";
-const THICK: &str = "stroke-width=\"2\"";
 const DASHED: &str = "stroke-dasharray=\"5 4\"";
 const RED_BORDER: &str = " stroke=\"#cc0000\" stroke-width=\"3\"";
 
@@ -120,9 +119,8 @@ fn points(layer: &Layer) -> Vec<[f64; 2]> {
     match layer {
         Layer::Line { points, .. } => points.clone(),
         Layer::Mark { at, .. } | Layer::Label { at, .. } => vec![*at],
-        Layer::Interval { x, y, .. } => y.map(|y| [*x, y]).to_vec(),
         Layer::Cell { at, .. } => vec![*at, at.map(|corner| corner + 1.0)],
-        Layer::Rule { .. } | Layer::Band { .. } => Vec::new(),
+        Layer::Rule { .. } | Layer::Band(_) => Vec::new(),
     }
 }
 
@@ -176,11 +174,11 @@ fn draw_strip(canvas: &mut Canvas, frame: &Frame<'_>, strip: &Strip) {
 fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
     let ([left, right], [bottom, top]) = (frame.x.pixels, frame.y.pixels);
     match layer {
-        Layer::Band { y, colour } => {
+        Layer::Band(y) => {
             // A number without a place, such as 0 on a logarithmic axis, is at the lower end.
             let [upper, lower] = [y.end, y.start].map(|y| frame.y.at(y).min(bottom).max(top));
             if upper < lower {
-                canvas.rectangle([[left, upper], [right, lower]], *colour, "");
+                canvas.rectangle([[left, upper], [right, lower]], PALE, "");
             }
         }
         Layer::Rule { x, label } => {
@@ -202,15 +200,6 @@ fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
             let [x, y] = frame.at(*at);
             frame.taken.push([x - 4.0, y - 4.0, x + 4.0, y + 4.0]);
             canvas.mark(*mark, [x, y], hover);
-        }
-        Layer::Interval { x, y, colour } => {
-            let at = frame.x.at(*x);
-            let [low, middle, high] = y.map(|number| frame.y.at(number));
-            canvas.line(&[[at, low], [at, high]], *colour, THICK);
-            for end in [low, high] {
-                canvas.line(&[[at - 3.0, end], [at + 3.0, end]], *colour, THIN);
-            }
-            canvas.mark(Mark::new(Shape::Disc, *colour).sized(3.5), [at, middle], "");
         }
         Layer::Cell {
             at,
@@ -261,7 +250,7 @@ fn place_label(frame: &mut Frame<'_>, at: [f64; 2], width: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::Axis;
+    use crate::plot::{Axis, Shape};
 
     /// All places and sizes of a figure of two points are worked out by hand here: 100 × 100 pixels between
     /// the axes would be exact, so points at the ends of a range stand at the ends of the axes.

@@ -11,7 +11,7 @@ use tearmesh_cloth::{StepError, Wind, energy};
 
 use super::row::Row;
 use crate::experiment::Status::{self, Ok as Fine, Refused, Unsolved, Wrong};
-use crate::method::DefaultMethod;
+use crate::method::DEFAULTS;
 use crate::pareto::status_of;
 
 /// A scene, with the expected outcome of each method.
@@ -38,7 +38,7 @@ pub struct Trial {
     bulge_m: f64,
     /// Sets what else is particular to the scene, of which this is the recommended step in seconds.
     adjust: fn(&mut Scene, f64),
-    /// The expected outcomes, in the order of [`DefaultMethod::all`].
+    /// The expected outcomes, in the order of [`DEFAULTS`].
     pub expected: [Status; 5],
 }
 
@@ -223,9 +223,9 @@ impl Trial {
     /// Plays the scene by each method, and returns a row for each. `None` if it was interrupted.
     pub(super) fn rows(&self, codes: RunCodes, stop: &dyn Fn() -> bool) -> Option<Vec<Row>> {
         let reference = self.play(Method::Verlet, FINER, stop)?;
-        let methods = DefaultMethod::all().into_iter().zip(self.expected);
+        let methods = DEFAULTS.iter().zip(self.expected);
         let rows = methods.map(|(method, expected)| {
-            let played = self.play(method.settings, COARSE, stop)?;
+            let played = self.play(method.settings()?, COARSE, stop)?;
             let error = played.error.as_ref();
             let judge = self.judge.filter(|_| error.is_none());
             let judged = judge.map(|(measure, most)| (measure(&played, &reference), most));
@@ -360,19 +360,16 @@ fn position_error(played: &Played, reference: &Played) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use tearmesh_cloth::implicit::{self, Settings, Tolerance};
+    use tearmesh_cloth::implicit::{self, Tolerance};
 
     use super::*;
+    use crate::method::converged;
 
     /// References are Verlet's, so the scenes are played again by Newton's method of second order.
     #[test]
     fn references_agree_with_another_method() {
-        let newton = Method::Implicit(Settings {
-            method: implicit::Method::Bdf2,
-            tolerance: Tolerance::Tied(1.0),
-            newton_iterations_max: 20,
-            ..Settings::default()
-        });
+        let newton = converged(implicit::Method::Bdf2, Tolerance::Tied(1.0));
+        let newton = Method::Implicit(newton);
         for (name, error_max) in [("hang", 0.01), ("ringing", 0.03)] {
             let trial = TRIALS.iter().find(|trial| trial.name == name);
             let play = |method: &Method, finer: u32| {

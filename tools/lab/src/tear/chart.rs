@@ -3,9 +3,9 @@
 use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
 use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear};
-use crate::experiment::{Chart, Provenance, Status};
-use crate::method::DefaultMethod;
-use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, PALE, Panel, Shape, short};
+use crate::experiment::{Chart, Provenance};
+use crate::method::Method;
+use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
 /// The rules of strips, with their names.
 const RULES: [(Rule, &str); 2] = [
@@ -24,6 +24,11 @@ const QUANTITIES: [Quantity; 4] = [
     ("largest force, N", |row| row.largest_force_n),
 ];
 
+/// How to read the figure.
+const READING: &str = "Bars: medians with 10 to 90 % over seeds, for each method at its step, at half and at a \
+     quarter of it (from left to right). Below the name: does halving the step change the median? = the same, ≠ \
+     different, ? cannot tell. Grey band: the reference, 10 to 90 %.";
+
 impl Chart for Tear {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
         let mut panels = Vec::new();
@@ -31,17 +36,6 @@ impl Chart for Tear {
             panels.push(strips(rows));
         }
         panels.extend(ensembles(rows).iter().map(Ensembles::panel));
-        let mut footer = vec![
-            "Bars: medians with 10 to 90 % over seeds, for each method at its step, at half and at a quarter of it \
-             (from left to right). Below the name: does halving the step change the median? = the same, ≠ different, \
-             ? cannot tell. Grey band: the reference, 10 to 90 %."
-                .to_owned(),
-            provenance.footer(),
-        ];
-        if rows.iter().any(|row| row.status == Status::Interrupted) {
-            let missing = "INTERRUPTED: runs that were not done are missing.";
-            footer.insert(0, missing.to_owned());
-        }
         Figure {
             title: match RULES.map(|(rule, _)| slope(&forces(rows, rule))) {
                 [Some(stretch), Some(toughness)] => format!(
@@ -55,7 +49,7 @@ impl Chart for Tear {
             columns: 3,
             panel_size: [390.0, 330.0],
             panels,
-            footer,
+            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
         }
     }
@@ -102,20 +96,14 @@ fn strips(rows: &[Row]) -> Panel {
     for ((rule, name), colour) in RULES.into_iter().zip(COLOURS) {
         let points = forces(rows, rule);
         if let Some(slope) = slope(&points) {
-            let (at, text) = (points[0], format!("{name}: {slope:+.2}"));
-            panel.layers.push(Layer::Label { at, text, colour });
+            let text = format!("{name}: {slope:+.2}");
+            panel.layers.push(Layer::label(points[0], text, colour));
         }
         let mark = Mark::new(Shape::Disc, colour);
-        panel.layers.extend(points.iter().map(|&at| Layer::Mark {
-            at,
-            mark,
-            hover: String::new(),
-        }));
-        panel.layers.push(Layer::Line {
-            points,
-            colour,
-            width: 2.0,
-        });
+        let marks = points.iter();
+        let marks = marks.map(|&at| Layer::mark(at, mark, String::new()));
+        panel.layers.extend(marks);
+        panel.layers.push(Layer::line(points, colour, 2.0));
     }
     panel
 }
@@ -147,7 +135,7 @@ pub(super) struct Ensembles {
     /// The name of the quantity, with its unit.
     quantity: &'static str,
     /// For each method the samples at its step, at half and at a quarter of it.
-    methods: Vec<(DefaultMethod, [Sample; 3])>,
+    methods: Vec<(&'static Method, [Sample; 3])>,
 }
 
 /// The ensembles of a table, for each scene on a mesh by each quantity.
@@ -164,7 +152,7 @@ pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
                     let is_whole = values.len() == of.count();
                     (values, is_whole)
                 });
-                Some((DefaultMethod::named(&of[0].method)?, samples))
+                Some((Method::named(&of[0].method)?, samples))
             });
             Ensembles {
                 name: name.clone(),
@@ -219,8 +207,7 @@ impl Ensembles {
         if let Some((methods, values)) = self.reference() {
             panel.about = format!("reference: the finest of {}", methods.join(" and "));
             let [low, _, high] = spread(&values);
-            let (y, colour) = (low..high, PALE);
-            panel.layers.push(Layer::Band { y, colour });
+            panel.layers.push(Layer::Band(low..high));
         }
         let mut names = Vec::new();
         let [mut least, mut most] = [f64::INFINITY, 0.0];
@@ -237,11 +224,9 @@ impl Ensembles {
             for (j, (values, _)) in known.filter(|(_, (values, _))| !values.is_empty()) {
                 let y @ [low, _, high] = spread(values);
                 (least, most) = (low.min(least), high.max(most));
-                panel.layers.push(Layer::Interval {
-                    x: i as f64 + 0.3 + 0.2 * j as f64,
-                    y,
-                    colour: method.family.mark().colour,
-                });
+                let mark = Mark::new(Shape::Disc, method.family.mark().colour);
+                let x = i as f64 + 0.3 + 0.2 * j as f64;
+                panel.layers.extend(Layer::interval(x, y, mark));
             }
         }
         panel.x = Axis::named(names);
