@@ -238,10 +238,6 @@ pub(crate) struct CutChartArgs {
     #[arg(long, value_name = "N", default_value_t = cut::CUTS,
         value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) cuts: u32,
-
-    /// Draw the cuts of a record of `tearmesh-bench cut` beside them: tools/bench/record/*/cut.txt.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) record: Option<PathBuf>,
 }
 
 /// The arguments of `chart fig7`.
