@@ -196,18 +196,8 @@ pub enum Status {
 impl Status {
     /// Returns the name of the status in tables.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Status::Ok => "ok",
-            Status::Wrong => "wrong",
-            Status::Refused => "refused",
-            Status::BlownUp => "blown-up",
-            Status::Unsolved => "unsolved",
-            Status::Restless => "restless",
-            Status::TooDear => "too-dear",
-            Status::Failed => "failed",
-            Status::Interrupted => "interrupted",
-        }
+    pub fn name(self) -> String {
+        table(&[self]).unwrap_or_default().trim().to_owned()
     }
 }
 

@@ -178,16 +178,6 @@ impl Point<'_> {
         }
     }
 
-    /// The method and the step.
-    fn name(&self) -> String {
-        let multiple = self.row.step_multiple.unwrap_or(1.0);
-        let step_s = short(self.row.dt_s.unwrap_or(f64::NAN), 3);
-        format!(
-            "{} at {multiple} times its default step, {step_s} s",
-            self.method.name
-        )
-    }
-
     /// What to type for this method and step.
     fn command(&self) -> String {
         let mut command = format!("tearmesh tear in.obj --scene {}", self.row.topic.name());
@@ -236,7 +226,7 @@ impl Section<'_> {
             let mark = point.mark();
             let ends = vec![[at[0], low], [at[0], high]];
             layers.push(Layer::line(ends, mark.colour, 1.0));
-            let hover = format!("{}: {} {}", point.name(), self.label, short(at[1], 3));
+            let hover = format!("{}: {} {}", point.command(), self.label, short(at[1], 3));
             layers.push(Layer::mark(at, mark, hover));
             if point.is_default() {
                 layers.push(Layer::label(at, point.method.name, mark.colour));
@@ -259,7 +249,7 @@ impl Section<'_> {
             failed.filter_map(move |point| {
                 let cost = default?.cost? / point.row.step_multiple?;
                 let (status, why) = (point.row.status.name(), &point.row.why);
-                let hover = format!("{}: {status} {why}", point.name());
+                let hover = format!("{}: {status} {why}", point.command());
                 Some((cost, point.method.family.mark(), hover))
             })
         });

@@ -249,11 +249,7 @@ impl Stage {
         };
         let a_second = match key.role {
             Role::Reference | Role::Second => 1.3,
-            _ => {
-                let own = DEFAULTS.iter().zip([0.15, 0.05, 0.2, 0.1, 0.4]);
-                let own = own.filter(|(method, _)| method.name == key.method);
-                own.map(|(_, a_second)| a_second).sum()
-            }
+            Role::Method | Role::Gate | Role::Mesh => 0.18,
         };
         a_second * seconds * finer.powi(3) / key.step_multiple.unwrap_or(1.0)
     }

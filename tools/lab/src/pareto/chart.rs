@@ -173,23 +173,13 @@ impl Group<'_> {
     fn failures(&self) -> Option<Strip> {
         let failed = self.case.iter().filter(|row| row.family.is_some());
         let failed: Vec<&Row> = failed.filter(|row| row.status != Status::Ok).collect();
-        let mut counts: Vec<(&str, usize)> = Vec::new();
-        for status in failed.iter().map(|row| row.status.name()) {
-            match counts.iter_mut().find(|(name, _)| *name == status) {
-                Some((_, count)) => *count += 1,
-                None => counts.push((status, 1)),
-            }
-        }
-        let label = counts
-            .iter()
-            .map(|(status, count)| format!("{count} {status}"));
         let marks = failed.iter().filter_map(|row| {
             let cost = row.cost(self.by_time).filter(|cost| *cost > 0.0)?;
-            let hover = format!("{}: {}", row.run, row.why);
+            let hover = format!("{}: {} {}", row.run, row.status.name(), row.why);
             Some((cost, row.family?.mark(), hover))
         });
         (!failed.is_empty()).then(|| Strip {
-            label: label.collect::<Vec<_>>().join(", "),
+            label: format!("{} failed", failed.len()),
             marks: marks.collect(),
         })
     }
@@ -248,17 +238,19 @@ fn hover(row: &Row) -> String {
 
 fn about(row: &Row) -> String {
     let scene = SCENES.iter().find(|scene| scene.name == row.scene);
-    let mut about = scene.map_or("", |scene| scene.about).to_owned();
-    let own = scene.map(|scene| (scene.stiffness_n_per_m, scene.middle_mass_ratio));
-    if own != Some((row.stiffness_n_per_m, row.mass_ratio)) {
-        let [stiffness, ratio] = [row.stiffness_n_per_m, row.mass_ratio].map(|x| short(x, 3));
-        about += &format!("; {stiffness} N/m, mass ratio {ratio}");
-    }
-    about += &format!(" ({} {}", row.mesh.name(), row.cells);
-    if let Some(grown) = row.noise_amplification {
-        about += &format!(", noise ×{}", short(grown, 2));
-    }
-    about + ")"
+    let grown = row.noise_amplification;
+    format!(
+        "{}; {} N/m, mass ratio {} ({} {}{})",
+        scene.map_or("", |scene| scene.about),
+        short(row.stiffness_n_per_m, 3),
+        short(row.mass_ratio, 3),
+        row.mesh.name(),
+        row.cells,
+        grown.map_or(String::new(), |grown| format!(
+            ", noise ×{}",
+            short(grown, 2)
+        ))
+    )
 }
 
 /// The front over all methods, as stairs.

@@ -60,10 +60,10 @@ fn title(rows: &[Row]) -> String {
 
 /// The outcome of a row, and the expected one if it is another.
 fn outcome_in_words(row: &Row) -> String {
-    let measured = row.measured.map_or("", Status::name);
+    let measured = row.measured.map(Status::name).unwrap_or_default();
     match row.expected.filter(|status| Some(*status) != row.measured) {
         Some(expected) => format!("{measured}, expected {}", expected.name()),
-        None => measured.to_owned(),
+        None => measured,
     }
 }
 
