@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Cuts, Row};
+use super::{Cuts, METHODS, Row};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
@@ -137,13 +137,8 @@ fn panel(rows: &[Row], (_, title, axis, of): &Measure) -> Panel {
     let rows = rows.iter();
     let shown = rows.filter_map(|row| Some((row, of(row)?)));
     let shown: Vec<(&Row, [f64; 2])> = shown.collect();
-    let mut names: Vec<String> = Vec::new();
-    for (row, _) in &shown {
-        if !names.contains(&row.method) {
-            names.push(row.method.clone());
-        }
-    }
-    names.reverse();
+    let names = METHODS.iter().rev().map(|(name, ..)| (*name).to_owned());
+    let names: Vec<String> = names.collect();
     let mut layers = Vec::new();
     for (i, name) in names.iter().enumerate() {
         if i % 2 == 0 {
@@ -154,9 +149,9 @@ fn panel(rows: &[Row], (_, title, axis, of): &Measure) -> Panel {
         for (j, &(row, [median, worst])) in own.enumerate() {
             let y = (i + 1) as f64 - (j + 1) as f64 / (count + 1) as f64;
             let mark = mark(row);
-            layers.push(Layer::line(vec![[median, y], [worst, y]], mark.colour, 1.5));
+            layers.push(Layer::Line(vec![[median, y], [worst, y]], mark.colour, 1.5));
             let hover = format!("{name}, {} faces: {}", row.faces, short(median, 3));
-            layers.push(Layer::mark([median, y], mark, hover));
+            layers.push(Layer::Mark([median, y], mark, hover));
         }
     }
     Panel {

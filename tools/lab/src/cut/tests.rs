@@ -105,7 +105,7 @@ fn figure_has_a_mark_for_each_row_and_survives_a_file() {
     // All cuts take the same time by this clock.
     let title = "An exact cut lies on its plane and takes 1 times as long as a partition.";
     assert!(figure.title.starts_with(title), "{}", figure.title);
-    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark { .. });
+    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark(..));
     let figure = cuts.figure(&rows[2..3], &Provenance::default());
     let panels = figure.panels.iter();
     let mut marks = panels.map(|panel| panel.layers.iter().filter(is_mark).count());

@@ -28,8 +28,8 @@ impl Chart for Fig7 {
             let own = groups(rows).filter(|rounds| rounds[0].implementation == name);
             let points = own.filter_map(|rounds| Some((rounds[0].faces? as f64, sum_ms(rounds)?)));
             let line = points.clone().map(|(x, [_, mean, _])| [x, mean]);
-            layers.push(Layer::line(line.collect(), colour, 1.5));
-            layers.extend(points.flat_map(|(x, y)| Layer::interval(x, y, mark)));
+            layers.push(Layer::Line(line.collect(), colour, 1.5));
+            layers.extend(points.flat_map(|(x, y)| Layer::interval(x, y, mark, name.to_owned())));
         }
         Figure {
             title: title(rows).unwrap_or("The time to split vertices".to_owned()),

@@ -43,7 +43,7 @@ fn figure_has_an_interval_for_each_patch_and_survives_a_file() {
     // Of one patch, a row of two implementations.
     let two = [ROUNDS - 1, 3 * ROUNDS - 1].map(|i| rows[i].clone());
     let two = fig7.figure(&two, &Provenance::default());
-    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark { .. });
+    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark(..));
     let marks =
         |figure: &crate::plot::Figure| figure.panels[0].layers.iter().filter(is_mark).count();
     assert_eq!([&two, &figure].map(marks), [2, 6]);

@@ -211,25 +211,23 @@ impl Section<'_> {
         }
         let layers = &mut panel.layers;
         layers.extend(self.band.clone().map(Layer::Band));
-        let label = "real time".to_owned();
-        layers.push(Layer::Rule { x: 1.0, label });
+        layers.push(Layer::Rule(1.0, "real time"));
         for (points, width) in [(&self.coarse, 0.7), (&self.fine, 1.6)] {
             for of in points.chunk_by(|a, b| a.method == b.method) {
                 let mut points: Vec<[f64; 2]> = of.iter().filter_map(Point::at).collect();
                 points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-                layers.push(Layer::line(points, of[0].mark().colour, width));
+                layers.push(Layer::Line(points, of[0].mark().colour, width));
             }
         }
         let known = self.fine.iter();
-        let known = known.filter_map(|point| Some((point, point.at()?, point.y?)));
-        for (point, at, [low, _, high]) in known {
-            let mark = point.mark();
-            let ends = vec![[at[0], low], [at[0], high]];
-            layers.push(Layer::line(ends, mark.colour, 1.0));
-            let hover = format!("{}: {} {}", point.command(), self.label, short(at[1], 3));
-            layers.push(Layer::mark(at, mark, hover));
+        let known = known.filter_map(|point| Some((point, point.cost?, point.y?)));
+        for (point, cost, y) in known {
+            let (mark, error) = (point.mark(), short(y[1], 3));
+            let hover = format!("{}: {} {error}", point.command(), self.label);
+            layers.extend(Layer::interval(cost, y, mark, hover));
             if point.is_default() {
-                layers.push(Layer::label(at, point.method.name, mark.colour));
+                let name = point.method.name.to_owned();
+                layers.push(Layer::Label([cost, y[1]], name, mark.colour));
             }
         }
         panel.above = self.failures();

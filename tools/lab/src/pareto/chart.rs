@@ -160,9 +160,9 @@ impl Group<'_> {
             let own = row.family.map_or(INK, |family| family.mark().colour);
             let colour = if row.is_default() { INK } else { own };
             let ring = Mark::new(Shape::Ring, colour).sized(7.5);
-            layers.push(Layer::mark(at, ring, hover(row)));
+            layers.push(Layer::Mark(at, ring, hover(row)));
             if row.is_default() {
-                layers.push(Layer::label(at, "default", INK));
+                layers.push(Layer::Label(at, "default".to_owned(), INK));
             }
         }
         panel.above = self.failures();
@@ -268,7 +268,7 @@ fn front_line(shown: &[Drawn<'_>]) -> Layer {
     }
     let end = shown.iter().map(|(_, at)| at[0]).fold(0.0, f64::max);
     points.extend(points.last().map(|&[_, least]| [end, least]));
-    Layer::line(points, [0xcc; 3], 3.0)
+    Layer::Line(points, [0xcc; 3], 3.0)
 }
 
 /// The runs of a family: those that none of its others beats as marks on a line, the others as dots.
@@ -278,14 +278,14 @@ fn draw_family(layers: &mut Vec<Layer>, family: Family, own: &[Drawn<'_>]) {
     let best = own.iter().filter(|(_, at)| is_best(*at));
     let mark = family.mark();
     let line = ascending(best.map(|(_, at)| *at));
-    layers.push(Layer::line(line, mark.colour, 1.0));
+    layers.push(Layer::Line(line, mark.colour, 1.0));
     layers.extend(own.iter().map(|&(Ranked { row, .. }, at)| {
         let mark = match is_best(at) {
             true if row.is_at_floor() => mark.hollow(),
             true => mark,
             false => mark.sized(1.6),
         };
-        Layer::mark(at, mark, hover(row))
+        Layer::Mark(at, mark, hover(row))
     }));
 }
 

@@ -92,13 +92,13 @@ fn strips(rows: &[Row]) -> Panel {
         let points = forces(rows, rule);
         if let Some(slope) = slope(&points) {
             let text = format!("{name}: {slope:+.2}");
-            panel.layers.push(Layer::label(points[0], text, colour));
+            panel.layers.push(Layer::Label(points[0], text, colour));
         }
         let mark = Mark::new(Shape::Disc, colour);
         let marks = points.iter();
-        let marks = marks.map(|&at| Layer::mark(at, mark, String::new()));
+        let marks = marks.map(|&at| Layer::Mark(at, mark, String::new()));
         panel.layers.extend(marks);
-        panel.layers.push(Layer::line(points, colour, 2.0));
+        panel.layers.push(Layer::Line(points, colour, 2.0));
     }
     panel
 }
@@ -217,7 +217,9 @@ impl Ensembles {
                 (least, most) = (low.min(least), high.max(most));
                 let mark = Mark::new(Shape::Disc, method.family.mark().colour);
                 let x = i as f64 + 0.3 + 0.2 * j as f64;
-                panel.layers.extend(Layer::interval(x, y, mark));
+                panel
+                    .layers
+                    .extend(Layer::interval(x, y, mark, String::new()));
             }
         }
         panel.x = Axis::named(names);
