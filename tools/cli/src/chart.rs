@@ -10,15 +10,15 @@ use tearmesh_cloth::StepError;
 use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_lab::cut::Cuts;
 use tearmesh_lab::experiment::{
-    Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table,
+    Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table, workers,
 };
 use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::{self, Guide};
 use tearmesh_lab::pareto::{self, Pareto, SCENES};
+use tearmesh_lab::plot;
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
 use tearmesh_lab::tear::{EnsembleScene, Tear};
-use tearmesh_lab::{plot, pool};
 
 use crate::args::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
 use crate::exit::Exit;
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
 }
 
 fn threads(draw: &DrawArgs) -> NonZero<usize> {
-    draw.threads.unwrap_or_else(pool::workers)
+    draw.threads.unwrap_or_else(workers)
 }
 
 fn guide(args: &GuideArgs) -> Guide {

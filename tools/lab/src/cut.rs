@@ -18,12 +18,6 @@ use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 use crate::experiment::{Bounds, Experiment, Status, list};
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
-/// The default numbers of cells along each side of the sheets.
-pub const CELLS: [u32; 2] = [64, 224];
-
-/// The default number of lines along which each sheet is cut.
-pub const CUTS: u32 = 40;
-
 /// The experiment on cut methods.
 #[derive(Clone, Debug)]
 pub struct Cuts {

@@ -28,9 +28,6 @@ use tearmesh_cloth::statistics::median;
 use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, Split};
 use crate::experiment::{Bounds, Experiment, Status, list};
 
-/// The default numbers of cells along each side of the patches.
-pub const CELLS: [u32; 4] = [8, 16, 32, 64];
-
 /// The number of times that each split is timed, as in the paper.
 pub const ROUNDS: usize = 10;
 

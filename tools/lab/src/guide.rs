@@ -40,15 +40,6 @@ pub struct Options {
     pub threads: NonZero<usize>,
 }
 
-impl Options {
-    /// The default number of cells.
-    pub const CELLS: u32 = 64;
-    /// The default number of seeds of ensembles.
-    pub const SEEDS: u64 = 16;
-    /// The default number of meshes with other diagonals.
-    pub const DIAGONALS: u64 = 8;
-}
-
 /// The multiples of its default step that each method is played with, beside the default.
 pub const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];
 

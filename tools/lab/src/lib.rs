@@ -16,7 +16,6 @@ pub mod guide;
 pub mod method;
 pub mod pareto;
 pub mod plot;
-pub mod pool;
 pub mod rk4;
 pub mod sheet;
 pub mod stability;

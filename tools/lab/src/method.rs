@@ -46,45 +46,51 @@ pub enum Family {
     Bdf2,
 }
 
-impl Family {
-    /// All families, in the order of legends.
-    pub const ALL: [Family; 9] = [
-        Family::Verlet,
+/// The families in their order, their names, and what tells their marks from others: shape and colour each do.
+const STYLES: [(Family, &str, Shape, Colour); 9] = [
+    (Family::Verlet, "Verlet", Shape::Disc, COLOURS[0]),
+    (
         Family::PlainVerlet,
-        Family::Rk4,
+        "plain Verlet",
+        Shape::Square,
+        COLOURS[5],
+    ),
+    (Family::Rk4, "RK4", Shape::Diamond, [0x22; 3]),
+    (
         Family::SymplecticEuler,
-        Family::Provot,
-        Family::Pbd,
-        Family::Xpbd,
+        "symplectic Euler",
+        Shape::Up,
+        COLOURS[4],
+    ),
+    (Family::Provot, "Provot", Shape::Down, [0x8a; 3]),
+    (Family::Pbd, "PBD", Shape::Cross, COLOURS[3]),
+    (Family::Xpbd, "XPBD", Shape::Plus, COLOURS[1]),
+    (
         Family::BackwardEuler,
-        Family::Bdf2,
-    ];
+        "backward Euler",
+        Shape::Left,
+        COLOURS[2],
+    ),
+    (Family::Bdf2, "BDF2", Shape::Right, [0x7b, 0x3f, 0xa0]),
+];
 
-    /// The name, and what tells the mark from others: shape and colour each do.
-    fn style(self) -> (&'static str, Shape, Colour) {
-        match self {
-            Family::Verlet => ("Verlet", Shape::Disc, COLOURS[0]),
-            Family::PlainVerlet => ("plain Verlet", Shape::Square, COLOURS[5]),
-            Family::Rk4 => ("RK4", Shape::Diamond, [0x22; 3]),
-            Family::SymplecticEuler => ("symplectic Euler", Shape::Up, COLOURS[4]),
-            Family::Provot => ("Provot", Shape::Down, [0x8a; 3]),
-            Family::Pbd => ("PBD", Shape::Cross, COLOURS[3]),
-            Family::Xpbd => ("XPBD", Shape::Plus, COLOURS[1]),
-            Family::BackwardEuler => ("backward Euler", Shape::Left, COLOURS[2]),
-            Family::Bdf2 => ("BDF2", Shape::Right, [0x7b, 0x3f, 0xa0]),
-        }
+impl Family {
+    /// Returns all families, in the order of legends.
+    #[must_use]
+    pub fn all() -> [Family; 9] {
+        STYLES.map(|(family, ..)| family)
     }
 
     /// Returns the name of the family in legends.
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.style().0
+        STYLES[self as usize].1
     }
 
     /// Returns the mark of the family in plots.
     #[must_use]
     pub fn mark(self) -> Mark {
-        let (_, shape, colour) = self.style();
+        let (.., shape, colour) = STYLES[self as usize];
         Mark::new(shape, colour)
     }
 }

@@ -52,15 +52,6 @@ pub enum Key {
     Trial(&'static Trial),
 }
 
-impl Key {
-    fn name(&self) -> &'static str {
-        match self {
-            Key::Limit(method, _) => method,
-            Key::Trial(trial) => trial.name,
-        }
-    }
-}
-
 /// The CPU time of all steps at one stiffness, and of all scenes, in seconds, on the machine on which charts were
 /// first made.
 const LIMITS_S: f64 = 3.0;
@@ -104,9 +95,13 @@ impl Experiment for Stability {
     }
 
     fn rows(&self, keys: &[Key], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
-        let interrupted = |key: &Key| Row {
-            place: key.name().to_owned(),
-            ..Row::default()
+        let interrupted = |key: &Key| {
+            let (Key::Limit(name, _) | Key::Trial(Trial { name, .. })) = key;
+            let place = (*name).to_owned();
+            Row {
+                place,
+                ..Row::default()
+            }
         };
         let each = keys.iter().zip(outcomes);
         let each = each.map(|(key, rows)| rows.unwrap_or_else(|| vec![interrupted(key)]));
@@ -136,6 +131,13 @@ mod tests {
         }
     }
 
+    fn name(key: &Key) -> &'static str {
+        match key {
+            Key::Limit(method, _) => method,
+            Key::Trial(trial) => trial.name,
+        }
+    }
+
     fn rows_of(experiment: &Stability, names: &[&str]) -> Vec<Row> {
         let bounds = Bounds {
             clock: None,
@@ -143,7 +145,7 @@ mod tests {
         };
         let plan = experiment.plan().concat();
         let keys = plan.into_iter();
-        let keys = keys.filter(|key| names.contains(&key.name()));
+        let keys = keys.filter(|key| names.contains(&name(key)));
         let keys: Vec<Key> = keys.collect();
         assert_eq!(keys.len(), names.len());
         let outcomes = keys.iter().map(|key| experiment.run(key, &bounds));

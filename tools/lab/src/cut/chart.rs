@@ -134,9 +134,6 @@ fn mark(row: &Row) -> Mark {
 
 /// A measure of all methods that have it, one below the other.
 fn panel(rows: &[Row], (_, title, axis, of): &Measure) -> Panel {
-    let rows = rows.iter();
-    let shown = rows.filter_map(|row| Some((row, of(row)?)));
-    let shown: Vec<(&Row, [f64; 2])> = shown.collect();
     let names = METHODS.iter().rev().map(|(name, ..)| (*name).to_owned());
     let names: Vec<String> = names.collect();
     let mut layers = Vec::new();
@@ -144,9 +141,10 @@ fn panel(rows: &[Row], (_, title, axis, of): &Measure) -> Panel {
         if i % 2 == 0 {
             layers.push(Layer::Band(i as f64..(i + 1) as f64));
         }
-        let own = shown.iter().filter(|(row, _)| row.method == *name);
+        let own = rows.iter().filter(|row| row.method == *name);
+        let own = own.filter_map(|row| Some((row, of(row)?)));
         let count = own.clone().count();
-        for (j, &(row, [median, worst])) in own.enumerate() {
+        for (j, (row, [median, worst])) in own.enumerate() {
             let y = (i + 1) as f64 - (j + 1) as f64 / (count + 1) as f64;
             let mark = mark(row);
             layers.push(Layer::Line(vec![[median, y], [worst, y]], mark.colour, 1.5));

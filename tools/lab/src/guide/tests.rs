@@ -1,8 +1,8 @@
 //! Errors against answers worked out by hand, and a page that has a row for every run.
 
 use super::*;
+use crate::experiment::workers;
 use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
-use crate::pool::workers;
 
 fn guide() -> Guide {
     Guide::new(Options {

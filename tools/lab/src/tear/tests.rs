@@ -2,8 +2,8 @@
 //! methods agree.
 
 use super::*;
+use crate::experiment::workers;
 use crate::experiment::{Chart, Provenance, conduct, read_table, table};
-use crate::pool::workers;
 
 fn tear(strips: &[u32], seeds: u64) -> Tear {
     Tear {
