@@ -25,7 +25,7 @@ mod scene;
 
 pub use self::run::Outcome;
 pub(crate) use self::run::status_of;
-pub use self::scene::{Held, Observable, REST_M_PER_S, SCENES, Scene, Until};
+pub use self::scene::{Held, Observable, REST_M_PER_S, SCENES, Scene, Start, Until};
 pub(crate) use self::scene::{fastest_m_per_s, middle};
 
 use std::num::NonZero;

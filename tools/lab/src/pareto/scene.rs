@@ -27,14 +27,8 @@ pub struct Scene {
     pub gravity_m_per_s2: [f64; 3],
     /// The rate at which velocities decay by drag, in 1/s.
     pub drag_per_s: f64,
-    /// The place from which a particle starts, given that in the flat sheet at rest and the length of a side. All
-    /// velocities start at zero.
-    pub start: fn(&Point, f64) -> Point,
-    /// The fraction by which edges are longer than at rest on average. A sheet that is taut starts at rest without
-    /// gravity.
-    pub pretension: f64,
-    /// Whether the edges are stored in random order.
-    pub is_shuffled: bool,
+    /// The shape in which the sheet starts.
+    pub start: Start,
     /// The factor by which the mass of the particle nearest to the centre is multiplied, as for the slivers
     /// that cuts leave; 1 for none.
     pub middle_mass_ratio: f64,
@@ -44,6 +38,22 @@ pub struct Scene {
     pub until: Until,
     /// The observables that are compared.
     pub observables: &'static [Observable],
+}
+
+/// The shapes in which a sheet starts, with all velocities zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// The flat sheet at rest.
+    Flat,
+    /// The flat sheet at rest, with its edges stored in random order.
+    Shuffled,
+    /// A taut sheet in its frame without gravity, with edges longer than at rest by this fraction on
+    /// average.
+    Taut(f64),
+    /// The flat sheet, turned out of its plane by 30° around its upper edge.
+    Turned,
+    /// The flat sheet, scaled by this factor.
+    Crushed(f64),
 }
 
 /// The particles that are held.
@@ -129,13 +139,7 @@ const SWING: Scene = Scene {
     side_m: 1.0,
     gravity_m_per_s2: [0.0, -G, 0.0],
     drag_per_s: 10.0,
-    // Turned out of its plane by 30° around its upper edge.
-    start: |p, side| {
-        let below = p.y - side;
-        Point::new(p.x, side + below * 0.75_f64.sqrt(), below * 0.5)
-    },
-    pretension: 0.0,
-    is_shuffled: false,
+    start: Start::Turned,
     middle_mass_ratio: 1.0,
     held: Held::Top,
     until: Until::Time(1.0),
@@ -147,7 +151,7 @@ const HANG: Scene = Scene {
     about: "S1: hangs by its upper edge at rest, 400 m/s², drag 2ω₁",
     gravity_m_per_s2: [0.0, -400.0, 0.0],
     drag_per_s: 2.0 * SLOWEST_RAD_PER_S,
-    start: |p, _| *p,
+    start: Start::Flat,
     until: Until::Rest(2.0),
     ..SWING
 };
@@ -158,7 +162,7 @@ pub const SCENES: [Scene; 10] = [
     Scene {
         name: "shuffled",
         about: "S1r: the same with edges stored at random",
-        is_shuffled: true,
+        start: Start::Shuffled,
         ..HANG
     },
     SWING,
@@ -178,7 +182,7 @@ pub const SCENES: [Scene; 10] = [
         name: "trampoline",
         about: "S5: held all round, falls into its middle, drag 10 /s, 0.5 s",
         gravity_m_per_s2: [0.0, 0.0, -G],
-        start: |p, _| *p,
+        start: Start::Flat,
         held: Held::Frame,
         until: Until::Time(0.5),
         ..SWING
@@ -188,8 +192,7 @@ pub const SCENES: [Scene; 10] = [
         about: "S6: a frame with 2 % pretension, drag 2 /s, 1 s",
         gravity_m_per_s2: [0.0, 0.0, -G],
         drag_per_s: 2.0,
-        start: |p, _| *p,
-        pretension: 0.02,
+        start: Start::Taut(0.02),
         held: Held::Frame,
         ..SWING
     },
@@ -206,7 +209,7 @@ pub const SCENES: [Scene; 10] = [
         about: "S7: let go at half its size, 1 s: energy alone",
         gravity_m_per_s2: [0.0; 3],
         drag_per_s: 0.0,
-        start: |p, _| Point::from(p.coords * 0.5),
+        start: Start::Crushed(0.5),
         held: Held::Nothing,
         observables: &[EnergyMade, EnergyLost],
         ..SWING
@@ -217,7 +220,7 @@ pub const SCENES: [Scene; 10] = [
         stiffness_n_per_m: 1e6,
         gravity_m_per_s2: [0.0, 0.0, -G],
         drag_per_s: 100.0,
-        start: |p, _| *p,
+        start: Start::Flat,
         held: Held::Frame,
         until: Until::Rest(2.0),
         ..SWING
@@ -245,23 +248,22 @@ impl Case {
         let middle = middle(&sheet);
         sheet.masses[middle] *= scene.middle_mass_ratio;
         let mut edges = sheet.edges.clone();
-        if scene.is_shuffled {
+        if scene.start == Start::Shuffled {
             let mut random = Random::new(SEED);
             for i in (1..edges.len()).rev() {
                 let j = (random.next() * (i + 1) as f64) as usize;
                 edges.swap(i, j);
             }
         }
-        let points = sheet.points.iter();
         let mut case = Case {
             scene: *scene,
             mesh,
             cells,
-            start: points.map(|p| (scene.start)(p, scene.side_m)).collect(),
+            start: sheet.points.iter().map(|p| placed(p, scene)).collect(),
             sheet,
             edges,
         };
-        if scene.pretension > 0.0 {
+        if let Start::Taut(_) = scene.start {
             case.start = relaxed(case.system());
         }
         case
@@ -303,8 +305,12 @@ impl Case {
         let Case { scene, sheet, .. } = self;
         let system = System::new(sheet.points.iter().copied(), sheet.masses.clone());
         let mut system = system.expect("a sheet has usable points and masses");
+        let taut = match scene.start {
+            Start::Taut(part) => 1.0 + part,
+            _ => 1.0,
+        };
         for &ends in &self.edges {
-            let rest_m = sheet.length_m(ends) / (1.0 + scene.pretension);
+            let rest_m = sheet.length_m(ends) / taut;
             let made = system.stretch(ends, rest_m, scene.stiffness_n_per_m);
             made.expect("an edge of a sheet has a length");
         }
@@ -335,6 +341,20 @@ impl Case {
             *x += Vector::new(off(), off(), off());
         }
         system
+    }
+}
+
+/// The starting position of a particle that is at this point at rest.
+fn placed(p: &Point, scene: &Scene) -> Point {
+    let side = scene.side_m;
+    match scene.start {
+        Start::Turned => {
+            let (sin, cos) = (0.5, 0.75_f64.sqrt());
+            let below = p.y - side;
+            Point::new(p.x, side + below * cos, below * sin)
+        }
+        Start::Crushed(part) => Point::from(p.coords * part),
+        Start::Flat | Start::Shuffled | Start::Taut(_) => *p,
     }
 }
 
