@@ -25,7 +25,9 @@ mod scene;
 
 pub use self::run::Outcome;
 pub(crate) use self::run::status_of;
-pub use self::scene::{Held, Observable, REST_M_PER_S, SCENES, Scene, Start, Until};
+pub use self::scene::{
+    Held, Observable, REST_M_PER_S, SCENES, Scene, Start, TEAR_RATIO, TOUGHNESS_J_PER_M, Until,
+};
 pub(crate) use self::scene::{fastest_m_per_s, middle};
 
 use std::num::NonZero;

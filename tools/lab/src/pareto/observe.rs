@@ -6,9 +6,9 @@
 use std::collections::BTreeMap;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{System, energy, force};
+use tearmesh_cloth::{Solver, System, Threshold, energy, force};
 
-use super::scene::{Case, Held, Observable, Until};
+use super::scene::{Case, Held, Observable, TEAR_RATIO, TOUGHNESS_J_PER_M, Until};
 use crate::method::{Family, Method};
 
 /// The numbers of a run by observable and checkpoint: coordinates, strains of edges, and single numbers. NaN
@@ -56,8 +56,13 @@ pub(super) fn error(
     Some(each.fold(0.0, worse)).filter(|error| error.is_finite())
 }
 
-/// The mass-weighted rms distance between the positions of two runs in metres, at the worst checkpoint.
+/// The mass-weighted rms distance between the positions of two runs in metres, at the worst checkpoint. For a
+/// strip that is pulled, the distance that the hand moves between their first tears.
 pub(super) fn apart_m(case: &Case, a: &Records, b: &Records) -> f64 {
+    if let Held::Pulled(speed) = case.scene.held {
+        let late = |time: Observable| (a[&time][0][0] - b[&time][0][0]).abs() * speed;
+        return worse(late(Observable::TearTime), late(Observable::ToughnessTime));
+    }
     let [a, b] = [a, b].map(|run| &run[&Observable::Displacement]);
     let squares = a
         .iter()
@@ -111,31 +116,68 @@ pub(super) struct Probe<'a> {
     reaction: Samples,
     /// The time between two samples of the force, in seconds.
     reaction_every_s: f64,
+    /// The work of the hand that pulls, in joules.
+    hand_j: f64,
+    /// Whether the method moves particles by the forces at the end of a step, which then do its work; otherwise
+    /// the mean of the forces at both ends does.
+    moves_at_end: bool,
     /// The family of methods; `None` for a reference.
     family: Option<Family>,
     /// The energy in springs and of height at the start.
     began_j: [f64; 2],
     /// The most energy that had been put in so far.
     put_in_j: f64,
+    thresholds: [FirstTear; 2],
+    /// The time at which edges are checked next, in seconds.
+    check_s: f64,
+}
+
+/// A threshold, and when an edge first reached it.
+#[derive(Clone, Copy, Debug)]
+struct FirstTear {
+    threshold: Threshold,
+    /// The time and the largest load of the last check.
+    last: [f64; 2],
+    /// NaN before the first tear.
+    torn_s: f64,
 }
 
 impl<'a> Probe<'a> {
     /// Creates a probe of a system that has not moved yet, for a method, or for a reference without one.
-    pub(super) fn new(case: &'a Case, system: &System, method: Option<&Method>) -> Probe<'a> {
-        let points = case.sheet.points.iter().enumerate();
-        let held = points.filter(|(_, p)| case.is_held(p)).map(|(i, _)| i);
+    pub(super) fn new(
+        case: &'a Case,
+        system: &System,
+        solver: &dyn Solver,
+        method: Option<&Method>,
+    ) -> Probe<'a> {
+        let is_pulled = matches!(case.scene.held, Held::Pulled(_));
+        let points = &case.sheet.points;
+        let counts = |i: &usize| case.is_held(&points[*i]) && !(is_pulled && points[*i].y == 0.0);
+        let thresholds = [
+            Threshold::Stretch(TEAR_RATIO),
+            Threshold::Toughness(TOUGHNESS_J_PER_M),
+        ];
         let mut probe = Probe {
             case,
             records: Records::new(),
-            held: held.collect(),
+            held: (0..points.len()).filter(counts).collect(),
             reaction: Samples::default(),
             reaction_every_s: match case.scene.until {
                 Until::Time(_) => case.edge_s() / 3.0,
                 Until::Rest(_) => f64::INFINITY,
+                Until::Tears(_) => 0.0,
             },
+            hand_j: 0.0,
+            moves_at_end: solver.abilities().frequency_limit.is_none(),
             family: method.map(|method| method.family),
             began_j: [energy::elastic_j(system), height_j(system)],
             put_in_j: 0.0,
+            thresholds: thresholds.map(|threshold| FirstTear {
+                threshold,
+                last: [0.0; 2],
+                torn_s: f64::NAN,
+            }),
+            check_s: 0.0,
         };
         probe.reaction.push(0.0, probe.reaction_n(system));
         probe
@@ -145,7 +187,18 @@ impl<'a> Probe<'a> {
     pub(super) fn step(&mut self, system: &System, dt_s: f64) {
         let now_s = system.elapsed_s();
         if now_s >= self.reaction.last()[0] + self.reaction_every_s - 0.5 * dt_s {
-            self.reaction.push(now_s, self.reaction_n(system));
+            let now_n = self.reaction_n(system);
+            if let Held::Pulled(speed) = self.case.scene.held {
+                let force_n = match self.moves_at_end {
+                    true => now_n,
+                    false => 0.5 * (self.reaction.last()[1] + now_n),
+                };
+                self.hand_j += force_n * speed * dt_s;
+            }
+            self.reaction.push(now_s, now_n);
+        }
+        if matches!(self.case.scene.until, Until::Tears(_)) && now_s >= self.check_s {
+            self.check(system);
         }
     }
 
@@ -165,15 +218,15 @@ impl<'a> Probe<'a> {
         self.record(Observable::StrainRms, strains);
     }
 
-    /// Records the energy beyond what was put in by gravity, as a fraction of that.
+    /// Records the energy beyond what was put in by gravity and by the hand that pulls, as a fraction of that.
     /// Returns the energy that is there as a multiple of it if it is more than is allowed.
     pub(super) fn energy(&mut self, system: &System) -> Option<f64> {
         let [stored_j, height_j] = [stored_j(system, self.family), height_j(system)];
         let now_j = stored_j + energy::kinetic_j(system);
         let fallen_j = self.began_j[1] - height_j;
-        let put_in_j = self.began_j[0] + fallen_j.max(0.0);
+        let put_in_j = self.began_j[0] + fallen_j.max(0.0) + self.hand_j.max(0.0);
         self.put_in_j = self.put_in_j.max(put_in_j);
-        let made = (now_j - (self.began_j[0] + fallen_j)) / self.put_in_j;
+        let made = (now_j - (self.began_j[0] + fallen_j + self.hand_j)) / self.put_in_j;
         self.record(Observable::EnergyMade, vec![made]);
         self.record(Observable::EnergyLost, vec![-made]);
         // Written so that a NaN is more.
@@ -181,27 +234,71 @@ impl<'a> Probe<'a> {
         (!is_allowed).then(|| now_j / self.put_in_j)
     }
 
+    /// Whether both thresholds were reached.
+    pub(super) fn has_torn(&self) -> bool {
+        !self.thresholds.iter().any(|first| first.torn_s.is_nan())
+    }
+
     /// The records of the run.
     pub(super) fn records(mut self, system: &System) -> Records {
-        let largest_n = match self.case.scene.until {
-            Until::Rest(_) => self.reaction_n(system),
+        let mean_n = |end_s: f64| self.reaction.mean(end_s - MEAN_S, end_s);
+        let numbers = match self.case.scene.until {
+            Until::Rest(_) => vec![(Observable::ReactionLargest, self.reaction_n(system))],
             Until::Time(seconds) => {
                 let ends_s = (1..=(seconds / MEAN_S + 1e-9) as u64).map(|i| i as f64 * MEAN_S);
-                let means_n = ends_s.map(|end_s| self.reaction.mean(end_s - MEAN_S, end_s));
-                means_n.fold(f64::NEG_INFINITY, f64::max)
+                let largest = ends_s.map(mean_n).fold(f64::NEG_INFINITY, f64::max);
+                vec![(Observable::ReactionLargest, largest)]
+            }
+            Until::Tears(_) => {
+                let [by_stretch_s, by_toughness_s] = self.thresholds.map(|first| first.torn_s);
+                vec![
+                    (Observable::TearTime, by_stretch_s),
+                    (Observable::TearForce, mean_n(by_stretch_s)),
+                    (Observable::ToughnessTime, by_toughness_s),
+                    (Observable::ToughnessForce, mean_n(by_toughness_s)),
+                ]
             }
         };
-        self.record(Observable::ReactionLargest, vec![largest_n]);
+        for (observable, number) in numbers {
+            self.record(observable, vec![number]);
+        }
         self.records
     }
 
     /// The force at the holds: the sum of the magnitudes of all forces; for a frame, whose sides pull at each
-    /// other, the magnitude of their sum.
+    /// other, the magnitude of their sum; for the strip, the force of the hand.
     fn reaction_n(&self, system: &System) -> f64 {
         let forces = self.held.iter().map(|&i| force::reaction_n(system, i));
         match self.case.scene.held {
+            Held::Pulled(_) => forces.map(|force| force.y).sum(),
             Held::Frame => forces.sum::<Vector>().norm(),
             _ => forces.map(|force| force.norm()).sum(),
+        }
+    }
+
+    /// Checks all edges. The next check is after a thousandth of the scene's time, or after the next step if an
+    /// edge is at nine tenths of its threshold.
+    fn check(&mut self, system: &System) {
+        let now_s = system.elapsed_s();
+        let mut most = 0.0_f64;
+        for first in self
+            .thresholds
+            .iter_mut()
+            .filter(|first| first.torn_s.is_nan())
+        {
+            let stretches = system.stretches();
+            let loads = stretches.iter().map(|id| first.threshold.load(system, id));
+            let worst = loads.fold(0.0, |worst, load| load.unwrap_or(0.0).max(worst));
+            if worst >= 1.0 {
+                let [before_s, before] = first.last;
+                let fraction = (1.0 - before) / (worst - before);
+                first.torn_s = before_s + fraction * (now_s - before_s);
+            }
+            first.last = [now_s, worst];
+            most = most.max(worst);
+        }
+        if most < 0.9 {
+            self.check_s = now_s + self.case.scene.until.seconds() / 1000.0;
         }
     }
 }
@@ -253,7 +350,9 @@ impl Samples {
     /// The integral up to a time.
     fn sum(&self, s: f64) -> f64 {
         let after = self.list.partition_point(|sample| sample[0] < s);
-        let [t, n, sum] = self.list[after.saturating_sub(1)];
+        let Some(&[t, n, sum]) = self.list.get(after.saturating_sub(1)) else {
+            return f64::NAN;
+        };
         let slope = match self.list.get(after) {
             Some(next) if next[0] > t => (next[1] - n) / (next[0] - t),
             _ => 0.0,
@@ -263,6 +362,9 @@ impl Samples {
 
     /// The mean from one time to another.
     fn mean(&self, from_s: f64, to_s: f64) -> f64 {
+        if !(from_s >= 0.0 && to_s > from_s) {
+            return f64::NAN;
+        }
         (self.sum(to_s) - self.sum(from_s)) / (to_s - from_s)
     }
 }

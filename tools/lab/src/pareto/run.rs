@@ -48,7 +48,7 @@ pub(super) fn run(
     let every = (steps_max / 400).max(1);
     let rest_every = ((0.01 / dt_s) as u64).max(1);
     let (mut system, mut solver) = planned.begin(case);
-    let mut probe = Probe::new(case, &system, planned.method());
+    let mut probe = Probe::new(case, &system, &*solver, planned.method());
     let (mut cpu, mut visits) = (Duration::ZERO, 0);
     let (mut status, mut why) = (Status::Restless, String::new());
     for number in 1..=steps_max {
@@ -73,6 +73,7 @@ pub(super) fn run(
         let has_ended = match until {
             Until::Time(_) => is_last,
             Until::Rest(_) => is_nth(rest_every) && fastest_m_per_s(&system) < rest_m_per_s,
+            Until::Tears(_) => probe.has_torn(),
         };
         let mut ended = has_ended.then_some(Status::Ok);
         if visits > visits_max && !is_last {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{self, Tolerance};
 use tearmesh_cloth::statistics::Random;
-use tearmesh_cloth::{Implicit, Loads, System};
+use tearmesh_cloth::{Implicit, Loads, Path, System};
 
 use self::Observable::*;
 use crate::method::converged;
@@ -47,6 +47,9 @@ pub enum Start {
     Flat,
     /// The flat sheet at rest, with its edges stored in random order.
     Shuffled,
+    /// A bulge out of the plane, whose height in the middle is this fraction of the side. When pulled, a
+    /// flat sheet would buckle to either side by chance.
+    Bulged(f64),
     /// A taut sheet in its frame without gravity, with edges longer than at rest by this fraction on
     /// average.
     Taut(f64),
@@ -65,6 +68,8 @@ pub enum Held {
     Top,
     /// All particles of the boundary.
     Frame,
+    /// The particles of the lower edge, and those of the upper edge, which move upward at this speed in m/s.
+    Pulled(f64),
 }
 
 /// The conditions under which a scene ends.
@@ -74,19 +79,29 @@ pub enum Until {
     Time(f64),
     /// The scene ends at rest, as in [`REST_M_PER_S`]. A run that takes more than this many seconds fails.
     Rest(f64),
+    /// The scene ends when both [`TEAR_RATIO`] and [`TOUGHNESS_J_PER_M`] have been reached. A run that takes
+    /// more than this many seconds fails.
+    Tears(f64),
 }
 
 impl Until {
     /// The longest time of the scene, in seconds.
     pub(super) fn seconds(self) -> f64 {
         match self {
-            Until::Time(s) | Until::Rest(s) => s,
+            Until::Time(s) | Until::Rest(s) | Until::Tears(s) => s,
         }
     }
 }
 
 /// The speed in m/s below which a particle is at rest.
 pub const REST_M_PER_S: f64 = 1e-6;
+
+/// The stretch ratio at which an edge of the strip tears.
+pub const TEAR_RATIO: f64 = 1.3;
+
+/// The toughness at which an edge of the strip tears, in J/m. It equals a stretch ratio of 1.3 if edges are
+/// a sixteenth of the strip long.
+pub const TOUGHNESS_J_PER_M: f64 = 0.28;
 
 /// The quantities by which runs are compared. Errors are relative to the reference; for positions and strains
 /// the largest error of all checkpoints counts.
@@ -105,6 +120,14 @@ pub enum Observable {
     EnergyMade,
     /// The largest unexplained loss of energy, divided by the energy put in. The true value is 0.
     EnergyLost,
+    /// The time at which an edge first reaches [`TEAR_RATIO`].
+    TearTime,
+    /// The force at the clamps at [`TearTime`](Observable::TearTime), as a mean over the last 1/60 s.
+    TearForce,
+    /// The time at which an edge first reaches [`TOUGHNESS_J_PER_M`]. It is recorded for the gate alone.
+    ToughnessTime,
+    /// The force at the clamps at [`ToughnessTime`](Observable::ToughnessTime), as a mean over the last 1/60 s.
+    ToughnessForce,
 }
 
 impl Observable {
@@ -117,6 +140,10 @@ impl Observable {
             ReactionLargest => "force at the holds",
             EnergyMade => "energy made",
             EnergyLost => "energy lost",
+            TearTime => "time of first tear",
+            TearForce => "force at first tear",
+            ToughnessTime => "time of first tear by toughness",
+            ToughnessForce => "force at first tear by toughness",
         }
     }
 
@@ -157,7 +184,7 @@ const HANG: Scene = Scene {
 };
 
 /// All scenes of the experiment.
-pub const SCENES: [Scene; 10] = [
+pub const SCENES: [Scene; 11] = [
     HANG,
     Scene {
         name: "shuffled",
@@ -225,6 +252,17 @@ pub const SCENES: [Scene; 10] = [
         until: Until::Rest(2.0),
         ..SWING
     },
+    Scene {
+        name: "strip",
+        about: "S9: pulled at .1 m/s to its first tear, by stretch 1.3 and by toughness",
+        side_m: 0.1,
+        gravity_m_per_s2: [0.0; 3],
+        start: Start::Bulged(0.01),
+        held: Held::Pulled(0.1),
+        until: Until::Tears(0.5),
+        observables: &[TearTime, TearForce, ToughnessForce],
+        ..SWING
+    },
 ];
 
 /// A scene on a mesh, with its own references, rows and fronts.
@@ -289,7 +327,7 @@ impl Case {
         self.sheet.edge_m() / self.speed_m_per_s()
     }
 
-    /// Whether the particle at this point of the flat sheet is held.
+    /// Whether the particle at this point of the flat sheet is held or led.
     pub(super) fn is_held(&self, p: &Point) -> bool {
         let side = self.scene.side_m;
         let (bottom, top) = (p.y == 0.0, p.y == side);
@@ -297,6 +335,7 @@ impl Case {
             Held::Nothing => false,
             Held::Top => top,
             Held::Frame => bottom || top || p.x == 0.0 || p.x == side,
+            Held::Pulled(_) => bottom || top,
         }
     }
 
@@ -315,9 +354,16 @@ impl Case {
             made.expect("an edge of a sheet has a length");
         }
         system.state_mut().0.copy_from_slice(&self.start);
-        for (i, p) in sheet.points.iter().enumerate() {
-            if self.is_held(p) {
-                system.hold(i);
+        let held = sheet.points.iter().enumerate();
+        for (i, p) in held.filter(|(_, p)| self.is_held(p)) {
+            match scene.held {
+                Held::Pulled(speed) if p.y > 0.0 => {
+                    let seconds = scene.until.seconds();
+                    let to = p + Vector::y() * (speed * seconds);
+                    let path = Path::new([(0.0, *p), (seconds, to)]);
+                    system.grab(i, path.expect("seconds ascend"));
+                }
+                _ => system.hold(i),
             }
         }
         let loads = Loads {
@@ -354,6 +400,10 @@ fn placed(p: &Point, scene: &Scene) -> Point {
             Point::new(p.x, side + below * cos, below * sin)
         }
         Start::Crushed(part) => Point::from(p.coords * part),
+        Start::Bulged(part) => {
+            let [x, y] = [p.x / side, p.y / side].map(|x| 4.0 * x * (1.0 - x));
+            Point::new(p.x, p.y, part * side * x * y)
+        }
         Start::Flat | Start::Shuffled | Start::Taut(_) => *p,
     }
 }

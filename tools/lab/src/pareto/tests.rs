@@ -193,7 +193,7 @@ fn an_interrupted_table_has_a_row_for_each_run() {
 fn fronts_are_those_of_the_record() {
     let rows = made(Options {
         meshes: MeshKind::ALL.to_vec(),
-        ..options(&["hang", "swing", "sliver", "taut"], 5)
+        ..options(&["hang", "swing", "sliver", "taut", "strip"], 5)
     });
     let mut found = String::new();
     for group in chart::groups(&rows, false) {
