@@ -1,6 +1,6 @@
 //! `chart`: each experiment is run, drawn and tabled, and its table is drawn again.
 
-use crate::harness::{Folder, root, seen};
+use crate::harness::{Folder, seen};
 
 /// A small chart: its name, the options that decide the numbers, how many runs it announces, the numbers of
 /// threads that leave the same bytes; and between bars how some rows begin, and what the chart and the summary have.
@@ -43,9 +43,8 @@ impl Chart {
     fn hold(&self, folder: &Folder) -> (Vec<Vec<String>>, String) {
         let Chart([name, options], runs, threads, [rows, words @ ..]) = *self;
         let command = format!("tearmesh chart {name} {options}");
-        let typed = command.replace('…', "record.txt");
         let first = threads[0];
-        let line = format!("{typed} --threads {first} -o a.svg --csv a.csv --json a.json");
+        let line = format!("{command} --threads {first} -o a.svg --csv a.csv --json a.json");
         let output = folder.run(&line);
         let said = seen(&output);
         assert_eq!(output.status.code(), Some(0), "{said}");
@@ -88,7 +87,7 @@ impl Chart {
         assert_eq!(folder.read("b.csv"), text);
 
         for threads in &threads[1..] {
-            let line = format!("{typed} --threads {threads} -q -o - --csv c.csv");
+            let line = format!("{command} --threads {threads} -q -o - --csv c.csv");
             let again = folder.run(&line);
             assert_eq!(String::from_utf8_lossy(&again.stderr), "");
             assert!(folder.read("c.csv") == text, "{threads} threads differ");
@@ -232,26 +231,18 @@ fn tear_without_seeds_has_strips_alone() {
 }
 
 #[test]
-fn cut_beside_the_record_of_the_project() {
-    let folder = Folder::new();
-    let records = std::fs::read_dir(root().join("tools/bench/record")).expect("records");
-    let records = records.map(|entry| entry.expect("an entry").path().join("cut.txt"));
-    let record = records
-        .filter(|path| path.exists())
-        .min()
-        .expect("a record");
-    folder.write("record.txt", std::fs::read(record).expect("a record"));
+fn cut() {
     let chart = Chart(
-        ["cut", "--size 8,12 --cuts 3 --record …"],
+        ["cut", "--size 8,12 --cuts 3"],
         20,
         &[1],
         [
-            "uniform,128,ok,3,|exact .05 moved,288,ok,3,|\"exact, snap 0\",|partition,999698,|meshlib,|trimesh,|vtk-plane,|vtk-clip,",
-            "meshlib|exact .05 moved",
+            "uniform,128,ok,3,|exact .05 moved,288,ok,3,",
+            "exact .05 moved|Length of the seam",
             "uniform              128 |exact .2 moved       288 ",
         ],
     );
-    let (table, _) = chart.hold(&folder);
+    let (table, _) = chart.hold(&Folder::new());
     let cuts = column(&table, "cuts")
         .into_iter()
         .filter(|cuts| *cuts == "3");
@@ -286,7 +277,7 @@ stability|--stiffness=0 -o x|--stiffness=-1 -o x|--stiffness=nan -o x|--stiffnes
 stability|--stiffness=much -o x
 tear|--scene swing -o x|--scene hang -o x|--method rk4 -o x|--seeds -1 -o x|--size 3 -o x
 tear|--strips 8 -o x|--strips 4,5 -o x|--runs y -o x|--time -o x|--no-strips --strips 4,6 -o x
-cut|--cuts 0 -o x|--size 3 -o x|-o x --record
+cut|--cuts 0 -o x|--size 3 -o x|-o x --record y
 fig7|--size 1 -o x|--size 8 -o x --csv x|--scene rip -o x
 choice|-o x
 plane|-o x
@@ -308,7 +299,7 @@ fn what_makes_no_chart_is_refused() {
 }
 
 #[test]
-fn what_is_no_record_and_no_table_is_refused_before_any_run() {
+fn what_is_no_table_is_refused_before_any_run() {
     let folder = Folder::new();
     folder.write("no.txt", "through cut of nothing\n");
     let line = "tearmesh chart fig7 --size 4 -q --csv fig7.csv";
@@ -318,8 +309,6 @@ fn what_is_no_record_and_no_table_is_refused_before_any_run() {
     folder.write("words.csv", table.replace(",ok\n", ",fine\n"));
     let files = folder.names();
     for (options, code) in [
-        ("cut --record no.txt", "E-CHART-RECORD"),
-        ("cut --record nowhere.txt", "E-IO-READ"),
         ("cut --from nowhere.csv", "E-IO-READ"),
         ("pareto --from fig7.csv", "E-CHART-TABLE"),
         ("fig7 --from short.csv", "E-CHART-TABLE"),

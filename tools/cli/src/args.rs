@@ -18,9 +18,7 @@ use clap::{Parser, Subcommand};
 
 use crate::rays;
 
-pub(crate) use self::chart::{
-    ChartArgs, CutChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What,
-};
+pub(crate) use self::chart::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name};
 pub(crate) use self::files::{FileArgs, Format};

@@ -8,19 +8,19 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use tearmesh_cloth::StepError;
 use tearmesh_cloth::scene::{Frame, Run};
-use tearmesh_lab::cut::{self, Cuts};
+use tearmesh_lab::cut::Cuts;
 use tearmesh_lab::experiment::{
-    Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table,
+    Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table, workers,
 };
 use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::{self, Guide};
 use tearmesh_lab::pareto::{self, Pareto, SCENES};
+use tearmesh_lab::plot;
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
 use tearmesh_lab::tear::{EnsembleScene, Tear};
-use tearmesh_lab::{plot, pool};
 
-use crate::args::{ChartArgs, CutChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
+use crate::args::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
 use crate::exit::Exit;
 use crate::input::cannot_read;
 use crate::interrupt::Guard;
@@ -51,8 +51,8 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
             (&args.draw, done)
         }
         What::Cut(args) => {
-            let done = cuts(args).and_then(|cuts| work(&cuts, &args.draw, streams));
-            (&args.draw, done)
+            let cuts = Cuts::new(args.size.clone(), args.cuts);
+            (&args.draw, work(&cuts, &args.draw, streams))
         }
         What::Fig7(args) => {
             let cells = args.size.clone();
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
 }
 
 fn threads(draw: &DrawArgs) -> NonZero<usize> {
-    draw.threads.unwrap_or_else(pool::workers)
+    draw.threads.unwrap_or_else(workers)
 }
 
 fn guide(args: &GuideArgs) -> Guide {
@@ -131,33 +131,6 @@ fn tear(args: &TearChartArgs) -> Ended<Tear> {
         seeds: args.seeds,
         threads: threads(&args.draw),
     })
-}
-
-fn cuts(args: &CutChartArgs) -> Ended<Cuts> {
-    let record = match &args.record {
-        Some(path) => {
-            let rows = cut::read_record(&read(path)?);
-            if rows.is_empty() {
-                let message = format!(
-                    "{} is no record of cuts: it has no cut with a time and a deviation",
-                    path.display()
-                );
-                let help =
-                    "give a record that `tearmesh-bench cut` wrote, as in tools/bench/record";
-                return Err((
-                    Exit::Input,
-                    Fault::error("E-CHART-RECORD", message).help(help),
-                ));
-            }
-            rows
-        }
-        None => Vec::new(),
-    };
-    Ok(Cuts::new(cut::Options {
-        cells: args.size.clone(),
-        cuts: args.cuts,
-        record,
-    }))
 }
 
 /// The text of a file.
@@ -263,9 +236,8 @@ fn conducted<E: Experiment>(
             .then_some(&|| ThreadTime::now().as_duration()),
         stop: &|| guard.is_interrupted(),
     };
-    let conducted = conduct(experiment, &bounds, |name, fraction| {
+    let conducted = conduct(experiment, &bounds, |fraction| {
         bar.set_position((BAR * fraction) as u64);
-        bar.set_message(name.to_owned());
     });
     bar.finish_and_clear();
     let missing = conducted.planned - conducted.done;
@@ -282,7 +254,7 @@ const BAR: f64 = 1000.0;
 
 fn bar(target: ProgressDrawTarget) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(BAR as u64), target);
-    match ProgressStyle::with_template("{wide_bar} {percent} % {eta} {msg}") {
+    match ProgressStyle::with_template("{wide_bar} {percent} % {eta}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }

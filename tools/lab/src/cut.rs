@@ -3,13 +3,9 @@
 //! Wavy sheets of random triangles are cut through along random lines, by every method and with several
 //! snaps. Every method cuts the same lines, each on a fresh copy of the sheet. The results are those of
 //! [`CutReport`], and the stable step of an explicit solver after the cut, which thin faces shorten. Times
-//! are those of cuts alone, per face of the sheet. So sheets of several sizes and records of other programs
-//! ([`read_record`]) fit in one figure.
+//! are those of cuts alone, per face of the sheet, so sheets of several sizes fit in one figure.
 
 mod chart;
-mod record;
-
-pub use self::record::read_record;
 
 use std::f64::consts::PI;
 use std::time::Duration;
@@ -22,42 +18,18 @@ use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 use crate::experiment::{Bounds, Experiment, Status, list};
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
-/// The default numbers of cells along each side of the sheets.
-pub const CELLS: [u32; 2] = [64, 224];
-
-/// The default number of lines along which each sheet is cut.
-pub const CUTS: u32 = 40;
-
-/// The options of the experiment on cut methods.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The number of cells along each side of a sheet, one sheet per entry. None may be 0.
-    pub cells: Vec<u32>,
-    /// The number of lines along which each sheet is cut, at least 1.
-    pub cuts: u32,
-    /// The rows of a record, which are appended to the table; empty for none.
-    pub record: Vec<Row>,
-}
-
 /// The experiment on cut methods.
 #[derive(Clone, Debug)]
 pub struct Cuts {
-    options: Options,
+    cells: Vec<u32>,
+    cuts: u32,
     sheets: Vec<WavySheet>,
 }
 
-/// A method on a sheet, along all lines; numbers are from 0.
-#[derive(Clone, Copy, Debug)]
-pub struct Key {
-    sheet: usize,
-    method: usize,
-}
-
-/// A method on a sheet, over all lines; or a row of a record, which has only a name, a number of faces, a time,
-/// a deviation and a processor.
+/// A method on a sheet, over all lines. Without measurements it is the key of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// The name of the method with its settings, or the name in the record.
+    /// The name of the method with its settings.
     pub method: String,
     /// The number of faces of the sheet before a cut.
     pub faces: usize,
@@ -77,8 +49,12 @@ pub struct Row {
     pub step_ratio: Option<f64>,
     /// The smallest ratio of the stable step after a cut to that before it.
     pub step_ratio_least: Option<f64>,
-    /// The processor of a record; `None` for what the experiment measured.
-    pub processor: Option<String>,
+    /// The median of the length of the seam divided by that of the straight line.
+    pub length_ratio: Option<f64>,
+    /// The largest ratio of the length of a seam to that of its straight line.
+    pub length_ratio_most: Option<f64>,
+    /// The smallest angle of any face after any of the cuts, in degrees.
+    pub angle_min_deg: Option<f64>,
 }
 
 /// All methods and settings that are compared, in the order of tables: the name, the method, and the arguments
@@ -101,80 +77,69 @@ const METHODS: [(&str, CutMethod, f64, bool); 10] = [
 const FACE_S: f64 = 2e-6;
 
 impl Cuts {
-    /// Creates the experiment with its sheets.
+    /// Creates the experiment with a sheet for each number of cells along its sides, each of which is cut along
+    /// `cuts` lines.
     ///
     /// # Panics
     ///
-    /// If `options.cuts` is 0, or a number of `options.cells` is 0 or more than a mesh can have.
+    /// If `cuts` is 0, or a number of cells is 0 or more than a mesh can have.
     #[must_use]
-    pub fn new(options: Options) -> Cuts {
-        assert!(options.cuts > 0, "a sheet is cut along one line at least");
-        let sheets = options.cells.iter().map(|&cells| WavySheet::new(cells));
+    pub fn new(cells: Vec<u32>, cuts: u32) -> Cuts {
+        assert!(cuts > 0, "a sheet is cut along one line at least");
         Cuts {
-            sheets: sheets.collect(),
-            options,
-        }
-    }
-
-    /// The row of a run before any measurement.
-    fn row(&self, key: &Key) -> Row {
-        let (method, ..) = METHODS[key.method];
-        Row {
-            method: method.to_owned(),
-            faces: self.sheets[key.sheet].mesh.face_count(),
-            ..Row::default()
+            sheets: cells.iter().map(|&cells| WavySheet::new(cells)).collect(),
+            cells,
+            cuts,
         }
     }
 }
 
 impl Experiment for Cuts {
-    type Key = Key;
+    type Key = Row;
     type Outcome = Row;
     type Row = Row;
 
     fn command(&self) -> String {
-        let cells = list(&self.options.cells);
-        let record = match self.options.record.is_empty() {
-            true => "",
-            false => " --record …",
-        };
-        let cuts = self.options.cuts;
-        format!("tearmesh chart cut --size {cells} --cuts {cuts}{record}")
+        let (cells, cuts) = (list(&self.cells), self.cuts);
+        format!("tearmesh chart cut --size {cells} --cuts {cuts}")
     }
 
     fn is_timed(&self) -> bool {
         true
     }
 
-    fn plan(&self) -> Vec<Vec<Key>> {
-        let sheets = 0..self.sheets.len();
-        let keys =
-            sheets.flat_map(|sheet| (0..METHODS.len()).map(move |method| Key { sheet, method }));
+    fn plan(&self) -> Vec<Vec<Row>> {
+        let keys = self.sheets.iter().flat_map(|sheet| {
+            METHODS.map(|(method, ..)| Row {
+                method: method.to_owned(),
+                faces: sheet.mesh.face_count(),
+                ..Row::default()
+            })
+        });
         vec![keys.collect()]
     }
 
-    fn name(&self, key: &Key) -> String {
-        let row = self.row(key);
-        format!("{} of {} faces", row.method, row.faces)
+    fn guess_s(&self, key: &Row) -> f64 {
+        FACE_S * f64::from(self.cuts) * key.faces as f64
     }
 
-    fn guess_s(&self, key: &Key) -> f64 {
-        FACE_S * f64::from(self.options.cuts) * self.row(key).faces as f64
+    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Row> {
+        let mut sheets = self.sheets.iter();
+        let sheet = sheets.find(|sheet| sheet.mesh.face_count() == key.faces)?;
+        let mut cuts = Vec::new();
+        for line in 0..self.cuts {
+            if (bounds.stop)() {
+                return None;
+            }
+            cuts.push(sheet.cut(&key.method, line, bounds)?);
+        }
+        Some(measured(key.clone(), &cuts))
     }
 
-    fn run(&self, key: &Key, bounds: &Bounds<'_>) -> Option<Row> {
-        let lines = (0..self.options.cuts).map(|line| match (bounds.stop)() {
-            true => None,
-            false => Some(self.sheets[key.sheet].cut(key.method, line, bounds)),
-        });
-        let cuts = lines.collect::<Option<Vec<Measured>>>()?;
-        Some(measured(self.row(key), &cuts))
-    }
-
-    fn rows(&self, keys: &[Key], outcomes: Vec<Option<Row>>) -> Vec<Row> {
+    fn rows(&self, keys: &[Row], outcomes: Vec<Option<Row>>) -> Vec<Row> {
         let rows = keys.iter().zip(outcomes);
-        let rows = rows.map(|(key, row)| row.unwrap_or_else(|| self.row(key)));
-        rows.chain(self.options.record.iter().cloned()).collect()
+        let rows = rows.map(|(key, row)| row.unwrap_or_else(|| key.clone()));
+        rows.collect()
     }
 }
 
@@ -202,6 +167,9 @@ fn measured(row: Row, cuts: &[Measured]) -> Row {
         divided: Some(cuts.iter().filter(is_divided).count()),
         step_ratio: middle(|cut| cut.step_ratio),
         step_ratio_least: least(|cut| cut.step_ratio),
+        length_ratio: middle(|cut| cut.report.seam_length_ratio),
+        length_ratio_most: most(|cut| cut.report.seam_length_ratio),
+        angle_min_deg: least(|cut| cut.report.angle_min_deg),
         ..row
     }
 }
@@ -244,9 +212,10 @@ impl WavySheet {
         }
     }
 
-    /// Cuts a copy of the sheet twice: to time the cut alone, and to measure its result.
-    fn cut(&self, method: usize, line: u32, bounds: &Bounds<'_>) -> Measured {
-        let (_, method, snap, is_moved) = METHODS[method];
+    /// Cuts a copy of the sheet twice: to time the cut alone, and to measure its result. `None` if there is no
+    /// method of this name.
+    fn cut(&self, method: &str, line: u32, bounds: &Bounds<'_>) -> Option<Measured> {
+        let (_, method, snap, is_moved) = METHODS.into_iter().find(|(name, ..)| *name == method)?;
         let scissor = scissor(line).snap(snap).snap_move(is_moved);
         let copy = || (self.mesh.clone(), self.positions.clone(), Edits::new());
         let (mut mesh, mut positions, mut edits) = copy();
@@ -258,11 +227,11 @@ impl WavySheet {
         let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
         let (_, report) = made.expect("a sheet has a position for each vertex");
         edits.replay(&mut positions);
-        Measured {
+        Some(Measured {
             step_ratio: step_s(&mesh, &positions) / self.step_s,
             report,
             cpu,
-        }
+        })
     }
 }
 

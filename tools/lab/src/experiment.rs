@@ -6,13 +6,14 @@
 //! from the rows alone, so a table that was read back gives the same figure.
 
 use std::num::NonZero;
+use std::sync::{Mutex, mpsc};
+use std::thread;
 use std::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::plot::Figure;
-use crate::pool::side_by_side;
 
 /// An experiment: what is run, what is written down of it, and what is drawn.
 pub trait Experiment: Sync {
@@ -37,20 +38,12 @@ pub trait Experiment: Sync {
         NonZero::<usize>::MIN
     }
 
-    /// Returns the keys of all runs, in groups that are assessed together.
+    /// Returns the keys of all runs, in groups that are assessed together, and in the order in which they begin.
+    /// The costliest of a group are best first, since the last ones may leave a thread idle.
     fn plan(&self) -> Vec<Vec<Self::Key>>;
-
-    /// Returns the name of a run.
-    fn name(&self, key: &Self::Key) -> String;
 
     /// Returns an estimate of the CPU time of a run, in seconds.
     fn guess_s(&self, key: &Self::Key) -> f64;
-
-    /// Returns the round of a run. Runs of a round begin when those of all rounds before it have begun, so that
-    /// repeated runs are not next to each other.
-    fn round(&self, _key: &Self::Key) -> u32 {
-        0
-    }
 
     /// Carries out a run. Returns `None` if it was interrupted.
     fn run(&self, key: &Self::Key, bounds: &Bounds<'_>) -> Option<Self::Outcome>;
@@ -103,17 +96,14 @@ pub struct Conducted<R> {
     pub planned: usize,
 }
 
-/// A time that no run takes, in seconds: rounds are this far apart in the order of runs.
-const ROUND_S: f64 = 1e9;
-
 /// Carries out the plan of an experiment.
 ///
-/// `watch` is called after each run with its name and the estimated fraction of all work that is done. Once
-/// `bounds.stop` returns true, no other run is begun.
+/// `watch` is called after each run with the estimated fraction of all work that is done. Once `bounds.stop`
+/// returns true, no other run is begun.
 pub fn conduct<E: Experiment>(
     experiment: &E,
     bounds: &Bounds<'_>,
-    mut watch: impl FnMut(&str, f64),
+    mut watch: impl FnMut(f64),
 ) -> Conducted<E::Row> {
     let plan = experiment.plan();
     let whole_s = guess_s(experiment, &plan);
@@ -127,21 +117,61 @@ pub fn conduct<E: Experiment>(
         let outcomes = side_by_side(
             keys,
             experiment.threads(),
-            // The costliest run of a round first, since the last ones may leave a thread idle.
-            |key| experiment.guess_s(key) - ROUND_S * f64::from(experiment.round(key)),
             |key| match (bounds.stop)() {
                 true => None,
                 false => experiment.run(key, bounds),
             },
             |i| {
                 done_s += experiment.guess_s(&keys[i]);
-                watch(&experiment.name(&keys[i]), done_s / whole_s);
+                watch(done_s / whole_s);
             },
         );
         conducted.done += outcomes.iter().filter(|outcome| outcome.is_some()).count();
         conducted.rows.extend(experiment.rows(keys, outcomes));
     }
     conducted
+}
+
+/// Returns the number of threads that this machine can run at once, or 1 if that is not known.
+#[must_use]
+pub fn workers() -> NonZero<usize> {
+    thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
+}
+
+/// Does `work` for each job on up to `workers` threads, and returns the results. Jobs are begun in their order.
+/// `watch` is called on this thread after each job, with its index.
+///
+/// Results are handed over one at a time, so a thread starts at most one more job before `watch` has been
+/// called for its last. Work that can end early must return that as its result.
+///
+/// # Panics
+///
+/// If `work` panics.
+pub fn side_by_side<J: Sync, R: Send>(
+    jobs: &[J],
+    workers: NonZero<usize>,
+    work: impl Fn(&J) -> R + Sync,
+    mut watch: impl FnMut(usize),
+) -> Vec<R> {
+    let waiting = Mutex::new(jobs.iter().enumerate());
+    let (done, results) = mpsc::sync_channel(0);
+    thread::scope(|scope| {
+        for _ in 0..workers.get().min(jobs.len()) {
+            let (waiting, done, work) = (&waiting, done.clone(), &work);
+            scope.spawn(move || {
+                while let Some((i, job)) = waiting.lock().ok().and_then(|mut jobs| jobs.next()) {
+                    if done.send((i, work(job))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(done);
+        let mut found: Vec<(usize, R)> = results.into_iter().inspect(|(i, _)| watch(*i)).collect();
+        found.sort_by_key(|(i, _)| *i);
+        // A worker's panic ends the scope, so that all jobs have been done.
+        found.into_iter().map(|(_, result)| result).collect()
+    })
 }
 
 /// A list as it is typed in a command.
@@ -209,18 +239,8 @@ pub enum Status {
 impl Status {
     /// Returns the name of the status in tables.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Status::Ok => "ok",
-            Status::Wrong => "wrong",
-            Status::Refused => "refused",
-            Status::BlownUp => "blown-up",
-            Status::Unsolved => "unsolved",
-            Status::Restless => "restless",
-            Status::TooDear => "too-dear",
-            Status::Failed => "failed",
-            Status::Interrupted => "interrupted",
-        }
+    pub fn name(self) -> String {
+        table(&[self]).unwrap_or_default().trim().to_owned()
     }
 }
 
@@ -240,14 +260,49 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns the provenance as the footer of a figure.
-    #[must_use]
-    pub fn footer(&self) -> String {
+    /// Returns the footer of a figure: how to read it, its origin, and whether runs are missing.
+    pub(crate) fn footer(
+        &self,
+        reading: &str,
+        mut statuses: impl Iterator<Item = Status>,
+    ) -> Vec<String> {
         let processor = self.processor.as_ref();
         let processor = processor.map_or(String::new(), |name| format!(" · {name}"));
-        format!(
+        let origin = format!(
             "{} · version {}, commit {} · {}{processor}",
             self.command, self.version, self.commit, self.compiler
-        )
+        );
+        let mut footer = vec![reading.to_owned(), origin];
+        if statuses.any(|status| status == Status::Interrupted) {
+            footer.push("INTERRUPTED: runs that were not done are missing.".to_owned());
+        }
+        footer
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn workers_wait_until_they_were_heard_of() {
+        let (begun, mut heard) = (AtomicUsize::new(0), 0);
+        let workers = NonZero::<usize>::MIN.saturating_add(2);
+        let jobs: Vec<usize> = (0..40).collect();
+        let work = |&job: &usize| {
+            begun.fetch_add(1, Ordering::SeqCst);
+            2 * job
+        };
+        let doubled = side_by_side(&jobs, workers, work, |_| {
+            heard += 1;
+            thread::sleep(Duration::from_millis(2));
+            let ahead = begun.load(Ordering::SeqCst) - heard;
+            assert!(ahead <= workers.get(), "{ahead}");
+        });
+        let expected: Vec<usize> = jobs.iter().map(|job| 2 * job).collect();
+        assert_eq!((doubled, heard), (expected, jobs.len()));
     }
 }

@@ -28,9 +28,6 @@ use tearmesh_cloth::statistics::median;
 use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, Split};
 use crate::experiment::{Bounds, Experiment, Status, list};
 
-/// The default numbers of cells along each side of the patches.
-pub const CELLS: [u32; 4] = [8, 16, 32, 64];
-
 /// The number of times that each split is timed, as in the paper.
 pub const ROUNDS: usize = 10;
 
@@ -84,10 +81,6 @@ impl Experiment for Fig7 {
         self.cells.iter().map(|&cells| vec![cells]).collect()
     }
 
-    fn name(&self, cells: &u32) -> String {
-        format!("{cells} cells")
-    }
-
     fn guess_s(&self, &cells: &u32) -> f64 {
         CELL_S * f64::from(cells).powi(3)
     }
@@ -97,17 +90,13 @@ impl Experiment for Fig7 {
     }
 
     fn rows(&self, keys: &[u32], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
+        let undone = |&cells: &u32| Row {
+            cells,
+            ..Row::default()
+        };
         let patches = keys.iter().zip(outcomes);
-        let rows =
-            patches.flat_map(|(&cells, rows)| rows.unwrap_or_else(|| vec![unmeasured(cells)]));
-        rows.collect()
-    }
-}
-
-fn unmeasured(cells: u32) -> Row {
-    Row {
-        cells,
-        ..Row::default()
+        let rows = patches.map(|(cells, rows)| rows.unwrap_or_else(|| vec![undone(cells)]));
+        rows.flatten().collect()
     }
 }
 
@@ -147,7 +136,8 @@ fn rip(cells: u32, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
         splits: Some(replica.vertex_count() - positions.as_slice().len()),
         simulation_s: Some(simulation.as_secs_f64()),
         status: Status::Ok,
-        ..unmeasured(cells)
+        cells,
+        ..Row::default()
     };
     Some(rows(&trials, &patch))
 }

@@ -22,9 +22,9 @@ use std::ops::RangeInclusive;
 use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::statistics::{Random, median, spread};
 
-use self::play::{Answer, BDF2, Play, Stage};
+use self::play::{BDF2, Play, Stage, error};
 use crate::experiment::{Bounds, Experiment};
-use crate::method::{DEFAULT, DefaultMethod};
+use crate::method::{DEFAULT, DEFAULTS};
 use crate::pareto::AMPLIFICATION_MAX;
 
 /// The options of the page.
@@ -38,15 +38,6 @@ pub struct Options {
     pub diagonals: u64,
     /// The number of runs that may go on at a time.
     pub threads: NonZero<usize>,
-}
-
-impl Options {
-    /// The default number of cells.
-    pub const CELLS: u32 = 64;
-    /// The default number of seeds of ensembles.
-    pub const SEEDS: u64 = 16;
-    /// The default number of meshes with other diagonals.
-    pub const DIAGONALS: u64 = 8;
 }
 
 /// The multiples of its default step that each method is played with, beside the default.
@@ -131,9 +122,9 @@ impl Guide {
             add(Role::Gate, DEFAULT, None, 0..=1);
             multiples.extend(STEP_MULTIPLES.map(Some));
         }
-        for method in DefaultMethod::NAMES {
+        for method in &DEFAULTS {
             for &multiple in &multiples {
-                add(Role::Method, method, multiple, first..=seeds);
+                add(Role::Method, method.name, multiple, first..=seeds);
             }
         }
         keys
@@ -166,11 +157,6 @@ impl Experiment for Guide {
         groups.map(keys).collect()
     }
 
-    fn name(&self, key: &Row) -> String {
-        let (topic, cells, method) = (key.topic.name(), key.cells, &key.method);
-        format!("{topic} of {cells} cells by {method}")
-    }
-
     fn guess_s(&self, key: &Row) -> f64 {
         self.stage(key).guess_s(key)
     }
@@ -180,38 +166,41 @@ impl Experiment for Guide {
     }
 
     fn rows(&self, keys: &[Row], outcomes: Vec<Option<Play>>) -> Vec<Row> {
+        let undone = |key: &Row| Play {
+            row: key.clone(),
+            ..Play::default()
+        };
         let plays = keys.iter().zip(outcomes);
-        let plays = plays.map(|(key, play)| play.unwrap_or_else(|| Play::new(key)));
+        let plays = plays.map(|(key, play)| play.unwrap_or_else(|| undone(key)));
         let plays: Vec<Play> = plays.collect();
         let of = |role| -> Vec<&Play> {
             let of = plays.iter().filter(|play| play.row.role == role);
             of.collect()
         };
-        let mut known = answers(&of(Role::Reference));
-        let second = answers(&of(Role::Second));
+        let (mut known, second) = (of(Role::Reference), of(Role::Second));
         let (noise_amplification, error_noise) = match of(Role::Gate)[..] {
             [calm, noisy] => (
                 calm.apart_m(noisy).map(|apart_m| apart_m / NOISE_M),
-                play::error(&answers(&[noisy]), &answers(&[calm])),
+                error(&[noisy], &[calm]),
             ),
             _ => (None, None),
         };
         // Noise bars displacements, and only a shape at rest is judged by them.
         let grows = noise_amplification.is_none_or(|grown| grown > AMPLIFICATION_MAX);
         let is_barred = grows && keys.iter().any(|key| key.topic == Topic::Hang);
-        if second.is_empty() || is_barred {
+        if second.iter().all(|play| play.answer.is_none()) || is_barred {
             known.clear();
         }
-        let error = |ensemble: &[&Answer]| play::error(ensemble, &known);
+        let error = |ensemble: &[&Play]| error(ensemble, &known);
         let error_floor = error(&second);
         let on_meshes = of(Role::Mesh);
         let on_meshes = on_meshes.chunk_by(|a, b| a.row.diagonals == b.row.diagonals);
-        let error_mesh = median(on_meshes.filter_map(|of| error(&answers(of))).collect());
+        let error_mesh = median(on_meshes.filter_map(error).collect());
         let ensembles = plays.chunk_by(|a, b| a.row.ensemble() == b.row.ensemble());
         let rows = ensembles.flat_map(|of| {
-            let answers = answers(&of.iter().collect::<Vec<_>>());
+            let done = of.iter().filter(|play| play.answer.is_some());
             let errors = match of[0].row.role {
-                Role::Method => resampled(&answers, error),
+                Role::Method => resampled(&done.collect::<Vec<_>>(), error),
                 _ => None,
             };
             of.iter().map(move |play| Row {
@@ -229,22 +218,16 @@ impl Experiment for Guide {
     }
 }
 
-/// The answers of the runs that reached their end.
-fn answers<'a>(plays: &[&'a Play]) -> Vec<&'a Answer> {
-    let answers = plays.iter().filter_map(|play| play.answer.as_ref());
-    answers.collect()
-}
-
 /// The number of times that an ensemble is resampled.
 const DRAWS: usize = 200;
 
 /// The 10 %, 50 % and 90 % points of the error over resampled members of an ensemble; of one run, its error.
-fn resampled(ensemble: &[&Answer], error: impl Fn(&[&Answer]) -> Option<f64>) -> Option<[f64; 3]> {
+fn resampled<T>(ensemble: &[&T], error: impl Fn(&[&T]) -> Option<f64>) -> Option<[f64; 3]> {
     if ensemble.len() < 2 {
         return error(ensemble).map(|error| [error; 3]);
     }
     let mut random = Random::new(2014);
-    let mut draw = || -> Vec<&Answer> {
+    let mut draw = || -> Vec<&T> {
         let draw = (0..ensemble.len()).map(|_| ensemble[random.below(ensemble.len())]);
         draw.collect()
     };

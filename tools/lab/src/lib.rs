@@ -12,12 +12,10 @@
 pub mod cut;
 pub mod experiment;
 pub mod fig7;
-mod front;
 pub mod guide;
 pub mod method;
 pub mod pareto;
 pub mod plot;
-pub mod pool;
 pub mod reference;
 pub mod rk4;
 pub mod sheet;

@@ -4,16 +4,17 @@ use serde::{Deserialize, Serialize};
 use tearmesh_cloth::implicit::{self, Settings};
 use tearmesh_cloth::scene;
 use tearmesh_cloth::{
-    Implicit, Limiter, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
+    Implicit, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
 };
 
 use crate::plot::{COLOURS, Colour, Mark, Shape};
 use crate::rk4::Rk4;
 
 /// A method with its settings.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
-    /// The name in tables, such as `bdf2-100`: the family, and the sweeps per step or the tolerance.
+    /// The name: as on the command line for default settings, and else such as `bdf2-100`, with the sweeps per
+    /// step or the tolerance.
     pub name: &'static str,
     /// The family of methods to which it belongs.
     pub family: Family,
@@ -45,67 +46,53 @@ pub enum Family {
     Bdf2,
 }
 
-impl Family {
-    /// All families, in the order of legends.
-    pub const ALL: [Family; 9] = [
-        Family::Verlet,
+/// The families in their order, their names, and what tells their marks from others: shape and colour each do.
+const STYLES: [(Family, &str, Shape, Colour); 9] = [
+    (Family::Verlet, "Verlet", Shape::Disc, COLOURS[0]),
+    (
         Family::PlainVerlet,
-        Family::Rk4,
+        "plain Verlet",
+        Shape::Square,
+        COLOURS[5],
+    ),
+    (Family::Rk4, "RK4", Shape::Diamond, [0x22; 3]),
+    (
         Family::SymplecticEuler,
-        Family::Provot,
-        Family::Pbd,
-        Family::Xpbd,
+        "symplectic Euler",
+        Shape::Up,
+        COLOURS[4],
+    ),
+    (Family::Provot, "Provot", Shape::Down, [0x8a; 3]),
+    (Family::Pbd, "PBD", Shape::Cross, COLOURS[3]),
+    (Family::Xpbd, "XPBD", Shape::Plus, COLOURS[1]),
+    (
         Family::BackwardEuler,
-        Family::Bdf2,
-    ];
+        "backward Euler",
+        Shape::Left,
+        COLOURS[2],
+    ),
+    (Family::Bdf2, "BDF2", Shape::Right, [0x7b, 0x3f, 0xa0]),
+];
 
-    /// The name, and what tells the mark from others: shape and colour each do.
-    fn style(self) -> (&'static str, Shape, Colour) {
-        match self {
-            Family::Verlet => ("Verlet", Shape::Disc, COLOURS[0]),
-            Family::PlainVerlet => ("plain Verlet", Shape::Square, COLOURS[5]),
-            Family::Rk4 => ("RK4", Shape::Diamond, [0x22; 3]),
-            Family::SymplecticEuler => ("symplectic Euler", Shape::Up, COLOURS[4]),
-            Family::Provot => ("Provot", Shape::Down, [0x8a; 3]),
-            Family::Pbd => ("PBD", Shape::Cross, COLOURS[3]),
-            Family::Xpbd => ("XPBD", Shape::Plus, COLOURS[1]),
-            Family::BackwardEuler => ("backward Euler", Shape::Left, COLOURS[2]),
-            Family::Bdf2 => ("BDF2", Shape::Right, [0x7b, 0x3f, 0xa0]),
-        }
+impl Family {
+    /// Returns all families, in the order of legends.
+    #[must_use]
+    pub fn all() -> [Family; 9] {
+        STYLES.map(|(family, ..)| family)
     }
 
     /// Returns the name of the family in legends.
     #[must_use]
     pub fn name(self) -> &'static str {
-        self.style().0
+        STYLES[self as usize].1
     }
 
     /// Returns the mark of the family in plots.
     #[must_use]
     pub fn mark(self) -> Mark {
-        let (_, shape, colour) = self.style();
+        let (.., shape, colour) = STYLES[self as usize];
         Mark::new(shape, colour)
     }
-
-    /// Returns the way in which the energy stored in springs is computed.
-    pub(crate) fn stored_energy(self) -> StoredEnergy {
-        match self {
-            Family::Pbd => StoredEnergy::None,
-            Family::Xpbd => StoredEnergy::ByForce,
-            _ => StoredEnergy::ByLength,
-        }
-    }
-}
-
-/// The ways in which the energy stored in springs is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum StoredEnergy {
-    /// From their lengths.
-    ByLength,
-    /// From the forces of the method. The lengths that its sweeps leave do not belong to them.
-    ByForce,
-    /// Springs are rigid, and store nothing.
-    None,
 }
 
 /// All methods with all settings, grouped by family.
@@ -131,6 +118,18 @@ pub const METHODS: [Method; 19] = [
     method("bdf2-1000", Family::Bdf2, 1000),
 ];
 
+/// The methods of the command with their default settings.
+pub const DEFAULTS: [Method; 5] = [
+    method(DEFAULT, Family::Verlet, 0),
+    method("xpbd", Family::Xpbd, 1),
+    method("implicit", Family::BackwardEuler, 10),
+    method("pbd", Family::Pbd, 10),
+    method("provot", Family::Provot, 0),
+];
+
+/// The name of the method that is used where none is named.
+pub const DEFAULT: &str = "verlet";
+
 const fn method(name: &'static str, family: Family, setting: u32) -> Method {
     Method {
         name,
@@ -148,38 +147,55 @@ pub const STEP_FRACTIONS: [f64; 8] = [2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.125, 0.0
 const MARGIN: f64 = 0.95;
 
 impl Method {
-    /// Returns the method of this name.
+    /// Returns the method of this name, of [`METHODS`] or [`DEFAULTS`].
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Method> {
-        METHODS.iter().find(|method| method.name == name)
+        let mut all = METHODS.iter().chain(&DEFAULTS);
+        all.find(|method| method.name == name)
+    }
+
+    /// Returns the method as scenes have it; `None` for methods of the lab alone.
+    #[must_use]
+    pub fn settings(&self) -> Option<scene::Method> {
+        let implicit = |method| {
+            scene::Method::Implicit(Settings {
+                method,
+                tolerance: self.setting.into(),
+                ..Settings::default()
+            })
+        };
+        Some(match self.family {
+            Family::Verlet => scene::Method::Verlet,
+            Family::Provot => scene::Method::provot(),
+            Family::Pbd => scene::Method::Pbd(Pbd::new(self.setting)),
+            Family::Xpbd => scene::Method::Xpbd(Xpbd::new(1, self.setting)),
+            Family::BackwardEuler => implicit(implicit::Method::BackwardEuler),
+            Family::Bdf2 => implicit(implicit::Method::Bdf2),
+            Family::PlainVerlet | Family::Rk4 | Family::SymplecticEuler => return None,
+        })
     }
 
     /// Returns a new solver with these settings.
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
-        let implicit = |method| {
-            Box::new(Implicit::new(Settings {
-                method,
-                tolerance: self.setting.into(),
-                ..Settings::default()
-            }))
-        };
-        match self.family {
-            Family::Verlet => Box::new(Verlet::new()),
-            Family::PlainVerlet => Box::new(Verlet::plain()),
-            Family::Rk4 => Box::new(Rk4::new()),
-            Family::SymplecticEuler => Box::new(Provot::unlimited()),
-            Family::Provot => Box::new(Provot::new(Limiter::default())),
-            Family::Pbd => Box::new(Pbd::new(self.setting)),
-            Family::Xpbd => Box::new(Xpbd::new(1, self.setting)),
-            Family::BackwardEuler => implicit(implicit::Method::BackwardEuler),
-            Family::Bdf2 => implicit(implicit::Method::Bdf2),
+        match self.settings() {
+            Some(scene::Method::Verlet) => Box::new(Verlet::new()),
+            Some(scene::Method::Provot(limiter)) => Box::new(Provot::new(limiter)),
+            Some(scene::Method::Pbd(pbd)) => Box::new(pbd),
+            Some(scene::Method::Xpbd(xpbd)) => Box::new(xpbd),
+            Some(scene::Method::Implicit(settings)) => Box::new(Implicit::new(settings)),
+            None if self.family == Family::Rk4 => Box::new(Rk4::new()),
+            None if self.family == Family::PlainVerlet => Box::new(Verlet::plain()),
+            None => Box::new(Provot::unlimited()),
         }
     }
 
-    /// Returns the number of sweeps per step; `None` for a method that does not sweep.
-    pub(crate) fn sweeps(&self) -> Option<u32> {
-        matches!(self.family, Family::Pbd | Family::Xpbd).then_some(self.setting)
+    /// Returns the number of sweeps per step; 1 for a method that does not sweep.
+    pub(crate) fn sweeps(&self) -> u32 {
+        match self.family {
+            Family::Pbd | Family::Xpbd => self.setting,
+            _ => 1,
+        }
     }
 
     /// Returns the base step in seconds, which [`STEP_FRACTIONS`] multiply, for a system in which a pull
@@ -211,59 +227,22 @@ fn limit_s(system: &mut System, solver: &dyn Solver) -> f64 {
     }
 }
 
-/// A method at its default settings, by its name on the command line.
-#[derive(Clone, Debug)]
-pub struct DefaultMethod {
-    /// The name on the command line.
-    pub name: &'static str,
-    /// The family of methods to which it belongs.
-    pub family: Family,
-    /// The settings.
-    pub settings: scene::Method,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The name of the method that is used where none is named.
-pub const DEFAULT: &str = "verlet";
-
-impl DefaultMethod {
-    /// The names of all methods, in the order of [`DefaultMethod::all`].
-    pub const NAMES: [&str; 5] = ["verlet", "xpbd", "implicit", "pbd", "provot"];
-
-    /// Returns all methods that have a name on the command line.
-    #[must_use]
-    pub fn all() -> [DefaultMethod; 5] {
-        let [verlet, xpbd, implicit, pbd, provot] = DefaultMethod::NAMES;
-        let method = |name, family, settings| DefaultMethod {
-            name,
-            family,
-            settings,
-        };
-        [
-            method(verlet, Family::Verlet, scene::Method::Verlet),
-            method(xpbd, Family::Xpbd, scene::Method::xpbd()),
-            method(implicit, Family::BackwardEuler, scene::Method::implicit()),
-            method(pbd, Family::Pbd, scene::Method::pbd()),
-            method(provot, Family::Provot, scene::Method::provot()),
-        ]
-    }
-
-    /// Returns the method of this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<DefaultMethod> {
-        DefaultMethod::all()
-            .into_iter()
-            .find(|method| method.name == name)
-    }
-
-    /// Returns a new solver with the default settings.
-    #[must_use]
-    pub fn solver(&self) -> Box<dyn Solver> {
-        match &self.settings {
-            scene::Method::Provot(limiter) => Box::new(Provot::new(*limiter)),
-            scene::Method::Pbd(pbd) => Box::new(*pbd),
-            scene::Method::Verlet => Box::new(Verlet::new()),
-            scene::Method::Xpbd(xpbd) => Box::new(*xpbd),
-            scene::Method::Implicit(settings) => Box::new(Implicit::new(*settings)),
+    #[test]
+    fn defaults_are_those_of_scenes() {
+        let of_scenes = [
+            scene::Method::Verlet,
+            scene::Method::xpbd(),
+            scene::Method::implicit(),
+            scene::Method::pbd(),
+            scene::Method::provot(),
+        ];
+        for (method, known) in DEFAULTS.iter().zip(of_scenes) {
+            let settings = method.settings().expect("scenes have it");
+            assert_eq!(format!("{settings:?}"), format!("{known:?}"));
         }
     }
 }

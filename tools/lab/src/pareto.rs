@@ -13,10 +13,11 @@
 //! * The distance between the two references is the *error floor*. An error below ten times the floor is known no
 //!   better than that, and dominates no other error there.
 //! * A step meets a tolerance if all shorter steps of its series do too. So a lucky zero crossing of the error
-//!   does not count. An error that is larger than that of a longer step is marked and is on no front.
+//!   does not count. An error that is larger than that of a longer step is on no front.
 //! * A point dominates another if it is a tenth better in cost or in error, and no worse in the other.
 
 mod chart;
+mod front;
 mod observe;
 mod plan;
 mod run;
@@ -24,12 +25,11 @@ mod scene;
 
 pub use self::run::Outcome;
 pub(crate) use self::run::status_of;
-pub(crate) use self::scene::middle;
 pub use self::scene::{
     Held, Observable, REST_M_PER_S, SCENES, Scene, Start, TEAR_RATIO, TOUGHNESS_J_PER_M, Until,
 };
+pub(crate) use self::scene::{fastest_m_per_s, middle};
 
-use std::mem::discriminant;
 use std::num::NonZero;
 
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,6 @@ use self::plan::{Planned, Role, plan};
 use self::run::run;
 use self::scene::Case;
 use crate::experiment::{Bounds, Experiment, Status, list};
-use crate::front::{FLOORS, Point, converged, front, rising};
 use crate::method::{DEFAULT, Family};
 use crate::sheet::MeshKind;
 
@@ -75,6 +74,9 @@ pub(crate) const VISIT_S: f64 = 9e-9;
 /// The largest amplification of noise at which displacements are compared.
 pub const AMPLIFICATION_MAX: f64 = 1e3;
 
+/// The multiple of the floor below which errors are not distinguished.
+pub(crate) const FLOORS: f64 = 10.0;
+
 /// The error of energy below ten times which it counts as none.
 const ENERGY_FLOOR: f64 = 1e-4;
 
@@ -95,7 +97,7 @@ pub struct Key {
 
 /// An observable of a run. A run that failed has one row without an observable, and so have references and the
 /// runs of the gate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The name of the scene.
     pub scene: String,
@@ -132,15 +134,6 @@ pub struct Row {
     pub error_floor: Option<f64>,
     /// The distance of the run from the reference.
     pub error_total: Option<f64>,
-    /// The largest `error_total` of this and all shorter steps of the method, which is compared with tolerances.
-    pub error_converged: Option<f64>,
-    /// Whether `error_total` exceeds that of a longer step by more than a tenth, and is above ten times the
-    /// floor.
-    pub is_rising: bool,
-    /// Whether the run is on the front of error against visits of edges.
-    pub is_on_front: bool,
-    /// Whether the run is on the front of error against CPU time; false if no time was measured.
-    pub is_on_front_by_time: bool,
     /// The reason of a failure.
     pub why: String,
 }
@@ -189,9 +182,9 @@ impl Pareto {
         };
         let mut cases = Vec::new();
         for scene in &options.scenes {
+            let stiffness = or_own(&options.stiffness_n_per_m, scene.stiffness_n_per_m);
+            let ratios = or_own(&options.mass_ratios, scene.middle_mass_ratio);
             for (&mesh, &cells) in pairs(&options.meshes, &options.cells) {
-                let stiffness = or_own(&options.stiffness_n_per_m, scene.stiffness_n_per_m);
-                let ratios = or_own(&options.mass_ratios, scene.middle_mass_ratio);
                 cases.extend(pairs(&stiffness, &ratios).map(|(&stiffness, &ratio)| {
                     let scene = Scene {
                         stiffness_n_per_m: stiffness,
@@ -250,37 +243,27 @@ impl Experiment for Pareto {
 
     fn plan(&self) -> Vec<Vec<Key>> {
         let visits_max = self.options.visits_max as f64;
-        // The first round also warms up.
-        let rounds = 0..=self.options.repeats.unwrap_or(0);
+        // The first round also warms up. Repetitions of a run are not next to each other.
+        let rounds = self.options.repeats.unwrap_or(0);
         let group = |(case, of): (usize, &Case)| {
-            let planned = plan(of);
-            let key = |round, planned: &Planned| Key {
-                case,
-                planned: planned.clone(),
-                round,
-            };
-            let keys = rounds
-                .clone()
-                .flat_map(|round| planned.iter().map(move |one| key(round, one)));
-            let is_timed = |one: &Planned| one.role.family().is_some() && one.visits <= visits_max;
-            keys.filter(|key| key.round == 0 || is_timed(&key.planned))
-                .collect()
+            let (planned, mut keys) = (plan(of), Vec::new());
+            for round in 0..=rounds {
+                let is_in = |one: &&Planned| {
+                    round == 0 || one.method().is_some() && one.visits <= visits_max
+                };
+                keys.extend(planned.iter().filter(is_in).map(|planned| Key {
+                    case,
+                    planned: planned.clone(),
+                    round,
+                }));
+            }
+            keys
         };
         self.cases.iter().enumerate().map(group).collect()
     }
 
-    fn round(&self, key: &Key) -> u32 {
-        key.round
-    }
-
-    fn name(&self, key: &Key) -> String {
-        let case = &self.cases[key.case];
-        let (scene, mesh) = (case.scene.name, case.mesh.name());
-        format!("{scene}/{mesh}-{}/{}", case.cells, key.planned.name)
-    }
-
     fn guess_s(&self, key: &Key) -> f64 {
-        let most = match key.planned.role.is_reference() {
+        let most = match key.planned.is_reference() {
             true => f64::INFINITY,
             false => self.options.visits_max as f64,
         };
@@ -306,36 +289,31 @@ impl Experiment for Pareto {
             let times = own.filter_map(|(_, outcome)| outcome.as_ref()?.cpu_s);
             row.cpu_median_s = median(times.collect()).or(row.cpu_median_s);
         }
-        for observable in case.scene.observables {
-            rank(&mut rows, *observable);
-        }
         rows
     }
 }
 
-/// Computes the rows of a case from its runs, without fronts.
+/// Computes the rows of a case from its runs.
 fn assess(case: &Case, keys: &[Key], outcomes: &[Option<Outcome>]) -> Vec<Row> {
     let runs = || keys.iter().map(|key| &key.planned).zip(outcomes);
-    // The records of all runs with a role; `None` if one failed.
-    let records = |role: &Role| -> Option<Vec<&Records>> {
-        let of = runs().filter(|(planned, _)| discriminant(&planned.role) == discriminant(role));
+    // The records of the runs with a role, extrapolated if there are two; `None` if one failed.
+    let records = |role: Role| {
+        let of = runs().filter(|(planned, _)| planned.role == role);
         let usable = of.map(|(_, outcome)| outcome.as_ref().filter(|run| run.status == Status::Ok));
-        usable.map(|run| Some(&run?.records)).collect()
-    };
-    let reference = |role: Role| match records(&role)?[..] {
-        [run] => Some(run.clone()),
-        [coarse, fine] => Some(extrapolated(coarse, fine)),
-        _ => None,
-    };
-    let (verlet, newton) = (reference(Role::Verlet), reference(Role::Newton));
-    let rest = reference(Role::Rest);
-    let noise_amplification = match records(&Role::Gate(false)).as_deref() {
-        Some([calm, noisy]) => {
-            let amplification = apart_m(case, noisy, calm) / NOISE_M;
-            Some(amplification).filter(|amplification| amplification.is_finite())
+        match usable.collect::<Option<Vec<&Outcome>>>()?[..] {
+            [run] => Some(run.records.clone()),
+            [coarse, fine] => Some(extrapolated(&coarse.records, &fine.records)),
+            _ => None,
         }
-        _ => None,
     };
+    let (verlet, newton, rest) = (
+        records(Role::Verlet),
+        records(Role::Newton),
+        records(Role::Rest),
+    );
+    let gate = records(Role::Calm).zip(records(Role::Noisy));
+    let noise_amplification = gate.map(|(calm, noisy)| apart_m(case, &noisy, &calm) / NOISE_M);
+    let noise_amplification = noise_amplification.filter(|grown| grown.is_finite());
     // Written so that an unknown amplification bars as well.
     let passes = noise_amplification.is_some_and(|grown| grown <= AMPLIFICATION_MAX);
     let is_barred = case.is_gated() && !passes;
@@ -354,9 +332,30 @@ fn assess(case: &Case, keys: &[Key], outcomes: &[Option<Outcome>]) -> Vec<Row> {
     let reference = verlet.as_ref().unwrap_or(const { &Records::new() });
     let mut rows = Vec::new();
     for (planned, outcome) in runs() {
-        let row = plain_row(case, planned, outcome.as_ref(), noise_amplification);
-        let usable = outcome.as_ref().filter(|run| run.status == Status::Ok);
-        let Some(run) = usable.filter(|_| row.family.is_some()) else {
+        let (method, step_fraction) = match planned.role {
+            Role::Method(method, fraction) => (Some(method), fraction),
+            _ => (None, None),
+        };
+        let run = outcome.as_ref();
+        let row = Row {
+            scene: case.scene.name.to_owned(),
+            mesh: case.mesh,
+            cells: case.cells,
+            stiffness_n_per_m: case.scene.stiffness_n_per_m,
+            mass_ratio: case.scene.middle_mass_ratio,
+            run: planned.name.clone(),
+            family: method.map(|method| method.family),
+            method: method.map_or("reference", |method| method.name).to_owned(),
+            step_fraction,
+            status: run.map_or(Status::Interrupted, |run| run.status),
+            dt_s: planned.dt_s,
+            visits: run.map(|run| run.visits),
+            cpu_median_s: run.and_then(|run| run.cpu_s),
+            noise_amplification,
+            why: run.map_or(String::new(), |run| run.why.clone()),
+            ..Row::default()
+        };
+        let Some(run) = run.filter(|run| run.status == Status::Ok && method.is_some()) else {
             rows.push(row);
             continue;
         };
@@ -368,75 +367,6 @@ fn assess(case: &Case, keys: &[Key], outcomes: &[Option<Outcome>]) -> Vec<Row> {
         }));
     }
     rows
-}
-
-/// The row of a run without its errors.
-fn plain_row(
-    case: &Case,
-    planned: &Planned,
-    outcome: Option<&Outcome>,
-    noise_amplification: Option<f64>,
-) -> Row {
-    let (method, step_fraction) = match &planned.role {
-        Role::Budget(method, fraction) => (method.name, Some(*fraction)),
-        Role::Default(method) => (method.name, None),
-        Role::Verlet | Role::Newton | Role::Rest | Role::Gate(_) => ("reference", None),
-    };
-    Row {
-        scene: case.scene.name.to_owned(),
-        mesh: case.mesh,
-        cells: case.cells,
-        stiffness_n_per_m: case.scene.stiffness_n_per_m,
-        mass_ratio: case.scene.middle_mass_ratio,
-        run: planned.name.clone(),
-        family: planned.role.family(),
-        method: method.to_owned(),
-        step_fraction,
-        status: outcome.map_or(Status::Interrupted, |outcome| outcome.status),
-        dt_s: planned.dt_s,
-        visits: outcome.map(|outcome| outcome.visits),
-        cpu_median_s: outcome.and_then(|outcome| outcome.cpu_s),
-        noise_amplification,
-        observable: None,
-        error_floor: None,
-        error_total: None,
-        error_converged: None,
-        is_rising: false,
-        is_on_front: false,
-        is_on_front_by_time: false,
-        why: outcome.map_or(String::new(), |outcome| outcome.why.clone()),
-    }
-}
-
-/// Marks rising errors and the rows on fronts of a case, by an observable.
-fn rank(rows: &mut [Row], observable: Observable) {
-    let known = |row: &&mut Row| row.observable == Some(observable) && row.error_total.is_some();
-    let mut rows: Vec<&mut Row> = rows.iter_mut().filter(known).collect();
-    // The steps of a method, from the longest to the shortest.
-    for series in rows.chunk_by_mut(|a, b| a.method == b.method) {
-        let totals: Vec<f64> = series.iter().filter_map(|row| row.error_total).collect();
-        let marks = converged(&totals).into_iter().zip(rising(&totals));
-        for (row, (converged, is_rising)) in series.iter_mut().zip(marks) {
-            row.error_converged = Some(converged);
-            row.is_rising = is_rising && !row.is_at_floor();
-        }
-    }
-    for by_time in [false, true] {
-        let point = |row: &Row| {
-            let cost = row.cost(by_time).filter(|_| !row.is_rising)?;
-            // Below the floor no error is better than another.
-            let error = row.error_total?.max(FLOORS * row.error_floor?);
-            Some(Point { cost, error })
-        };
-        let points: Vec<Point> = rows.iter().filter_map(|row| point(row)).collect();
-        let ranked = rows.iter_mut().filter(|row| point(row).is_some());
-        for (row, is_on) in ranked.zip(front(&points)) {
-            match by_time {
-                true => row.is_on_front_by_time = is_on,
-                false => row.is_on_front = is_on,
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! Plots: figures of panels, described as data and drawn as SVG.
 //!
 //! A [`Figure`] has a title that says the finding, panels side by side, at most one legend, and a footer with
-//! the provenance. A [`Panel`] has two [`Axis`]es and [`Layer`]s: lines, marks, bars with intervals, bands,
-//! rules, cells of a heat map, and labels. Axes are fitted to what is drawn unless they have a range. Labels
-//! are moved apart, so that none stands on another. The same figure gives the same bytes.
+//! the provenance. A [`Panel`] has two [`Axis`]es and [`Layer`]s: lines, marks, bands, rules, cells of a heat
+//! map, and labels. Axes are fitted to what is drawn unless they have a range. Labels are moved apart, so that
+//! none stands on another. The same figure gives the same bytes.
 //!
 //! This is our own drawing and not a library's, since with axes, marks and labels described here a library
 //! has nothing left to do but to map points to pixels; and the one that served before (plotters) sets text
@@ -14,7 +14,7 @@ mod axis;
 mod canvas;
 mod draw;
 
-pub use self::axis::{Axis, short};
+pub use self::axis::{Axis, percent, short};
 pub use self::draw::svg;
 
 use std::ops::Range;
@@ -90,47 +90,14 @@ pub struct Strip {
 /// What is drawn in a panel.
 #[derive(Clone, Debug)]
 pub enum Layer {
-    /// A band over the whole width.
-    Band {
-        /// The ends along the vertical axis. Ends beyond the axis are cut off.
-        y: Range<f64>,
-        /// The colour.
-        colour: Colour,
-    },
-    /// A dashed vertical line over the whole height, with a label at its upper end.
-    Rule {
-        /// The place along the horizontal axis.
-        x: f64,
-        /// The label.
-        label: String,
-    },
-    /// A line from point to point.
-    Line {
-        /// The points.
-        points: Vec<[f64; 2]>,
-        /// The colour.
-        colour: Colour,
-        /// The width in pixels.
-        width: f64,
-    },
-    /// A mark at a point.
-    Mark {
-        /// The point.
-        at: [f64; 2],
-        /// The mark.
-        mark: Mark,
-        /// Words to hover over; empty for none.
-        hover: String,
-    },
-    /// An interval with its middle, at a place along the horizontal axis.
-    Interval {
-        /// The place along the horizontal axis.
-        x: f64,
-        /// The lower end, the middle and the upper end.
-        y: [f64; 3],
-        /// The colour.
-        colour: Colour,
-    },
+    /// A band over the whole width, between these ends along the vertical axis. Ends beyond it are cut off.
+    Band(Range<f64>),
+    /// A dashed vertical line over the whole height at a place along the horizontal axis, with a label.
+    Rule(f64, &'static str),
+    /// A line from point to point, with its width in pixels.
+    Line(Vec<[f64; 2]>, Colour, f64),
+    /// A mark at a point, with words to hover over, or none if they are empty.
+    Mark([f64; 2], Mark, String),
     /// A cell of a heat map: one unit wide and high, with words in it.
     Cell {
         /// The place along both axes of its corner with the smaller numbers.
@@ -143,38 +110,17 @@ pub enum Layer {
         is_marked: bool,
     },
     /// A label beside a point, moved up or down where another would be hit.
-    Label {
-        /// The point.
-        at: [f64; 2],
-        /// The text.
-        text: String,
-        /// The colour.
-        colour: Colour,
-    },
+    Label([f64; 2], String, Colour),
 }
 
 impl Layer {
-    /// Returns a line from point to point.
+    /// Returns an interval at a place along the horizontal axis: a line from its lower to its upper end, and a mark
+    /// at its middle, with words to hover over.
     #[must_use]
-    pub fn line(points: Vec<[f64; 2]>, colour: Colour, width: f64) -> Layer {
-        Layer::Line {
-            points,
-            colour,
-            width,
-        }
-    }
-
-    /// Returns a mark at a point, with words to hover over, or none if `hover` is empty.
-    #[must_use]
-    pub fn mark(at: [f64; 2], mark: Mark, hover: String) -> Layer {
-        Layer::Mark { at, mark, hover }
-    }
-
-    /// Returns a label beside a point.
-    #[must_use]
-    pub fn label(at: [f64; 2], text: impl Into<String>, colour: Colour) -> Layer {
-        let text = text.into();
-        Layer::Label { at, text, colour }
+    pub fn interval(x: f64, ends: [f64; 3], mark: Mark, hover: String) -> [Layer; 2] {
+        let [low, middle, high] = ends;
+        let line = Layer::Line(vec![[x, low], [x, high]], mark.colour, 2.0);
+        [line, Layer::Mark([x, middle], mark, hover)]
     }
 }
 

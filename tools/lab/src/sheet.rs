@@ -11,10 +11,11 @@ pub(crate) const DENSITY_KG_PER_M2: f64 = 0.15;
 pub const SEED: u64 = 1;
 
 /// The kinds of meshes of a sheet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MeshKind {
     /// Square cells with diagonals in random directions.
+    #[default]
     Grid,
     /// Delaunay triangles of random points that keep a minimum distance from each other.
     Delaunay,

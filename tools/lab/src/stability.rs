@@ -77,13 +77,6 @@ impl Experiment for Stability {
         vec![limits.chain(TRIALS.iter().map(Key::Trial)).collect()]
     }
 
-    fn name(&self, key: &Key) -> String {
-        match key {
-            Key::Limit(method, _) => format!("limit of {method}"),
-            Key::Trial(trial) => trial.name.to_owned(),
-        }
-    }
-
     fn guess_s(&self, key: &Key) -> f64 {
         match key {
             Key::Limit(..) => LIMITS_S / LIMITS.len() as f64 * self.stiffness_n_per_m.len() as f64,
@@ -102,9 +95,13 @@ impl Experiment for Stability {
     }
 
     fn rows(&self, keys: &[Key], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
-        let interrupted = |key: &Key| Row {
-            place: self.name(key),
-            ..Row::default()
+        let interrupted = |key: &Key| {
+            let (Key::Limit(name, _) | Key::Trial(Trial { name, .. })) = key;
+            let place = (*name).to_owned();
+            Row {
+                place,
+                ..Row::default()
+            }
         };
         let each = keys.iter().zip(outcomes);
         let each = each.map(|(key, rows)| rows.unwrap_or_else(|| vec![interrupted(key)]));
@@ -119,7 +116,7 @@ mod tests {
     use super::*;
 
     use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
-    use crate::method::DefaultMethod;
+    use crate::method::DEFAULTS;
 
     /// The experiment with one word about what failed, or with none.
     fn experiment(is_mute: bool) -> Stability {
@@ -134,6 +131,13 @@ mod tests {
         }
     }
 
+    fn name(key: &Key) -> &'static str {
+        match key {
+            Key::Limit(method, _) => method,
+            Key::Trial(trial) => trial.name,
+        }
+    }
+
     fn rows_of(experiment: &Stability, names: &[&str]) -> Vec<Row> {
         let bounds = Bounds {
             clock: None,
@@ -141,7 +145,7 @@ mod tests {
         };
         let plan = experiment.plan().concat();
         let keys = plan.into_iter();
-        let keys = keys.filter(|key| names.contains(&experiment.name(key).as_str()));
+        let keys = keys.filter(|key| names.contains(&name(key)));
         let keys: Vec<Key> = keys.collect();
         assert_eq!(keys.len(), names.len());
         let outcomes = keys.iter().map(|key| experiment.run(key, &bounds));
@@ -157,7 +161,7 @@ mod tests {
                 .map(|row| (&*row.place, &*row.method, row.is_silent));
             let expected = [("free fall", false), ("wind", is_mute)];
             let expected = expected.into_iter().flat_map(|(place, is_silent)| {
-                DefaultMethod::NAMES.map(|method| (place, method, Some(is_silent)))
+                DEFAULTS.map(|method| (place, method.name, Some(is_silent)))
             });
             assert!(silent.eq(expected), "{rows:?}");
         }
@@ -166,7 +170,7 @@ mod tests {
     #[test]
     fn the_figure_of_a_table_that_was_read_back_is_the_same() {
         let experiment = experiment(false);
-        let names = ["limit of rk4", "limit of pbd-10", "wind"];
+        let names = ["rk4", "pbd-10", "wind"];
         let rows = rows_of(&experiment, &names);
         assert_eq!(rows.len(), 4 * 8 + 4 * 8 + 5);
         let text = table(&rows).expect("a table");
@@ -187,7 +191,7 @@ mod tests {
             clock: None,
             stop: &stop,
         };
-        let conducted = conduct(&experiment, &bounds, |_, _| {});
+        let conducted = conduct(&experiment, &bounds, |_| {});
         assert_eq!(
             (conducted.done, conducted.rows.len()),
             (0, conducted.planned)

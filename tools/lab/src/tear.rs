@@ -25,7 +25,7 @@ use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
 use crate::experiment::{Bounds, Experiment, Status, list};
-use crate::method::{DEFAULT, DefaultMethod};
+use crate::method::{DEFAULT, DEFAULTS, Method};
 
 /// The experiment on tearing, and its options.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ pub struct Tear {
     pub scenes: Vec<EnsembleScene>,
     /// The numbers of cells across of those scenes; empty for the default of each.
     pub cells: Vec<u32>,
-    /// The names of the methods that play them, from [`DefaultMethod::NAMES`].
+    /// The names of the methods that play them, of [`DEFAULTS`].
     pub methods: Vec<String>,
     /// The number of seeds of each ensemble.
     pub seeds: u64,
@@ -160,7 +160,7 @@ impl Tear {
 
     /// The keys of the ensembles of a scene on a mesh.
     fn runs(&self, scene: EnsembleScene, cells: u32) -> Vec<Row> {
-        let names = DefaultMethod::NAMES.into_iter();
+        let names = DEFAULTS.into_iter().map(|method| method.name);
         let names = names.filter(|name| self.methods.iter().any(|other| other == name));
         let steps = names.flat_map(|name| STEP_DIVISORS.map(|divisor| (name, divisor)));
         let keys = steps.flat_map(|(name, step_divisor)| {
@@ -216,19 +216,14 @@ impl Experiment for Tear {
         plan
     }
 
-    fn name(&self, key: &Row) -> String {
-        let (scene, cells, method) = (key.scene.name(), key.cells, &key.method);
-        format!("{scene} of {cells} cells by {method}")
-    }
-
     /// A mesh twice as fine has four times as many edges, and steps that are half as long if the method is explicit.
     fn guess_s(&self, key: &Row) -> f64 {
-        let method = DefaultMethod::NAMES
-            .iter()
-            .position(|name| *name == key.method);
-        let at_default = RUN_S[method.unwrap_or_default()][key.scene as usize];
+        let at_default_s = match key.scene {
+            EnsembleScene::Trouser => 7.0,
+            EnsembleScene::Rip => 2.0,
+        };
         let finer = f64::from(key.cells) / f64::from(key.scene.cells());
-        at_default * finer.powf(2.5) * f64::from(key.step_divisor)
+        at_default_s * finer.powf(2.5) * f64::from(key.step_divisor)
     }
 
     fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Member> {
@@ -243,7 +238,7 @@ impl Experiment for Tear {
             (_, ratio) => Threshold::Stretch(ratio.unwrap_or(Scene::STRETCH_RATIO)),
         };
         let scene = Scene {
-            solver: DefaultMethod::named(&key.method)?.settings,
+            solver: Method::named(&key.method)?.settings()?,
             tearing: Some(Tearing {
                 weakening,
                 ..Tearing::new(threshold)
@@ -279,9 +274,6 @@ impl Experiment for Tear {
         keys.iter().zip(outcomes).map(row).collect()
     }
 }
-
-/// By method, the CPU time of a trouser test and of a rip on their own meshes, in seconds.
-const RUN_S: [[f64; 2]; 5] = [[6.0, 1.2], [2.0, 0.5], [5.0, 2.5], [2.5, 0.8], [20.0, 6.0]];
 
 /// A grid of square cells, whose diagonals rise where `rising(column, row)` returns true.
 pub(crate) fn grid(

@@ -4,13 +4,12 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
-use tearmesh_lab::guide::Options as Guide;
-use tearmesh_lab::method::DefaultMethod;
+use tearmesh_lab::method::DEFAULTS;
 use tearmesh_lab::pareto::{SCENES, VISITS_MAX};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
+use tearmesh_lab::tear;
 use tearmesh_lab::tear::EnsembleScene;
-use tearmesh_lab::{cut, fig7, tear};
 
 use crate::say::Color;
 
@@ -46,7 +45,7 @@ pub(crate) enum What {
     /// The force that tears strips of five meshes, by stretch ratio and by toughness; and what follows the first
     /// tear, over many seeds.
     Tear(TearChartArgs),
-    /// The time of cuts by every method, against the distance of their seams from the plane.
+    /// The time of cuts by every method, the distance of their seams from the plane, their pieces and their faces.
     Cut(CutChartArgs),
     /// The time to split vertices while a cloth is ripped, with ghost pairs and without (Figure 7 of the paper).
     Fig7(Fig7Args),
@@ -91,17 +90,17 @@ pub(crate) struct GuideArgs {
     pub(crate) draw: DrawArgs,
 
     /// Cells along the longest side of the meshes.
-    #[arg(long, value_name = "N", default_value_t = Guide::CELLS,
+    #[arg(long, value_name = "N", default_value_t = 64,
         value_parser = clap::value_parser!(u32).range(8..=256))]
     pub(crate) size: u32,
 
     /// Seeds of an ensemble.
-    #[arg(long, value_name = "N", default_value_t = Guide::SEEDS,
+    #[arg(long, value_name = "N", default_value_t = 16,
         value_parser = clap::value_parser!(u64).range(2..=10_000))]
     pub(crate) seeds: u64,
 
     /// Meshes with different diagonals, which show the error of the mesh itself.
-    #[arg(long, value_name = "N", default_value_t = Guide::DIAGONALS,
+    #[arg(long, value_name = "N", default_value_t = 8,
         value_parser = clap::value_parser!(u64).range(2..=1000))]
     pub(crate) diagonals: u64,
 
@@ -201,8 +200,8 @@ pub(crate) struct TearChartArgs {
 
     /// Methods that play them.
     #[arg(long, value_name = "NAME", value_delimiter = ',',
-        default_values_t = DefaultMethod::NAMES.map(str::to_owned),
-        value_parser = clap::builder::PossibleValuesParser::new(DefaultMethod::NAMES))]
+        default_values_t = DEFAULTS.map(|method| method.name.to_owned()),
+        value_parser = clap::builder::PossibleValuesParser::new(DEFAULTS.map(|method| method.name)))]
     pub(crate) method: Vec<String>,
 
     /// Seeds of an ensemble; 0 for no ensembles.
@@ -230,18 +229,14 @@ pub(crate) struct CutChartArgs {
     pub(crate) draw: DrawArgs,
 
     /// Cells per side of the sheets that are cut.
-    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = cut::CELLS,
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [64, 224],
         value_parser = clap::value_parser!(u32).range(4..=1024))]
     pub(crate) size: Vec<u32>,
 
     /// Random lines along which each sheet is cut.
-    #[arg(long, value_name = "N", default_value_t = cut::CUTS,
+    #[arg(long, value_name = "N", default_value_t = 40,
         value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) cuts: u32,
-
-    /// Draw the cuts of a record of `tearmesh-bench cut` beside them: tools/bench/record/*/cut.txt.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) record: Option<PathBuf>,
 }
 
 /// The arguments of `chart fig7`.
@@ -251,7 +246,7 @@ pub(crate) struct Fig7Args {
     pub(crate) draw: DrawArgs,
 
     /// Cells per side of the patches that are ripped.
-    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = fig7::CELLS,
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [8, 16, 32, 64],
         value_parser = clap::value_parser!(u32).range(2..=256))]
     pub(crate) size: Vec<u32>,
 }

@@ -8,7 +8,7 @@ use tearmesh_cloth::scene::ensemble::{
     self, Ensemble, Job, MemberStatus, NOISE_M, Quantity, Subject,
 };
 use tearmesh_cloth::statistics::{self, Verdict, compare};
-use tearmesh_lab::pool;
+use tearmesh_lab::experiment::{side_by_side, workers};
 
 use super::words::{three_digits, two_digits};
 use crate::interrupt::Guard;
@@ -30,7 +30,7 @@ pub(super) fn check(
     let ensembles = ensemble::play(subject, 1..=SEEDS, &step_divisors, &stop, |jobs, member| {
         let whole: f64 = jobs.iter().map(Job::cost).sum();
         let mut done = 0.0;
-        pool::side_by_side(jobs, pool::workers(), Job::cost, member, |i| {
+        side_by_side(jobs, workers(), member, |i| {
             done += jobs[i].cost();
             bar.set_position((done / whole * bar.length().unwrap_or(0) as f64) as u64);
         })

@@ -2,73 +2,71 @@
 
 use std::fmt::Write as _;
 
-use super::{Cuts, Row};
+use super::{Cuts, METHODS, Row};
 use crate::experiment::{Chart, Provenance, Status};
-use crate::plot::{Axis, COLOURS, Figure, GREY, Layer, Mark, PALE, Panel, Shape, short};
+use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
 /// The largest deviation that counts as rounding, in mean edge lengths. Smaller ones are drawn there.
 const ROUNDING_EDGES: f64 = 1e-9;
 
-/// A measure of a method on a sheet.
-struct Measure {
-    /// The heading in the summary.
-    head: &'static str,
-    /// The title of the panel, with the unit.
-    title: &'static str,
-    axis: fn(&str) -> Axis,
-    /// The median over all cuts, and the worst cut.
-    of: fn(&Row) -> Option<[f64; 2]>,
-}
+/// A measure of a method on a sheet: the heading in the summary, the title of the panel with the unit, the kind of
+/// axis, and the median over all cuts with the worst cut.
+type Measure = (
+    &'static str,
+    &'static str,
+    fn(&str) -> Axis,
+    fn(&Row) -> Option<[f64; 2]>,
+);
 
-const MEASURES: [Measure; 4] = [
-    Measure {
-        head: "ns/face",
-        title: "CPU time of a cut per face of the sheet, ns",
-        axis: Axis::log,
-        of: |row| Some([row.ns_per_face?; 2]),
-    },
-    Measure {
-        head: "distance",
-        title: "Distance of the seam from the plane, edges; 1e-9 is rounding",
-        axis: Axis::log,
-        of: |row| {
-            let median = row.deviation_edges?;
-            let most = row.deviation_edges_most.unwrap_or(median);
-            Some([median, most].map(|edges| edges.max(ROUNDING_EDGES)))
+const MEASURES: [Measure; 6] = [
+    (
+        "ns/face",
+        "CPU time of a cut per face of the sheet, ns",
+        Axis::log,
+        |row| Some([row.ns_per_face?; 2]),
+    ),
+    (
+        "distance",
+        "Distance of the seam from the plane, edges; 1e-9 is rounding",
+        Axis::log,
+        |row| {
+            let both = [row.deviation_edges?, row.deviation_edges_most?];
+            Some(both.map(|edges| edges.max(ROUNDING_EDGES)))
         },
-    },
-    Measure {
-        head: "divided",
-        title: "Cuts into the expected pieces, %",
-        axis: Axis::linear,
-        of: |row| Some([100.0 * row.divided? as f64 / row.cuts? as f64; 2]),
-    },
-    Measure {
-        head: "step",
-        title: "Stable step of springs, after / before",
-        axis: Axis::log,
-        of: |row| Some([row.step_ratio?, row.step_ratio_least?]),
-    },
+    ),
+    (
+        "divided",
+        "Cuts into the expected pieces, %",
+        Axis::linear,
+        |row| Some([100.0 * row.divided? as f64 / row.cuts? as f64; 2]),
+    ),
+    (
+        "step",
+        "Stable step of springs, after / before",
+        Axis::log,
+        |row| Some([row.step_ratio?, row.step_ratio_least?]),
+    ),
+    (
+        "length",
+        "Length of the seam / straight line",
+        Axis::linear,
+        |row| Some([row.length_ratio?, row.length_ratio_most?]),
+    ),
+    (
+        "angle",
+        "Smallest angle of all faces, degrees",
+        Axis::log,
+        |row| Some([row.angle_min_deg?; 2]),
+    ),
 ];
+
+/// How to read the figure.
+const READING: &str = "The number of a method is its snap: a crossing moves to the end of its edge if it is closer \
+     than this fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for larger \
+     sheets. Lines lead from the median over all cuts to the worst cut.";
 
 impl Chart for Cuts {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        let mut footer = vec![provenance.footer()];
-        if rows.iter().any(|row| row.status == Status::Interrupted) {
-            footer.push("INTERRUPTED: some methods are missing.".to_owned());
-        }
-        footer.push(
-            "The number of a method is its snap: a crossing moves to the end of its edge if it is closer than \
-             this fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for \
-             larger sheets. Lines lead from the median over all cuts to the worst cut."
-                .to_owned(),
-        );
-        let record = rows.iter().find_map(|row| row.processor.as_ref());
-        footer.extend(
-            record.map(|processor| {
-                format!("Hollow marks: a record of tearmesh-bench on {processor}.")
-            }),
-        );
         Figure {
             title: title(rows)
                 .unwrap_or("The time of cuts, and their distance from the plane".to_owned()),
@@ -80,17 +78,17 @@ impl Chart for Cuts {
                 .iter()
                 .map(|measure| panel(rows, measure))
                 .collect(),
-            footer,
+            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
         }
     }
 
     fn summary(&self, rows: &[Row]) -> String {
         let mut text = format!("{:<16} {:>7}", "method", "faces");
-        text.extend(MEASURES.map(|measure| format!(" {:>9}", measure.head)));
-        for row in rows.iter().filter(|row| row.processor.is_none()) {
+        text.extend(MEASURES.map(|(head, ..)| format!(" {head:>9}")));
+        for row in rows {
             write!(text, "\n{:<16} {:>7}", row.method, row.faces).expect("a string grows");
-            let medians = MEASURES.iter().map(|measure| match (measure.of)(row) {
+            let medians = MEASURES.iter().map(|(.., of)| match of(row) {
                 Some([median, _]) => short(median, 3),
                 None => "–".to_owned(),
             });
@@ -105,9 +103,9 @@ impl Chart for Cuts {
 
 /// The finding on the largest sheet; `None` if rows are missing.
 fn title(rows: &[Row]) -> Option<String> {
-    let own = || rows.iter().filter(|row| row.processor.is_none());
-    let largest = own().map(|row| row.faces).max()?;
-    let of = |name: &str| own().find(|row| row.method == name && row.faces == largest);
+    let largest = rows.iter().map(|row| row.faces).max()?;
+    let is_it = |row: &&Row, name: &str| row.method == name && row.faces == largest;
+    let of = |name: &str| rows.iter().find(|row| is_it(row, name));
     let (partition, exact, snapped) = (of("partition")?, of("exact 0")?, of("exact .05")?);
     let times = exact.ns_per_face? / partition.ns_per_face?;
     let steps = snapped.step_ratio? / exact.step_ratio?;
@@ -125,7 +123,6 @@ fn title(rows: &[Row]) -> Option<String> {
 /// The mark of a row, larger for more faces. Snaps share a mark.
 fn mark(row: &Row) -> Mark {
     let mark = match row.method.as_str() {
-        _ if row.processor.is_some() => Mark::new(Shape::Disc, GREY).hollow(),
         "uniform" => Mark::new(Shape::Up, COLOURS[3]),
         "alternating" => Mark::new(Shape::Down, COLOURS[4]),
         "partition" => Mark::new(Shape::Square, COLOURS[1]),
@@ -136,38 +133,28 @@ fn mark(row: &Row) -> Mark {
 }
 
 /// A measure of all methods that have it, one below the other.
-fn panel(rows: &[Row], measure: &Measure) -> Panel {
-    let rows = rows.iter();
-    let shown = rows.filter_map(|row| Some((row, (measure.of)(row)?)));
-    let shown: Vec<(&Row, [f64; 2])> = shown.collect();
-    let mut names: Vec<String> = Vec::new();
-    for (row, _) in &shown {
-        if !names.contains(&row.method) {
-            names.push(row.method.clone());
-        }
-    }
-    names.reverse();
+fn panel(rows: &[Row], (_, title, axis, of): &Measure) -> Panel {
+    let names = METHODS.iter().rev().map(|(name, ..)| (*name).to_owned());
+    let names: Vec<String> = names.collect();
     let mut layers = Vec::new();
     for (i, name) in names.iter().enumerate() {
         if i % 2 == 0 {
-            layers.push(Layer::Band {
-                y: i as f64..(i + 1) as f64,
-                colour: PALE,
-            });
+            layers.push(Layer::Band(i as f64..(i + 1) as f64));
         }
-        let own = shown.iter().filter(|(row, _)| row.method == *name);
+        let own = rows.iter().filter(|row| row.method == *name);
+        let own = own.filter_map(|row| Some((row, of(row)?)));
         let count = own.clone().count();
-        for (j, &(row, [median, worst])) in own.enumerate() {
+        for (j, (row, [median, worst])) in own.enumerate() {
             let y = (i + 1) as f64 - (j + 1) as f64 / (count + 1) as f64;
             let mark = mark(row);
-            layers.push(Layer::line(vec![[median, y], [worst, y]], mark.colour, 1.5));
+            layers.push(Layer::Line(vec![[median, y], [worst, y]], mark.colour, 1.5));
             let hover = format!("{name}, {} faces: {}", row.faces, short(median, 3));
-            layers.push(Layer::mark([median, y], mark, hover));
+            layers.push(Layer::Mark([median, y], mark, hover));
         }
     }
     Panel {
-        title: measure.title.to_owned(),
-        x: (measure.axis)(""),
+        title: (*title).to_owned(),
+        x: axis(""),
         y: Axis::named(names),
         layers,
         ..Panel::default()

@@ -6,30 +6,8 @@ use super::*;
 use crate::experiment::{Chart, Provenance, conduct, read_table, table};
 use crate::plot::Layer;
 
-const RECORD: &str = "tearmesh-bench cut\n\
-commit    abc\n\
-CPU       A Processor (R) of two words\n\
-\n\
-through cut of 50 vertices, 2000 faces; CPU time of 3 rounds\n\
-\x20                   ms  least ms  x best rival\n\
-\x20 exact, snap 0   4.00      3.00          2.27  in place\n\
-\x20 other           8.00      7.00          1.00  5.2.0: slice\n\
-\x20 unmeasured      9.00      8.00          0.90  no deviation\n\
-\n\
-\x20                faces  seam  cracks  deviation  in edges    length\n\
-\x20 exact, snap 0   2100   543       0    4.4e-16   8.0e-14  1.000000\n\
-\x20 other           2100   547       4    2.0e-06    3.6e-4\n\
-\n\
-40 random through cuts of 20000 faces\n\
-\x20 snap  deviation\n\
-\x20 0       1.8e-14  (1e-15)\n";
-
 fn cuts(cells: &[u32]) -> Cuts {
-    Cuts::new(Options {
-        cells: cells.to_vec(),
-        cuts: 6,
-        record: read_record(RECORD),
-    })
+    Cuts::new(cells.to_vec(), 6)
 }
 
 /// The rows by a clock that is a microsecond later whenever it is read.
@@ -40,13 +18,13 @@ fn measured(cuts: &Cuts) -> Vec<Row> {
         clock: Some(&clock),
         stop: &|| false,
     };
-    conduct(cuts, &bounds, |_, _| {}).rows
+    conduct(cuts, &bounds, |_| {}).rows
 }
 
 #[test]
 fn snap_bounds_deviation_and_pieces_are_those_expected() {
     let rows = measured(&cuts(&[24]));
-    assert_eq!(rows.len(), METHODS.len() + 2);
+    assert_eq!(rows.len(), METHODS.len());
     let of = |name: &str, number: fn(&Row) -> Option<f64>| {
         let row = rows.iter().find(|row| row.method == name);
         number(row.expect("a row for each method")).expect("a number for each row")
@@ -62,43 +40,30 @@ fn snap_bounds_deviation_and_pieces_are_those_expected() {
     let [moved, unmoved] =
         ["exact .05 moved", "exact .05"].map(|name| of(name, |row| row.deviation_edges_most));
     assert!(moved <= unmoved);
-    for row in rows.iter().filter(|row| row.processor.is_none()) {
+    for row in &rows {
         let is_proved = row.method == "partition" || row.method.starts_with("exact");
         assert_eq!(row.divided == row.cuts, is_proved, "{}", row.method);
         // One microsecond, by 2 · 24² faces.
         let ns = row.ns_per_face.expect("a time for each row");
         assert!((ns - 1000.0 / 1152.0).abs() < 1e-9, "{}: {ns}", row.method);
     }
+    let all = |names: [&str; 3], number| names.map(|name| of(name, number));
     // A smaller snap leaves thinner faces.
     let steps = ["partition", "exact .2", "exact .05", "exact 0"];
     let steps = steps.map(|name| of(name, |row| row.step_ratio));
     assert!(steps.is_sorted_by(|a, b| a > b), "{steps:?}");
     assert!(steps[0] > 0.5 && steps[0] <= 1.0 + 1e-6);
-}
-
-#[test]
-fn records_are_read() {
-    let rows = read_record(RECORD);
-    let numbers = rows.iter().map(|row| {
-        (
-            &*row.method,
-            row.faces,
-            row.ns_per_face,
-            row.deviation_edges,
-        )
+    let angles = all(["exact .2", "exact .05", "exact 0"], |row| {
+        row.angle_min_deg
     });
-    assert_eq!(
-        numbers.collect::<Vec<_>>(),
-        [
-            ("exact, snap 0", 2000, Some(2000.0), Some(8.0e-14)),
-            ("other", 2000, Some(4000.0), Some(3.6e-4))
-        ]
+    assert!(
+        angles.is_sorted_by(|a, b| a > b) && angles[0] > 1.0,
+        "{angles:?}"
     );
-    let processor = rows[0].processor.as_deref();
-    assert_eq!(processor, Some("A Processor (R) of two words"));
-    for text in ["", "through cut of 5 faces", "CPU x\n  a  1\n"] {
-        assert_eq!(read_record(text), []);
-    }
+    // An exact seam is a straight line, seen from above; a partition goes along edges.
+    let lengths = all(["partition", "exact .2", "exact 0"], |row| row.length_ratio);
+    assert!(lengths.is_sorted_by(|a, b| a > b), "{lengths:?}");
+    assert!((lengths[2] - 1.0).abs() < 1e-9, "{lengths:?}");
 }
 
 #[test]
@@ -110,13 +75,13 @@ fn an_interrupted_table_has_a_row_for_each_method() {
         clock: None,
         stop: &stop,
     };
-    let conducted = conduct(&cuts(&[8, 6]), &bounds, |_, _| {});
+    let conducted = conduct(&cuts(&[8, 6]), &bounds, |_| {});
     assert_eq!((conducted.done, conducted.planned), (2, 20));
     let rows = conducted.rows;
-    assert_eq!(rows.len(), 2 * METHODS.len() + 2);
+    assert_eq!(rows.len(), 2 * METHODS.len());
     let (whole, interrupted): (Vec<&Row>, Vec<&Row>) =
         rows.iter().partition(|row| row.status == Status::Ok);
-    assert_eq!((whole.len(), interrupted.len()), (2 + 2, 18));
+    assert_eq!((whole.len(), interrupted.len()), (2, 18));
     assert!(interrupted.iter().all(|row| row.step_ratio.is_none()));
     let figure = cuts(&[]).figure(&rows, &Provenance::default());
     assert!(
@@ -140,12 +105,9 @@ fn figure_has_a_mark_for_each_row_and_survives_a_file() {
     // All cuts take the same time by this clock.
     let title = "An exact cut lies on its plane and takes 1 times as long as a partition.";
     assert!(figure.title.starts_with(title), "{}", figure.title);
-    // Of a method on a sheet, and of a row of the record, which has no more than two measures.
-    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark { .. });
-    for (of, counts) in [(&rows[2..3], [1, 1, 1, 1]), (&rows[21..22], [1, 1, 0, 0])] {
-        let figure = cuts.figure(of, &Provenance::default());
-        let panels = figure.panels.iter();
-        let marks = panels.map(|panel| panel.layers.iter().filter(is_mark).count());
-        assert_eq!(marks.collect::<Vec<_>>(), counts);
-    }
+    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark(..));
+    let figure = cuts.figure(&rows[2..3], &Provenance::default());
+    let panels = figure.panels.iter();
+    let mut marks = panels.map(|panel| panel.layers.iter().filter(is_mark).count());
+    assert!(marks.all(|count| count == 1));
 }

@@ -2,7 +2,7 @@
 
 use super::implementations::{GHOST_PAIRS, IMPLEMENTATIONS, SCAN};
 use super::{Fig7, ROUNDS, Row};
-use crate::experiment::{Chart, Provenance, Status};
+use crate::experiment::{Chart, Provenance};
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
 /// The rows of each implementation on each patch.
@@ -20,19 +20,16 @@ fn sum_ms(rounds: &[Row]) -> Option<[f64; 3]> {
 
 impl Chart for Fig7 {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        let mut footer = vec![provenance.footer()];
-        if rows.iter().any(|row| row.status == Status::Interrupted) {
-            footer.push("INTERRUPTED: some patches are missing.".to_owned());
-        }
         let names = IMPLEMENTATIONS[1..].iter().map(|(name, _)| *name);
         let (mut legend, mut layers) = (Vec::new(), Vec::new());
         for (name, colour) in names.zip([COLOURS[1], COLOURS[4], COLOURS[0]]) {
-            legend.push((Mark::new(Shape::Disc, colour), name.to_owned()));
+            let mark = Mark::new(Shape::Disc, colour);
+            legend.push((mark, name.to_owned()));
             let own = groups(rows).filter(|rounds| rounds[0].implementation == name);
             let points = own.filter_map(|rounds| Some((rounds[0].faces? as f64, sum_ms(rounds)?)));
             let line = points.clone().map(|(x, [_, mean, _])| [x, mean]);
-            layers.push(Layer::line(line.collect(), colour, 1.5));
-            layers.extend(points.map(|(x, y)| Layer::Interval { x, y, colour }));
+            layers.push(Layer::Line(line.collect(), colour, 1.5));
+            layers.extend(points.flat_map(|(x, y)| Layer::interval(x, y, mark, name.to_owned())));
         }
         Figure {
             title: title(rows).unwrap_or("The time to split vertices".to_owned()),
@@ -49,7 +46,7 @@ impl Chart for Fig7 {
                 layers,
                 ..Panel::default()
             }],
-            footer,
+            footer: provenance.footer("", rows.iter().map(|row| row.status)),
         }
     }
 

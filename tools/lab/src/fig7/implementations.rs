@@ -34,15 +34,9 @@ pub(super) const GHOST_PAIRS: &str = "half-edge with ghost pairs";
 /// The implementations with their names, after the idle one.
 pub(super) const IMPLEMENTATIONS: [(&str, New); 4] = [
     (IDLE, |_| Box::new(())),
-    (SCAN, |mesh| {
-        let vertices = mesh.vertex_count() as u32;
-        Box::new(Scan {
-            triangles: triangles(mesh),
-            vertices,
-        })
-    }),
+    (SCAN, |mesh| Box::new(Triangles::new(mesh))),
     ("face lists of vertices", |mesh| {
-        Box::new(FaceLists::new(mesh))
+        Box::new(Triangles::new(mesh).with_faces())
     }),
     (GHOST_PAIRS, |mesh| Box::new((mesh.clone(), Edits::new()))),
 ];
@@ -67,67 +61,67 @@ impl Implementation for (Mesh, Edits) {
     }
 }
 
-/// A list of triangles, all of which are searched for those of a vertex.
-struct Scan {
+/// A list of triangles.
+struct Triangles {
     triangles: Vec<[u32; 3]>,
     vertices: u32,
+    /// For each vertex a list of the triangles that have it, kept up to date; `None` to search all triangles.
+    faces: Option<Vec<Vec<u32>>>,
 }
 
-impl Implementation for Scan {
-    fn split(&mut self, split: &Split, places: &[Point]) {
-        let vertex = u32::from(split.vertex);
-        let faces = self.triangles.iter().zip(0..);
-        let faces = faces.filter(|(triangle, _)| triangle.contains(&vertex));
-        let faces = faces.map(|(_, f)| f);
-        if let Some([behind, _]) = divided(&self.triangles, faces, split, places) {
-            relabel(&mut self.triangles, &behind, vertex, self.vertices);
-            self.vertices += 1;
+impl Triangles {
+    fn new(mesh: &Mesh) -> Triangles {
+        Triangles {
+            triangles: mesh.indices().as_chunks().0.to_vec(),
+            vertices: mesh.vertex_count() as u32,
+            faces: None,
         }
     }
 
-    fn indices(&self) -> &[u32] {
-        self.triangles.as_flattened()
-    }
-}
-
-/// A list of triangles, and for each vertex a list of those that have it, kept up to date.
-struct FaceLists {
-    triangles: Vec<[u32; 3]>,
-    /// By vertex.
-    faces: Vec<Vec<u32>>,
-}
-
-impl FaceLists {
-    fn new(mesh: &Mesh) -> FaceLists {
-        let triangles = triangles(mesh);
-        let mut faces = vec![Vec::new(); mesh.vertex_count()];
-        for (f, triangle) in triangles.iter().enumerate() {
+    fn with_faces(mut self) -> Triangles {
+        let mut faces = vec![Vec::new(); self.vertices as usize];
+        for (triangle, f) in self.triangles.iter().zip(0..) {
             for &v in triangle {
-                faces[v as usize].push(f as u32);
+                faces[v as usize].push(f);
             }
         }
-        FaceLists { triangles, faces }
+        self.faces = Some(faces);
+        self
     }
 }
 
-impl Implementation for FaceLists {
+impl Implementation for Triangles {
     fn split(&mut self, split: &Split, places: &[Point]) {
-        let (vertex, new) = (u32::from(split.vertex), self.faces.len() as u32);
-        let faces = self.faces[vertex as usize].iter().copied();
-        if let Some([behind, front]) = divided(&self.triangles, faces, split, places) {
-            relabel(&mut self.triangles, &behind, vertex, new);
-            self.faces[vertex as usize] = front;
-            self.faces.push(behind);
+        let (triangles, vertex) = (&mut self.triangles, u32::from(split.vertex));
+        let divided = match &self.faces {
+            Some(faces) => {
+                let faces = faces[vertex as usize].iter().copied();
+                divided(triangles, faces, split, places)
+            }
+            None => {
+                let faces = triangles.iter().zip(0..);
+                let faces = faces.filter(|(triangle, _)| triangle.contains(&vertex));
+                divided(triangles, faces.map(|(_, f)| f), split, places)
+            }
+        };
+        let Some([behind, front]) = divided else {
+            return;
+        };
+        for &f in &behind {
+            let corners = triangles[f as usize].iter_mut();
+            let corners = corners.filter(|corner| **corner == vertex);
+            corners.for_each(|corner| *corner = self.vertices);
+        }
+        self.vertices += 1;
+        if let Some(faces) = &mut self.faces {
+            faces[vertex as usize] = front;
+            faces.push(behind);
         }
     }
 
     fn indices(&self) -> &[u32] {
         self.triangles.as_flattened()
     }
-}
-
-fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
-    mesh.indices().as_chunks().0.to_vec()
 }
 
 /// The faces whose centres are behind the plane of a split, and the others; `None` if there are none of either.
@@ -146,13 +140,4 @@ fn divided(
     };
     let (behind, front): (Vec<u32>, Vec<u32>) = faces.partition(is_behind);
     (!behind.is_empty() && !front.is_empty()).then_some([behind, front])
-}
-
-fn relabel(triangles: &mut [[u32; 3]], faces: &[u32], from: u32, to: u32) {
-    for &f in faces {
-        let corners = triangles[f as usize].iter_mut();
-        corners
-            .filter(|corner| **corner == from)
-            .for_each(|corner| *corner = to);
-    }
 }

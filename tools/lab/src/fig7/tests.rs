@@ -22,7 +22,7 @@ fn measured(fig7: &Fig7) -> Vec<Row> {
         clock: Some(&clock),
         stop: &|| false,
     };
-    conduct(fig7, &bounds, |_, _| {}).rows
+    conduct(fig7, &bounds, |_| {}).rows
 }
 
 #[test]
@@ -43,10 +43,10 @@ fn figure_has_an_interval_for_each_patch_and_survives_a_file() {
     // Of one patch, a row of two implementations.
     let two = [ROUNDS - 1, 3 * ROUNDS - 1].map(|i| rows[i].clone());
     let two = fig7.figure(&two, &Provenance::default());
-    let is_interval = |layer: &&Layer| matches!(layer, Layer::Interval { .. });
-    let intervals =
-        |figure: &crate::plot::Figure| figure.panels[0].layers.iter().filter(is_interval).count();
-    assert_eq!([&two, &figure].map(intervals), [2, 6]);
+    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark(..));
+    let marks =
+        |figure: &crate::plot::Figure| figure.panels[0].layers.iter().filter(is_mark).count();
+    assert_eq!([&two, &figure].map(marks), [2, 6]);
     assert!(two.title.contains("at 32 faces"), "{}", two.title);
 }
 
@@ -59,10 +59,14 @@ fn an_interrupted_table_has_a_row_for_each_patch() {
         stop: &stop,
     };
     let fig7 = Fig7 { cells: vec![4, 5] };
-    let conducted = conduct(&fig7, &bounds, |_, _| {});
+    let conducted = conduct(&fig7, &bounds, |_| {});
     assert_eq!((conducted.done, conducted.planned), (0, 2));
     let rows = conducted.rows;
-    assert_eq!(rows, [4, 5].map(unmeasured));
+    let undone = |cells: u32| Row {
+        cells,
+        ..Row::default()
+    };
+    assert_eq!(rows, [4, 5].map(undone));
     assert!(rows.iter().all(|row| row.status == Status::Interrupted));
     let figure = fig7.figure(&rows, &Provenance::default());
     assert!(!crate::plot::svg(&figure).contains("NaN"));
@@ -109,7 +113,7 @@ fn times_are_those_beyond_the_overhead_of_the_clock() {
     for splits in [2, 1, 0, 2] {
         measure(&mut trials, &vec![split; splits], &[], &bounds);
     }
-    let rows = rows(&trials, &unmeasured(1));
+    let rows = rows(&trials, &Row::default());
     let micros = rows
         .iter()
         .map(|row| (row.round, (1e6 * row.sum_s.expect("a time")).round()));

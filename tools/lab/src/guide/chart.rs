@@ -6,39 +6,62 @@ use tearmesh_cloth::statistics::{median, spread};
 
 use super::{Guide, Role, Row, Topic};
 use crate::experiment::{Chart, Provenance, Status};
-use crate::front::FLOORS;
-use crate::method::{DEFAULT, DefaultMethod};
-use crate::plot::{Axis, Figure, Layer, Mark, PALE, Panel, Strip, short};
+use crate::method::{DEFAULT, DEFAULTS, Method};
+use crate::pareto::FLOORS;
+use crate::plot::{Axis, Figure, Layer, Mark, Panel, Strip, percent, short};
 
 /// The errors that are good enough for a look, and for forces.
 const LOOK: f64 = 0.2;
 const FORCES: f64 = 0.05;
 
-/// The topics of panels of errors, and their titles.
-const ERRORS: [(Topic, &str); 4] = [
-    (Topic::Hang, "hang: the shape at rest"),
+/// What is drawn along the vertical axis: its label, and the 10 %, 50 % and 90 % points of a method at one step.
+type Quantity = (&'static str, fn(&[&Row]) -> Option<[f64; 3]>);
+
+/// The panels: the topic, the title, and what is drawn.
+const PANELS: [(Topic, &str, Quantity); 6] = [
+    (Topic::Hang, "hang: the shape at rest", ERROR),
     (
         Topic::Flag,
         "flag: where the free corner is, and how far it swings",
+        ERROR,
     ),
-    (Topic::Rip, "rip: time and force of the first tear"),
-    (Topic::Trouser, "trouser: time and force of the first tear"),
+    (Topic::Rip, "rip: time and force of the first tear", ERROR),
+    (
+        Topic::Trouser,
+        "trouser: time and force of the first tear",
+        ERROR,
+    ),
+    (
+        Topic::Aftermath,
+        "After the first tear of rip: torn length",
+        TORN,
+    ),
+    (
+        Topic::Aftermath,
+        "After the first tear of rip: work of the hand",
+        WORK,
+    ),
 ];
 
-/// A quantity of a run.
-type Quantity = fn(&Row) -> Option<f64>;
+const ERROR: Quantity = ("error, %", |of| {
+    let row = of.first()?;
+    let [low, error, high] = [row.error_low?, row.error?, row.error_high?];
+    Some([low, error.max(1e-8), high].map(|error| 100.0 * error))
+});
 
-/// The quantities of [`Topic::Aftermath`], each with a panel of its own.
-const QUANTITIES: [(&str, Quantity); 2] = [
-    ("torn length, m", |row| row.torn_m),
-    ("work of the hand, J", |row| row.work_j),
-];
+const TORN: Quantity = ("torn length, m", |of| spread_of(of, |row| row.torn_m));
+const WORK: Quantity = ("work of the hand, J", |of| spread_of(of, |row| row.work_j));
+
+fn spread_of(rows: &[&Row], value: fn(&Row) -> Option<f64>) -> Option<[f64; 3]> {
+    let values: Vec<f64> = rows.iter().filter_map(|row| value(row)).collect();
+    (!values.is_empty()).then(|| spread(&values))
+}
 
 /// A method at one step: all runs of it.
 struct Point<'a> {
     /// Its first run.
     row: &'a Row,
-    method: DefaultMethod,
+    method: &'static Method,
     /// CPU seconds per simulated second, as the median of the runs.
     cost: Option<f64>,
     /// The 10 %, 50 % and 90 % points of the error in per cent or of the quantity.
@@ -47,15 +70,21 @@ struct Point<'a> {
 
 /// A panel's points on the finest mesh, and on one of half as many cells.
 struct Section<'a> {
-    title: String,
+    topic: Topic,
+    title: &'static str,
     /// The label of the vertical axis.
     label: &'static str,
-    is_error: bool,
     fine: Vec<Point<'a>>,
     coarse: Vec<Point<'a>>,
     /// What other diagonals of the mesh leave.
     band: Option<Range<f64>>,
 }
+
+/// How to read the figure.
+const READING: &str = "Large marks: a method at its default. Small marks: its default step four times and twice as \
+     long and half as long; in the pink strip those that were refused, blew up or did not end. Grey band: below the \
+     error that other diagonals of the mesh make; nothing in it is worth paying for. Hollow: below ten times the \
+     distance of two references, known no better. Bars: 10 to 90 % over seeds.";
 
 impl Chart for Guide {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
@@ -71,14 +100,7 @@ impl Chart for Guide {
             columns: 2,
             panel_size: [600.0, 400.0],
             panels: sections.iter().map(Section::panel).collect(),
-            footer: vec![
-                "Large marks: a method at its default. Small marks: its default step four times and twice as long \
-                 and half as long; in the pink strip those that were refused, blew up or did not end. Grey band: \
-                 below the error that other diagonals of the mesh make; nothing in it is worth paying for. Hollow: \
-                 below ten times the distance of two references, known no better. Bars: 10 to 90 % over seeds."
-                    .to_owned(),
-                provenance.footer(),
-            ],
+            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
         }
     }
@@ -86,7 +108,7 @@ impl Chart for Guide {
     fn summary(&self, rows: &[Row]) -> String {
         let sections = sections(rows);
         let mut text = title(&sections) + "\n";
-        for section in sections.iter().filter(|section| section.is_error) {
+        for section in sections.iter().filter(|section| section.is_error()) {
             text += &format!("{} ({})\n", section.title, section.about());
             text.extend(section.words().iter().map(|line| format!("  {line}\n")));
         }
@@ -99,52 +121,37 @@ fn finest(rows: &[Row]) -> u32 {
 }
 
 fn sections(rows: &[Row]) -> Vec<Section<'_>> {
-    let of = |topic: Topic, role: Role, cells: u32| -> Vec<&Row> {
-        let is_it = |row: &&Row| (row.topic, row.role, row.cells) == (topic, role, cells);
-        rows.iter().filter(is_it).collect()
-    };
     let cells = finest(rows);
-    let errors = ERRORS.map(|(topic, title)| {
-        let percent = |of: &[&Row]| {
-            let [low, error, high] = [of[0].error_low?, of[0].error?, of[0].error_high?];
-            Some([low, error.max(1e-8), high].map(|error| 100.0 * error))
+    let sections = PANELS.map(|(topic, title, (label, y))| {
+        let of = |role: Role, cells: u32| -> Vec<&Row> {
+            let is_it = |row: &&Row| (row.topic, row.role, row.cells) == (topic, role, cells);
+            rows.iter().filter(is_it).collect()
         };
-        let [fine, coarse] = [cells, cells / 2].map(|cells| of(topic, Role::Method, cells));
-        let mesh = fine.first().and_then(|row| row.error_mesh);
+        let fine = of(Role::Method, cells);
+        let error_mesh = fine.first().and_then(|row| row.error_mesh);
+        let others = y(&of(Role::Mesh, cells)).filter(|_| topic == Topic::Aftermath);
         Section {
-            title: title.to_owned(),
-            label: "error, %",
-            is_error: true,
-            fine: points(&fine, percent),
-            coarse: points(&coarse, percent),
-            band: mesh.map(|error| 0.0..100.0 * error),
-        }
-    });
-    let values = QUANTITIES.map(|(label, value)| {
-        let range = |of: &[&Row]| {
-            let values: Vec<f64> = of.iter().filter_map(|row| value(row)).collect();
-            (!values.is_empty()).then(|| spread(&values))
-        };
-        let [fine, mesh] = [Role::Method, Role::Mesh].map(|role| of(Topic::Aftermath, role, cells));
-        Section {
-            title: format!("After the first tear of rip: {label}"),
+            topic,
+            title,
             label,
-            is_error: false,
-            fine: points(&fine, range),
-            coarse: Vec::new(),
-            band: range(&mesh).map(|[low, _, high]| low..high),
+            fine: points(&fine, y),
+            coarse: points(&of(Role::Method, cells / 2), y),
+            band: match others {
+                Some([low, _, high]) => Some(low..high),
+                None => error_mesh.map(|error| 0.0..100.0 * error),
+            },
         }
     });
-    errors.into_iter().chain(values).collect()
+    sections.into()
 }
 
 /// A point per method and step.
-fn points<'a>(rows: &[&'a Row], y: impl Fn(&[&Row]) -> Option<[f64; 3]>) -> Vec<Point<'a>> {
+fn points<'a>(rows: &[&'a Row], y: fn(&[&Row]) -> Option<[f64; 3]>) -> Vec<Point<'a>> {
     let ensembles = rows.chunk_by(|a, b| a.ensemble() == b.ensemble());
     let points = ensembles.filter_map(|of| {
         Some(Point {
             row: of[0],
-            method: DefaultMethod::named(&of[0].method)?,
+            method: Method::named(&of[0].method)?,
             cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
             y: y(of),
         })
@@ -171,16 +178,6 @@ impl Point<'_> {
         }
     }
 
-    /// The method and the step.
-    fn name(&self) -> String {
-        let step = match self.row.step_multiple {
-            None => "at its default".to_owned(),
-            Some(multiple) => format!("at {multiple} times its step"),
-        };
-        let dt = self.row.dt_s.map(|dt| format!(", {} s", short(dt, 3)));
-        format!("{} {step}{}", self.method.name, dt.unwrap_or_default())
-    }
-
     /// What to type for this method and step.
     fn command(&self) -> String {
         let mut command = format!("tearmesh tear in.obj --scene {}", self.row.topic.name());
@@ -195,60 +192,51 @@ impl Point<'_> {
 }
 
 impl Section<'_> {
+    fn is_error(&self) -> bool {
+        self.topic != Topic::Aftermath
+    }
+
     fn panel(&self) -> Panel {
-        let axis = [Axis::linear, Axis::log][usize::from(self.is_error)];
+        let axis = [Axis::linear, Axis::log][usize::from(self.is_error())];
         let mut panel = Panel {
-            title: self.title.clone(),
+            title: self.title.to_owned(),
             about: self.about(),
             x: Axis::log("CPU seconds per simulated second"),
             y: axis(self.label),
             words: self.words(),
             ..Panel::default()
         };
-        let points = self.fine.iter();
-        let known = points.filter_map(|point| Some((point, point.at()?)));
-        let known: Vec<(&Point<'_>, [f64; 2])> = known.collect();
-        if known.is_empty() {
+        if !self.fine.iter().any(|point| point.at().is_some()) {
             return panel;
         }
         let layers = &mut panel.layers;
-        let (band, colour) = (self.band.clone(), PALE);
-        layers.extend(band.map(|y| Layer::Band { y, colour }));
-        let label = "real time".to_owned();
-        layers.push(Layer::Rule { x: 1.0, label });
-        let line = |points, mark: Mark, width| Layer::Line {
-            points,
-            colour: mark.colour,
-            width,
-        };
+        layers.extend(self.band.clone().map(Layer::Band));
+        layers.push(Layer::Rule(1.0, "real time"));
         for (points, width) in [(&self.coarse, 0.7), (&self.fine, 1.6)] {
-            for of in points.chunk_by(|a, b| a.method.name == b.method.name) {
+            for of in points.chunk_by(|a, b| a.method == b.method) {
                 let mut points: Vec<[f64; 2]> = of.iter().filter_map(Point::at).collect();
                 points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-                layers.push(line(points, of[0].mark(), width));
+                layers.push(Layer::Line(points, of[0].mark().colour, width));
             }
         }
-        for &(point, at) in &known {
-            let mark = point.mark();
-            if let Some([low, _, high]) = point.y.filter(|[low, _, high]| low < high) {
-                layers.push(line(vec![[at[0], low], [at[0], high]], mark, 1.0));
+        let known = self.fine.iter();
+        let known = known.filter_map(|point| Some((point, point.cost?, point.y?)));
+        for (point, cost, y) in known {
+            let (mark, error) = (point.mark(), short(y[1], 3));
+            let hover = format!("{}: {} {error}", point.command(), self.label);
+            layers.extend(Layer::interval(cost, y, mark, hover));
+            if point.is_default() {
+                let name = point.method.name.to_owned();
+                layers.push(Layer::Label([cost, y[1]], name, mark.colour));
             }
-            let hover = format!("{}: {} {}", point.name(), self.label, short(at[1], 3));
-            layers.push(Layer::Mark { at, mark, hover });
         }
-        let defaults = known.iter().filter(|(point, _)| point.is_default());
-        layers.extend(defaults.map(|&(point, at)| Layer::Label {
-            at,
-            text: point.method.name.to_owned(),
-            colour: point.mark().colour,
-        }));
         panel.above = self.failures();
         panel
     }
 
     /// The points of each method.
     fn methods(&self) -> impl Iterator<Item = &[Point<'_>]> {
-        self.fine.chunk_by(|a, b| a.method.name == b.method.name)
+        self.fine.chunk_by(|a, b| a.method == b.method)
     }
 
     /// The runs that failed, at the cost that their step would have.
@@ -259,7 +247,7 @@ impl Section<'_> {
             failed.filter_map(move |point| {
                 let cost = default?.cost? / point.row.step_multiple?;
                 let (status, why) = (point.row.status.name(), &point.row.why);
-                let hover = format!("{}: {status} {why}", point.name());
+                let hover = format!("{}: {status} {why}", point.command());
                 Some((cost, point.method.family.mark(), hover))
             })
         });
@@ -271,33 +259,27 @@ impl Section<'_> {
     }
 
     fn about(&self) -> String {
-        if !self.is_error {
+        if !self.is_error() {
             return "medians and 10 to 90 % over seeds; one run says little".to_owned();
         }
         let Some(Point { row, .. }) = self.fine.iter().find(|point| point.y.is_some()) else {
             return "no reference: the two references have no value, or noise grows too much"
                 .to_owned();
         };
-        let percent = |error: Option<f64>| match error {
-            None => "unknown".to_owned(),
-            Some(error) => format!("{} %", short(100.0 * error, 2)),
-        };
-        let grown = row.noise_amplification;
-        let grown = grown.map_or("unknown".to_owned(), |grown| {
-            format!("×{}", short(grown, 2))
-        });
+        let percent = |error: Option<f64>| error.map_or("unknown".to_owned(), percent);
         format!(
             "two references {} apart; other diagonals of the mesh: {}; a nanometre of noise: {}, and displacements \
-             grow {grown}",
+             grow ×{}",
             percent(row.error_floor),
             percent(row.error_mesh),
-            percent(row.error_noise)
+            percent(row.error_noise),
+            short(row.noise_amplification.unwrap_or(f64::NAN), 2)
         )
     }
 
     /// What to type for a look and for forces, and when it fails; of a quantity its distributions.
     fn words(&self) -> Vec<String> {
-        if !self.is_error {
+        if !self.is_error() {
             let known = self.fine.iter().filter_map(|point| Some((point, point.y?)));
             let each = known.map(|(point, y)| {
                 let [low, middle, high] = y.map(|x| short(x, 2));
@@ -310,26 +292,24 @@ impl Section<'_> {
                 each.join(", ")
             )];
         }
-        let mut failing: Vec<String> = Vec::new();
-        for of in self.methods() {
+        let failing = self.methods().flat_map(|of| {
             let name = of[0].method.name;
             let failed = of.iter().filter(|point| point.row.status != Status::Ok);
-            let shortest_s = failed
-                .filter_map(|point| point.row.dt_s)
-                .min_by(f64::total_cmp);
-            let refused = shortest_s.map(|dt| short(1e3 * dt, 2));
-            failing.extend(refused.map(|ms| format!("{name} takes no step of {ms} ms")));
+            let failed_s = failed.filter_map(|point| point.row.dt_s).reduce(f64::min);
+            let failed =
+                failed_s.map(|dt_s| format!("{name} takes no step of {} ms", short(1e3 * dt_s, 2)));
             let default = of.iter().find(|point| point.is_default());
             let error = default.and_then(|point| point.row.error);
             let off = error.filter(|error| *error > LOOK);
-            let off = off.map(|error| short(100.0 * error, 2));
-            failing.extend(off.map(|error| format!("{name} at its default is {error} % off")));
-        }
+            let off = off.map(|error| format!("{name} at its default is {} off", percent(error)));
+            [failed, off].into_iter().flatten()
+        });
+        let mut failing: Vec<String> = failing.collect();
         if failing.is_empty() {
             failing.push("nothing failed".to_owned());
         }
-        let what = match self.fine.first().map(|point| point.row.topic) {
-            Some(Topic::Rip | Topic::Trouser) => "forces within 5 %",
+        let what = match self.topic {
+            Topic::Rip | Topic::Trouser => "forces within 5 %",
             _ => "an error below 5 %",
         };
         vec![
@@ -343,16 +323,15 @@ impl Section<'_> {
     fn cheapest(&self, error_max: f64) -> String {
         let meets = self.fine.iter().filter_map(|point| {
             let error = point.row.error.filter(|error| *error <= error_max)?;
-            Some((point.cost?, error, point))
+            Some((point.cost?, error, point.command()))
         });
-        let Some((cost, error, point)) = meets.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return "no method at any of these steps".to_owned();
-        };
-        let (cost, error) = (short(cost, 2), short(100.0 * error, 2));
-        format!(
-            "`{}` ({cost} CPU s a second, {error} % off)",
-            point.command()
-        )
+        match meets.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((cost, error, command)) => {
+                let (cost, error) = (short(cost, 2), percent(error));
+                format!("`{command}` ({cost} CPU s a second, {error} off)")
+            }
+            None => "no method at any of these steps".to_owned(),
+        }
     }
 }
 
@@ -364,12 +343,9 @@ fn title(sections: &[Section<'_>]) -> String {
         of.filter_map(|point| point.row.error)
     };
     let within = |name| errors(name).filter(|error| *error <= FORCES).count();
-    let others = DefaultMethod::NAMES
-        .into_iter()
-        .filter(|name| *name != DEFAULT);
-    let others: Vec<String> = others
-        .map(|name| format!("{name} {}", within(name)))
-        .collect();
+    let others = DEFAULTS[1..].iter();
+    let others = others.map(|method| format!("{} {}", method.name, within(method.name)));
+    let others: Vec<String> = others.collect();
     format!(
         "Which method for my scene? {DEFAULT}, the default, is within 5 % in {} of {} scenes ({})",
         within(DEFAULT),

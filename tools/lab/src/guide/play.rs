@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::ensemble::Disturbance;
-use tearmesh_cloth::scene::{Axis, Chronicle, FRAME_S, Frame, Method, Run, Scene};
+use tearmesh_cloth::scene::{Axis, Chronicle, FRAME_S, Frame, Method, Run, Scene, Step};
 use tearmesh_cloth::statistics::{Random, median};
 
 use crate::experiment::{Bounds, Status};
-use crate::method::{DEFAULT, DefaultMethod};
-use crate::pareto::status_of;
+use crate::method::{self, DEFAULTS};
+use crate::pareto::{fastest_m_per_s, status_of};
 use crate::tear::{STRIP_M, grid};
 
 /// The topic of a panel: a scene, and what is asked about it.
@@ -166,38 +166,24 @@ pub(super) struct Stage {
 /// The way in which a run ended before it was measured, and the reason.
 type End = (Status, String);
 
+/// What a topic is about, as measured in a run: quantities of one or more numbers each.
+///
+/// For a shape at rest it is one quantity, the displacements from the flat sheet. For a flag it is the mean
+/// displacement of the free corner, and the rms distance of the corner from it. For a first tear it is the time
+/// from the begin of the pull, and the force unless the method does not know it.
+type Answer = Vec<Vec<f64>>;
+
 /// A run: its row without errors, and what errors are computed from.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Play {
     pub(super) row: Row,
     /// `None` if the run did not reach its end, and for [`Topic::Aftermath`].
     pub(super) answer: Option<Answer>,
     /// The positions at the last whole frame before the end.
-    last: Vec<Point>,
-}
-
-/// What a topic is about, as measured in a run.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Answer {
-    /// The displacements from the flat sheet.
-    Shape(Vec<Vector>),
-    /// The mean displacement of the free corner of a flag, and the rms distance from it in metres.
-    Corner(Vector, f64),
-    /// The time from the begin of the pull to the first tear in seconds, and the force in newtons if the method
-    /// knows it.
-    FirstTear(f64, Option<f64>),
+    pub(super) last: Vec<Point>,
 }
 
 impl Play {
-    /// A run that has not begun.
-    pub(super) fn new(key: &Row) -> Play {
-        Play {
-            row: key.clone(),
-            answer: None,
-            last: Vec::new(),
-        }
-    }
-
     /// The rms distance between the last positions of two runs, in metres; `None` if either has none.
     pub(super) fn apart_m(&self, other: &Play) -> Option<f64> {
         let pairs = self.last.iter().zip(&other.last);
@@ -207,45 +193,29 @@ impl Play {
     }
 }
 
-/// The error of an ensemble relative to a reference, by what its topic is about; `None` if either is empty.
-///
-/// For a tear it is the larger of the errors of its time and of its force, if the method knows its force. For a
-/// flag it is the larger of those of the mean place of the corner and of its spread.
-pub(super) fn error(ensemble: &[&Answer], reference: &[&Answer]) -> Option<f64> {
-    match (*ensemble.first()?, *reference.first()?) {
-        (Answer::FirstTear(time_s, force_n), Answer::FirstTear(known_s, known_n)) => {
-            let late = (time_s - known_s).abs() / known_s;
-            let force = force_n.zip(*known_n);
-            Some(force.map_or(late, |(force, known)| late.max((force / known - 1.0).abs())))
-        }
-        (Answer::Shape(shape), Answer::Shape(known)) => {
-            let apart = shape.iter().zip(known).map(|(a, b)| a - b);
-            let apart: f64 = apart.map(|off| off.norm_squared()).sum();
-            let whole: f64 = known.iter().map(Vector::norm_squared).sum();
-            Some(apart.sqrt() / whole.sqrt())
-        }
-        (Answer::Corner(..), Answer::Corner(..)) => {
-            let [(mean, spread_m, _), (known, known_m, away_m)] = [ensemble, reference].map(pooled);
-            Some(((mean - known).norm() / away_m).max((spread_m / known_m - 1.0).abs()))
-        }
-        _ => None,
-    }
+/// The error of an ensemble relative to a reference: the largest relative error of the quantities that both know,
+/// each as a mean over runs. `None` if either has no run with an answer.
+pub(super) fn error(ensemble: &[&Play], reference: &[&Play]) -> Option<f64> {
+    let (own, known) = (mean(ensemble)?, mean(reference)?);
+    let errors = own.iter().zip(&known).map(|(own, known)| {
+        let apart: f64 = own.iter().zip(known).map(|(a, b)| (a - b) * (a - b)).sum();
+        let whole: f64 = known.iter().map(|b| b * b).sum();
+        (apart / whole).sqrt()
+    });
+    errors.reduce(f64::max)
 }
 
-/// The mean place and the spread of the corner over an ensemble, and its mean distance from where it is at rest.
-fn pooled(ensemble: &[&Answer]) -> (Vector, f64, f64) {
-    let corners = ensemble.iter().filter_map(|answer| match answer {
-        Answer::Corner(mean, spread_m) => Some((*mean, *spread_m)),
-        _ => None,
-    });
-    let corners: Vec<(Vector, f64)> = corners.collect();
-    let count = corners.len() as f64;
-    let mean = corners.iter().map(|(place, _)| place).sum::<Vector>() / count;
-    let average = |of: &dyn Fn(&(Vector, f64)) -> f64| corners.iter().map(of).sum::<f64>() / count;
-    let within = average(&|(_, spread_m)| spread_m.powi(2));
-    let among = average(&|(place, _)| (place - mean).norm_squared());
-    let away_m = average(&|(place, _)| place.norm());
-    (mean, (within + among).sqrt(), away_m)
+fn mean(plays: &[&Play]) -> Option<Answer> {
+    let answers = plays.iter().filter_map(|play| play.answer.as_ref());
+    let answers: Vec<&Answer> = answers.collect();
+    let mut mean = Answer::clone(answers.first()?);
+    for (i, quantity) in mean.iter_mut().enumerate() {
+        for (j, number) in quantity.iter_mut().enumerate() {
+            let sum: f64 = answers.iter().map(|answer| answer[i][j]).sum();
+            *number = sum / answers.len() as f64;
+        }
+    }
+    Some(mean)
 }
 
 impl Stage {
@@ -277,18 +247,19 @@ impl Stage {
             Topic::Rip => 0.3,
             Topic::Trouser => 8.0,
         };
-        let method = DefaultMethod::NAMES.iter();
-        let method = method.take_while(|name| **name != key.method).count();
         let a_second = match key.role {
             Role::Reference | Role::Second => 1.3,
-            _ => [0.15, 0.05, 0.2, 0.1, 0.4][method],
+            Role::Method | Role::Gate | Role::Mesh => 0.18,
         };
         a_second * seconds * finer.powi(3) / key.step_multiple.unwrap_or(1.0)
     }
 
     /// Plays the scene. Returns `None` if it was interrupted.
     pub(super) fn play(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Play> {
-        let mut play = Play::new(key);
+        let mut play = Play {
+            row: key.clone(),
+            ..Play::default()
+        };
         let end = self.measure(&mut play, bounds).err();
         (play.row.status, play.row.why) = end.unwrap_or((Status::Ok, String::new()));
         (play.row.status != Status::Interrupted).then_some(play)
@@ -297,13 +268,16 @@ impl Stage {
     /// Takes a run to its end, or to its first tear if the topic is that.
     fn measure(&self, play: &mut Play, bounds: &Bounds<'_>) -> Result<(), End> {
         let flat = self.positions.as_slice();
+        let shape_of = |at: &dyn Fn(usize) -> Vector| {
+            let numbers = (0..flat.len()).flat_map(|v| <[f64; 3]>::from(at(v)));
+            vec![numbers.collect()]
+        };
         let mut rest = None;
         if self.topic == Topic::Hang {
             let shape = self.rest.get_or_init(|| self.shape_at_rest(bounds.stop));
             let shape = shape.as_ref().map_err(End::clone)?;
             if let Role::Reference | Role::Mesh = play.row.role {
-                let shape = shape.iter().zip(flat).map(|(p, flat)| p - flat);
-                play.answer = Some(Answer::Shape(shape.collect()));
+                play.answer = Some(shape_of(&|v| shape[v] - flat[v]));
                 play.row.dt_s = Some(REST_STEP_S);
                 return Ok(());
             }
@@ -314,42 +288,37 @@ impl Stage {
         let before_m = run.torn_length_m();
         let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
         let mut chronicle = Chronicle::new(&run);
-        let (mut frames, mut times) = (Vec::new(), Vec::new());
-        while !run.is_over() {
-            if (bounds.stop)() {
-                return Err((Status::Interrupted, String::new()));
-            }
-            let (began, frame) = (bounds.now(), (run.elapsed_s() / FRAME_S) as u64);
-            let step = run.step();
+        let (mut frames, mut times, mut began) = (Vec::new(), Vec::new(), bounds.now());
+        take_steps(&mut run, bounds.stop, |run, step| {
             times.push(bounds.now().saturating_sub(began).as_secs_f64());
-            let step = step.map_err(|error| (status_of(&error), error.to_string()))?;
-            chronicle.note(&run, &step);
-            if is_first_tear && chronicle.first_tear().is_some() {
-                break;
-            }
-            if (run.elapsed_s() / FRAME_S) as u64 > frame {
+            chronicle.note(run, step);
+            let is_over = is_first_tear && chronicle.first_tear().is_some();
+            if !is_over && (run.elapsed_s() / FRAME_S) as usize > frames.len() {
                 frames.push(run.cloth().positions().to_vec());
             }
-        }
+            began = bounds.now();
+            is_over
+        })?;
         let later = &frames[frames.len() / 2..];
         let displaced = |v: usize| later.iter().map(move |points| points[v] - flat[v]);
         let mean = |v: usize| displaced(v).sum::<Vector>() / later.len() as f64;
         play.answer = match self.topic {
-            Topic::Hang => Some(Answer::Shape((0..flat.len()).map(mean).collect())),
+            Topic::Hang => Some(shape_of(&mean)),
             Topic::Flag => {
                 // The lower right one: the pole is on the left.
                 let corner = self.cells as usize;
                 let mean = mean(corner);
                 let squares: f64 = displaced(corner).map(|at| (at - mean).norm_squared()).sum();
-                Some(Answer::Corner(mean, (squares / later.len() as f64).sqrt()))
+                let spread_m = (squares / later.len() as f64).sqrt();
+                Some(vec![<[f64; 3]>::from(mean).to_vec(), vec![spread_m]])
             }
             Topic::Rip | Topic::Trouser => {
                 let nothing = || (Status::Restless, "nothing tore".to_owned());
                 let first = chronicle.first_tear().ok_or_else(nothing)?;
                 // The hand of a rip begins to pull after half a second.
                 let begins_s = if self.topic == Topic::Rip { 0.5 } else { 0.0 };
-                let time_s = first.event.time_s - begins_s;
-                Some(Answer::FirstTear(time_s, first.force_n))
+                let numbers = [Some(first.event.time_s - begins_s), first.force_n];
+                Some(numbers.into_iter().flatten().map(|x| vec![x]).collect())
             }
             Topic::Aftermath => {
                 play.row.torn_m = Some(run.torn_length_m() - before_m);
@@ -365,21 +334,18 @@ impl Stage {
 
     /// The run of a key that is about to begin.
     fn begin(&self, key: &Row, rest: Option<&[Point]>) -> Result<Run, End> {
-        let by = |name: &str| Scene {
-            solver: match DefaultMethod::named(name) {
-                Some(method) => method.settings,
-                None => bdf2(),
-            },
-            ..self.topic.scene(&self.frame)
+        let (method, multiple) = match method::Method::named(&key.method) {
+            Some(method) => (method, key.step_multiple),
+            // BDF2 takes longer steps than Verlet's method by as much as its order allows.
+            None => (&DEFAULTS[0], Some(2.0)),
         };
-        let mut scene = by(&key.method);
-        let (name, multiple) = match &*key.method {
-            // It takes longer steps than Verlet's method by as much as its order allows.
-            BDF2 => (DEFAULT, Some(2.0)),
-            name => (name, key.step_multiple),
-        };
+        let mut scene = self.topic.scene(&self.frame);
+        scene.solver = method.settings().unwrap_or(Method::Verlet);
         if let Some(multiple) = multiple {
-            scene.step_s = Some(multiple * self.run(by(name), 0, None)?.step_s());
+            scene.step_s = Some(multiple * self.run(scene.clone(), 0, None)?.step_s());
+        }
+        if key.method == BDF2 {
+            scene.solver = second_reference();
         }
         let divisor = match (key.role, self.topic) {
             // For a flag chance is larger than what a shorter step changes. A shape at rest is kept by a method
@@ -395,27 +361,27 @@ impl Stage {
     /// A run that is about to begin: with noise unless the seed is 0, in a given shape if there is one.
     fn run(&self, scene: Scene, seed: u64, shape: Option<&[Point]>) -> Result<Run, End> {
         let flat = self.positions.as_slice();
-        let disturbance = (seed > 0).then(|| Disturbance::new(&self.mesh, seed));
-        let mesh = disturbance.as_ref().map_or(&self.mesh, |one| &one.mesh);
+        let noise = (seed > 0).then(|| Disturbance::new(&self.mesh, seed));
+        let mesh = noise.as_ref().map_or(&self.mesh, |noise| &noise.mesh);
         let offset_m = |v: VertexId| {
-            let noise = disturbance.as_ref().map(|one| one.offsets_m[v.index()]);
+            let noise = noise.as_ref().map(|noise| noise.offsets_m[v.index()]);
             let shape = shape.map(|shape| shape[v.index()] - flat[v.index()]);
             noise.unwrap_or_default() + shape.unwrap_or_default()
         };
+        let failed = |why: &dyn ToString| (Status::Failed, why.to_string());
         let run = Run::new(mesh.clone(), &self.positions, scene, &self.frame);
-        let run = run.map_err(|error| (Status::Failed, error.to_string()))?;
-        let run = run.displaced(offset_m);
-        run.map_err(|error| (Status::Failed, error.to_string()))
+        let run = run.map_err(|error| failed(&error))?;
+        run.displaced(offset_m).map_err(|error| failed(&error))
     }
 
     /// The shape at rest: by implicit steps with much drag, from a sheet that bulges a little.
     fn shape_at_rest(&self, stop: &dyn Fn() -> bool) -> Result<Vec<Point>, End> {
-        let settings = implicit::Settings {
+        let backward_euler = implicit::Settings {
             tolerance: 1e-5,
             ..implicit::Settings::default()
         };
         let scene = Scene {
-            solver: Method::Implicit(settings),
+            solver: Method::Implicit(backward_euler),
             step_s: Some(REST_STEP_S),
             drag_per_s: 20.0,
             duration_s: 100.0,
@@ -425,21 +391,33 @@ impl Stage {
         let bulged = self.positions.as_slice().iter();
         let bulged = bulged.map(|p| Point::new(p.x, p.y, depth(p)));
         let mut run = self.run(scene, 0, Some(&bulged.collect::<Vec<_>>()))?;
-        while !run.is_over() {
-            if stop() {
-                return Err((Status::Interrupted, String::new()));
-            }
-            let step = run.step();
-            step.map_err(|error| (status_of(&error), error.to_string()))?;
-            let system = run.cloth().system();
-            let speeds = system.velocities().iter().map(|v| v.norm());
-            if speeds.fold(0.0, f64::max) < AT_REST_M_PER_S {
-                return Ok(system.positions().to_vec());
-            }
+        let is_at_rest = |run: &Run| fastest_m_per_s(run.cloth().system()) < AT_REST_M_PER_S;
+        take_steps(&mut run, stop, |run, _| is_at_rest(run))?;
+        if !is_at_rest(&run) {
+            let why = "the sheet does not come to rest".to_owned();
+            return Err((Status::Restless, why));
         }
-        let why = "the sheet does not come to rest";
-        Err((Status::Restless, why.to_owned()))
+        Ok(run.cloth().positions().to_vec())
     }
+}
+
+/// Takes the steps of a run up to the first after which `is_done` returns true.
+fn take_steps(
+    run: &mut Run,
+    stop: &dyn Fn() -> bool,
+    mut is_done: impl FnMut(&Run, &Step) -> bool,
+) -> Result<(), End> {
+    while !run.is_over() {
+        if stop() {
+            return Err((Status::Interrupted, String::new()));
+        }
+        let step = run.step();
+        let step = step.map_err(|error| (status_of(&error), error.to_string()))?;
+        if is_done(run, &step) {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// The step by which the shape at rest is found, in seconds.
@@ -449,7 +427,7 @@ const REST_STEP_S: f64 = 0.02;
 const AT_REST_M_PER_S: f64 = 1e-7;
 
 /// The implicit method of second order, with each linear equation solved to about rounding.
-fn bdf2() -> Method {
+fn second_reference() -> Method {
     Method::Implicit(implicit::Settings {
         method: implicit::Method::Bdf2,
         tolerance: 0.1,

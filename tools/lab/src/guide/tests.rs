@@ -1,8 +1,8 @@
 //! Errors against answers worked out by hand, and a page that has a row for every run.
 
 use super::*;
+use crate::experiment::workers;
 use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
-use crate::pool::workers;
 
 fn guide() -> Guide {
     Guide::new(Options {
@@ -20,7 +20,7 @@ fn page_has_all_topics_and_survives_a_file() {
         stop: &|| false,
     };
     let guide = guide();
-    let conducted = conduct(&guide, &bounds, |_, _| {});
+    let conducted = conduct(&guide, &bounds, |_| {});
     let rows = conducted.rows;
     assert_eq!(
         (conducted.done, rows.len()),
@@ -57,7 +57,7 @@ fn an_interrupted_page_has_a_row_for_each_run() {
         clock: None,
         stop: &|| true,
     };
-    let conducted = conduct(&guide(), &bounds, |_, _| {});
+    let conducted = conduct(&guide(), &bounds, |_| {});
     assert_eq!(
         (conducted.done, conducted.rows.len()),
         (0, conducted.planned)
@@ -72,12 +72,27 @@ fn an_interrupted_page_has_a_row_for_each_run() {
 
 #[test]
 fn interval_of_equal_members_is_their_error_and_of_none_nothing() {
-    let member = Answer::FirstTear(1.0, None);
-    let members = vec![&member; 5];
+    let members = vec![&(); 5];
     assert_eq!(
         resampled(&members, |of| Some(of.len() as f64)),
         Some([5.0; 3])
     );
     assert_eq!(resampled(&members[..1], |_| Some(0.25)), Some([0.25; 3]));
     assert_eq!(resampled(&members, |_| None), None);
+}
+
+#[test]
+fn error_is_the_largest_of_the_quantities_that_both_know() {
+    let play = |answer: &[&[f64]]| Play {
+        answer: Some(answer.iter().map(|numbers| numbers.to_vec()).collect()),
+        ..Play::default()
+    };
+    let of = |plays: &[Play], known: &Play| error(&plays.iter().collect::<Vec<_>>(), &[known]);
+    let known = play(&[&[3.0, 4.0], &[2.0]]);
+    // The means are [3.0, 4.5] and 1.9.
+    let runs = [play(&[&[3.0, 4.0], &[1.6]]), play(&[&[3.0, 5.0], &[2.2]])];
+    let found = of(&runs, &known).expect("both are known");
+    assert!((found - 0.1).abs() < 1e-15, "{found}");
+    assert_eq!(of(&[play(&[&[3.0, 4.0]])], &known), Some(0.0));
+    assert_eq!(of(&[Play::default()], &known), None);
 }

@@ -9,7 +9,7 @@ use tearmesh::{Point, Vector};
 use tearmesh_cloth::{Solver, System, Threshold, energy, force};
 
 use super::scene::{Case, Held, Observable, TEAR_RATIO, TOUGHNESS_J_PER_M, Until};
-use crate::method::{Family, StoredEnergy};
+use crate::method::{Family, Method};
 
 /// The numbers of a run by observable and checkpoint: coordinates, strains of edges, and single numbers. NaN
 /// where the run gave no value.
@@ -121,7 +121,8 @@ pub(super) struct Probe<'a> {
     /// Whether the method moves particles by the forces at the end of a step, which then do its work; otherwise
     /// the mean of the forces at both ends does.
     moves_at_end: bool,
-    stored: StoredEnergy,
+    /// The family of methods; `None` for a reference.
+    family: Option<Family>,
     /// The energy in springs and of height at the start.
     began_j: [f64; 2],
     /// The most energy that had been put in so far.
@@ -142,12 +143,12 @@ struct FirstTear {
 }
 
 impl<'a> Probe<'a> {
-    /// Creates a probe of a system that has not moved yet, for a solver of a family of methods or of a reference.
+    /// Creates a probe of a system that has not moved yet, for a method, or for a reference without one.
     pub(super) fn new(
         case: &'a Case,
         system: &System,
         solver: &dyn Solver,
-        family: Option<Family>,
+        method: Option<&Method>,
     ) -> Probe<'a> {
         let is_pulled = matches!(case.scene.held, Held::Pulled(_));
         let points = &case.sheet.points;
@@ -168,7 +169,7 @@ impl<'a> Probe<'a> {
             },
             hand_j: 0.0,
             moves_at_end: solver.abilities().frequency_limit.is_none(),
-            stored: family.map_or(StoredEnergy::ByLength, Family::stored_energy),
+            family: method.map(|method| method.family),
             began_j: [energy::elastic_j(system), height_j(system)],
             put_in_j: 0.0,
             thresholds: thresholds.map(|threshold| FirstTear {
@@ -220,7 +221,7 @@ impl<'a> Probe<'a> {
     /// Records the energy beyond what was put in by gravity and by the hand that pulls, as a fraction of that.
     /// Returns the energy that is there as a multiple of it if it is more than is allowed.
     pub(super) fn energy(&mut self, system: &System) -> Option<f64> {
-        let [stored_j, height_j] = [stored_j(system, self.stored), height_j(system)];
+        let [stored_j, height_j] = [stored_j(system, self.family), height_j(system)];
         let now_j = stored_j + energy::kinetic_j(system);
         let fallen_j = self.began_j[1] - height_j;
         let put_in_j = self.began_j[0] + fallen_j.max(0.0) + self.hand_j.max(0.0);
@@ -302,18 +303,20 @@ impl<'a> Probe<'a> {
     }
 }
 
-fn stored_j(system: &System, stored: StoredEnergy) -> f64 {
-    match stored {
-        StoredEnergy::None => 0.0,
-        StoredEnergy::ByLength => energy::elastic_j(system),
-        StoredEnergy::ByForce => {
-            let stretches = system.stretches();
+/// The energy in springs: none in rigid ones. The lengths that the sweeps of XPBD leave belong to no force, so for
+/// it that of its forces.
+fn stored_j(system: &System, family: Option<Family>) -> f64 {
+    let stretches = system.stretches();
+    match family {
+        Some(Family::Pbd) => 0.0,
+        Some(Family::Xpbd) => {
             let each = stretches.iter().map(|id| {
                 let force_n = force::force_n(system, id);
                 force_n * force_n / (2.0 * stretches.get(id).stiffness_n_per_m)
             });
             each.sum()
         }
+        _ => energy::elastic_j(system),
     }
 }
 

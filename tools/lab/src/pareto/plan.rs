@@ -5,7 +5,7 @@ use tearmesh_cloth::scene::suggested_step_s;
 use tearmesh_cloth::{Solver, System, Unstable};
 
 use super::scene::{Case, Until};
-use crate::method::{DefaultMethod, Family, METHODS, Method, STEP_FRACTIONS};
+use crate::method::{DEFAULTS, Family, METHODS, Method, STEP_FRACTIONS};
 use crate::reference::Reference;
 
 /// A planned run of a case.
@@ -23,7 +23,7 @@ pub(super) struct Planned {
 
 /// The purpose of a run. References are two runs, the second with half the step, or one if the scene ends at
 /// rest.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Role {
     /// A reference by Verlet's method.
     Verlet,
@@ -32,12 +32,12 @@ pub(super) enum Role {
     /// A run that ends at [`REST_M_PER_S`](super::REST_M_PER_S), where references go on. Its error is a lower
     /// bound of the floor.
     Rest,
-    /// One of the two runs of the gate, which differ by noise if it is true.
-    Gate(bool),
-    /// A method at a fraction of its base step.
-    Budget(&'static Method, f64),
-    /// A method at its default settings.
-    Default(Box<DefaultMethod>),
+    /// The run of the gate that starts as all others do.
+    Calm,
+    /// The run of the gate that starts with noise.
+    Noisy,
+    /// A method at a fraction of its base step, or with its default step.
+    Method(&'static Method, Option<f64>),
 }
 
 /// The number of checkpoints at which positions and strains are compared, evenly spaced over the time of the
@@ -92,27 +92,32 @@ pub(super) fn plan(case: &Case) -> Vec<Planned> {
             ] {
                 for fraction in REFERENCE_FRACTIONS {
                     let name = format!("{name}@{fraction}");
-                    add(&name, role.clone(), base_s, fraction);
+                    add(&name, role, base_s, fraction);
                 }
             }
         }
     }
     if case.is_gated() {
-        add("gate", Role::Gate(false), plain_s, 0.5);
-        add("gate-disturbed", Role::Gate(true), plain_s, 0.5);
+        add("gate", Role::Calm, plain_s, 0.5);
+        add("gate-disturbed", Role::Noisy, plain_s, 0.5);
     }
     for method in &METHODS {
         let base_s = base_s(method);
         for fraction in STEP_FRACTIONS {
             let name = format!("{}@{fraction}", method.name);
-            add(&name, Role::Budget(method, fraction), base_s, fraction);
+            add(
+                &name,
+                Role::Method(method, Some(fraction)),
+                base_s,
+                fraction,
+            );
         }
     }
-    for method in DefaultMethod::all() {
+    for method in &DEFAULTS {
         let name = format!("{}@default", method.name);
-        let speed = case.speed_m_per_s();
-        let step_s = suggested_step_s(&method.settings, &mut case.system(), speed);
-        add(&name, Role::Default(Box::new(method)), step_s, 1.0);
+        let settings = method.settings().expect("defaults are methods of scenes");
+        let step_s = suggested_step_s(&settings, &mut case.system(), case.speed_m_per_s());
+        add(&name, Role::Method(method, None), step_s, 1.0);
     }
     runs
 }
@@ -135,10 +140,13 @@ impl Planned {
             Until::Tears(_) => expected_s *= 0.6,
         }
         let products = || 8.0 + 6.0 * (dt_s / case.edge_s()).min(2.0 * f64::from(case.cells));
-        let visits_a_step = match (role.family(), &role) {
-            (Some(Family::Rk4 | Family::Provot), _) => 4.0,
-            (Some(Family::BackwardEuler | Family::Bdf2), _) | (_, Role::Newton) => products(),
-            (_, Role::Budget(method, _)) => f64::from(method.sweeps().unwrap_or(1)),
+        let visits_a_step = match role {
+            Role::Newton => products(),
+            Role::Method(method, _) => match method.family {
+                Family::Rk4 | Family::Provot => 4.0,
+                Family::BackwardEuler | Family::Bdf2 => products(),
+                _ => f64::from(method.sweeps()),
+            },
             _ => 1.0,
         };
         Planned {
@@ -153,38 +161,34 @@ impl Planned {
     /// The system at its start, and the method.
     pub(super) fn begin(&self, case: &Case) -> (System, Box<dyn Solver>) {
         let mut system = match self.role {
-            Role::Gate(true) => case.disturbed(NOISE_M),
+            Role::Noisy => case.disturbed(NOISE_M),
             _ => case.system(),
         };
-        let solver = match &self.role {
-            Role::Verlet | Role::Rest | Role::Gate(_) => reference(case).solver(),
+        if let Role::Method(_, None) = self.role {
+            // A step that the program chose is divided where it gets too long, and not refused.
+            system.when_unstable(Unstable::Substep);
+        }
+        let solver = match self.role {
             Role::Newton => match case.scene.until {
                 Until::Rest(_) => Box::new(Reference::to_rest()),
                 Until::Time(_) | Until::Tears(_) => Box::new(Reference::new(&[])),
             },
-            Role::Budget(method, _) => method.solver(),
-            Role::Default(method) => {
-                // A step that the program chose is divided where it gets too long, and not refused.
-                system.when_unstable(Unstable::Substep);
-                method.solver()
-            }
+            Role::Method(method, _) => method.solver(),
+            _ => reference(case).solver(),
         };
         (system, solver)
     }
-}
 
-impl Role {
-    /// The family of a method that is measured; `None` for references and the gate.
-    pub(super) fn family(&self) -> Option<Family> {
-        match self {
-            Role::Budget(method, _) => Some(method.family),
-            Role::Default(method) => Some(method.family),
-            Role::Verlet | Role::Newton | Role::Rest | Role::Gate(_) => None,
+    /// The method that is measured; `None` for references and the gate.
+    pub(super) fn method(&self) -> Option<&'static Method> {
+        match self.role {
+            Role::Method(method, _) => Some(method),
+            _ => None,
         }
     }
 
     /// Whether the run is a reference, which has no limit of visits and comes nearer to rest.
     pub(super) fn is_reference(&self) -> bool {
-        matches!(self, Role::Verlet | Role::Newton)
+        matches!(self.role, Role::Verlet | Role::Newton)
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn run(
     bounds: &Bounds<'_>,
 ) -> Option<Outcome> {
     let (until, dt_s) = (case.scene.until, planned.dt_s);
-    let (rest_m_per_s, visits_max) = match planned.role.is_reference() {
+    let (rest_m_per_s, visits_max) = match planned.is_reference() {
         true => (REST_M_PER_S * REST_OF_REFERENCES, u64::MAX),
         false => (REST_M_PER_S, visits_max),
     };
@@ -48,7 +48,7 @@ pub(super) fn run(
     let every = (steps_max / 400).max(1);
     let rest_every = ((0.01 / dt_s) as u64).max(1);
     let (mut system, mut solver) = planned.begin(case);
-    let mut probe = Probe::new(case, &system, &*solver, planned.role.family());
+    let mut probe = Probe::new(case, &system, &*solver, planned.method());
     let (mut cpu, mut visits) = (Duration::ZERO, 0);
     let (mut status, mut why) = (Status::Restless, String::new());
     for number in 1..=steps_max {

@@ -426,7 +426,7 @@ fn relaxed(mut system: System) -> Vec<Point> {
     system.positions().to_vec()
 }
 
-pub(super) fn fastest_m_per_s(system: &System) -> f64 {
+pub(crate) fn fastest_m_per_s(system: &System) -> f64 {
     let squares = system.velocities().iter().map(|v| v.norm_squared());
     squares.fold(0.0, f64::max).sqrt()
 }

@@ -54,7 +54,7 @@ fn assessed() -> Vec<Row> {
         },
         cases: vec![oscillator()],
     };
-    conduct(&experiment, &UNBOUNDED, |_, _| {}).rows
+    conduct(&experiment, &UNBOUNDED, |_| {}).rows
 }
 
 /// The error of a weight that moves as cos wt: the largest of ten checkpoints.
@@ -138,7 +138,7 @@ fn options(scenes: &[&str], cells: u32) -> Options {
 }
 
 fn made(options: Options) -> Vec<Row> {
-    conduct(&Pareto::new(options), &UNBOUNDED, |_, _| {}).rows
+    conduct(&Pareto::new(options), &UNBOUNDED, |_| {}).rows
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn an_interrupted_table_has_a_row_for_each_run() {
         stop: &stop,
         ..UNBOUNDED
     };
-    let conducted = conduct(&Pareto::new(options(&["swing"], 4)), &bounds, |_, _| {});
+    let conducted = conduct(&Pareto::new(options(&["swing"], 4)), &bounds, |_| {});
     assert_eq!(
         (conducted.done, conducted.rows.len()),
         (0, conducted.planned)
@@ -196,12 +196,12 @@ fn fronts_are_those_of_the_record() {
         ..options(&["hang", "swing", "sliver", "taut", "strip"], 5)
     });
     let mut found = String::new();
-    for (case, observable, of) in chart::groups(&rows) {
-        if of[0].error_floor.is_some() {
-            let on = of.iter().filter(|row| row.is_on_front);
-            let on: Vec<&str> = on.map(|row| &*row.run).collect();
-            let (scene, mesh) = (&case[0].scene, case[0].mesh.name());
-            let (name, on) = (observable.name(), on.join(" "));
+    for group in chart::groups(&rows, false) {
+        if group.floor.is_some() {
+            let on = group.runs.iter().filter(|one| one.is_on_front);
+            let on: Vec<&str> = on.map(|one| &*one.row.run).collect();
+            let Row { scene, mesh, .. } = group.runs[0].row;
+            let (mesh, name, on) = (mesh.name(), group.observable.name(), on.join(" "));
             found += &format!("{scene} on {mesh}, {name}: {on}\n");
         }
     }

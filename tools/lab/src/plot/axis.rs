@@ -51,15 +51,6 @@ impl Axis {
         }
     }
 
-    /// Returns the axis with these ends.
-    #[must_use]
-    pub fn from_to(self, from: f64, to: f64) -> Axis {
-        Axis {
-            range: Some(from..to),
-            ..self
-        }
-    }
-
     /// Places the axis, given what is drawn, with its ends at these pixels.
     pub(super) fn placed(&self, drawn: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Placed<'_> {
         let numbers = self.range.clone().unwrap_or_else(|| self.fitted(drawn));
@@ -176,6 +167,12 @@ pub fn short(number: f64, digits: u32) -> String {
     format!("{}", (number * scale).round() / scale)
 }
 
+/// Returns a fraction in per cent, with two significant digits.
+#[must_use]
+pub fn percent(fraction: f64) -> String {
+    format!("{} %", short(100.0 * fraction, 2))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,7 +180,10 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_within_the_range() {
         let of = |axis: &Axis, range: Range<f64>| -> Vec<String> {
-            let axis = axis.clone().from_to(range.start, range.end);
+            let axis = Axis {
+                range: Some(range),
+                ..axis.clone()
+            };
             let ticks = axis.placed(std::iter::empty(), [0.0, 1.0]).ticks();
             ticks.into_iter().map(|(_, text)| text).collect()
         };

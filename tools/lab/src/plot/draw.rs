@@ -2,7 +2,7 @@
 
 use super::axis::Placed;
 use super::canvas::{BOLD, Canvas, END, HALO, MIDDLE, Style, text_width, upward};
-use super::{Colour, Figure, GREY, INK, Layer, Mark, PINK, Panel, Shape, Strip};
+use super::{Colour, Figure, GREY, INK, Layer, Mark, PALE, PINK, Panel, Strip};
 
 /// The margin around a figure, in pixels.
 const MARGIN: f64 = 16.0;
@@ -19,7 +19,6 @@ const WORDS: Style<'_> = (12.0, INK, "");
 
 const GRID: Colour = [0xe2; 3];
 const THIN: &str = "stroke-width=\"1\"";
-const THICK: &str = "stroke-width=\"2\"";
 const DASHED: &str = "stroke-dasharray=\"5 4\"";
 const RED_BORDER: &str = " stroke=\"#cc0000\" stroke-width=\"3\"";
 
@@ -118,11 +117,10 @@ fn draw_panel(
 /// The points that an axis is fitted to.
 fn points(layer: &Layer) -> Vec<[f64; 2]> {
     match layer {
-        Layer::Line { points, .. } => points.clone(),
-        Layer::Mark { at, .. } | Layer::Label { at, .. } => vec![*at],
-        Layer::Interval { x, y, .. } => y.map(|y| [*x, y]).to_vec(),
+        Layer::Line(points, ..) => points.clone(),
+        Layer::Mark(at, ..) | Layer::Label(at, ..) => vec![*at],
         Layer::Cell { at, .. } => vec![*at, at.map(|corner| corner + 1.0)],
-        Layer::Rule { .. } | Layer::Band { .. } => Vec::new(),
+        Layer::Rule(..) | Layer::Band(_) => Vec::new(),
     }
 }
 
@@ -176,41 +174,28 @@ fn draw_strip(canvas: &mut Canvas, frame: &Frame<'_>, strip: &Strip) {
 fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
     let ([left, right], [bottom, top]) = (frame.x.pixels, frame.y.pixels);
     match layer {
-        Layer::Band { y, colour } => {
+        Layer::Band(y) => {
             // A number without a place, such as 0 on a logarithmic axis, is at the lower end.
             let [upper, lower] = [y.end, y.start].map(|y| frame.y.at(y).min(bottom).max(top));
             if upper < lower {
-                canvas.rectangle([[left, upper], [right, lower]], *colour, "");
+                canvas.rectangle([[left, upper], [right, lower]], PALE, "");
             }
         }
-        Layer::Rule { x, label } => {
+        Layer::Rule(x, label) => {
             let at = frame.x.at(*x);
             if left <= at && at <= right {
                 canvas.line(&[[at, top], [at, bottom]], GREY, DASHED);
                 canvas.text(label, [at + 4.0, top + 11.0], (SMALL, GREY, HALO));
             }
         }
-        Layer::Line {
-            points,
-            colour,
-            width,
-        } => {
+        Layer::Line(points, colour, width) => {
             let points: Vec<[f64; 2]> = points.iter().map(|&point| frame.at(point)).collect();
             canvas.line(&points, *colour, &format!("stroke-width=\"{width}\""));
         }
-        Layer::Mark { at, mark, hover } => {
+        Layer::Mark(at, mark, hover) => {
             let [x, y] = frame.at(*at);
             frame.taken.push([x - 4.0, y - 4.0, x + 4.0, y + 4.0]);
             canvas.mark(*mark, [x, y], hover);
-        }
-        Layer::Interval { x, y, colour } => {
-            let at = frame.x.at(*x);
-            let [low, middle, high] = y.map(|number| frame.y.at(number));
-            canvas.line(&[[at, low], [at, high]], *colour, THICK);
-            for end in [low, high] {
-                canvas.line(&[[at - 3.0, end], [at + 3.0, end]], *colour, THIN);
-            }
-            canvas.mark(Mark::new(Shape::Disc, *colour).sized(3.5), [at, middle], "");
         }
         Layer::Cell {
             at,
@@ -227,7 +212,7 @@ fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
                 canvas.text(line, at, (SMALL, INK, MIDDLE));
             }
         }
-        Layer::Label { at, text, colour } => {
+        Layer::Label(at, text, colour) => {
             let [x, y] = place_label(frame, *at, text_width(text, SMALL));
             canvas.text(text, [x, y], (SMALL, *colour, HALO));
         }
@@ -261,19 +246,24 @@ fn place_label(frame: &mut Frame<'_>, at: [f64; 2], width: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::Axis;
+    use crate::plot::{Axis, Shape};
+
+    fn ranged(axis: Axis, range: std::ops::Range<f64>) -> Axis {
+        let range = Some(range);
+        Axis { range, ..axis }
+    }
 
     /// All places and sizes of a figure of two points are worked out by hand here: 100 × 100 pixels between
     /// the axes would be exact, so points at the ends of a range stand at the ends of the axes.
     #[test]
     fn points_at_the_ends_of_a_range_stand_at_the_ends_of_the_axes() {
-        let mark = |at| Layer::mark(at, Mark::new(Shape::Disc, INK), String::new());
+        let mark = |at| Layer::Mark(at, Mark::new(Shape::Disc, INK), String::new());
         let figure = Figure {
             columns: 1,
             panel_size: [400.0, 300.0],
             panels: vec![Panel {
-                x: Axis::log("x").from_to(1.0, 100.0),
-                y: Axis::linear("y").from_to(0.0, 10.0),
+                x: ranged(Axis::log("x"), 1.0..100.0),
+                y: ranged(Axis::linear("y"), 0.0..10.0),
                 layers: vec![mark([1.0, 0.0]), mark([100.0, 10.0]), mark([10.0, 5.0])],
                 ..Panel::default()
             }],
@@ -305,13 +295,13 @@ mod tests {
 
     #[test]
     fn labels_at_one_point_stand_apart() {
-        let label = |text: &str| Layer::label([1.0, 1.0], text, INK);
+        let label = |text: &str| Layer::Label([1.0, 1.0], text.to_owned(), INK);
         let figure = Figure {
             columns: 1,
             panel_size: [400.0, 300.0],
             panels: vec![Panel {
-                x: Axis::linear("x").from_to(0.0, 2.0),
-                y: Axis::linear("y").from_to(0.0, 2.0),
+                x: ranged(Axis::linear("x"), 0.0..2.0),
+                y: ranged(Axis::linear("y"), 0.0..2.0),
                 layers: vec![label("first <&>"), label("second"), label("third")],
                 ..Panel::default()
             }],

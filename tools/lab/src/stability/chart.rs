@@ -7,10 +7,6 @@ use crate::plot::{Axis, Colour, Figure, Layer, Panel, short};
 
 impl Chart for Stability {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        let mut footer = vec![provenance.footer()];
-        if rows.iter().any(|row| row.status == Status::Interrupted) {
-            footer.push("INTERRUPTED: some methods or scenes are missing.".to_owned());
-        }
         Figure {
             title: title(rows),
             about: "Red border: a failure without a message, or an outcome that is not the expected one."
@@ -18,7 +14,7 @@ impl Chart for Stability {
             columns: 2,
             panel_size: [760.0, 660.0],
             panels: vec![steps(rows), scenes(rows)],
-            footer,
+            footer: provenance.footer("", rows.iter().map(|row| row.status)),
             ..Figure::default()
         }
     }
@@ -64,10 +60,10 @@ fn title(rows: &[Row]) -> String {
 
 /// The outcome of a row, and the expected one if it is another.
 fn outcome_in_words(row: &Row) -> String {
-    let measured = row.measured.map_or("", Status::name);
+    let measured = row.measured.map(Status::name).unwrap_or_default();
     match row.expected.filter(|status| Some(*status) != row.measured) {
         Some(expected) => format!("{measured}, expected {}", expected.name()),
-        None => measured.to_owned(),
+        None => measured,
     }
 }
 

@@ -10,7 +10,7 @@ use tearmesh_cloth::{StepError, Wind, energy};
 
 use super::row::Row;
 use crate::experiment::Status::{self, Ok as Fine, Refused, Wrong};
-use crate::method::DefaultMethod;
+use crate::method::DEFAULTS;
 use crate::pareto::status_of;
 
 /// A scene, with the expected outcome of each method.
@@ -37,7 +37,7 @@ pub struct Trial {
     bulge_m: f64,
     /// Sets what else is particular to the scene, of which this is the recommended step in seconds.
     adjust: fn(&mut Scene, f64),
-    /// The expected outcomes, in the order of [`DefaultMethod::all`].
+    /// The expected outcomes, in the order of [`DEFAULTS`].
     pub expected: [Status; 5],
 }
 
@@ -211,9 +211,9 @@ impl Trial {
     /// Plays the scene by each method, and returns a row for each. `None` if it was interrupted.
     pub(super) fn rows(&self, codes: RunCodes, stop: &dyn Fn() -> bool) -> Option<Vec<Row>> {
         let reference = self.play(Method::Verlet, FINER, stop)?;
-        let methods = DefaultMethod::all().into_iter().zip(self.expected);
+        let methods = DEFAULTS.iter().zip(self.expected);
         let rows = methods.map(|(method, expected)| {
-            let played = self.play(method.settings, COARSE, stop)?;
+            let played = self.play(method.settings()?, COARSE, stop)?;
             let error = played.error.as_ref();
             let judge = self.judge.filter(|_| error.is_none());
             let judged = judge.map(|(measure, most)| (measure(&played, &reference), most));

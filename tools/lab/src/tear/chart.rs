@@ -3,9 +3,9 @@
 use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
 use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear};
-use crate::experiment::{Chart, Provenance, Status};
-use crate::method::DefaultMethod;
-use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, PALE, Panel, Shape, short};
+use crate::experiment::{Chart, Provenance};
+use crate::method::Method;
+use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
 /// The rules of strips, with their names.
 const RULES: [(Rule, &str); 2] = [
@@ -24,6 +24,11 @@ const QUANTITIES: [Quantity; 4] = [
     ("largest force, N", |row| row.largest_force_n),
 ];
 
+/// How to read the figure.
+const READING: &str = "Bars: medians with 10 to 90 % over seeds, for each method at its step, at half and at a \
+     quarter of it (from left to right). Below the name: does halving the step change the median? = the same, ≠ \
+     different, ? cannot tell. Grey band: the reference, 10 to 90 %.";
+
 impl Chart for Tear {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
         let mut panels = Vec::new();
@@ -31,38 +36,22 @@ impl Chart for Tear {
             panels.push(strips(rows));
         }
         panels.extend(ensembles(rows).iter().map(Ensembles::panel));
-        let mut footer = vec![
-            "Bars: medians with 10 to 90 % over seeds, for each method at its step, at half and at a quarter of it \
-             (from left to right). Below the name: does halving the step change the median? = the same, ≠ different, \
-             ? cannot tell. Grey band: the reference, 10 to 90 %."
-                .to_owned(),
-            provenance.footer(),
-        ];
-        if rows.iter().any(|row| row.status == Status::Interrupted) {
-            let missing = "INTERRUPTED: runs that were not done are missing.";
-            footer.insert(0, missing.to_owned());
-        }
         Figure {
-            title: match RULES.map(|(rule, _)| slope(&forces(rows, rule))) {
-                [Some(stretch), Some(toughness)] => format!(
-                    "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness \
-                     much less ({toughness:+.2})"
-                ),
-                _ => "After the first tear, only distributions over many seeds compare".to_owned(),
-            },
+            title: title(rows),
             about: "Trouser tests of strips on several meshes, and ensembles of whole tears."
                 .to_owned(),
             columns: 3,
             panel_size: [390.0, 330.0],
             panels,
-            footer,
+            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
         }
     }
 
     fn summary(&self, rows: &[Row]) -> String {
-        let of = ensembles(rows);
-        conclusion(rows) + &of.iter().map(Ensembles::words).collect::<String>()
+        let ensembles = ensembles(rows);
+        let words = ensembles.iter().map(Ensembles::words);
+        title(rows) + "\n" + &words.collect::<String>()
     }
 }
 
@@ -102,43 +91,34 @@ fn strips(rows: &[Row]) -> Panel {
     for ((rule, name), colour) in RULES.into_iter().zip(COLOURS) {
         let points = forces(rows, rule);
         if let Some(slope) = slope(&points) {
-            let (at, text) = (points[0], format!("{name}: {slope:+.2}"));
-            panel.layers.push(Layer::Label { at, text, colour });
+            let text = format!("{name}: {slope:+.2}");
+            panel.layers.push(Layer::Label(points[0], text, colour));
         }
         let mark = Mark::new(Shape::Disc, colour);
-        panel.layers.extend(points.iter().map(|&at| Layer::Mark {
-            at,
-            mark,
-            hover: String::new(),
-        }));
-        panel.layers.push(Layer::Line {
-            points,
-            colour,
-            width: 2.0,
-        });
+        let marks = points.iter();
+        let marks = marks.map(|&at| Layer::Mark(at, mark, String::new()));
+        panel.layers.extend(marks);
+        panel.layers.push(Layer::Line(points, colour, 2.0));
     }
     panel
 }
 
-/// What the strips show; empty without strips.
-fn conclusion(rows: &[Row]) -> String {
-    let largest = RULES.map(|(rule, _)| forces(rows, rule));
-    let [Some(stretch), Some(toughness)] = largest.each_ref().map(|points| slope(points)) else {
-        return String::new();
-    };
-    let [by_stretch, by_toughness] = largest.map(|points| {
-        let forces = points.iter().map(|[_, force]| short(*force, 3));
-        forces.collect::<Vec<_>>().join(" / ")
-    });
-    format!(
-        "By the paper's stretch ratio a finer mesh tears more easily: the largest force is {by_stretch} N, slope \
-         {stretch:+.2} over the edge length. By toughness it is {by_toughness} N, slope {toughness:+.2}: where \
-         forces matter, use --toughness.\n"
-    )
+/// What the strips show.
+fn title(rows: &[Row]) -> String {
+    match RULES.map(|(rule, _)| slope(&forces(rows, rule))) {
+        [Some(stretch), Some(toughness)] => format!(
+            "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness much less \
+             ({toughness:+.2}): where forces matter, use --toughness"
+        ),
+        _ => "After the first tear, only distributions over many seeds compare".to_owned(),
+    }
 }
 
 /// The values of an ensemble, and whether every run has one.
 type Sample = (Vec<f64>, bool);
+
+/// The two methods that agree, and the values of their finest ensembles.
+type Reference = ([&'static str; 2], Vec<f64>);
 
 /// The ensembles of a scene on a mesh by one quantity.
 pub(super) struct Ensembles {
@@ -147,7 +127,7 @@ pub(super) struct Ensembles {
     /// The name of the quantity, with its unit.
     quantity: &'static str,
     /// For each method the samples at its step, at half and at a quarter of it.
-    methods: Vec<(DefaultMethod, [Sample; 3])>,
+    methods: Vec<(&'static Method, [Sample; 3])>,
 }
 
 /// The ensembles of a table, for each scene on a mesh by each quantity.
@@ -164,7 +144,7 @@ pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
                     let is_whole = values.len() == of.count();
                     (values, is_whole)
                 });
-                Some((DefaultMethod::named(&of[0].method)?, samples))
+                Some((Method::named(&of[0].method)?, samples))
             });
             Ensembles {
                 name: name.clone(),
@@ -191,7 +171,7 @@ impl Ensembles {
     /// The reference: the two methods that converged and whose finest ensembles have the same median, the closest
     /// pair if there are several, and the values of those. Two methods that still change with their step agree by
     /// chance.
-    pub(super) fn reference(&self) -> Option<([&'static str; 2], Vec<f64>)> {
+    pub(super) fn reference(&self) -> Option<Reference> {
         let converged = self.methods.iter().filter(|(_, [_, half, quarter])| {
             compared(half, quarter).is_some_and(|found| found.verdict == Verdict::Same)
         });
@@ -210,18 +190,16 @@ impl Ensembles {
     }
 
     fn panel(&self) -> Panel {
+        let reference = self.reference();
         let mut panel = Panel {
             title: format!("{}: {}", self.name, self.quantity),
-            about: "no reference: no two methods that converged agree".to_owned(),
+            about: about(reference.as_ref()),
             y: Axis::linear(self.quantity),
             ..Panel::default()
         };
-        if let Some((methods, values)) = self.reference() {
-            panel.about = format!("reference: the finest of {}", methods.join(" and "));
-            let [low, _, high] = spread(&values);
-            let (y, colour) = (low..high, PALE);
-            panel.layers.push(Layer::Band { y, colour });
-        }
+        let range = reference.map(|(_, values)| spread(&values));
+        let band = range.map(|[low, _, high]| Layer::Band(low..high));
+        panel.layers.extend(band);
         let mut names = Vec::new();
         let [mut least, mut most] = [f64::INFINITY, 0.0];
         for (i, (method, samples)) in self.methods.iter().enumerate() {
@@ -237,11 +215,11 @@ impl Ensembles {
             for (j, (values, _)) in known.filter(|(_, (values, _))| !values.is_empty()) {
                 let y @ [low, _, high] = spread(values);
                 (least, most) = (low.min(least), high.max(most));
-                panel.layers.push(Layer::Interval {
-                    x: i as f64 + 0.3 + 0.2 * j as f64,
-                    y,
-                    colour: method.family.mark().colour,
-                });
+                let mark = Mark::new(Shape::Disc, method.family.mark().colour);
+                let x = i as f64 + 0.3 + 0.2 * j as f64;
+                panel
+                    .layers
+                    .extend(Layer::interval(x, y, mark, String::new()));
             }
         }
         panel.x = Axis::named(names);
@@ -253,26 +231,18 @@ impl Ensembles {
 
     fn words(&self) -> String {
         let reference = self.reference();
-        let referred = match &reference {
-            Some((methods, _)) => format!("reference: the finest of {}", methods.join(" and ")),
-            None => "no reference, as no two methods that converged agree".to_owned(),
-        };
-        let mut text = format!("{}, {}; {referred}\n", self.name, self.quantity);
+        let about = about(reference.as_ref());
+        let mut text = format!("{}, {}; {about}\n", self.name, self.quantity);
         let verdict = |first: &Sample, second: &Sample| {
             compared(first, second).map_or("unknown", |found| found.verdict.name())
         };
         for (method, samples) in &self.methods {
-            let [whole, half, quarter] = samples.each_ref().map(|(values, _)| {
-                if values.is_empty() {
-                    return "unknown".to_owned();
-                }
-                let [low, middle, high] = spread(values).map(|x| short(x, 3));
-                format!("{middle} ({low} to {high})")
-            });
-            let (name, of_half) = (method.name, verdict(&samples[0], &samples[1]));
-            text += &format!(
-                "  {name:<9} {whole:<26} {half:<26} {quarter:<26} half the step: {of_half}"
-            );
+            let (values, _) = &samples[0];
+            let known = (!values.is_empty()).then(|| spread(values).map(|x| short(x, 3)));
+            let range = known.map(|[low, middle, high]| format!("{middle} ({low} to {high})"));
+            let range = range.unwrap_or("unknown".to_owned());
+            let of_half = verdict(&samples[0], &samples[1]);
+            text += &format!("  {:<9} {range:<26} half the step: {of_half}", method.name);
             if let Some((_, values)) = &reference {
                 let against = verdict(&(values.clone(), true), &samples[0]);
                 text += &format!("; against the reference: {against}");
@@ -280,5 +250,12 @@ impl Ensembles {
             text.push('\n');
         }
         text
+    }
+}
+
+fn about(reference: Option<&Reference>) -> String {
+    match reference {
+        Some((methods, _)) => format!("reference: the finest of {}", methods.join(" and ")),
+        None => "no reference: no two methods that converged agree".to_owned(),
     }
 }

@@ -2,8 +2,8 @@
 //! methods agree.
 
 use super::*;
+use crate::experiment::workers;
 use crate::experiment::{Chart, Provenance, conduct, read_table, table};
-use crate::pool::workers;
 
 fn tear(strips: &[u32], seeds: u64) -> Tear {
     Tear {
@@ -21,7 +21,7 @@ fn made(strips: &[u32], seeds: u64) -> Vec<Row> {
         clock: None,
         stop: &|| false,
     };
-    conduct(&tear(strips, seeds), &bounds, |_, _| {}).rows
+    conduct(&tear(strips, seeds), &bounds, |_| {}).rows
 }
 
 /// The force at which an edge tears is k ε h by stretch and √(2 k G h) by toughness: slopes of one and of a half
@@ -63,7 +63,7 @@ fn interrupted_keys_are_rows_with_that_status() {
         clock: None,
         stop: &|| true,
     };
-    let conducted = conduct(&tear(&[4, 6], 2), &bounds, |_, _| {});
+    let conducted = conduct(&tear(&[4, 6], 2), &bounds, |_| {});
     assert_eq!((conducted.done, conducted.rows.len()), (0, 4 + 12));
     assert!(
         conducted
