@@ -52,8 +52,8 @@
 //! * Tears survive a round trip: comments at the end of the file record which vertices were one
 //!   vertex until which cut, and where vertices were inserted ([the record](#the-record)).
 //! * Objects, groups, materials, smoothing groups, comments, and unknown statements are kept byte for
-//!   byte and in order. Statements that are kept without being interpreted are reported. The `ARCSim`
-//!   statements about a vertex (`nl`, `ny`, `nv`, `vv`) are repeated for its copies.
+//!   byte and in order. Statements that are kept without being interpreted are reported. A written copy of a
+//!   vertex does not repeat the `ARCSim` statements about it ([`WriteSummary::unspoken`] counts them).
 //! * Every refusal has a code, a line, a column, the text, and the expected syntax. A mesh error
 //!   names the lines of its faces.
 //! * No input causes a panic. Reading a file, and describing and repairing the defects of its mesh,
@@ -144,7 +144,6 @@
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`): losses, and the order of statements |
 //! | `repair.rs` | repair of defects, on request |
 //! | `coincident.rs` | coincident boundary edges that no record explains |
-//! | `said.rs` | foreign statements about the vertex before them, for its copies |
 //! | `torn.rs`, `torn/` | edits of a document: corners, splits, order, removable and edited vertices |
 //! | `record.rs` | the contents of the record, and its checksum |
 //! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
@@ -169,7 +168,6 @@ mod raw;
 mod read;
 mod record;
 mod repair;
-mod said;
 mod sections;
 mod simplify;
 mod slides;

@@ -1,12 +1,13 @@
 //! What is written of a torn document: which faces in which order, under which numbers, and
 //! what goes on record.
 
+use std::collections::BTreeSet;
+
 use tearmesh::{Mesh, Point};
 
 use super::separate::Separated;
 use crate::order::Order;
 use crate::record::{Apart, Inserted, Parent, Record, runs};
-use crate::said::Said;
 use crate::sections::Of;
 use crate::torn::{Removal, Slots, TornDocument, Turns};
 
@@ -24,8 +25,6 @@ pub(crate) struct Prepared<'m> {
     pub(super) orders: [Order; 3],
     /// `None` where there is nothing to record.
     pub(super) record: Option<Record>,
-    /// What is said of vertices, for their copies.
-    pub(super) said: Said,
 }
 
 impl<'m> Prepared<'m> {
@@ -79,23 +78,26 @@ impl<'m> Prepared<'m> {
             },
             separated,
             record: None,
-            said: Said::default(),
         };
-        prepared.said = Said::in_document(document, &prepared.copied(torn));
         let record = prepared.record_of(torn);
         let says_nothing = record.is_empty() && prepared.fans().next().is_none();
         prepared.record = (!says_nothing).then_some(record);
         prepared
     }
 
-    /// The vertices of the document of which more are written, ascending.
-    fn copied(&self, torn: &TornDocument<'_>) -> Vec<usize> {
+    /// How many statements about a vertex are not repeated for its copies, or have new vertices before
+    /// them.
+    pub(super) fn unspoken(&self, torn: &TornDocument<'_>) -> usize {
         let added = self.orders[0].added().iter();
         let origins = added.filter_map(|added| torn.origin(self.vertex(added.element)));
-        let mut copied: Vec<usize> = origins.collect();
-        copied.sort_unstable();
-        copied.dedup();
-        copied
+        let copied: BTreeSet<usize> = origins.collect();
+        if self.orders[0].added().is_empty() {
+            return 0;
+        }
+        let about = torn.document().statements_about_vertices().into_iter();
+        about
+            .filter(|(vertex, is_behind)| !is_behind || copied.contains(vertex))
+            .count()
     }
 
     pub(super) fn removes_nothing(&self) -> bool {
