@@ -141,7 +141,7 @@
 //! | `read.rs`, `read/` | bytes to document: lines, tokens, numbers, faces, indices, the record, errors |
 //! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, thin faces, colliding diagonals |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
-//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): losses, and the order of statements |
+//! | `raw.rs` | a document from obj-rs (feature `obj-rs`), by way of a text |
 //! | `repair.rs` | repair of defects, on request |
 //! | `coincident.rs` | coincident boundary edges that no record explains |
 //! | `torn.rs`, `torn/` | edits of a document: corners, splits, order, removable and edited vertices |
@@ -181,8 +181,6 @@ pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::Document;
 pub use mesh::MeshError;
 pub use polygons::Corner;
-#[cfg(feature = "obj-rs")]
-pub use raw::{Item, RawObjError};
 pub use repair::Repair;
 pub use simplify::Simplified;
 pub use torn::TornDocument;
