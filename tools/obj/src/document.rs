@@ -85,7 +85,7 @@ impl Document {
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         match &self.triangulation {
-            Some(triangulation) => triangulation.triangles(),
+            Some(triangulation) => &triangulation.triangles,
             None => self.polygons.vertices.as_chunks().0,
         }
     }
@@ -231,9 +231,8 @@ impl Document {
     ) -> usize {
         match &self.triangulation {
             Some(triangulation) => {
-                let nth = triangle - self.polygons.triangles(polygon).start;
-                let [a, b, c] = triangulation.corners(triangle, nth);
-                self.polygons.starts[polygon] as usize + usize::from([a, b, c][corner])
+                let of_polygon = triangulation.corners[triangle][corner];
+                self.polygons.starts[polygon] as usize + usize::from(of_polygon)
             }
             None => 3 * triangle + corner,
         }

@@ -139,7 +139,7 @@
 //! |---|---|
 //! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and its compact lists |
 //! | `read.rs`, `read/` | bytes to document: lines, tokens, numbers, faces, indices, the record, errors |
-//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, thin faces, colliding diagonals |
+//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, and diagonals that make angles larger |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`), by way of a text |
 //! | `repair.rs` | repair of defects, on request |

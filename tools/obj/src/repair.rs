@@ -28,6 +28,7 @@ use crate::document::Document;
 use crate::polygons::Polygons;
 use crate::read::text::attached_length;
 use crate::store::{Kind, Layout, push};
+use crate::triangulate::Triangulation;
 
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
@@ -175,9 +176,14 @@ impl Document {
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
-        let mut keep = |triangle, kept, alone| match &mut triangulation {
-            Some(triangulation) => triangulation.keep(triangle, kept, alone),
-            None => [0, 1, 2],
+        let mut keep = |triangle: usize, kept: usize, alone| {
+            let Some(Triangulation { triangles, corners }) = &mut triangulation else {
+                return [0, 1, 2];
+            };
+            let of_polygon = corners[triangle];
+            triangles[kept] = triangles[triangle];
+            corners[kept] = if alone { [0, 1, 2] } else { of_polygon };
+            of_polygon
         };
         let mut kept = 0;
         let mut layout = Layout::default();
@@ -192,17 +198,14 @@ impl Document {
                 let corners = self.polygons.corners(polygon);
                 if !gone[triangles.clone()].contains(&true) {
                     polygons.add(corners.map(|corner| self.polygons.corner(corner)));
-                    for (nth, triangle) in triangles.enumerate() {
-                        keep([triangle, nth], kept, false);
+                    for triangle in triangles {
+                        keep(triangle, kept, false);
                         kept += 1;
                     }
                     layout.push(Kind::Polygon, line);
                 } else {
-                    let stay = triangles
-                        .enumerate()
-                        .filter(|&(_, triangle)| !gone[triangle]);
-                    for (nth, triangle) in stay {
-                        let of_polygon = keep([triangle, nth], kept, true);
+                    for triangle in triangles.filter(|&triangle| !gone[triangle]) {
+                        let of_polygon = keep(triangle, kept, true);
                         kept += 1;
                         let corner =
                             |corner| self.polygons.corner(corners.start + usize::from(corner));
@@ -215,7 +218,8 @@ impl Document {
         }
         self.triangulation = triangulation.filter(|_| !polygons.all_triangles());
         if let Some(triangulation) = &mut self.triangulation {
-            triangulation.truncate(kept);
+            triangulation.triangles.truncate(kept);
+            triangulation.corners.truncate(kept);
         }
         self.polygons = polygons;
         self.layout = layout;
@@ -291,7 +295,7 @@ impl Document {
         let of_polygon = self.corner_of_polygon(triangle, corner, polygon);
         self.polygons.vertices[of_polygon] = to;
         if let Some(triangulation) = &mut self.triangulation {
-            triangulation.replace(triangle, corner, to);
+            triangulation.triangles[triangle][corner] = to;
         }
     }
 

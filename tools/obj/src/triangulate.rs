@@ -1,64 +1,53 @@
 //! Polygons to triangles.
 //!
-//! A polygon of n corners gives n − 2 triangles whatever its shape. Each is cut by itself
-//! (`ears.rs`); where that leaves a face without area to speak of, and another way does not, it is
-//! cut that way (`thin.rs`). Then diagonals that collide with other edges are flipped (`flip.rs`).
+//! A polygon of n corners gives n − 2 triangles whatever its shape. If those from its first corner
+//! face the viewer and none is thin, they are taken: so a convex quad becomes (0, 1, 2), (0, 2, 3),
+//! as everywhere. Otherwise ears are cut off, and then diagonals are flipped where that makes the
+//! smallest angle of their two triangles larger (Lawson 1977). Of all triangulations of a simple polygon
+//! in a plane that gives the one with the largest smallest angle, so no face is without area where
+//! another way has none.
+//!
+//! Last, quads whose diagonal is an edge elsewhere are cut the other way (`quads.rs`).
 
-mod corners;
 mod ears;
-mod flip;
-mod thin;
+mod quads;
 
 use tearmesh::Point;
 
-use self::corners::Corners;
-use self::ears::{cut_into_triangles, flatten, quad_is_fan};
-use self::flip::flip_colliding;
-use self::thin::{is_thin, thicken};
+use self::ears::{cut_into_ears, enlarge_angles, faces_viewer, flatten};
+use self::quads::avoid_edges;
 use crate::polygons::Polygons;
 
-/// Whether a quad is cut from its first corner without further thought.
-#[inline]
-fn quad_is_good_fan(quad: [Point; 4]) -> bool {
-    let [a, b, c, d] = quad;
-    quad_is_fan(quad) && !is_thin([a, b, c]) && !is_thin([a, c, d])
-}
+/// A triangle is thin if the sine of its smallest angle is less. Six digits leave a millionth of a
+/// face as large as a unit, and a thousandth of one that is a thousandth of it.
+const THIN: f64 = 1e-3;
 
 /// The triangles of all polygons, where not all are triangles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Triangulation {
-    triangles: Vec<[u32; 3]>,
-    corners: Corners,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Which corners of its polygon each triangle has.
+    pub(crate) corners: Vec<[u16; 3]>,
 }
 
 impl Triangulation {
     pub(crate) fn of(polygons: &Polygons, positions: &[Point]) -> Triangulation {
         let count = polygons.vertices.len() - 2 * polygons.len();
-        let mut corners = Corners::default();
         let mut triangles = Vec::with_capacity(count);
-        let (mut flat, mut cut) = (Vec::new(), Vec::new());
+        let mut corners = Vec::with_capacity(count);
+        let (mut places, mut cut) = (Vec::new(), Vec::new());
         for polygon in 0..polygons.len() {
             let vertices = &polygons.vertices[polygons.corners(polygon)];
-            match *vertices {
-                [a, b, c] => {
-                    corners.push_fan(1);
-                    triangles.push([a, b, c]);
-                    continue;
-                }
-                // Nearly all others.
-                [a, b, c, d] if quad_is_good_fan([a, b, c, d].map(|v| positions[v as usize])) => {
-                    corners.push_fan(2);
-                    triangles.extend([[a, b, c], [a, c, d]]);
-                    continue;
-                }
-                _ => {}
-            }
-            flatten(vertices, positions, &mut flat);
+            places.clear();
+            places.extend(vertices.iter().map(|&vertex| positions[vertex as usize]));
             cut.clear();
-            cut_into_triangles(&flat, &mut cut);
-            let place = |corner: u16| positions[vertices[usize::from(corner)] as usize];
-            thicken(&flat, place, &mut cut);
-            corners.keep_each(count, polygons, polygon);
+            cut.extend((2..places.len() as u16).map(|last| [0, last - 1, last]));
+            if places.len() > 3 && !is_good(&places, &cut) {
+                let flat = flatten(&places);
+                cut_into_ears(&flat, &mut cut);
+                let angle = |triangle: [u16; 3]| smallest_angle(at(&places, triangle));
+                enlarge_angles(&flat, angle, &mut cut);
+            }
             for &triangle in &cut {
                 corners.push(triangle);
                 triangles.push(triangle.map(|corner| vertices[usize::from(corner)]));
@@ -69,43 +58,30 @@ impl Triangulation {
             count,
             "a polygon of n corners has n − 2 triangles"
         );
-        flip_colliding(&mut triangles, &mut corners, polygons, positions);
-        Triangulation { triangles, corners }
+        let mut triangulation = Triangulation { triangles, corners };
+        avoid_edges(&mut triangulation, polygons, positions);
+        triangulation
     }
+}
 
-    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
+fn at(places: &[Point], triangle: [u16; 3]) -> [Point; 3] {
+    triangle.map(|corner| places[usize::from(corner)])
+}
 
-    /// Moves a triangle, the `nth` of its polygon, to an earlier place, as a polygon of its own if
-    /// it stands `alone`; the corners of its polygon that it had.
-    pub(crate) fn keep(
-        &mut self,
-        [triangle, nth]: [usize; 2],
-        place: usize,
-        alone: bool,
-    ) -> [u16; 3] {
-        let corners = self.corners.get(triangle, nth);
-        self.triangles[place] = self.triangles[triangle];
-        let own = if alone { [0, 1, 2] } else { corners };
-        self.corners.set(place, own);
-        corners
-    }
+/// Whether triangles of a polygon all face the viewer, and none is thin.
+#[inline]
+fn is_good(places: &[Point], triangles: &[[u16; 3]]) -> bool {
+    let all = triangles.iter().map(|&triangle| at(places, triangle));
+    faces_viewer(all.clone()) && { all }.all(|triangle| smallest_angle(triangle) > THIN * THIN)
+}
 
-    /// Drops all triangles from a place on.
-    pub(crate) fn truncate(&mut self, count: usize) {
-        self.triangles.truncate(count);
-        self.corners.truncate(count);
-    }
-
-    /// Gives a corner of a triangle another vertex.
-    pub(crate) fn replace(&mut self, triangle: usize, corner: usize, vertex: u32) {
-        self.triangles[triangle][corner] = vertex;
-    }
-
-    /// The corners of its polygon that a triangle has, the `nth` of it.
-    #[inline]
-    pub(crate) fn corners(&self, triangle: usize, nth: usize) -> [u16; 3] {
-        self.corners.get(triangle, nth)
-    }
+/// The square of the sine of the smallest angle of a triangle.
+#[inline]
+fn smallest_angle([a, b, c]: [Point; 3]) -> f64 {
+    let (ab, ac, bc) = (b - a, c - a, c - b);
+    let doubled_area = ab.cross(&ac).norm_squared();
+    let [p, q, r] = [ab, ac, bc].map(|side| side.norm_squared());
+    // It lies between the two longer sides.
+    let sine = doubled_area / (p * q).max(q * r).max(r * p);
+    if sine.is_nan() { 0.0 } else { sine }
 }
