@@ -9,11 +9,11 @@ mod ancestry;
 mod corners;
 mod edited;
 mod extras;
-mod going;
 mod past;
 mod removal;
 mod slots;
 mod turns;
+mod undo;
 
 pub(crate) use self::removal::Removal;
 pub(crate) use self::slots::Slots;

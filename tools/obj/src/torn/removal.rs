@@ -1,13 +1,14 @@
-//! What can be taken out again of what cuts inserted.
+//! What is left out and put back when a torn document is written simplified.
 
 use std::collections::BTreeMap;
 use std::slice::from_ref;
 
-use tearmesh::{Mesh, Positions};
+use tearmesh::{Mesh, Positions, VertexId};
 
 use super::TornDocument;
-use super::going::{Going, Restored};
 use super::slots::Slots;
+use super::undo::Undo;
+use crate::record::Parent;
 use crate::slides::Exchange;
 
 /// What is left out when a torn document is written simplified.
@@ -24,6 +25,14 @@ pub(crate) struct Removal {
     /// For each vertex of which a slide is undone, what its `v` has then, and which indices its
     /// corners exchange, in this order.
     put_back: BTreeMap<u32, (Vec<f64>, Vec<Exchange>)>,
+}
+
+/// A face that takes the place of those that cover it.
+#[derive(Clone, Copy, Debug)]
+struct Restored {
+    parent: Parent,
+    /// Half-edges of the mesh whose corners it has.
+    corners: [u32; 3],
 }
 
 /// Marks a restored face among faces of the mesh, of which there are less.
@@ -101,23 +110,27 @@ impl TornDocument<'_> {
     /// What can go, `None` if nothing can; and what stays because it was edited.
     pub(crate) fn removal(&self, mesh: &Mesh, positions: &Positions) -> (Option<Removal>, Found) {
         let slots = self.slots();
-        let going = Going::find(self, mesh, positions, &slots);
+        let undo = Undo::find(self, mesh, positions, &slots);
         let mut found = Found {
-            edited: going.edited,
-            slid_edited: going.slid_edited,
+            edited: undo.edited,
+            slid_edited: undo.slid_edited(),
             slid_back: 0,
         };
-        let (restored, put_back) = (going.restored(), put_back(&going));
+        let parents = undo.parents.iter().enumerate();
+        let restored = parents.filter_map(|(number, &parent)| {
+            let corners = undo.plan.restored(number)?.map(u32::from);
+            Some(Restored { parent, corners })
+        });
+        let (restored, put_back): (Vec<Restored>, _) = (restored.collect(), put_back(&undo));
         if restored.is_empty() && put_back.is_empty() {
             return (None, found);
         }
         found.slid_back = put_back.len();
-        let vertices = 0..mesh.vertex_count();
         let mut removal = Removal {
-            vertices: vertices.map(|v| going.vertex_goes(v)).collect(),
+            vertices: mesh.vertices().map(|v| undo.plan.goes(v)).collect(),
             texture: Vec::new(),
             normals: Vec::new(),
-            is_back: going.is_back,
+            is_back: undo.is_back,
             restored,
             put_back,
         };
@@ -160,11 +173,12 @@ impl TornDocument<'_> {
 }
 
 /// The vertices that stay and of which slides are undone, with what they had before these.
-fn put_back(going: &Going<'_>) -> BTreeMap<u32, (Vec<f64>, Vec<Exchange>)> {
-    let slides = &going.past.slides;
+fn put_back(undo: &Undo<'_>) -> BTreeMap<u32, (Vec<f64>, Vec<Exchange>)> {
+    let slides = &undo.past.slides;
     let mut put_back: BTreeMap<u32, (Vec<f64>, Vec<Exchange>)> = BTreeMap::new();
     for (slide, slid) in slides.iter().enumerate().rev() {
-        if going.is_back[slide] && !going.vertex_goes(slid.vertex as usize) {
+        let vertex = VertexId::new(slid.vertex as usize).expect("I1: ids fit");
+        if undo.is_back[slide] && !undo.plan.goes(vertex) {
             let (numbers, exchanges) = put_back.entry(slid.vertex).or_default();
             *numbers = slides.before(slide).to_vec();
             exchanges.extend(slides.exchanges(slide).map(|(exchange, _)| exchange));
