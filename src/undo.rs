@@ -54,6 +54,8 @@ pub struct Insertions {
     /// Points that became one by a merge: the two sides of an edge that was torn.
     joined: DisjointSets,
     families: Vec<Family>,
+    /// How many of these are not from the log: each comes before the one that it is within.
+    given: usize,
     /// By face: the last family that it is a child of.
     families_of: Vec<u32>,
     seen: Cursor,
@@ -80,8 +82,10 @@ struct Child {
 /// A face that is a part of a divided one, for [`Insertions::from_parts`].
 #[derive(Clone, Copy, Debug)]
 pub struct FacePart {
-    /// The face.
+    /// The face. One that is part of a divided face itself stands for all of that.
     pub face: FaceId,
+    /// For each corner of the face the number of the point that it is.
+    pub points: [u32; 3],
     /// For each corner of the face the corner (0, 1 or 2) of the divided face that it is, if it is one.
     pub corners: [Option<usize>; 3],
     /// For each corner of the face, whether it is on each side of the divided face. Side `i` runs from
@@ -100,6 +104,7 @@ impl Insertions {
             points: vec![NONE; mesh.vertex_count()],
             joined: DisjointSets::default(),
             families: Vec::new(),
+            given: 0,
             families_of: vec![NONE; mesh.face_count()],
             seen: Cursor::START,
         }
@@ -164,8 +169,9 @@ impl Insertions {
     }
 
     /// Creates the record from what is known of a mesh without its log: the number of the point that
-    /// each vertex is, the same for all its copies, and the parts of each divided face. A face is a part
-    /// of at most one. Vertices that were never inserted have points, too, and must not go.
+    /// each vertex is, the same for all its copies, and the parts of each divided face. A face that is part
+    /// of a divided one is given before that. Vertices that were never inserted have points, too, and
+    /// must not go.
     #[must_use]
     pub fn from_parts(
         mesh: &Mesh,
@@ -177,29 +183,47 @@ impl Insertions {
         let last = insertions.points.iter().max();
         insertions.joined = DisjointSets::new(last.map_or(0, |last| last + 1));
         for parts in families {
-            for part in &parts {
-                insertions.families_of[part.face.index()] = insertions.families.len() as u32;
+            let number = insertions.families.len() as u32;
+            let children = parts.into_iter().map(|part| Child {
+                divided: insertions.outermost(part.face),
+                part,
+            });
+            let children: Vec<Child> = children.collect();
+            let mut points = Vec::new();
+            for Child { part, divided } in &children {
+                match divided {
+                    &NONE => insertions.families_of[part.face.index()] = number,
+                    &inner => insertions.families[inner as usize].above = number,
+                }
+                let inside = part.corners.iter().zip(part.points);
+                points.extend(
+                    inside
+                        .filter(|(corner, _)| corner.is_none())
+                        .map(|(_, point)| point),
+                );
             }
-            let corners = parts
-                .iter()
-                .flat_map(|part| part.face.half_edges().into_iter().zip(part.corners));
-            let inside = corners.filter(|(_, corner)| corner.is_none());
-            let points = inside.map(|(h, _)| insertions.points[mesh.origin(h).index()]);
-            let mut points: Vec<u32> = points.collect();
             points.sort_unstable();
             points.dedup();
-            let divided = NONE;
             insertions.families.push(Family {
-                parent: parts[0].face,
+                parent: children
+                    .first()
+                    .map_or_else(first_face, |child| child.part.face),
                 above: NONE,
-                children: parts
-                    .into_iter()
-                    .map(|part| Child { part, divided })
-                    .collect(),
+                children,
                 points,
             });
         }
+        insertions.given = insertions.families.len();
         insertions
+    }
+
+    /// The last family that a face is within.
+    fn outermost(&self, face: FaceId) -> u32 {
+        let mut family = self.families_of[face.index()];
+        while family != NONE && self.families[family as usize].above != NONE {
+            family = self.families[family as usize].above;
+        }
+        family
     }
 
     /// Returns which inserted vertices can be removed, and which divided faces are restored then.
@@ -264,6 +288,7 @@ impl Insertions {
             divided: NONE,
             part: FacePart {
                 face: child.face,
+                points: child.vertices.map(|v| self.points[v.index()]),
                 corners: child.sources.map(|source| match source {
                     CornerSource::Corner(h) => Some(h.corner()),
                     CornerSource::Edge { .. } | CornerSource::Face { .. } => None,
@@ -278,6 +303,10 @@ impl Insertions {
             points,
         });
     }
+}
+
+fn first_face() -> FaceId {
+    FaceId::new(0).expect("small")
 }
 
 /// Which sides of a face a place is on.
@@ -390,9 +419,10 @@ impl RemovalPlan {
             let leader = going.leader(insertions.points[v.index()]);
             going.goes[leader] &= may_go(v);
         }
-        // A face is divided again later, so what is inside is looked at first.
-        for (number, family) in families.iter().enumerate().rev() {
-            going.whole[number] = going.sides(family, mesh, &agree);
+        // What is inside is looked at first: in the log, a face is divided again later.
+        let given = insertions.given;
+        for number in (given..families.len()).rev().chain(0..given) {
+            going.whole[number] = going.sides(&families[number], mesh, &agree);
         }
         going.take_back(insertions);
         going

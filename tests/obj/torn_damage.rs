@@ -149,7 +149,7 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     let others = "this record is not used, since another program changed the file: ";
     bad(
         "record 1",
-        "record 4",
+        "record 5",
         (11, 18),
         "this record is of a later version, and not used",
     );
@@ -425,7 +425,7 @@ fn regression_the_lines_of_a_damaged_record_are_said_to_be_left_out() {
     let whole = record(ITEMS);
     for (damaged, lines) in [
         (whole.replace("#~ split 5 2 1", "#~ split 5 6 1"), 6),
-        (whole.replace("record 1", "record 4"), 6),
+        (whole.replace("record 1", "record 5"), 6),
         (whole.replace("#~ edge 7 1 3 4 0.5", "#~ edge 7 1 3 4 x"), 6),
         (whole.replace("v 7 f 3", "v 8 f 3"), 6),
         (

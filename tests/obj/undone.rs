@@ -1,4 +1,5 @@
-//! Two cuts through files, of which the last is undone: the tears of the first stay as they were.
+//! Two cuts through files, of which the last is undone: the first stays as it was, and of the second
+//! nothing stays.
 
 use tearmesh::{CutMethod, Point, Ray, Scissor, Vector};
 use tearmesh_obj::{Document, Simplified};
@@ -92,9 +93,7 @@ fn undoing_the_last_of_two_cuts_leaves_the_first_as_it_was() {
             continue; // It tore nothing.
         }
         work.sew(&work.torn.stitches_of_last(1));
-        let after = simplified(&work, &name);
-        let [is, was] = [&after, &first].map(|file| tears(&read(file.as_bytes())));
-        assert!((is.0 - was.0).abs() < 1e-9 && is.1 == was.1, "{name}");
+        assert_eq!(simplified(&work, &name), first, "{name}");
         slits += usize::from(before.len() == 1);
         crossed += usize::from(first.contains("#~ split"));
     }

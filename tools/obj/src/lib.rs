@@ -88,6 +88,7 @@
 //!         | "#~ slide-vt" NEW OLD NUMBERS         ... whose corners have NEW, not OLD; NUMBERS are NEW's
 //!         | "#~ slide-vn" NEW OLD X Y Z           ... and likewise for normals
 //!         | "#~ apart" VERTEX X Y Z X Y Z         VERTEX is at the first point, and its `v` has the second
+//!         | "#~ again" ABOVE A B C FACES           the FACES cover the former face A B C of a parent
 //! end     = "#tearmesh end" ITEMS HASH
 //! ```
 //!
@@ -99,9 +100,11 @@
 //!   was inserted, and `ALL` those of the file. If no items list the inserted ones, they are the last.
 //! * Slides come in the order in which they were made, each followed by its `slide-vt` and `slide-vn`.
 //!   A vertex is put back only if it has the numbers that its last slide gave it.
-//! * `VERSION` is the lowest version that can express the record. Version 2 has no `apart`. Version 1
+//! * `VERSION` is the lowest version that can express the record. Version 3 has no `again`, version 2 no `apart`. Version 1
 //!   ends with `parent`, and its copies are the last `v` of the file. A program that does not know the
 //!   version reports this, and reads the file as one without a record.
+//! * A part of a parent that was divided again has an `again` item. Besides its FACES, the items whose
+//!   ABOVE is its number (they are counted from 1) cover it. ABOVE is 0 directly below a parent.
 //! * A vertex with an `apart` item is read at the first point if its `v` is bit-equal to the second
 //!   point. Otherwise its `v` counts, and a warning is reported. Copies stand where their vertex does.
 //! * Cuts are numbered from 1, and later cuts have higher numbers. After a merge, a `split` names the
@@ -145,7 +148,7 @@
 //! | `repair.rs` | repair of defects, on request |
 //! | `coincident.rs` | coincident boundary edges that no record explains |
 //! | `torn.rs`, `torn/` | edits of a document: corners, splits, order, removable and edited vertices |
-//! | `record.rs` | the contents of the record, and its checksum |
+//! | `record.rs`, `families.rs` | the contents of the record, and its checksum; faces that were divided again |
 //! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, fans, the record, numbers, pieces |
 //! | `slides.rs` | vertices that slid, and their earlier values |
@@ -158,6 +161,7 @@
 mod coincident;
 mod diagnostic;
 mod document;
+mod families;
 mod keyword;
 mod mesh;
 mod opening;

@@ -18,12 +18,26 @@ use tearmesh::{FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Positions, Remova
 use super::TornDocument;
 use super::past::{CornerAt, Moment, Past, before_slides, behind_slides};
 use super::slots::Slots;
-use crate::record::{At, Inserted, Parent};
+use crate::record::{At, Inserted};
+
+/// A divided face.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Divided {
+    /// The classes at its corners.
+    corners: [u32; 3],
+    /// The faces that it was divided into, each with the classes at its corners. Of one that was divided
+    /// again it is any face of it.
+    parts: Vec<(FaceId, [u32; 3])>,
+    /// The faces of the mesh that cover it, in the order of the file.
+    pub(super) faces: Vec<FaceId>,
+}
 
 pub(super) struct Undo<'t> {
     pub(super) past: Past<'t>,
     pub(super) plan: RemovalPlan,
-    pub(super) parents: Vec<Parent>,
+    /// The divided faces that the plan counts: parts that were divided again, the last one first, and then
+    /// the parents.
+    pub(super) divided: Vec<Divided>,
     /// Whether each slide is undone, and whether what its cut or a later one tore there is open.
     pub(super) is_back: Vec<bool>,
     is_open: Vec<bool>,
@@ -46,25 +60,21 @@ impl<'t> Undo<'t> {
         let classes = torn.classes();
         let class = |v: VertexId| classes[v.index()];
         let past = Past::new(torn, positions);
-        let parents = torn.parents();
-        let faces = |parent: &Parent| {
-            let faces = &slots.faces[slots.of(parent.first as usize..parent.end as usize)];
-            let id = |&f: &u32| FaceId::new(f as usize).expect("I1: ids fit");
-            faces.iter().map(id).collect::<Vec<FaceId>>()
-        };
-        let families = parents
+        let divided = divided(torn, slots, |f| mesh.face_vertices(f).map(class));
+        let families = divided
             .iter()
-            .map(|parent| parts(torn, mesh, class, parent, faces(parent)));
+            .map(|divided| divided.parts_for_plan(torn.inserted()));
         let insertions = Insertions::from_parts(mesh, class, families);
         let mut may_go = vec![false; torn.ancestry.class_count()];
         for inserted in torn.inserted() {
             may_go[inserted.vertex as usize] = true;
         }
-        // What no honest record has: a divided face between inserted vertices, and undivided ones there.
+        // What no honest record has: a parent between inserted vertices, and undivided faces there.
         let mut is_divided = vec![false; mesh.face_count()];
-        for parent in &parents {
-            faces(parent)
-                .into_iter()
+        for parent in &divided[torn.families().all().len()..] {
+            parent
+                .faces
+                .iter()
                 .for_each(|f| is_divided[f.index()] = true);
             parent
                 .corners
@@ -84,7 +94,7 @@ impl<'t> Undo<'t> {
             slides_by_class: BTreeMap::new(),
             moments: inserted.map(|one| behind_slides(one.cut)).collect(),
             past,
-            parents,
+            divided,
             may_go,
             edited: 0,
         };
@@ -94,12 +104,12 @@ impl<'t> Undo<'t> {
             insertions.plan(mesh, |v| undo.may_go[class(v) as usize], agree)
         };
         undo.plan = plan(&undo);
-        let restored = undo.parents.iter().enumerate();
-        let restored = restored.filter(|&(number, _)| undo.plan.restored(number).is_some());
-        let unlike = restored.flat_map(|(_, parent)| {
-            let half_edges = faces(parent).into_iter().flat_map(FaceId::half_edges);
+        let divided = undo.divided.iter().enumerate();
+        let restored = divided.filter(|&(number, _)| undo.plan.restored(number).is_some());
+        let unlike = restored.flat_map(|(_, divided)| {
+            let half_edges = divided.faces.iter().flat_map(|f| f.half_edges());
             let corners = half_edges.map(|h| (class(mesh.origin(h)), corner_at(mesh, h)));
-            undo.unlike_within(corners.collect())
+            undo.unlike_within(divided.corners, corners.collect())
         });
         let unlike = unlike.collect();
         undo.keep_edited(unlike);
@@ -126,9 +136,13 @@ impl<'t> Undo<'t> {
         one == other
     }
 
-    /// The classes that might go, of those at the corners of the parts of one face, but are not as they
-    /// were inserted: behind the slides of their cut, or before these.
-    fn unlike_within(&self, mut corners: Vec<(u32, CornerAt)>) -> Vec<(u32, [bool; 2])> {
+    /// The classes that might go, of those at the corners of the parts of one face and not at its own,
+    /// but are not as they were inserted: behind the slides of their cut, or before these.
+    fn unlike_within(
+        &self,
+        own: [u32; 3],
+        mut corners: Vec<(u32, CornerAt)>,
+    ) -> Vec<(u32, [bool; 2])> {
         corners.sort_by_key(|&(class, _)| class);
         corners.dedup_by_key(|&mut (class, _)| class);
         let first = |class: u32| {
@@ -136,9 +150,8 @@ impl<'t> Undo<'t> {
             found.ok().map(|at| corners[at].1)
         };
         let inserted = self.past.torn.inserted();
-        let going = corners
-            .iter()
-            .filter(|&&(class, _)| self.may_go[class as usize]);
+        let might_go = |class: u32| self.may_go[class as usize] && !own.contains(&class);
+        let going = corners.iter().filter(|&&(class, _)| might_go(class));
         let unlike = going.filter_map(|&(class, corner)| {
             let Inserted { cut, at, .. } = inserted[self.place(class)?];
             let is_unlike = |moment: Moment| !self.past.is_as_inserted(corner, &at, moment, first);
@@ -254,42 +267,79 @@ impl<'t> Undo<'t> {
     }
 }
 
-/// The faces that cover a divided one, in the terms of the kernel.
-fn parts(
+/// All divided faces of a mesh with these classes at the corners of its faces.
+fn divided(
     torn: &TornDocument<'_>,
-    mesh: &Mesh,
-    class: impl Fn(VertexId) -> u32,
-    parent: &Parent,
-    faces: Vec<FaceId>,
-) -> Vec<FacePart> {
-    let corner = |class: u32| parent.corners.iter().position(|&own| own == class);
-    let half_edges = faces.iter().flat_map(|f| f.half_edges());
-    let inside: Vec<u32> = half_edges.map(|h| class(mesh.origin(h))).collect();
-    // A point on an edge is on the sides that both ends are on, which were there before it.
-    let mut on_sides: BTreeMap<u32, [bool; 3]> =
-        inside.into_iter().map(|c| (c, [false; 3])).collect();
-    for (i, &own) in parent.corners.iter().enumerate() {
-        on_sides.insert(own, [0, 1, 2].map(|side| side == i || (side + 1) % 3 == i));
+    slots: &Slots,
+    classes: impl Fn(FaceId) -> [u32; 3],
+) -> Vec<Divided> {
+    let families = torn.families();
+    let again = families.all().len();
+    // Parts that were divided again count backwards: each comes before what it is a part of.
+    let place = |family: u32| again - 1 - family as usize;
+    let mut divided = vec![Divided::default(); again];
+    for (family, number) in families.all().iter().zip(0..) {
+        divided[place(number)].corners = family.corners;
     }
-    let inserted = torn.inserted();
-    for class in on_sides.keys().copied().collect::<Vec<u32>>() {
-        let place = inserted.binary_search_by_key(&class, |one| one.vertex);
-        if let (None, Ok(place)) = (corner(class), place)
-            && let At::Edge { ends, .. } = inserted[place].at
-        {
-            let [one, other] = ends.map(|end| on_sides.get(&end).copied().unwrap_or_default());
-            on_sides.insert(class, [0, 1, 2].map(|side| one[side] && other[side]));
+    for parent in torn.parents() {
+        let mut of_parent = Divided {
+            corners: parent.corners,
+            ..Divided::default()
+        };
+        for &f in &slots.faces[slots.of(parent.first as usize..parent.end as usize)] {
+            let face = FaceId::new(f as usize).expect("I1: ids fit");
+            let mut part = (face, classes(face));
+            let mut family = families.of(f as usize);
+            let mut is_new = true;
+            while let Some(number) = family {
+                let within = &mut divided[place(number)];
+                let first = within.faces.is_empty();
+                within.faces.push(face);
+                if is_new {
+                    within.parts.push(part);
+                }
+                is_new &= first;
+                part = (face, within.corners);
+                family = families.all()[number as usize].above;
+            }
+            of_parent.faces.push(face);
+            if is_new {
+                of_parent.parts.push(part);
+            }
         }
+        divided.push(of_parent);
     }
-    let part = |face: FaceId| {
-        let classes = mesh.face_vertices(face).map(&class);
-        FacePart {
+    divided
+}
+
+impl Divided {
+    /// The parts in the terms of the kernel.
+    fn parts_for_plan(&self, inserted: &[Inserted]) -> Vec<FacePart> {
+        let corner = |class: u32| self.corners.iter().position(|&own| own == class);
+        let classes = self.parts.iter().flat_map(|(_, classes)| classes);
+        let mut on_sides: BTreeMap<u32, [bool; 3]> =
+            classes.map(|&class| (class, [false; 3])).collect();
+        for (i, &own) in self.corners.iter().enumerate() {
+            on_sides.insert(own, [0, 1, 2].map(|side| side == i || (side + 1) % 3 == i));
+        }
+        // A point on an edge is on the sides that both ends are on, which were there before it.
+        for class in on_sides.keys().copied().collect::<Vec<u32>>() {
+            let place = inserted.binary_search_by_key(&class, |one| one.vertex);
+            if let (None, Ok(place)) = (corner(class), place)
+                && let At::Edge { ends, .. } = inserted[place].at
+            {
+                let [one, other] = ends.map(|end| on_sides.get(&end).copied().unwrap_or_default());
+                on_sides.insert(class, [0, 1, 2].map(|side| one[side] && other[side]));
+            }
+        }
+        let part = |&(face, classes): &(FaceId, [u32; 3])| FacePart {
             face,
+            points: classes,
             corners: classes.map(corner),
             on_sides: classes.map(|class| on_sides[&class]),
-        }
-    };
-    faces.into_iter().map(part).collect()
+        };
+        self.parts.iter().map(part).collect()
+    }
 }
 
 fn corner_at(mesh: &Mesh, h: HalfEdgeId) -> CornerAt {
