@@ -231,8 +231,12 @@ impl Document {
     ) -> usize {
         match &self.triangulation {
             Some(triangulation) => {
-                let of_polygon = triangulation.corners[triangle][corner];
-                self.polygons.starts[polygon] as usize + usize::from(of_polygon)
+                // A polygon has no vertex twice.
+                let vertex = triangulation.triangles[triangle][corner];
+                let corners = self.polygons.corners(polygon);
+                let vertices = &self.polygons.vertices[corners.clone()];
+                let own = vertices.iter().position(|&other| other == vertex);
+                corners.start + own.expect("a triangle has vertices of its polygon")
             }
             None => 3 * triangle + corner,
         }

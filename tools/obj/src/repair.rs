@@ -176,15 +176,6 @@ impl Document {
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
-        let mut keep = |triangle: usize, kept: usize, alone| {
-            let Some(Triangulation { triangles, corners }) = &mut triangulation else {
-                return [0, 1, 2];
-            };
-            let of_polygon = corners[triangle];
-            triangles[kept] = triangles[triangle];
-            corners[kept] = if alone { [0, 1, 2] } else { of_polygon };
-            of_polygon
-        };
         let mut kept = 0;
         let mut layout = Layout::default();
         let mut polygon = 0;
@@ -198,18 +189,23 @@ impl Document {
                 let corners = self.polygons.corners(polygon);
                 if !gone[triangles.clone()].contains(&true) {
                     polygons.add(corners.map(|corner| self.polygons.corner(corner)));
-                    for triangle in triangles {
-                        keep(triangle, kept, false);
-                        kept += 1;
+                    if let Some(Triangulation { triangles: all }) = &mut triangulation {
+                        all.copy_within(triangles.clone(), kept);
                     }
+                    kept += triangles.len();
                     layout.push(Kind::Polygon, line);
                 } else {
+                    // Of a triangle alone none stays.
+                    let Some(Triangulation { triangles: all }) = &mut triangulation else {
+                        polygon += 1;
+                        continue;
+                    };
                     for triangle in triangles.filter(|&triangle| !gone[triangle]) {
-                        let of_polygon = keep(triangle, kept, true);
+                        all[kept] = all[triangle];
+                        let own = corners.clone().map(|corner| self.polygons.corner(corner));
+                        let corner = |vertex| own.clone().find(|corner| corner.vertex == vertex);
+                        polygons.add(all[kept].into_iter().filter_map(corner));
                         kept += 1;
-                        let corner =
-                            |corner| self.polygons.corner(corners.start + usize::from(corner));
-                        polygons.add(of_polygon.map(corner).into_iter());
                         layout.push(Kind::Polygon, line);
                     }
                 }
@@ -219,7 +215,6 @@ impl Document {
         self.triangulation = triangulation.filter(|_| !polygons.all_triangles());
         if let Some(triangulation) = &mut self.triangulation {
             triangulation.triangles.truncate(kept);
-            triangulation.corners.truncate(kept);
         }
         self.polygons = polygons;
         self.layout = layout;
@@ -287,15 +282,19 @@ impl Document {
 
     /// Puts another vertex in the place of one of a triangle's.
     fn move_corner(&mut self, triangle: usize, from: u32, to: u32) {
-        let polygon = self.polygon_of(triangle);
-        let corner = self.triangles()[triangle]
-            .iter()
-            .position(|&vertex| vertex == from)
-            .expect("the faces of a fan have its vertex");
-        let of_polygon = self.corner_of_polygon(triangle, corner, polygon);
-        self.polygons.vertices[of_polygon] = to;
-        if let Some(triangulation) = &mut self.triangulation {
-            triangulation.triangles[triangle][corner] = to;
+        let corners = self.polygons.corners(self.polygon_of(triangle));
+        // Another triangle of the polygon may have moved it already.
+        let mut vertices = self.polygons.vertices[corners].iter_mut();
+        vertices
+            .find(|vertex| **vertex == from)
+            .into_iter()
+            .for_each(|vertex| *vertex = to);
+        if let Some(Triangulation { triangles }) = &mut self.triangulation {
+            let mut vertices = triangles[triangle].iter_mut();
+            vertices
+                .find(|vertex| **vertex == from)
+                .into_iter()
+                .for_each(|vertex| *vertex = to);
         }
     }
 

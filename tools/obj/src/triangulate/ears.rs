@@ -53,7 +53,7 @@ pub(super) fn faces_viewer(triangles: impl Iterator<Item = [Point; 3]> + Clone) 
 
 /// The axis nearest to a normal.
 #[inline]
-fn largest(normal: Vector) -> usize {
+pub(super) fn largest(normal: Vector) -> usize {
     let [x, y, z] = [normal.x.abs(), normal.y.abs(), normal.z.abs()];
     match () {
         () if z >= x && z >= y => 2,
