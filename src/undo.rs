@@ -190,10 +190,10 @@ impl Insertions {
             });
             let children: Vec<Child> = children.collect();
             let mut points = Vec::new();
-            for Child { part, divided } in &children {
+            for &Child { part, divided } in &children {
                 match divided {
-                    &NONE => insertions.families_of[part.face.index()] = number,
-                    &inner => insertions.families[inner as usize].above = number,
+                    NONE => insertions.families_of[part.face.index()] = number,
+                    inner => insertions.families[inner as usize].above = number,
                 }
                 let inside = part.corners.iter().zip(part.points);
                 points.extend(

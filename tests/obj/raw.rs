@@ -160,7 +160,7 @@ fn it_is_as_strict_as_the_reader() {
                         polygons: vec![Range { start: 0, end: 1 }],
                         ..Group::default()
                     },
-                )])
+                )]);
             },
             "cannot read: no file has the name \"two words\" after `g`",
         ),

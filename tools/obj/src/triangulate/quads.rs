@@ -56,7 +56,7 @@ pub(super) fn avoid_edges(
     let mut suspect = |edge| {
         suspected
             .get_or_insert_with(|| marks(0x85eb_ca6b))
-            .add(edge)
+            .add(edge);
     };
     for_each_diagonal(triangulation, polygons, |edge, _| {
         if diagonals.has(edge) {
