@@ -65,9 +65,8 @@ impl Triangulation {
             count,
             "a polygon of n corners has n − 2 triangles"
         );
-        let mut triangulation = Triangulation { triangles };
-        avoid_edges(&mut triangulation, polygons, positions);
-        triangulation
+        avoid_edges(&mut triangles, polygons, positions);
+        Triangulation { triangles }
     }
 }
 

@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 
 use tearmesh::Point;
 
-use super::Triangulation;
 use super::ears::is_simple;
 use crate::polygons::Polygons;
 
@@ -40,11 +39,7 @@ impl Marks {
 }
 
 /// Cuts quads another way whose diagonal is an edge elsewhere.
-pub(super) fn avoid_edges(
-    triangulation: &mut Triangulation,
-    polygons: &Polygons,
-    positions: &[Point],
-) {
+pub(super) fn avoid_edges(triangles: &mut [[u32; 3]], polygons: &Polygons, positions: &[Point]) {
     // Nearly always no diagonal is an edge elsewhere, and marks show it for all but a few, which
     // marks by another hash show for nearly all of these.
     let marks = |factor| Marks {
@@ -58,7 +53,7 @@ pub(super) fn avoid_edges(
             .get_or_insert_with(|| marks(0x85eb_ca6b))
             .add(edge);
     };
-    for_each_diagonal(triangulation, polygons, |edge, _| {
+    for_each_diagonal(triangles, polygons, |edge, _| {
         if diagonals.has(edge) {
             suspect(edge);
         }
@@ -83,7 +78,7 @@ pub(super) fn avoid_edges(
     // edge.
     let mut counts: BTreeMap<Edge, u32> = BTreeMap::new();
     let mut quads = Vec::new();
-    for_each_diagonal(triangulation, polygons, |edge, polygon| {
+    for_each_diagonal(triangles, polygons, |edge, polygon| {
         if suspected.has(edge)
             && let &[a, b, c, d] = &polygons.vertices[polygons.corners(polygon)]
         {
@@ -108,7 +103,7 @@ pub(super) fn avoid_edges(
             *count += 1;
         }
     };
-    for_each_diagonal(triangulation, polygons, |edge, _| count(edge));
+    for_each_diagonal(triangles, polygons, |edge, _| count(edge));
     for_each_side(polygons, count);
     for (polygon, diagonals, is) in quads {
         let cuts = [[[0_u16, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
@@ -122,7 +117,7 @@ pub(super) fn avoid_edges(
             counts.extend([(diagonals[1 - is], 1)]);
             counts.entry(diagonals[is]).and_modify(|count| *count -= 1);
             for (triangle, cut) in polygons.triangles(polygon).zip(other) {
-                triangulation.triangles[triangle] = cut.map(|i| vertices[usize::from(i)]);
+                triangles[triangle] = cut.map(|i| vertices[usize::from(i)]);
             }
         }
     }
@@ -131,13 +126,13 @@ pub(super) fn avoid_edges(
 /// Visits the diagonals of all quads.
 #[inline]
 fn for_each_diagonal(
-    triangulation: &Triangulation,
+    triangles: &[[u32; 3]],
     polygons: &Polygons,
     mut visit: impl FnMut(Edge, usize),
 ) {
     for polygon in 0..polygons.len() {
         if let [a, b, c, d] = polygons.vertices[polygons.corners(polygon)] {
-            let first = triangulation.triangles[polygons.triangles(polygon).start];
+            let first = triangles[polygons.triangles(polygon).start];
             let is_fan = first[0] == a && first[2] == c; // As nearly always.
             let has_both = is_fan || first.contains(&a) && first.contains(&c);
             visit(if has_both { ends(a, c) } else { ends(b, d) }, polygon);
