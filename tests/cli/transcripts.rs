@@ -19,12 +19,12 @@ const NOTHING_DIGESTED: u64 = 0xcbf2_9ce4_8422_2325;
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
     ("README.md", 0x4035_7503_9d28_8e87),
-    ("tear.txt", 0xbe73_d8ba_ad31_316e),
+    ("tear.txt", 0x7ca1_8830_bdea_6cb3),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x5f00_c15c_6776_3bec;
+const DIGEST: u64 = 0x1fa4_280c_1228_a01d;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
