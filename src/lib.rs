@@ -148,4 +148,4 @@ pub use scissor::{
 pub use sets::DisjointSets;
 pub use slide::SlideRefusal;
 pub use split::SplitRefusal;
-pub use undo::Insertions;
+pub use undo::{FacePart, Insertions, RemovalPlan};

@@ -113,6 +113,27 @@ fn a_vertex_that_a_cut_moved_and_somebody_after_it_is_kept_and_said() {
     assert!(folder.read("whole.obj").contains("v 0.5 0.5 0.25\n"));
 }
 
+/// The two sides of a cut that stand apart meet halfway, and the sheet has another area then.
+#[test]
+fn regression_the_area_that_is_said_is_that_of_sides_that_met_halfway() {
+    let folder = Folder::new();
+    let _sewn = sewn(&folder);
+    let mut text = folder.read("torn.obj");
+    let item = text.lines().find_map(|line| line.strip_prefix("#~ split "));
+    let copy = item.and_then(|item| item.split(' ').next()?.parse().ok());
+    text.replace_range(statement(&text, copy.expect("a copy")), "v 0.4 0.6 0.5");
+    folder.write("moved.obj", &text);
+    for simplify in ["", "--simplify"] {
+        let mend = format!("tearmesh mend moved.obj {simplify} --format json -o whole.obj");
+        let output = folder.run(&mend);
+        assert!(output.status.success(), "{output:?}");
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let said = report["mass"]["after"].as_f64().expect("an area");
+        let is = area(&folder.read("whole.obj"));
+        assert!((said - is).abs() < 1e-9 * is, "{said} for {is}");
+    }
+}
+
 /// Nothing at all can go, or only what is away from the edit: in any case the mass that is said is
 /// that of the file that is written.
 #[test]

@@ -328,7 +328,7 @@ impl Vertices<'_> {
         here
     }
 
-    /// A `v`, with what is said of the one of the input that it comes from: not of what was inserted.
+    /// A `v`, with what is said of it if it is one of the input.
     fn statement(&self, element: usize) -> String {
         let v = self.vertex(element);
         let p = self.work.positions.as_slice()[v];
@@ -338,16 +338,9 @@ impl Vertices<'_> {
             ""
         };
         let mut lines = format!("v {} {} {}{extras}\n", p.x, p.y, p.z);
-        let root = self
-            .work
-            .mesh
-            .root(VertexId::new(v).expect("small"))
-            .index();
-        let of_root = self.own(root).map(|_| self.followed.anchors[v]);
-        if let Some(origin) = self.own(element).or(of_root) {
-            let said = self.known[origin][1..].iter();
-            said.for_each(|line| lines += &format!("{line}\n"));
-        }
+        let own = self.own(element).filter(|_| !self.is_copy(element));
+        let said = own.map_or(&[][..], |own| &self.known[own][1..]);
+        said.iter().for_each(|line| lines += &format!("{line}\n"));
         lines
     }
 }

@@ -29,6 +29,7 @@ mod torn;
 mod torn_damage;
 mod torn_record;
 mod triangulate;
+mod undone;
 
 use proptest::test_runner::Config;
 use tearmesh::{Mesh, Positions};

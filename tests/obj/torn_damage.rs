@@ -149,7 +149,7 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     let others = "this record is not used, since another program changed the file: ";
     bad(
         "record 1",
-        "record 4",
+        "record 5",
         (11, 18),
         "this record is of a later version, and not used",
     );
@@ -425,7 +425,7 @@ fn regression_the_lines_of_a_damaged_record_are_said_to_be_left_out() {
     let whole = record(ITEMS);
     for (damaged, lines) in [
         (whole.replace("#~ split 5 2 1", "#~ split 5 6 1"), 6),
-        (whole.replace("record 1", "record 4"), 6),
+        (whole.replace("record 1", "record 5"), 6),
         (whole.replace("#~ edge 7 1 3 4 0.5", "#~ edge 7 1 3 4 x"), 6),
         (whole.replace("v 7 f 3", "v 8 f 3"), 6),
         (
@@ -595,5 +595,54 @@ f 1/1 2/2 3/3\nf 3/3 2/2 4/4\n";
             "v 0 0 0\nv 1 0.5 0 0.75\nv 0 1 0\nv 1 1 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 9\nvt 1 0.5\n\
              f 1/1 2/6 3/3\nf 3/3 2/6 4/4\n"
         )
+    );
+}
+
+#[test]
+fn what_version_4_adds_is_checked_as_well() {
+    let range = "a number of this record is out of its range";
+    let file = |version: &str, items: &str| {
+        let record = record(&format!("{ITEMS}{items}"));
+        format!("{TORN}{}", record.replace("record 1", version))
+    };
+    for (items, message) in [
+        ("#~ again 1 3 2 4 2\n", range),
+        ("#~ again 0 3 2 4 3 2\n", range),
+        ("#~ again 0 3 2 4 4\n", range),
+        ("#~ again 0 5 2 4 2\n", "vertex 5 was split from 2"),
+        (
+            "#~ again 0 3 2 3 2\n",
+            "a face of this record has a vertex twice",
+        ),
+        (
+            "#~ again 0 3 2 4 2\n#~ again 1 3 2 4 2\n",
+            "this record has a face in two that were divided again",
+        ),
+        (
+            "#~ again 0 3 2 4 1 2\n",
+            "this record is not used: it divides a face of two parents",
+        ),
+        ("#~ again 0 3 2 4 x\n", range),
+    ] {
+        let document = read(file("record 4", items).as_bytes());
+        let messages = document.diagnostics().iter().map(|one| &one.message[..]);
+        assert_eq!(messages.collect::<Vec<_>>(), [message], "{items}");
+        is_plain(&document);
+    }
+    let item = "#~ again 0 3 2 4 2 3\n";
+    let document = read(file("record 3", item).as_bytes());
+    let message = "this record has no line `again` here";
+    assert_eq!(document.diagnostics()[0].message, message);
+    // One that is the whole of its parent is odd, and does no harm.
+    let document = read(file("record 4", item).as_bytes());
+    assert_eq!(document.diagnostics(), []);
+    let mut work = Work::on(&document);
+    assert_eq!(text(&work.written()), text(&rewritten(&work.written())));
+    work.sew_all();
+    let simplified = work.torn.simplified(&work.mesh, &work.positions);
+    let simple = simplified.expect("what we wrote").document;
+    assert_eq!(
+        simple.expect("all goes").triangles(),
+        [[0, 1, 2], [2, 1, 3]]
     );
 }

@@ -96,26 +96,21 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let cuts_left = torn.cuts().len();
     let faces_before = mesh.face_count();
     let vertices_mended = mesh.vertex_count();
-    match &simplified {
-        Some(document) => {
-            mesh = document.mesh().expect("what was written can be read");
-            let torn = TornDocument::new(document);
-            let points = document.positions().iter().copied();
-            positions = Positions::new(points).expect("they were usable");
-            if slid_back > 0 {
-                // What is put back spans another area: the mass is that of what is written.
-                let masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
-                ledger.after = masses.ledger().after;
-                mass = session.say_mass(&ledger, report::MassUnit::Area);
-            }
-            let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
-            session.write(&mesh, fill, streams)?;
-        }
-        None => {
-            let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
-            session.write(&mesh, fill, streams)?;
-        }
+    if let Some(document) = &simplified {
+        mesh = document.mesh().expect("what was written can be read");
+        let points = document.positions().iter().copied();
+        positions = Positions::new(points).expect("they were usable");
     }
+    if moves || slid_back > 0 {
+        // What was moved spans another area: the mass is that of what is written.
+        let masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
+        ledger.after = masses.ledger().after;
+        mass = session.say_mass(&ledger, report::MassUnit::Area);
+    }
+    let simple = simplified.as_ref().map(TornDocument::new);
+    let torn = simple.as_ref().unwrap_or(&torn);
+    let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
+    session.write(&mesh, fill, streams)?;
     session.show_mesh(&mesh, &positions, Vector::y())?;
     session.show_page(&mesh, &positions, Vector::y())?;
     let taken_out = vertices_mended - mesh.vertex_count();

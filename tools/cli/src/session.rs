@@ -190,6 +190,18 @@ impl<'a> Session<'a> {
         let written = written.map_err(|fault| Stop::new(Exit::Output, fault))?;
         self.report.timing_ms.get_or_insert_default().write = clock.milliseconds();
         self.report.output = Some(report::File::of(self.destination.name(), mesh));
+        if let Some(unspoken) = written.map(|one| one.unspoken).filter(|&count| count > 0) {
+            let statements = count(unspoken, "statement", "statements");
+            self.faults.push(Fault {
+                severity: Severity::Warning,
+                code: "W-OBJ-FOREIGN",
+                message: format!(
+                    "copies of vertices do not have what `nl`, `ny`, `nv` or `vv` says of these \
+                     ({statements})"
+                ),
+                ..Fault::default()
+            });
+        }
         if let Some(separated) = written.map(|one| one.separated).filter(|&fans| fans > 0) {
             let copies = count(separated, "more vertex", "more vertices");
             self.faults.push(Fault {

@@ -85,7 +85,7 @@ impl Document {
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         match &self.triangulation {
-            Some(triangulation) => triangulation.triangles(),
+            Some(triangulation) => &triangulation.triangles,
             None => self.polygons.vertices.as_chunks().0,
         }
     }
@@ -231,9 +231,12 @@ impl Document {
     ) -> usize {
         match &self.triangulation {
             Some(triangulation) => {
-                let nth = triangle - self.polygons.triangles(polygon).start;
-                let [a, b, c] = triangulation.corners(triangle, nth);
-                self.polygons.starts[polygon] as usize + usize::from([a, b, c][corner])
+                // A polygon has no vertex twice.
+                let vertex = triangulation.triangles[triangle][corner];
+                let corners = self.polygons.corners(polygon);
+                let vertices = &self.polygons.vertices[corners.clone()];
+                let own = vertices.iter().position(|&other| other == vertex);
+                corners.start + own.expect("a triangle has vertices of its polygon")
             }
             None => 3 * triangle + corner,
         }

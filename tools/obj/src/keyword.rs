@@ -28,7 +28,8 @@ impl Class {
     }
 }
 
-/// Whether a foreign statement belongs to the last `v` before it, as `ARCSim` reads it.
+/// Whether a foreign statement is about the last `v` before it, as `ARCSim` reads it: a label that pins
+/// the vertex, its plastic embedding, its velocity. It names no vertex by a number.
 pub(crate) fn is_said_of_vertex(keyword: &[u8]) -> bool {
     matches!(keyword, b"nl" | b"ny" | b"nv" | b"vv")
 }

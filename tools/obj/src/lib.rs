@@ -52,8 +52,8 @@
 //! * Tears survive a round trip: comments at the end of the file record which vertices were one
 //!   vertex until which cut, and where vertices were inserted ([the record](#the-record)).
 //! * Objects, groups, materials, smoothing groups, comments, and unknown statements are kept byte for
-//!   byte and in order. Statements that are kept without being interpreted are reported. The `ARCSim`
-//!   statements about a vertex (`nl`, `ny`, `nv`, `vv`) are repeated for its copies.
+//!   byte and in order. Statements that are kept without being interpreted are reported. A written copy of a
+//!   vertex does not repeat the `ARCSim` statements about it ([`WriteSummary::unspoken`] counts them).
 //! * Every refusal has a code, a line, a column, the text, and the expected syntax. A mesh error
 //!   names the lines of its faces.
 //! * No input causes a panic. Reading a file, and describing and repairing the defects of its mesh,
@@ -88,6 +88,7 @@
 //!         | "#~ slide-vt" NEW OLD NUMBERS         ... whose corners have NEW, not OLD; NUMBERS are NEW's
 //!         | "#~ slide-vn" NEW OLD X Y Z           ... and likewise for normals
 //!         | "#~ apart" VERTEX X Y Z X Y Z         VERTEX is at the first point, and its `v` has the second
+//!         | "#~ again" ABOVE A B C FACES           the FACES cover the former face A B C of a parent
 //! end     = "#tearmesh end" ITEMS HASH
 //! ```
 //!
@@ -99,9 +100,11 @@
 //!   was inserted, and `ALL` those of the file. If no items list the inserted ones, they are the last.
 //! * Slides come in the order in which they were made, each followed by its `slide-vt` and `slide-vn`.
 //!   A vertex is put back only if it has the numbers that its last slide gave it.
-//! * `VERSION` is the lowest version that can express the record. Version 2 has no `apart`. Version 1
+//! * `VERSION` is the lowest version that can express the record. Version 3 has no `again`, version 2 no `apart`. Version 1
 //!   ends with `parent`, and its copies are the last `v` of the file. A program that does not know the
 //!   version reports this, and reads the file as one without a record.
+//! * A part of a parent that was divided again has an `again` item. Besides its FACES, the items whose
+//!   ABOVE is its number (they are counted from 1) cover it. ABOVE is 0 directly below a parent.
 //! * A vertex with an `apart` item is read at the first point if its `v` is bit-equal to the second
 //!   point. Otherwise its `v` counts, and a warning is reported. Copies stand where their vertex does.
 //! * Cuts are numbered from 1, and later cuts have higher numbers. After a merge, a `split` names the
@@ -139,14 +142,13 @@
 //! |---|---|
 //! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and its compact lists |
 //! | `read.rs`, `read/` | bytes to document: lines, tokens, numbers, faces, indices, the record, errors |
-//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, thin faces, colliding diagonals |
+//! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, and diagonals that make angles larger |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
-//! | `raw.rs` | a document from obj-rs (feature `obj-rs`): losses, and the order of statements |
+//! | `raw.rs` | a document from obj-rs (feature `obj-rs`), by way of a text |
 //! | `repair.rs` | repair of defects, on request |
 //! | `coincident.rs` | coincident boundary edges that no record explains |
-//! | `said.rs` | foreign statements about the vertex before them, for its copies |
 //! | `torn.rs`, `torn/` | edits of a document: corners, splits, order, removable and edited vertices |
-//! | `record.rs` | the contents of the record, and its checksum |
+//! | `record.rs`, `families.rs` | the contents of the record, and its checksum; faces that were divided again |
 //! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, fans, the record, numbers, pieces |
 //! | `slides.rs` | vertices that slid, and their earlier values |
@@ -159,6 +161,7 @@
 mod coincident;
 mod diagnostic;
 mod document;
+mod families;
 mod keyword;
 mod mesh;
 mod opening;
@@ -169,7 +172,6 @@ mod raw;
 mod read;
 mod record;
 mod repair;
-mod said;
 mod sections;
 mod simplify;
 mod slides;
@@ -183,8 +185,6 @@ pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::Document;
 pub use mesh::MeshError;
 pub use polygons::Corner;
-#[cfg(feature = "obj-rs")]
-pub use raw::{Item, RawObjError};
 pub use repair::Repair;
 pub use simplify::Simplified;
 pub use torn::TornDocument;

@@ -28,9 +28,6 @@ pub(crate) mod text;
 mod usual;
 mod words;
 
-#[cfg(feature = "obj-rs")]
-pub(crate) use self::face::ARITY_MAX;
-
 use std::io::Read;
 
 use self::fault::{Fault, Parsed, refuse};
@@ -210,7 +207,7 @@ impl Document {
         let mut polygons = (0..self.polygons.len()).filter(larger);
         let first = polygons.next().expect("not all polygons are triangles");
         let count = 1 + polygons.count();
-        let triangles = triangulation.triangles().len() - (self.polygons.len() - count);
+        let triangles = triangulation.triangles.len() - (self.polygons.len() - count);
         let message = match count {
             1 => format!("1 face with more than 3 corners is cut into {triangles} triangles"),
             _ => format!(

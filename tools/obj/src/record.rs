@@ -8,6 +8,7 @@
 
 use tearmesh::Point;
 
+use crate::families::Families;
 use crate::slides::Slides;
 use crate::store::push;
 
@@ -17,7 +18,7 @@ pub(crate) const END: &[u8] = b"#tearmesh end";
 pub(crate) const ITEM: &[u8] = b"#~";
 
 /// The latest version. What an earlier one can say is written as that.
-pub(crate) const VERSION: i64 = 3;
+pub(crate) const VERSION: i64 = 4;
 
 /// A record that fits its document. Indices count from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +29,8 @@ pub(crate) struct Record {
     pub(crate) inserted: Vec<Inserted>,
     /// Ascending, and apart.
     pub(crate) parents: Vec<Parent>,
+    /// Parts of parents that were divided again.
+    pub(crate) families: Families,
     /// Texture coordinates and normals that were inserted: the first of each run, and the one behind
     /// its last. Ascending, and apart.
     pub(crate) texture: Vec<[u32; 2]>,
@@ -201,6 +204,7 @@ impl Record {
         for parent in &mut self.parents {
             parent.corners = parent.corners.map(&id);
         }
+        self.families.renumber(&id);
         self.slides = self.slides.filtered(|_, v| Some(id(v)), |_, index| index);
         for apart in &mut self.apart {
             apart.vertex = id(apart.vertex);

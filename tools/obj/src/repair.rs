@@ -27,8 +27,8 @@ use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
 use crate::polygons::Polygons;
 use crate::read::text::attached_length;
-use crate::said::Said;
-use crate::store::{Kind, Layout, Run, extend, push};
+use crate::store::{Kind, Layout, push};
+use crate::triangulate::Triangulation;
 
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
@@ -176,10 +176,6 @@ impl Document {
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
-        let mut keep = |triangle, kept, alone| match &mut triangulation {
-            Some(triangulation) => triangulation.keep(triangle, kept, alone),
-            None => [0, 1, 2],
-        };
         let mut kept = 0;
         let mut layout = Layout::default();
         let mut polygon = 0;
@@ -193,21 +189,23 @@ impl Document {
                 let corners = self.polygons.corners(polygon);
                 if !gone[triangles.clone()].contains(&true) {
                     polygons.add(corners.map(|corner| self.polygons.corner(corner)));
-                    for (nth, triangle) in triangles.enumerate() {
-                        keep([triangle, nth], kept, false);
-                        kept += 1;
+                    if let Some(Triangulation { triangles: all }) = &mut triangulation {
+                        all.copy_within(triangles.clone(), kept);
                     }
+                    kept += triangles.len();
                     layout.push(Kind::Polygon, line);
                 } else {
-                    let stay = triangles
-                        .enumerate()
-                        .filter(|&(_, triangle)| !gone[triangle]);
-                    for (nth, triangle) in stay {
-                        let of_polygon = keep([triangle, nth], kept, true);
+                    // Of a triangle alone none stays.
+                    let Some(Triangulation { triangles: all }) = &mut triangulation else {
+                        polygon += 1;
+                        continue;
+                    };
+                    for triangle in triangles.filter(|&triangle| !gone[triangle]) {
+                        all[kept] = all[triangle];
+                        let own = corners.clone().map(|corner| self.polygons.corner(corner));
+                        let corner = |vertex| own.clone().find(|corner| corner.vertex == vertex);
+                        polygons.add(all[kept].into_iter().filter_map(corner));
                         kept += 1;
-                        let corner =
-                            |corner| self.polygons.corner(corners.start + usize::from(corner));
-                        polygons.add(of_polygon.map(corner).into_iter());
                         layout.push(Kind::Polygon, line);
                     }
                 }
@@ -216,7 +214,7 @@ impl Document {
         }
         self.triangulation = triangulation.filter(|_| !polygons.all_triangles());
         if let Some(triangulation) = &mut self.triangulation {
-            triangulation.truncate(kept);
+            triangulation.triangles.truncate(kept);
         }
         self.polygons = polygons;
         self.layout = layout;
@@ -261,7 +259,6 @@ impl Document {
         }
         self.report_fans(&bow_ties);
         let vertices: Vec<usize> = bow_ties.iter().map(|(vertex, _)| vertex.index()).collect();
-        let said = Said::in_document(self, &vertices);
         let lines = self.lines_of(bow_ties.iter().map(|(vertex, _)| vertex.index()));
         let mut added = Vec::with_capacity(copies);
         self.positions.reserve_exact(copies); // To double them would be the peak of a repair.
@@ -276,23 +273,28 @@ impl Document {
                 for face in fan.iter() {
                     self.move_corner(face.index(), vertex.index() as u32, copy as u32);
                 }
-                added.push((line, vertex.index()));
+                added.push(line);
             }
         }
-        self.lay_out_vertices(&added, &said);
+        self.lay_out_vertices(&added);
+        self.report_unspoken(&vertices);
     }
 
     /// Puts another vertex in the place of one of a triangle's.
     fn move_corner(&mut self, triangle: usize, from: u32, to: u32) {
-        let polygon = self.polygon_of(triangle);
-        let corner = self.triangles()[triangle]
-            .iter()
-            .position(|&vertex| vertex == from)
-            .expect("the faces of a fan have its vertex");
-        let of_polygon = self.corner_of_polygon(triangle, corner, polygon);
-        self.polygons.vertices[of_polygon] = to;
-        if let Some(triangulation) = &mut self.triangulation {
-            triangulation.replace(triangle, corner, to);
+        let corners = self.polygons.corners(self.polygon_of(triangle));
+        // Another triangle of the polygon may have moved it already.
+        let mut vertices = self.polygons.vertices[corners].iter_mut();
+        vertices
+            .find(|vertex| **vertex == from)
+            .into_iter()
+            .for_each(|vertex| *vertex = to);
+        if let Some(Triangulation { triangles }) = &mut self.triangulation {
+            let mut vertices = triangles[triangle].iter_mut();
+            vertices
+                .find(|vertex| **vertex == from)
+                .into_iter()
+                .for_each(|vertex| *vertex = to);
         }
     }
 
@@ -311,58 +313,44 @@ impl Document {
             .collect()
     }
 
-    /// Makes room in the layout for new vertices, each given by the line and the number of the one
-    /// it copies, and copies what is said of that: behind the last vertex and what is
-    /// attached to it, where a split's would be.
-    fn lay_out_vertices(&mut self, added: &[(u32, usize)], said: &Said) {
+    /// Makes room in the layout for new vertices, each given by the line of the one that
+    /// it copies: behind the last vertex and what is attached to it, where a split's would be.
+    fn lay_out_vertices(&mut self, added: &[u32]) {
         let runs = self.layout.runs();
-        let last = runs
-            .iter()
-            .rposition(|run| run.kind == Kind::Vertex)
-            .expect("a bow-tie is a vertex");
-        // Whole runs before the new vertices, and a part of the text behind them.
-        let of_document = self.positions.len() - added.len();
-        let late = said.late_run(of_document);
-        let before = late.unwrap_or(last) + 1;
-        let length = |runs: &[Run]| -> usize {
-            let text = runs.iter().filter(|run| run.kind == Kind::Text);
-            text.map(|run| run.count as usize).sum()
-        };
-        let mut text_before = length(&runs[..before]);
+        let last = runs.iter().rposition(|run| run.kind == Kind::Vertex);
+        let (before, behind) = runs.split_at(last.expect("a bow-tie is a vertex") + 1);
+        let mut behind = behind.to_vec();
         let mut layout = Layout::default();
-        for &run in &runs[..before] {
-            layout.append(run);
-        }
-        let mut rest = &runs[before..];
-        let mut behind = None;
-        if let [run, more @ ..] = rest
-            && run.kind == Kind::Text
-            && late.is_none()
-        {
+        before.iter().for_each(|&run| layout.append(run));
+        if let Some(run) = behind.first_mut().filter(|run| run.kind == Kind::Text) {
+            let text = before.iter().filter(|run| run.kind == Kind::Text);
+            let text_before: usize = text.map(|run| run.count as usize).sum();
             let attached = attached_length(&self.text[text_before..][..run.count as usize]);
             layout.append_text(attached, *run);
-            text_before += attached;
-            behind = Some((run.count as usize - attached, *run));
-            rest = more;
+            run.count -= attached as u32;
         }
-        let mut copies = Vec::new();
-        for &(line, vertex) in added {
-            layout.push(Kind::Vertex, line);
-            let statements = said.of(vertex);
-            if !statements.is_empty() {
-                extend(&mut copies, statements);
-                layout.push_text(statements.len(), line);
-            }
-        }
-        if let Some((bytes, run)) = behind {
-            layout.append_text(bytes, run);
-        }
-        for &run in rest {
-            layout.append(run);
-        }
-        self.text.splice(text_before..text_before, copies);
+        added
+            .iter()
+            .for_each(|&line| layout.push(Kind::Vertex, line));
+        behind.into_iter().for_each(|run| layout.append(run));
         layout.shrink();
         self.layout = layout;
+    }
+
+    /// Warns of statements about vertices of which there are more now.
+    fn report_unspoken(&mut self, copied: &[usize]) {
+        let about = self.statements_about_vertices().into_iter();
+        let mut about = about.filter(|(vertex, _)| copied.binary_search(vertex).is_ok());
+        let Some((first, _)) = about.next() else {
+            return;
+        };
+        let message = format!(
+            "copies of vertices do not have what `nl`, `ny`, `nv` or `vv` says of these ({} statements, the first of this one)",
+            1 + about.count()
+        );
+        let line = self.line_of_vertex(first);
+        self.diagnostics
+            .push(warning("W-OBJ-FOREIGN", line, message));
     }
 
     fn report_fans(&mut self, bow_ties: &[(VertexId, Fans<'_>)]) {

@@ -29,10 +29,11 @@ impl TornDocument<'_> {
     /// and puts back the vertices that the cuts slid.
     ///
     /// Mending sews the sides of a cut, but leaves the vertices along it. An inserted vertex is removed
-    /// if all its copies are one vertex again and every face that it divided is restored. A divided
-    /// face is restored if every vertex inserted in it or on its edges is removed, and all its parts
-    /// agree on the vertex, the texture coordinate and the normal at each of its corners. So
-    /// faces are restored along the whole length of a cut, up to where it is still open.
+    /// if every face that it divided is restored. A divided face is restored if every vertex inserted in
+    /// it or on its edges is removed, all its parts agree on the vertex, the texture coordinate and the
+    /// normal at each of its corners, and no tear runs between its parts or along a part of an edge. So
+    /// faces are restored along the whole length of a cut, up to where it is still open, and open cuts
+    /// become neither longer nor shorter. A face that was part of a divided one is restored by itself.
     /// Inserted texture coordinates and normals are removed if no remaining face uses them.
     ///
     /// A vertex that a cut slid is put back, with its extra numbers and the texture coordinates and

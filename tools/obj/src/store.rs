@@ -276,6 +276,7 @@ impl Layout {
                 }
                 _ => push_run(&mut runs, run),
             }
+            is_last_gone &= run.kind == Kind::Vertex;
         }
         *text = kept;
         self.runs = runs;

@@ -9,11 +9,11 @@ mod ancestry;
 mod corners;
 mod edited;
 mod extras;
-mod going;
 mod past;
 mod removal;
 mod slots;
 mod turns;
+mod undo;
 
 pub(crate) use self::removal::Removal;
 pub(crate) use self::slots::Slots;
@@ -28,6 +28,7 @@ use self::ancestry::Ancestry;
 use self::corners::Corners;
 use self::extras::Extras;
 use crate::document::Document;
+use crate::families::Families;
 use crate::record::{Apart, At, Inserted, Parent, Record, SplitOff, is_in, is_same_point};
 use crate::slides::Slides;
 use crate::store::Rows;
@@ -94,6 +95,8 @@ pub struct TornDocument<'d> {
     inserted: Vec<Inserted>,
     /// What became of faces, and of their corners; `None` until the first insertion.
     corners: Option<Corners<'d>>,
+    /// Parts of divided faces that were divided again.
+    families: Families,
     /// Vertices that slid, by the nodes of the ancestry.
     slides: Slides,
     /// Where vertices are if nothing but the log moves them; `None` until the first edit.
@@ -117,6 +120,7 @@ impl<'d> TornDocument<'d> {
             extras: Extras::new(document),
             inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
             corners: None,
+            families: record.map_or_else(Families::default, |record| record.families.clone()),
             slides: record.map_or_else(Slides::default, |record| record.slides.clone()),
             places: None,
             shown: record.and_then(|record| shown(document, record)),
@@ -352,7 +356,7 @@ impl<'d> TornDocument<'d> {
         }
         let (document, ancestry) = (self.document, &self.ancestry);
         let corners = self.corners.get_or_insert_with(|| Corners::new(document));
-        corners.insert(insert, |v| ancestry.class(v.index()));
+        corners.insert(insert, |v| ancestry.class(v.index()), &mut self.families);
         self.cut_is_used = true;
     }
 
@@ -512,6 +516,11 @@ impl TornDocument<'_> {
             parents.sort_unstable_by_key(|parent| parent.first);
         }
         parents
+    }
+
+    /// Parts of divided faces that were divided again, by faces of the mesh and classes.
+    pub(crate) fn families(&self) -> &Families {
+        &self.families
     }
 
     /// Vertices that slid, by their ids as they are now.

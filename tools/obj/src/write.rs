@@ -2,13 +2,12 @@
 //!
 //! **Order.** Statements come in the order of the document, and polygons as their triangles. What the
 //! document has not is added behind the section that it comes from (`sections.rs`): a vertex that was
-//! split off or inserted behind the last `v` of its object and what is said of that, with a
-//! copy of what `ARCSim` says of the vertex that it was split from (`said.rs`); new texture
-//! coordinates and normals likewise. So no line moves, and the numbers behind it count on. Where
+//! split off or inserted behind the last `v` of its object and the foreign statements attached
+//! to that; new texture coordinates and normals likewise. So no line moves, and the numbers behind it count on. Where
 //! a face comes before what it names, the statements that it needs are moved up to just
 //! before it, each with the foreign statements attached to it: no face precedes its vertices. What
-//! `ARCSim` says of a vertex is written behind that vertex, wherever it stood: no `v` comes
-//! between them.
+//! `ARCSim` says of a vertex is kept like that, too, and not repeated for a copy of the vertex: what a
+//! label or a velocity means for two halves, this crate does not know.
 //!
 //! Why not all new vertices at the end of the file, so that no number ever changes? Other programs drop
 //! a face that comes before its vertices, so the `v` of all later objects would have to be written
@@ -44,9 +43,8 @@ pub use self::piece::{PieceNames, PieceWriter};
 pub(crate) use self::prepare::Prepared;
 use self::record::write_record;
 use crate::document::Document;
-use crate::read::text::attached_length;
+use crate::read::text::{attached_length, without_statements_of_vertex};
 use crate::record::Hash;
-use crate::said;
 use crate::store::{Kind, Run};
 use crate::torn::TornDocument;
 
@@ -60,6 +58,10 @@ pub struct WriteSummary {
     /// The number of additional `v` statements, one for each further fan of a vertex of the mesh.
     /// `vertices` includes them.
     pub separated: usize,
+    /// The number of `ARCSim` statements (`nl`, `ny`, `nv`, `vv`) about a vertex of which copies were
+    /// written, or about one behind which new vertices were written before the statement. The copies
+    /// have no such statement.
+    pub unspoken: usize,
 }
 
 impl Document {
@@ -186,6 +188,7 @@ pub(crate) fn write(
         vertices,
         faces: prepared.face_count(),
         separated: prepared.fans().count(),
+        unspoken: prepared.unspoken(torn),
     })
 }
 
@@ -265,8 +268,6 @@ impl<W: Write> Writer<'_, W> {
         let mut counts = [0; 3];
         let mut polygons = 0;
         let mut text = &document.text[..];
-        // They say something of no vertex, and go on doing so.
-        self.out.text(self.prepared.said.late(0))?;
         for (i, run) in runs.iter().enumerate() {
             let count = run.count as usize;
             let which = match run.kind {
@@ -286,12 +287,7 @@ impl<W: Write> Writer<'_, W> {
                         .checked_sub(1)
                         .map_or(0, |before| attached_to(runs[before], lines));
                     text = rest;
-                    let lines = &lines[written..];
-                    if self.prepared.said.has_late() {
-                        self.out.text(&said::left_without_vertex(lines))?;
-                    } else {
-                        self.out.text(lines)?;
-                    }
+                    self.out.text(&lines[written..])?;
                     continue;
                 }
             };
@@ -313,10 +309,6 @@ impl<W: Write> Writer<'_, W> {
             if let Some(added) = next.filter(|added| added.behind <= stream.done) {
                 stream.added += 1;
                 self.write_element(which, added.element)?;
-                let vertex = (which == VERTICES).then(|| prepared.vertex(added.element));
-                if let Some(origin) = vertex.and_then(|vertex| self.torn.origin(vertex)) {
-                    self.out.text(prepared.said.of(origin))?;
-                }
                 continue;
             }
             let count = next.map_or(count, |added| added.behind.min(count));
@@ -363,9 +355,8 @@ impl<W: Write> Writer<'_, W> {
         }
     }
 
-    /// Writes the foreign statements directly after the run that a stream has completed, and
-    /// those about its last vertex that stand farther on. What says something of a vertex that is
-    /// gone is left out.
+    /// Writes the foreign statements directly after the run that a stream has completed. What says
+    /// something of a vertex that is gone is left out.
     fn write_attached(&mut self, which: usize, end: u32) -> io::Result<()> {
         let (prepared, stream) = (self.prepared, self.streams[which]);
         let is_gone = which == VERTICES && prepared.orders[VERTICES].element(end - 1).is_none();
@@ -378,15 +369,11 @@ impl<W: Write> Writer<'_, W> {
         {
             let lines = &self.document.text[stream.text_before..][..count as usize];
             let lines = &lines[..attached_to(runs[stream.run], lines)];
-            // Between a vertex and what is said of it there may be texture coordinates or normals.
-            if is_gone || which != VERTICES && prepared.said.has_late() {
-                self.out.text(&said::left_without_vertex(lines))?;
+            if is_gone {
+                self.out.text(&without_statements_of_vertex(lines))?;
             } else {
                 self.out.text(lines)?;
             }
-        }
-        if which == VERTICES && !is_gone {
-            self.out.text(prepared.said.late(end as usize))?;
         }
         Ok(())
     }

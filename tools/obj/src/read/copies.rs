@@ -1,9 +1,9 @@
 //! Vertices that were written several times, once a fan, and are one again.
 
+use super::text::without_statements_of_vertex;
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
 use crate::record::{Record, SplitOff};
-use crate::said;
 use crate::store::Rows;
 
 /// Makes each vertex and its copies one, but for copies that were moved away: these become
@@ -97,6 +97,6 @@ impl Document {
         self.positions.truncate(kept);
         self.extras = extras;
         let Document { layout, text, .. } = self;
-        layout.drop_vertices(dropped, text, said::left_without_vertex);
+        layout.drop_vertices(dropped, text, without_statements_of_vertex);
     }
 }

@@ -14,7 +14,7 @@ use crate::store::{Kind, push};
 /// The most corners of a polygon. The largest that are met in earnest are outlines of letters
 /// and maps with one or two thousand; cutting one of this size takes a few hundredths of
 /// a second at worst (the cost is its square), so that no file takes for ever.
-pub(crate) const ARITY_MAX: usize = 4096;
+const ARITY_MAX: usize = 4096;
 
 impl Reader {
     /// Reads what follows the keyword `f` or `fo`.

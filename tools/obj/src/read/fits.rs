@@ -4,7 +4,7 @@ use super::items::Items;
 use super::line::quoted;
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
-use crate::record::{Hash, are_last, runs};
+use crate::record::{Hash, Record, are_last, runs};
 use crate::store::push;
 
 /// Why a record, whose faces have this hash, is not one of this document.
@@ -54,6 +54,22 @@ pub(super) fn misfit(items: &Items, hash: u64, document: &Document) -> Option<St
         }
         for &vertex in corners {
             has_face[vertex as usize] = true;
+        }
+    }
+    let Record {
+        parents, families, ..
+    } = &items.record;
+    let parent = |face: usize| parents.partition_point(|parent| parent.end as usize <= face);
+    let mut parent_of = vec![None; families.all().len()];
+    for face in 0..faces {
+        if let Some(family) = families.outermost(face) {
+            let is = parent(face);
+            let lies_within = parents.get(is).is_some_and(|p| p.first as usize <= face);
+            if !lies_within || *parent_of[family as usize].get_or_insert(is) != is {
+                return Some(
+                    "this record is not used: it divides a face of two parents".to_owned(),
+                );
+            }
         }
     }
     let splits = &items.record.splits;

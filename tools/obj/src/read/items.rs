@@ -6,6 +6,7 @@ use super::fault::{Fault, Parsed};
 use super::line::quoted;
 use super::scan::Scan;
 use super::words::{CODE, DAMAGED, nothing_more, numbers, out_of_range, whole};
+use crate::families::Family;
 use crate::record::{Apart, At, Inserted, Parent, Record, SplitOff, are_last, is_same_point, runs};
 use crate::slides::Exchange;
 use crate::store::{NUMBERS_MAX, push};
@@ -55,9 +56,9 @@ impl Items {
 
     /// Takes the next line, from behind its mark on.
     pub(super) fn item(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        // `edge` and `face` are in one order, and so are slides. Version 1 has the first five, and
-        // version 2 all but the last.
-        const KINDS: [(&[u8], usize); 11] = [
+        // `edge` and `face` are in one order, and so are slides. Version 1 has the first five,
+        // version 2 all but the last two, and version 3 all but the last.
+        const KINDS: [(&[u8], usize); 12] = [
             (b"split", 0),
             (b"fan", 1),
             (b"edge", 2),
@@ -69,6 +70,7 @@ impl Items {
             (b"slide-vt", 7),
             (b"slide-vn", 7),
             (b"apart", 8),
+            (b"again", 9),
         ];
         scan.find_token();
         let (start, word) = (scan.at, scan.token());
@@ -76,6 +78,7 @@ impl Items {
         let mut known = KINDS.iter().take(match self.counts.version {
             1 => 5,
             2 => 10,
+            3 => 11,
             _ => KINDS.len(),
         });
         match known.find(|(kind, _)| *kind == word) {
@@ -95,6 +98,7 @@ impl Items {
             b"slide-vt" => return self.exchange(0, scan),
             b"slide-vn" => return self.exchange(1, scan),
             b"apart" => return self.apart(scan),
+            b"again" => self.again(scan)?,
             _ => self.inserted_indices(word == b"vt", scan)?,
         }
         nothing_more(scan)
@@ -169,13 +173,7 @@ impl Items {
         let least = self.record.parents.last().map_or(0, |last| last.end);
         let first = whole(scan, i64::from(least) + 1, faces)? - 1;
         let end = whole(scan, i64::from(first) + 1, faces)?;
-        scan.find_token();
-        let at = scan.at;
-        let corners @ [a, b, c] = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
-        if a == b || b == c || c == a {
-            let message = "a face of this record has a vertex twice";
-            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
-        }
+        let corners = self.corners(scan)?;
         let parent = Parent {
             first,
             end,
@@ -183,6 +181,18 @@ impl Items {
         };
         push(&mut self.record.parents, parent);
         Ok(())
+    }
+
+    /// The roots at the corners of a face.
+    fn corners(&self, scan: &mut Scan<'_>) -> Parsed<[u32; 3]> {
+        scan.find_token();
+        let at = scan.at;
+        let corners @ [a, b, c] = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
+        if a == b || b == c || c == a {
+            let message = "a face of this record has a vertex twice";
+            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+        }
+        Ok(corners)
     }
 
     /// A run of texture coordinates or normals that were inserted.
@@ -270,6 +280,26 @@ impl Items {
             return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
         }
         push(&mut self.record.apart, Apart { vertex, is, shown });
+        Ok(())
+    }
+
+    /// A part of a parent that was divided again, with the faces that cover it.
+    fn again(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        let count = self.record.families.all().len() as i64;
+        let above = whole(scan, 0, count)?.checked_sub(1);
+        let corners = self.corners(scan)?;
+        self.record.families.add(Family { corners, above });
+        let mut least = 1;
+        while scan.find_token() {
+            let start = scan.at;
+            let face = whole(scan, least, i64::from(self.counts.faces))?;
+            least = i64::from(face) + 1;
+            if self.record.families.of(face as usize - 1).is_some() {
+                let message = "this record has a face in two that were divided again";
+                return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            }
+            self.record.families.give(face as usize - 1);
+        }
         Ok(())
     }
 

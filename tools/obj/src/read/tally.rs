@@ -70,7 +70,7 @@ impl ForeignStatements {
                 _ if is_said_of_vertex(&counted.keyword) => (
                     "W-OBJ-FOREIGN",
                     format!(
-                        "{keyword} is not interpreted, and is kept with its vertex and the copies of it ({statements})"
+                        "{keyword} is not interpreted, and is kept as it is, but for no copy of its vertex ({statements})"
                     ),
                 ),
                 _ => (

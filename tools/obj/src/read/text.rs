@@ -2,7 +2,9 @@
 
 use super::lines::logical_line_length;
 use super::scan::Scan;
-use crate::keyword::Class;
+use crate::document::Document;
+use crate::keyword::{Class, is_said_of_vertex};
+use crate::store::Kind;
 
 /// How many bytes at the start of a text are foreign statements, which belong to the
 /// statement before it: whole lines, each with `\n` at its end.
@@ -35,4 +37,42 @@ pub(crate) fn statements(mut text: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])
         scan.find_token();
         Some((scan.token(), statement))
     })
+}
+
+/// The lines behind a vertex that is gone, without those that are about it.
+pub(crate) fn without_statements_of_vertex(lines: &[u8]) -> Vec<u8> {
+    let (attached, rest) = lines.split_at(attached_length(lines));
+    let others = statements(attached).filter(|&(keyword, _)| !is_said_of_vertex(keyword));
+    let others = others.map(|(_, statement)| statement).chain([rest]);
+    others.flatten().copied().collect()
+}
+
+impl Document {
+    /// The vertex that each statement is about which is about the last one before it, and whether
+    /// nothing but foreign statements stands between the two.
+    pub(crate) fn statements_about_vertices(&self) -> Vec<(usize, bool)> {
+        let (mut vertices, mut text, mut is_behind) = (0, &self.text[..], false);
+        let mut found = Vec::new();
+        for run in self.layout.runs() {
+            if run.kind == Kind::Vertex {
+                vertices += run.count as usize;
+            }
+            if run.kind == Kind::Text {
+                let (lines, rest) = text.split_at(run.count as usize);
+                text = rest;
+                let attached = if is_behind { attached_length(lines) } else { 0 };
+                let mut at = 0;
+                for (keyword, statement) in statements(lines) {
+                    if let (true, Some(vertex)) =
+                        (is_said_of_vertex(keyword), vertices.checked_sub(1))
+                    {
+                        found.push((vertex, at < attached));
+                    }
+                    at += statement.len();
+                }
+            }
+            is_behind = run.kind == Kind::Vertex;
+        }
+        found
+    }
 }

@@ -235,6 +235,7 @@ impl Ancestry {
 
     /// The vertices by these numbers that are not the lowest of their class, ascending, each with
     /// the lowest of those that it is apart from most recently. What is apart since when says all.
+    /// Classes whose vertices have no number, [`u32::MAX`], are left out.
     pub(super) fn split_off(&mut self, number: impl Fn(u32) -> u32) -> Vec<SplitOff> {
         let mut number_of = vec![u32::MAX; self.tree.len()];
         for (&node, v) in self.nodes.iter().zip(0..) {
@@ -245,7 +246,9 @@ impl Ancestry {
         let mut links = Vec::new();
         for v in 0..self.nodes.len() {
             let node = self.nodes[v];
-            if let Some((above, cut)) = self.above(node) {
+            if let Some((above, cut)) = self.above(node)
+                && number_of[node as usize] != u32::MAX
+            {
                 links.push((cut, number_of[node as usize], number_of[above as usize]));
             }
         }

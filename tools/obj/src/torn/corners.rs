@@ -6,6 +6,7 @@ use tearmesh::{Blend, ChildFace, CornerSource, HalfEdgeId, Insert, Slide, Vertex
 
 use super::slots::Slots;
 use crate::document::Document;
+use crate::families::Families;
 use crate::record::Parent;
 use crate::slides::Exchange;
 use crate::store::Rows;
@@ -90,14 +91,22 @@ impl<'d> Corners<'d> {
     }
 
     /// Follows an insertion; `class` is that of each vertex, the inserted ones included.
-    pub(super) fn insert(&mut self, insert: &Insert<'_>, class: impl Fn(VertexId) -> u32) {
+    pub(super) fn insert(
+        &mut self,
+        insert: &Insert<'_>,
+        class: impl Fn(VertexId) -> u32,
+        families: &mut Families,
+    ) {
         let mut made = [BTreeMap::new(), BTreeMap::new()];
         for family in insert.families() {
             let parent = family.parent().index();
             let slot = self.slots[parent];
-            if !self.is_part_of_recorded(slot) && !self.divided.contains_key(&slot) {
-                self.divided
-                    .insert(slot, original(family.children(), &class));
+            let corners = original(family.children(), &class);
+            if self.is_part_of_recorded(slot) || self.divided.contains_key(&slot) {
+                let children = family.children().iter().map(|child| child.face.index());
+                families.divide(parent, corners, children);
+            } else {
+                self.divided.insert(slot, corners);
             }
             let before = [0, 1, 2].map(|corner| self.corners[3 * parent + corner]);
             for child in family.children() {

@@ -123,10 +123,21 @@ impl<'t> Past<'t> {
         }
     }
 
-    /// The texture coordinate (0) or the normal (1) of a corner.
+    /// The texture coordinate (0) or the normal (1) of a corner at a moment.
     pub(super) fn index(&self, corner: CornerAt, which: usize, moment: Moment) -> Option<u32> {
+        let undone = |slide: usize| behind_slides(self.slides.get(slide).cut) > moment;
+        self.index_without(corner, which, undone)
+    }
+
+    /// The texture coordinate (0) or the normal (1) of a corner before some of the slides.
+    pub(super) fn index_without(
+        &self,
+        corner: CornerAt,
+        which: usize,
+        undone: impl Fn(usize) -> bool,
+    ) -> Option<u32> {
         let mut index = self.torn.corner_of(corner.half_edge)[which]?;
-        for slide in self.after(corner.vertex, moment).rev() {
+        for slide in self.of(corner.vertex).rev().filter(|&slide| undone(slide)) {
             for (exchange, _) in self.slides.exchanges(slide) {
                 if exchange.which == which && exchange.new == index {
                     index = exchange.old;

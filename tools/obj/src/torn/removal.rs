@@ -1,13 +1,13 @@
-//! What can be taken out again of what cuts inserted.
+//! What is left out and put back when a torn document is written simplified.
 
 use std::collections::BTreeMap;
-use std::slice::from_ref;
 
-use tearmesh::{Mesh, Positions};
+use tearmesh::{Mesh, Positions, VertexId};
 
 use super::TornDocument;
-use super::going::{Going, Restored};
 use super::slots::Slots;
+use super::undo::Undo;
+use crate::families::Families;
 use crate::slides::Exchange;
 
 /// What is left out when a torn document is written simplified.
@@ -19,21 +19,39 @@ pub(crate) struct Removal {
     pub(crate) normals: Vec<bool>,
     /// Whether each slide is undone.
     pub(crate) is_back: Vec<bool>,
-    /// Ascending, by the triangles of the document where they stand.
     restored: Vec<Restored>,
+    /// By parent, and by part that was divided again, whether it is restored.
+    pub(crate) parents: Vec<bool>,
+    pub(crate) families: Vec<bool>,
+    /// By face of the mesh what is written in its place: itself, a restored face, or nothing.
+    instead: Vec<u32>,
     /// For each vertex of which a slide is undone, what its `v` has then, and which indices its
     /// corners exchange, in this order.
     put_back: BTreeMap<u32, (Vec<f64>, Vec<Exchange>)>,
 }
 
+/// A face that takes the place of those that cover it.
+#[derive(Clone, Copy, Debug)]
+struct Restored {
+    /// Half-edges of the mesh whose corners it has.
+    corners: [u32; 3],
+    /// The part that was divided again in which it is.
+    family: Option<u32>,
+}
+
 /// Marks a restored face among faces of the mesh, of which there are less.
 const RESTORED: u32 = 1 << 31;
 
+/// Marks that nothing is written in the place of a face.
+const NOTHING: u32 = u32::MAX;
+
 impl Removal {
-    /// Whether the face that stood from this triangle of the document on is restored.
-    pub(crate) fn restores(&self, first: u32) -> bool {
-        let parent = |restored: &Restored| restored.parent.first;
-        self.restored.binary_search_by_key(&first, parent).is_ok()
+    /// The part that was divided again to which a face that is written belongs.
+    pub(crate) fn family(&self, families: &Families, face: u32) -> Option<u32> {
+        match face.checked_sub(RESTORED) {
+            Some(index) => self.restored[index as usize].family,
+            None => families.of(face as usize),
+        }
     }
 
     /// The corners of a restored face.
@@ -67,21 +85,10 @@ impl Removal {
     /// The faces that are written.
     pub(crate) fn slots(&self, slots: &Slots) -> Slots {
         let mut written = Slots::with_capacity(slots.faces.len());
-        let mut restored = (RESTORED..).zip(&self.restored).peekable();
         for triangle in 0..slots.triangles() {
-            let here = restored
-                .peek()
-                .map(|&(face, restored)| (face, restored.parent));
-            match here {
-                Some((face, parent)) if triangle >= parent.first as usize => {
-                    let begins = triangle == parent.first as usize;
-                    written.push(if begins { from_ref(&face) } else { &[] });
-                    if triangle + 1 == parent.end as usize {
-                        restored.next();
-                    }
-                }
-                _ => written.push(&slots.faces[slots.of(triangle..triangle + 1)]),
-            }
+            let here = slots.faces[slots.of(triangle..triangle + 1)].iter();
+            let here = here.map(|&face| self.instead[face as usize]);
+            written.push(&here.filter(|&face| face != NOTHING).collect::<Vec<u32>>());
         }
         written
     }
@@ -101,24 +108,42 @@ impl TornDocument<'_> {
     /// What can go, `None` if nothing can; and what stays because it was edited.
     pub(crate) fn removal(&self, mesh: &Mesh, positions: &Positions) -> (Option<Removal>, Found) {
         let slots = self.slots();
-        let going = Going::find(self, mesh, positions, &slots);
+        let undo = Undo::find(self, mesh, positions, &slots);
         let mut found = Found {
-            edited: going.edited,
-            slid_edited: going.slid_edited,
+            edited: undo.edited,
+            slid_edited: undo.slid_edited(),
             slid_back: 0,
         };
-        let (restored, put_back) = (going.restored(), put_back(&going));
+        let (mut restored, put_back) = (Vec::new(), put_back(&undo));
+        let mut instead: Vec<u32> = (0..mesh.face_count() as u32).collect();
+        let again = self.families().all();
+        // What is around comes later, and takes the place of what is within.
+        for (number, divided) in undo.divided.iter().enumerate() {
+            if let Some(corners) = undo.plan.restored(number) {
+                let family = (again.len().checked_sub(1 + number)).and_then(|own| again[own].above);
+                let corners = corners.map(u32::from);
+                let mut face = RESTORED + restored.len() as u32;
+                restored.push(Restored { corners, family });
+                for covering in &divided.faces {
+                    instead[covering.index()] = std::mem::replace(&mut face, NOTHING);
+                }
+            }
+        }
+        let is_restored = |number: usize| undo.plan.restored(number).is_some();
+        let (within, parents) = (0..again.len(), again.len()..undo.divided.len());
         if restored.is_empty() && put_back.is_empty() {
             return (None, found);
         }
         found.slid_back = put_back.len();
-        let vertices = 0..mesh.vertex_count();
         let mut removal = Removal {
-            vertices: vertices.map(|v| going.vertex_goes(v)).collect(),
+            vertices: mesh.vertices().map(|v| undo.plan.goes(v)).collect(),
             texture: Vec::new(),
             normals: Vec::new(),
-            is_back: going.is_back,
+            families: within.rev().map(is_restored).collect(),
+            parents: parents.map(is_restored).collect(),
+            is_back: undo.is_back,
             restored,
+            instead,
             put_back,
         };
         [removal.texture, removal.normals] = self.unused(&removal, mesh, &slots);
@@ -160,11 +185,12 @@ impl TornDocument<'_> {
 }
 
 /// The vertices that stay and of which slides are undone, with what they had before these.
-fn put_back(going: &Going<'_>) -> BTreeMap<u32, (Vec<f64>, Vec<Exchange>)> {
-    let slides = &going.past.slides;
+fn put_back(undo: &Undo<'_>) -> BTreeMap<u32, (Vec<f64>, Vec<Exchange>)> {
+    let slides = &undo.past.slides;
     let mut put_back: BTreeMap<u32, (Vec<f64>, Vec<Exchange>)> = BTreeMap::new();
     for (slide, slid) in slides.iter().enumerate().rev() {
-        if going.is_back[slide] && !going.vertex_goes(slid.vertex as usize) {
+        let vertex = VertexId::new(slid.vertex as usize).expect("I1: ids fit");
+        if undo.is_back[slide] && !undo.plan.goes(vertex) {
             let (numbers, exchanges) = put_back.entry(slid.vertex).or_default();
             *numbers = slides.before(slide).to_vec();
             exchanges.extend(slides.exchanges(slide).map(|(exchange, _)| exchange));

@@ -179,6 +179,7 @@ impl<'t> PieceWriter<'t> {
             vertices: piece.mesh().vertex_count() + separated.copies.len(),
             faces: faces.len(),
             separated: separated.copies.len(),
+            unspoken: 0,
         })
     }
 

@@ -1,12 +1,14 @@
 //! What is written of a torn document: which faces in which order, under which numbers, and
 //! what goes on record.
 
+use std::collections::BTreeSet;
+
 use tearmesh::{Mesh, Point};
 
 use super::separate::Separated;
+use crate::families::{Families, Family};
 use crate::order::Order;
 use crate::record::{Apart, Inserted, Parent, Record, runs};
-use crate::said::Said;
 use crate::sections::Of;
 use crate::torn::{Removal, Slots, TornDocument, Turns};
 
@@ -24,8 +26,6 @@ pub(crate) struct Prepared<'m> {
     pub(super) orders: [Order; 3],
     /// `None` where there is nothing to record.
     pub(super) record: Option<Record>,
-    /// What is said of vertices, for their copies.
-    pub(super) said: Said,
 }
 
 impl<'m> Prepared<'m> {
@@ -79,23 +79,26 @@ impl<'m> Prepared<'m> {
             },
             separated,
             record: None,
-            said: Said::default(),
         };
-        prepared.said = Said::in_document(document, &prepared.copied(torn));
         let record = prepared.record_of(torn);
         let says_nothing = record.is_empty() && prepared.fans().next().is_none();
         prepared.record = (!says_nothing).then_some(record);
         prepared
     }
 
-    /// The vertices of the document of which more are written, ascending.
-    fn copied(&self, torn: &TornDocument<'_>) -> Vec<usize> {
+    /// How many statements about a vertex are not repeated for its copies, or have new vertices before
+    /// them.
+    pub(super) fn unspoken(&self, torn: &TornDocument<'_>) -> usize {
         let added = self.orders[0].added().iter();
         let origins = added.filter_map(|added| torn.origin(self.vertex(added.element)));
-        let mut copied: Vec<usize> = origins.collect();
-        copied.sort_unstable();
-        copied.dedup();
-        copied
+        let copied: BTreeSet<usize> = origins.collect();
+        if self.orders[0].added().is_empty() {
+            return 0;
+        }
+        let about = torn.document().statements_about_vertices().into_iter();
+        about
+            .filter(|(vertex, is_behind)| !is_behind || copied.contains(vertex))
+            .count()
     }
 
     pub(super) fn removes_nothing(&self) -> bool {
@@ -140,11 +143,11 @@ impl<'m> Prepared<'m> {
             })
             .collect();
         inserted.sort_unstable_by_key(|inserted| inserted.vertex);
-        let is_restored = |parent: &Parent| {
-            let restored = |removal: &Removal| removal.restores(parent.first);
-            self.removal.is_some_and(restored)
-        };
-        let parents = torn.parents().into_iter().filter(|one| !is_restored(one));
+        let restored = self.removal.map(|removal| &removal.parents);
+        let is_restored = |number: usize| restored.is_some_and(|restored| restored[number]);
+        let parents = torn.parents().into_iter().enumerate();
+        let parents = parents.filter(|&(number, _)| !is_restored(number));
+        let parents = parents.map(|(_, parent)| parent);
         let parents = parents.map(|parent| {
             let faces = parent.first as usize..parent.end as usize;
             let faces = self.slots.of(faces);
@@ -174,12 +177,42 @@ impl<'m> Prepared<'m> {
             splits: torn.split_off(number),
             inserted,
             parents: parents.collect(),
+            families: self.families_of(torn, root),
             texture,
             normals,
             slides,
             apart: self.recorded_apart(),
             copies: Vec::new(), // They are those of the fans.
         }
+    }
+
+    /// The parts that were divided again and stay so, as in the file.
+    fn families_of(&self, torn: &TornDocument<'_>, root: impl Fn(u32) -> u32) -> Families {
+        let all = torn.families();
+        let mut faces = vec![Vec::new(); all.all().len()];
+        for (number, &face) in self.slots.faces.iter().enumerate() {
+            let family = match self.removal {
+                Some(removal) => removal.family(all, face),
+                None => all.of(face as usize),
+            };
+            family
+                .into_iter()
+                .for_each(|family| faces[family as usize].push(number));
+        }
+        let restored = self.removal.map(|removal| &removal.families);
+        let mut families = Families::default();
+        let mut numbers = Vec::new();
+        for (number, family) in all.all().iter().enumerate() {
+            numbers.push(families.all().len() as u32);
+            if !restored.is_some_and(|restored| restored[number]) {
+                families.add(Family {
+                    corners: family.corners.map(&root),
+                    above: family.above.map(|above| numbers[above as usize]),
+                });
+                faces[number].iter().for_each(|&face| families.give(face));
+            }
+        }
+        families
     }
 
     /// The vertices that are written apart, as in the file. Those that are put back are not.

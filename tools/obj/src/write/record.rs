@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use super::number::{write_integer, write_number};
 use super::output::Output;
 use super::prepare::Prepared;
+use crate::families::Families;
 use crate::order::Order;
 use crate::record::{Apart, At, END, HEADER, Hash, ITEM, Record, VERSION, are_last, runs};
 use crate::slides::Slides;
@@ -28,10 +29,11 @@ pub(super) fn write_record<W: Write>(
         .map(|(runs, count)| !are_last(runs, count as u32));
     let is_later = says_where.contains(&true) || !record.slides.is_empty();
     let is_later = is_later || !are_last(&copies(prepared), vertices as u32);
-    let version = match (record.apart.is_empty(), is_later) {
-        (false, _) => VERSION,
-        (true, true) => 2,
-        (true, false) => 1,
+    let version = match () {
+        () if !record.families.all().is_empty() => VERSION,
+        () if !record.apart.is_empty() => 3,
+        () if is_later => 2,
+        () => 1,
     };
     let counts = [
         vertices,
@@ -78,6 +80,7 @@ pub(super) fn write_record<W: Write>(
         let numbers = [is.x, is.y, is.z, shown.x, shown.y, shown.z];
         items.item("apart", &[vertex + 1], &numbers)?;
     }
+    items.write_families(&record.families, prepared.face_count())?;
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);
@@ -134,6 +137,21 @@ impl<W: Write> Items<'_, '_, W> {
                 let word = ["slide-vt", "slide-vn"][exchange.which];
                 self.item(word, &[exchange.new + 1, exchange.old + 1], value)?;
             }
+        }
+        Ok(())
+    }
+
+    fn write_families(&mut self, families: &Families, faces: usize) -> io::Result<()> {
+        let mut of = vec![Vec::new(); families.all().len()];
+        for face in 0..faces {
+            if let Some(family) = families.of(face) {
+                of[family as usize].push(face as u32 + 1);
+            }
+        }
+        for (family, faces) in families.all().iter().zip(of) {
+            let [a, b, c] = family.corners.map(|v| v + 1);
+            let above = family.above.map_or(0, |above| above + 1);
+            self.item("again", &[&[above, a, b, c], &faces[..]].concat(), &[])?;
         }
         Ok(())
     }
