@@ -19,12 +19,12 @@ const NOTHING_DIGESTED: u64 = 0xcbf2_9ce4_8422_2325;
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
     ("README.md", 0x045a_d7e5_fce0_27a7),
-    ("tear.txt", 0x2429_6705_48b9_29af),
+    ("tear.txt", 0x2270_f2a3_8599_c1b7),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x8596_11d5_0bca_6755;
+const DIGEST: u64 = 0x660e_07a9_e154_e267;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
