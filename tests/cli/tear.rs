@@ -226,7 +226,7 @@ fn a_cut_that_shortens_steps_is_told_with_its_cost() {
 #[test]
 fn the_limiter_counts_in_the_unit_that_it_names() {
     let folder = Folder::new();
-    let line = "tearmesh tear flag.obj --scene rip --solver provot --seconds 1.4 --dry-run";
+    let line = "tearmesh tear flag.obj --scene rip --solver provot --seconds 2.2 --dry-run";
     let output = folder.run(&format!("{line} --report r.json"));
     let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("a report");
     let [steps, substeps] = [&report["steps"], &report["counters"]["substeps"]];
