@@ -105,7 +105,7 @@ fn a_pass_without_a_root_finds_every_overstretched_edge() {
                 stepped.unwrap_or_else(|error| panic!("{name}, sheet {seed}: {error}"));
                 let expected = pulled.overstretched(&tear);
                 let Pulled { mesh, cloth, .. } = &mut pulled;
-                let report = tear.apply(mesh, cloth, &mut edits, 0.0);
+                let report = tear.apply(mesh, cloth, &mut edits);
                 assert_eq!(report.overstretched, expected, "{name}, sheet {seed}");
                 (over, steps) = (over + expected, steps + 1);
                 torn += report.splits;
@@ -133,7 +133,7 @@ fn a_stiffer_edge_tears_at_a_smaller_strain() {
     let tearing = Tearing::new(Threshold::Force(4.0 * 50.0 * 0.2 * longest_m));
     let mut tear = Tear::new(&cloth, tearing).expect("a tear");
     let mut edits = Edits::new();
-    let mut overstretched = |cloth: &mut Cloth| tear.apply(&mut mesh, cloth, &mut edits, 0.01);
+    let mut overstretched = |cloth: &mut Cloth| tear.apply(&mut mesh, cloth, &mut edits);
     assert_eq!(overstretched(&mut cloth).overstretched, 0);
     let stiffer = cloth.system_mut().set_stiffness(id, 4.01 * 50.0);
     stiffer.expect("a stiffness");

@@ -107,7 +107,6 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
         if let [cut] = run.cuts_made() {
             let report = &cut.report;
             assert_eq!(cut.number, 0);
-            assert_eq!(cut.stability, None, "XPBD is stable at any step");
             assert!((before - 1.5).abs() <= run.step_s() / 2.0);
             assert!(report.separated);
             assert_eq!(run.mesh().components().count(), 2);
@@ -128,27 +127,20 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
 #[test]
 fn a_flag_that_is_cut_goes_on_waving_by_an_explicit_method() {
     for solver in [Method::Verlet, Method::Provot(Limiter::default())] {
-        let carries = matches!(solver, Method::Verlet);
         let mut run = staged(32, |frame| Scene {
             solver: solver.clone(),
             duration_s: 1.7,
             ..Scene::flag(frame)
         });
-        let mut stability = None;
         while !run.is_over() {
             run.step().expect("a step");
-            stability = stability.or(run.cuts_made().first().map(|cut| cut.stability));
-        }
-        match stability.expect("a cut") {
-            None => assert!(carries),
-            Some(stability) => {
-                assert!(!carries && stability.after_s < 0.5 * stability.before_s);
-                assert!(stability.ends.is_some());
-            }
         }
         // The slivers are carried: no step is divided for them.
         let substeps = run.cloth().system().counters().substeps;
-        assert_eq!(substeps == run.tally().steps, carries);
+        assert_eq!(
+            substeps == run.tally().steps,
+            matches!(solver, Method::Verlet)
+        );
         assert!(run.tally().stretch_ratio_max < 1.2);
         check_ledgers(&run);
     }
@@ -188,7 +180,6 @@ fn a_cut_is_told_of_though_its_step_fails() {
         panic!("{:?}", run.cuts_made());
     };
     assert_eq!(cut.report.splits as u64, run.tally().cut_splits);
-    assert!(cut.stability.expect("an explicit method").after_s < 0.0003);
     // What is held is what was held, and its copies.
     let system = run.cloth().system();
     let held: Vec<usize> = (0..system.positions().len())

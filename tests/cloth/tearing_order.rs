@@ -110,10 +110,9 @@ fn a_tear_does_not_depend_on_the_order_of_storage() {
                 one.cloth.system_mut().state_mut().0[v] = x;
                 other.cloth.system_mut().state_mut().0[there] = x;
             }
-            let (report, same) = (one.apply(0.01), other.apply(0.01));
+            let (report, same) = (one.apply(), other.apply());
             splits += report.splits;
-            let counts =
-                |r: TearReport| (r.splits, r.overstretched, r.relieved, r.refused, r.cap_hit);
+            let counts = |r: TearReport| (r.splits, r.overstretched, r.cap_hit);
             assert_eq!(counts(report), counts(same), "seed {seed}");
         }
         same_vertices(&one.mesh, &other.mesh, &corners);

@@ -81,11 +81,11 @@ impl Torn {
         }
     }
 
-    /// Tears what is due after a step of Δt. The mesh is checked.
-    pub(crate) fn apply(&mut self, dt_s: f64) -> TearReport {
+    /// Tears what is due. The mesh is checked.
+    pub(crate) fn apply(&mut self) -> TearReport {
         let report = self
             .tear
-            .apply(&mut self.mesh, &mut self.cloth, &mut self.edits, dt_s);
+            .apply(&mut self.mesh, &mut self.cloth, &mut self.edits);
         assert_eq!(self.mesh.check(), []);
         report
     }

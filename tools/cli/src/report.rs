@@ -118,19 +118,6 @@ pub(crate) struct Cut {
     angle_min_deg: f64,
     altitude_min: f64,
     tip_overshoots: Vec<f64>,
-    /// Of a cut in a simulation by an explicit method.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) stable_step_s: Option<StableStep>,
-}
-
-/// The longest stable step before a cut and after it, in seconds.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct StableStep {
-    pub(crate) before: f64,
-    pub(crate) after: f64,
-    /// The vertices, counted from 1 as in frames, of the edge that moves most in the fastest
-    /// vibration after the cut.
-    pub(crate) edge: Option<[usize; 2]>,
 }
 
 /// How a cut was made.
@@ -428,7 +415,6 @@ impl Cut {
             angle_min_deg: report.angle_min_deg,
             altitude_min: report.altitude_min,
             tip_overshoots: report.tip_overshoots.clone(),
-            stable_step_s: None,
         }
     }
 }

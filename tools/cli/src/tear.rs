@@ -2,11 +2,9 @@
 
 pub(crate) mod advice;
 mod check;
-mod cost;
 mod film;
 mod frames;
 mod points;
-mod reach;
 mod step;
 mod strength;
 mod times;
@@ -24,7 +22,6 @@ use tearmesh_cloth::scene::{Chronicle, CutMade, Frame, Region, Run, Scene, Timed
 use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::{Document, TornDocument};
 
-use self::cost::Shortened;
 use self::film::Film;
 use self::frames::Frames;
 use self::points::places;
@@ -170,7 +167,7 @@ impl Play<'_> {
         let mut chronicle = Chronicle::new(&run);
         let mut film = self.film();
         let followers = (&mut torn, &mut frames, &mut chronicle, &mut film);
-        let (ended, shortened) = self.steps(&mut run, followers, session, streams)?;
+        let ended = self.steps(&mut run, followers, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
 
@@ -220,8 +217,6 @@ impl Play<'_> {
             cache: None,
         };
         session.faults.extend(advice::after(&run));
-        let shortened = shortened.and_then(|shortened| shortened.note(&run));
-        session.faults.extend(shortened);
         session.words.push(words::simulation(&tear));
         session.words.extend(told::first_tear(&chronicle));
         session.words.push(words::balance(&run));
@@ -327,16 +322,14 @@ impl Play<'_> {
         Ok(())
     }
 
-    /// Takes all steps, or as many as can be. Tells of the first cut that made stable steps much
-    /// shorter, too.
+    /// Takes all steps, or as many as can be.
     fn steps(
         &self,
         run: &mut Run,
         (torn, frames, chronicle, film): Followers<'_, '_>,
         session: &mut Session<'_>,
         streams: &Streams<'_>,
-    ) -> Result<(Ended, Option<Shortened>), Stop> {
-        let mut shortened = None;
+    ) -> Result<Ended, Stop> {
         let bar = self.bar(run.steps_planned(), "step {pos} of {len}", streams);
         let mut ended = Ended::Done;
         frames.shoot(run, torn)?;
@@ -346,15 +339,11 @@ impl Play<'_> {
                 ended = Ended::Interrupted;
                 break;
             }
-            let (at_s, before) = (run.elapsed_s(), run.cloth().system().counters());
             let step = run.step();
             run.edits().replay(torn);
             frames.follow(run.edits());
             for cut in run.cuts_made() {
                 self.note_cut(run.scene(), cut, session);
-                let stability = cut.stability.as_ref();
-                let by_cut = stability.and_then(|steps| Shortened::by(steps, at_s, before));
-                shortened = shortened.or(by_cut);
                 torn.next_cut();
             }
             match step {
@@ -371,7 +360,7 @@ impl Play<'_> {
             bar.set_position(run.tally().steps);
         }
         bar.finish_and_clear();
-        Ok((ended, shortened))
+        Ok(ended)
     }
 
     /// Plays the scene again and again, as it began.
@@ -400,15 +389,12 @@ impl Play<'_> {
             snap: (cut.method == tearmesh::CutMethod::Exact).then_some(Scissor::SNAP),
             snap_move: (cut.method == tearmesh::CutMethod::Exact).then_some(false),
         };
-        let mut entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
-        entry.stable_step_s = made.stability.map(words::stable_step);
+        let entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
         session.report.cuts.push(entry);
         let many = (scene.cuts.len() > 1).then_some(made.number + 1);
         let at = crate::say::short(cut.at_s);
         let line = crate::cut::words::cut(many, done);
-        let stability = made.stability.as_ref().map(words::stable_steps_in_words);
-        let stability = stability.unwrap_or_default();
-        session.words.push(format!("{line} · at {at} s{stability}"));
+        session.words.push(format!("{line} · at {at} s"));
         let kind = (cut.through, cut.method == tearmesh::CutMethod::Exact);
         // The cloth has moved since, and there is no snap to choose.
         let why = Obstacle::Unknown;

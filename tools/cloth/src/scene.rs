@@ -16,7 +16,7 @@ pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{
     CutMade, EnergyGain, ImplicitStats, LimiterStats, Names, Quality, Run, RunError, RunTally,
-    Softness, StableSteps, Step, suggested_step_s,
+    Softness, Step, suggested_step_s,
 };
 
 use tearmesh::geometry::{Point, Ray, Vector, length};

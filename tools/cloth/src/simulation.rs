@@ -302,7 +302,7 @@ impl Simulation {
             return;
         };
         let Sheet { mesh, edits, .. } = &mut self.sheet;
-        tear.apply(mesh, &mut self.cloth, edits, self.step_s);
+        tear.apply(mesh, &mut self.cloth, edits);
         let time_s = self.cloth.system().elapsed_s();
         let torn = tear.torn().iter().map(|torn| Event::Tore {
             edge: torn.edge,

@@ -16,7 +16,7 @@
 //! 1. The edges at or above their threshold are found once, before anything tears: a
 //!    split alone moves nothing, so what it relieves shows in the next step, not before.
 //! 2. An end can be split where its strength does not bear the load; of two, the rule of the paper
-//!    takes the heavier. A vertex that is held cannot be, unless [`Tearing::tears_held`].
+//!    takes the heavier. A vertex that is held cannot be.
 //! 3. The worst goes first, by load over the smaller strength of its ends; ids break exact
 //!    ties, and nothing else depends on the order of storage.
 //! 4. A vertex is split at most once a step, and an edge of a vertex that was split waits for the
@@ -49,7 +49,7 @@
 //! let mut edits = Edits::new();
 //! for _ in 0..60 {
 //!     cloth.step(&mut Verlet::new(), 1.0 / 60.0)?;
-//!     let report = tear.apply(&mut mesh, &mut cloth, &mut edits, 1.0 / 60.0);
+//!     let report = tear.apply(&mut mesh, &mut cloth, &mut edits);
 //!     if report.splits > 0 {
 //!         println!("{:.3} m torn", report.tear_length_m);
 //!     }
@@ -60,7 +60,6 @@
 //! ```
 
 mod apply;
-mod follow;
 mod load;
 
 pub use apply::{Tear, TearReport};
@@ -121,24 +120,17 @@ pub struct Tearing {
     /// rest), until it is split itself. A tear then continues where it is instead of starting
     /// elsewhere. `None` for tips that are as strong as before.
     pub weakening: Option<f64>,
-    /// The time in seconds for which an edge must stay at or above its threshold before it tears; 0
-    /// for tearing at once.
-    pub delay_s: f64,
-    /// Whether held vertices may be split. Their copies are held too.
-    pub tears_held: bool,
 }
 
 impl Tearing {
-    /// Returns rules with this threshold as in the paper: edges tear at once, without a cap,
-    /// without weakened tips, and held vertices are not split.
+    /// Returns rules with this threshold as in the paper: without a cap, and without weakened
+    /// tips.
     #[must_use]
     pub fn new(threshold: Threshold) -> Tearing {
         Tearing {
             threshold,
             splits_per_step_max: None,
             weakening: None,
-            delay_s: 0.0,
-            tears_held: false,
         }
     }
 
@@ -170,11 +162,6 @@ impl Tearing {
             && !(given > 0.0 && given <= 1.0)
         {
             return Err(TearingError::Weakening { given });
-        }
-        if !(self.delay_s >= 0.0 && self.delay_s.is_finite()) {
-            return Err(TearingError::Delay {
-                given: self.delay_s,
-            });
         }
         Ok(())
     }
@@ -208,11 +195,6 @@ pub enum TearingError {
         /// The factor that was given.
         given: f64,
     },
-    /// The delay is negative or not finite.
-    Delay {
-        /// The delay that was given, in seconds.
-        given: f64,
-    },
     /// The number of strengths differs from the number of vertices.
     Strengths {
         /// The number of strengths.
@@ -244,9 +226,6 @@ impl fmt::Display for TearingError {
             }
             TearingError::Weakening { given } => {
                 write!(f, "a weakening by {given} is not above 0 and at most 1")
-            }
-            TearingError::Delay { given } => {
-                write!(f, "a delay of {given} s is negative or not finite")
             }
             TearingError::Strengths { given, vertices } => {
                 write!(f, "there are {given} strengths for {vertices} vertices")

@@ -128,7 +128,7 @@ impl Torn {
         for _ in 0..STEPS {
             self.cloth.step(solver, step_s).expect("a step");
             let (mesh, cloth) = (&mut self.mesh, &mut self.cloth);
-            let report = self.tear.apply(mesh, cloth, &mut self.edits, step_s);
+            let report = self.tear.apply(mesh, cloth, &mut self.edits);
             assert_eq!(report.splits, 0, "nothing tears");
         }
     }

@@ -269,8 +269,6 @@ impl SceneFile {
             }
             tearing.weakening = (weakening < 1.0).then_some(weakening);
         }
-        tearing.delay_s = table.number("delay_s").unwrap_or(0.0);
-        tearing.tears_held = table.bool("tears_held").unwrap_or(false);
         Ok(Some(tearing))
     }
 

@@ -103,15 +103,27 @@ const METHODS: &[&str] = &["provot", "pbd", "verlet", "xpbd", "implicit"];
 const CUTS: &[&str] = &["exact", "partition", "uniform", "alternating"];
 
 /// Keys that scene files once had, by table, and what to do without them.
-pub(crate) const REMOVED: [(&str, &str, &str); 1] = [(
-    "solver",
-    "newton_iterations",
-    "leave it out; a shorter `dt_s` makes implicit steps more exact",
-)];
+pub(crate) const REMOVED: [(&str, &str, &str); 3] = [
+    (
+        "solver",
+        "newton_iterations",
+        "leave it out; a shorter `dt_s` makes implicit steps more exact",
+    ),
+    (
+        "tear",
+        "delay_s",
+        "leave it out; an edge tears in the step in which it reaches its threshold",
+    ),
+    (
+        "tear",
+        "tears_held",
+        "leave it out; held vertices do not tear",
+    ),
+];
 
 /// All keys, table by table.
 #[rustfmt::skip]
-pub(crate) const KEYS: [Key; 73] = [
+pub(crate) const KEYS: [Key; 71] = [
     key("", "base", Kind::Word(&NAMES), "the scene to start from; fall: nothing is held"),
     key("", "seconds", Kind::NotNegative, "how long; of the base, fall 2"),
     key("", "up", Kind::Word(&AXES), "which way is up; y"),
@@ -180,8 +192,6 @@ pub(crate) const KEYS: [Key; 73] = [
     key("tear", "warp", Kind::Vector, "the direction of the warp at rest; up"),
     key("tear", "splits_per_step", Kind::Count, "at most, worst first; no limit"),
     key("tear", "weakening", Kind::Part, "what is left of the strength at the tips of a tear, above 0; 1"),
-    key("tear", "delay_s", Kind::NotNegative, "how long an edge is too long before it tears; 0"),
-    key("tear", "tears_held", Kind::Bool, "whether held vertices tear too; false"),
 
     key("strength", "factor", Kind::Positive, "required: how many times the threshold vertices bear"),
     key("strength", "near", Kind::Pair, "a place in parts of width and height: the nearest vertex"),

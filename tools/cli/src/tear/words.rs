@@ -1,7 +1,7 @@
 //! What is said of a simulation.
 
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Method, Quality, Run, StableSteps};
+use tearmesh_cloth::scene::{Method, Quality, Run};
 use tearmesh_cloth::{BlowUpSite, StepError};
 
 use crate::report;
@@ -29,22 +29,6 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
         count(tear.pieces, "piece", "pieces"),
         short(tear.max_stretch),
     )
-}
-
-/// What a cut did to the steps of an explicit method.
-pub(super) fn stable_steps_in_words(stability: &StableSteps) -> String {
-    let [before, after] = [stability.before_s, stability.after_s].map(two_digits);
-    let at = stability.ends.map(edge).unwrap_or_default();
-    format!(" · stable steps {before} s -> {after} s{at}")
-}
-
-/// What a cut did to the steps of an explicit method, for the report.
-pub(super) fn stable_step(stability: StableSteps) -> report::StableStep {
-    report::StableStep {
-        before: stability.before_s,
-        after: stability.after_s,
-        edge: stability.ends.map(|ends| ends.map(|end| end + 1)),
-    }
 }
 
 /// Whether Provot's limiter has worked. Its work grows without bound as steps get shorter, on what is

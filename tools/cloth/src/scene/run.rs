@@ -30,8 +30,7 @@ use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::load::{Collider, Loads};
 use crate::sheet::{Cloth, ClothError};
-use crate::solver::{Solver, StepError};
-use crate::stability;
+use crate::solver::StepError;
 use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport, Tearing};
 
@@ -107,21 +106,6 @@ pub struct CutMade {
     pub number: usize,
     /// The report of the changes to the mesh.
     pub report: CutReport,
-    /// The longest stable step of Provot's method before the cut and after it, which slivers
-    /// shorten. `None` for other methods; with Verlet, neighbours carry slivers.
-    pub stability: Option<StableSteps>,
-}
-
-/// The longest stable step of an explicit method before a cut and after it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StableSteps {
-    /// The longest stable step before the cut, in seconds.
-    pub before_s: f64,
-    /// The longest stable step after the cut, in seconds.
-    pub after_s: f64,
-    /// The vertices of the constraint with the most energy in the fastest vibration after the cut;
-    /// `None` if it could not be measured.
-    pub ends: Option<[usize; 2]>,
 }
 
 impl Run {
@@ -364,7 +348,6 @@ impl Run {
                 break;
             }
             let before = momentum(&self.cloth);
-            let step_before_s = self.stable_step_s();
             let mut positions = self.places()?;
             let scissor = &self.scissors[self.next_cut];
             let made =
@@ -376,32 +359,13 @@ impl Run {
             }
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
-            let stability = step_before_s.map(|before_s| self.stable_steps(before_s));
             self.cuts_made.push(CutMade {
                 number: self.next_cut,
                 report,
-                stability,
             });
             self.next_cut += 1;
         }
         Ok(())
-    }
-
-    /// The longest stable step of an explicit method.
-    fn stable_step_s(&mut self) -> Option<f64> {
-        let abilities = self.engine.abilities();
-        abilities
-            .frequency_limit
-            .filter(|_| !abilities.carries_light)?;
-        stability::whole_step_s(self.cloth.system_mut(), &self.engine)
-    }
-
-    fn stable_steps(&mut self, before_s: f64) -> StableSteps {
-        StableSteps {
-            before_s,
-            after_s: self.stable_step_s().unwrap_or(before_s),
-            ends: stability::frequency_bound(self.cloth.system_mut()).ends,
-        }
     }
 
     /// Where the vertices are, for the scissor.
@@ -432,7 +396,7 @@ impl Run {
     fn tear_overstretched(&mut self) -> Option<TearReport> {
         let tear = self.tear.as_mut()?;
         let (mesh, cloth, edits) = (&mut self.mesh, &mut self.cloth, &mut self.edits);
-        let found = tear.find(mesh, cloth, edits, self.step_s);
+        let found = tear.find(mesh, cloth, edits);
         if found.overstretched == 0 {
             return Some(found);
         }

@@ -1,7 +1,7 @@
 //! The state of a cloth that tears, and one step of it.
 
 use tearmesh::geometry::{Plane, Vector, dot, length};
-use tearmesh::{Cursor, Edits, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
+use tearmesh::{Cursor, Edit, Edits, Follower, HalfEdgeId, Mesh, PerVertex, VertexId, split, tear};
 
 use super::load::{find_stretched, strain};
 use super::{Tearing, TearingError};
@@ -10,24 +10,19 @@ use crate::force;
 use crate::sheet::Cloth;
 use crate::system::{Family, Recorded};
 
-/// The state of tearing of a cloth: the strength of each vertex, and how long each edge has been
-/// overloaded.
+/// The state of tearing of a cloth: the strength of each vertex, and the tips of its tears.
 ///
 /// It is a follower of the log. Edits between two steps, such as cuts, are replayed by
 /// `edits.replay(&mut (&mut cloth, &mut tear))`, or by the next [`Tear::apply`].
 #[derive(Clone, Debug)]
 pub struct Tear {
     tearing: Tearing,
-    pub(super) strengths: PerVertex<f64>,
+    strengths: PerVertex<f64>,
     /// Where a tear may run on, and the direction across it at rest: zero for vertices that are no
     /// tips.
-    pub(super) tips: PerVertex<Vector>,
+    tips: PerVertex<Vector>,
     /// Whether there ever was one.
     has_tips: bool,
-    /// By half-edge.
-    pub(super) clocks: Vec<Clock>,
-    /// The number of this step, for clocks.
-    pub(super) now: u64,
     /// From where on an edge may tear, with what that depends on: the number of changes of the
     /// system, and what its method records.
     bound: Option<((u64, Recorded), Option<f64>)>,
@@ -35,43 +30,11 @@ pub struct Tear {
     candidates: Vec<HalfEdgeId>,
     due: Vec<Due>,
     torn: Vec<Torn>,
-    pub(super) seen: Cursor,
+    seen: Cursor,
     /// The far ends of the links that a split tore.
     ahead: Vec<VertexId>,
     /// By vertex: whether it was split in this step.
     is_fresh: Vec<bool>,
-}
-
-/// How long an edge has been above its threshold.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Clock {
-    /// Since it was first found there.
-    seconds: f64,
-    /// The step that found it there last.
-    at: u64,
-}
-
-impl Clock {
-    /// That of an edge below its threshold.
-    pub(super) const BELOW: Clock = Clock {
-        seconds: f64::NEG_INFINITY,
-        at: 0,
-    };
-
-    /// This clock one step later. A clock that did not advance in the previous step starts again.
-    fn by(self, now: u64) -> Clock {
-        if self.at == now { self } else { Clock::BELOW }
-    }
-
-    /// The one of two that has run longer, both as of this step.
-    pub(super) fn longer(self, other: Clock, now: u64) -> Clock {
-        let [one, other] = [self, other].map(|clock| clock.by(now));
-        if other.seconds > one.seconds {
-            other
-        } else {
-            one
-        }
-    }
 }
 
 /// An edge that may tear in this step.
@@ -100,22 +63,11 @@ pub struct TearReport {
     /// The number of overloaded edges before the step: those with a load of at least the smaller
     /// strength of their ends.
     pub overstretched: usize,
-    /// The number of overloaded edges whose delay is not over yet.
-    pub waiting: usize,
-    /// The number of further overloaded edges that were relieved by a split at one of their ends.
-    pub relieved: usize,
-    /// The number of overloaded edges neither of whose ends can be split, because each is held,
-    /// bears the load, or has all faces on one side.
-    pub refused: usize,
     /// Whether the cap on splits left an edge that would have torn.
     pub cap_hit: bool,
     /// The overloaded edge with the largest load divided by strength, and that quotient, which is 1
     /// or more. `None` if no edge was overloaded.
     pub worst: Option<(HalfEdgeId, f64)>,
-    /// The elastic energy that the splits removed, in joules, by the cloth's ledger: that of bend
-    /// constraints across the tear. It is negative if full-stiffness copies by the paper's rule
-    /// made energy, and 0 with halved copies and no bending.
-    pub energy_released_j: f64,
     /// The elastic energy of the edges that tore, in joules, which turns into motion.
     pub edge_energy_j: f64,
     /// The total rest length of the edges that came apart, in metres.
@@ -137,8 +89,6 @@ impl Tear {
             tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(seen),
             seen,
             has_tips: false,
-            clocks: vec![Clock::BELOW; cloth.indices().len()],
-            now: 0,
             bound: None,
             candidates: Vec::new(),
             due: Vec::new(),
@@ -212,27 +162,8 @@ impl Tear {
         }
     }
 
-    /// Returns the edge with the largest load divided by strength, and that quotient; at 1 or more
-    /// the edge tears. `None` if no edge is stretched. Takes linear time; [`TearReport::worst`] is
-    /// cheaper, but covers overloaded edges only.
-    ///
-    /// # Panics
-    ///
-    /// If the cloth or this state is not in step with the mesh.
-    #[must_use]
-    pub fn worst(&self, mesh: &Mesh, cloth: &Cloth) -> Option<(HalfEdgeId, f64)> {
-        let severity = |edge| {
-            let load = self.tearing.threshold.edge_load(mesh, cloth, edge)?;
-            let severity = self.severity(mesh, cloth, edge, load);
-            (severity > 0.0).then_some((edge, severity))
-        };
-        let edges = mesh.edges().filter_map(severity);
-        edges.reduce(|worst, other| if other.1 > worst.1 { other } else { worst })
-    }
-
-    /// Tears the edges that are overstretched now, after a step of `dt_s` seconds. The mesh and the
-    /// log advance, and the cloth and this state follow them. Other followers can replay the log
-    /// later.
+    /// Tears the edges that are overstretched now. The mesh and the log advance, and the cloth and
+    /// this state follow them. Other followers can replay the log later.
     ///
     /// Edits that are already in the log are replayed first. The cost is a pass over edges, and a
     /// walk round the ends of each overstretched edge. With
@@ -242,28 +173,16 @@ impl Tear {
     ///
     /// If the cloth or this state is not in step with the mesh, or edits that they have not seen
     /// were cleared from the log.
-    pub fn apply(
-        &mut self,
-        mesh: &mut Mesh,
-        cloth: &mut Cloth,
-        edits: &mut Edits,
-        dt_s: f64,
-    ) -> TearReport {
-        let report = self.find(mesh, cloth, edits, dt_s);
+    pub fn apply(&mut self, mesh: &mut Mesh, cloth: &mut Cloth, edits: &mut Edits) -> TearReport {
+        let report = self.find(mesh, cloth, edits);
         self.tear(mesh, cloth, edits, report)
     }
 
     /// The first half of [`apply`](Tear::apply): finds what is overstretched, and changes nothing.
-    pub(crate) fn find(
-        &mut self,
-        mesh: &Mesh,
-        cloth: &mut Cloth,
-        edits: &Edits,
-        dt_s: f64,
-    ) -> TearReport {
+    pub(crate) fn find(&mut self, mesh: &Mesh, cloth: &mut Cloth, edits: &Edits) -> TearReport {
         edits.replay(&mut (&mut *cloth, &mut *self));
         self.look(mesh, cloth);
-        self.judge(mesh, cloth, dt_s)
+        self.judge(mesh, cloth)
     }
 
     /// The other half: tears what was found.
@@ -280,18 +199,15 @@ impl Tear {
         }
         self.is_fresh.clear();
         self.is_fresh.resize(mesh.vertex_count(), false);
-        let energy = cloth.ledger().split_elastic_j;
         let cap = self.tearing.splits_per_step_max.unwrap_or(usize::MAX);
         let due = std::mem::take(&mut self.due);
         for due in &due {
             let ends = [mesh.origin(due.edge), mesh.target(due.edge)];
             // Among them are the edges that came apart: two lips now, for the next step to judge.
             if ends.iter().any(|v| self.is_fresh[v.index()]) {
-                report.relieved += 1;
                 continue;
             }
             let Some(candidate) = self.candidate(mesh, cloth, due) else {
-                report.refused += 1;
                 continue;
             };
             if report.splits >= cap {
@@ -310,7 +226,6 @@ impl Tear {
             report.splits += 1;
         }
         self.due = due;
-        report.energy_released_j = energy - cloth.ledger().split_elastic_j;
         report
     }
 
@@ -341,11 +256,10 @@ impl Tear {
         }
     }
 
-    /// Finds those of the candidates that tear, the worst first, and advances clocks.
-    fn judge(&mut self, mesh: &Mesh, cloth: &Cloth, dt_s: f64) -> TearReport {
+    /// Finds those of the candidates that tear, the worst first.
+    fn judge(&mut self, mesh: &Mesh, cloth: &Cloth) -> TearReport {
         let mut report = TearReport::default();
         self.due.clear();
-        self.now += 1;
         let candidates = std::mem::take(&mut self.candidates);
         for &edge in &candidates {
             let Some(load) = self.tearing.threshold.edge_load(mesh, cloth, edge) else {
@@ -363,15 +277,11 @@ impl Tear {
             if report.worst.is_none_or(is_worse) {
                 report.worst = Some((edge, severity));
             }
-            if self.tearing.delay_s > 0.0 && self.waits(mesh, edge, dt_s) {
-                report.waiting += 1;
-            } else {
-                self.due.push(Due {
-                    edge,
-                    load,
-                    severity,
-                });
-            }
+            self.due.push(Due {
+                edge,
+                load,
+                severity,
+            });
         }
         self.candidates = candidates;
         let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
@@ -398,26 +308,12 @@ impl Tear {
         }
     }
 
-    /// Advances the clock of an edge over its threshold; whether it has to wait.
-    fn waits(&mut self, mesh: &Mesh, edge: HalfEdgeId, dt_s: f64) -> bool {
-        let before = self.clocks[edge.index()].by(self.now - 1);
-        let seconds = (before.seconds + dt_s).max(0.0);
-        for h in [Some(edge), mesh.pair(edge)].into_iter().flatten() {
-            self.clocks[h.index()] = Clock {
-                seconds,
-                at: self.now,
-            };
-        }
-        seconds < self.tearing.delay_s
-    }
-
     /// The vertex that the rule splits, of those that do not bear the load.
     fn candidate(&self, mesh: &Mesh, cloth: &Cloth, due: &Due) -> Option<(VertexId, Plane)> {
         let along = at_rest(mesh, cloth, due.edge);
         let mass = |v: VertexId| {
-            let free = self.tearing.tears_held || !cloth.system().is_held(v.index());
             let bears = due.load < self.strength_along(v, along);
-            (free && !bears).then(|| cloth.masses().at(v))
+            cloth.free_mass(v).filter(|_| !bears)
         };
         tear::candidate(mesh, due.edge, cloth, mass)
     }
@@ -453,6 +349,22 @@ impl Tear {
             self.has_tips = true;
         }
         length_m
+    }
+}
+
+impl Follower for Tear {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        edit.pass_on(&mut self.strengths);
+        edit.pass_on(&mut self.tips);
+        // The tear has gone through the vertex, which is a tip no more.
+        if let Edit::Split(split) = edit {
+            *self.tips.at_mut(split.old) = Vector::zeros();
+            *self.tips.at_mut(split.new) = Vector::zeros();
+        }
     }
 }
 
