@@ -4,7 +4,8 @@
 use std::num::NonZero;
 
 use tearmesh::Vector;
-use tearmesh_cloth::scene::{Chronicle, HeldVertices, Method, Run, Scene};
+use tearmesh_cloth::Method;
+use tearmesh_cloth::scene::{Chronicle, HeldVertices, Run, Scene};
 
 use crate::parts::scenes::{methods, play, staged};
 

@@ -5,8 +5,9 @@ mod sheets;
 mod table;
 
 use tearmesh::Vector;
+use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::Method as Formula;
-use tearmesh_cloth::scene::{Axis, Method, Scene};
+use tearmesh_cloth::scene::{Axis, Scene};
 use tearmesh_cloth::{Loads, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s};
 
 use self::sheets::{ORDERS, Sheet};

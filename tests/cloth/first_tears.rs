@@ -1,6 +1,7 @@
 //! When and where a cloth tears first, by every method and every kind of threshold.
 
-use tearmesh_cloth::scene::{Method, Scene};
+use tearmesh_cloth::Method;
+use tearmesh_cloth::scene::Scene;
 use tearmesh_cloth::{Tearing, Threshold, Xpbd};
 
 use crate::parts::scenes::{methods, staged};

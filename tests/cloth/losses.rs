@@ -1,8 +1,9 @@
 //! What is stored, put in and lost, method by method, against answers on paper.
 
 use tearmesh::{Point, Vector};
+use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::{self, Settings};
-use tearmesh_cloth::scene::{HeldVertices, Method, Region, Scene};
+use tearmesh_cloth::scene::{HeldVertices, Region, Scene};
 use tearmesh_cloth::{Balance, Implicit, Loads, Path, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
 use crate::parts::scenes::{play, staged};

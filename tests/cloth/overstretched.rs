@@ -191,7 +191,8 @@ fn xpbd_tears_a_chain_by_the_weight_that_hangs_from_it() {
 /// A scene that never tears pays for no search, and one that may tear for one pass a step.
 #[test]
 fn a_run_that_never_tears_detects_nothing() {
-    use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
+    use tearmesh_cloth::Method;
+    use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 
     let visits = |solver: Method, tearing: Option<Tearing>| {
         let (mesh, positions) = shapes::grid(8, 8);

@@ -4,12 +4,12 @@
 use tearmesh::{Plane, Point, Ray, Vector, VertexId, shapes};
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{
-    Axis, Frame, HeldVertices, Method, Names, Quality, Region, Run, RunError, Scene, SwayingWind,
-    TimedCut,
+    Axis, Frame, HeldVertices, Names, Region, Run, RunError, Scene, SwayingWind, TimedCut,
 };
 use tearmesh_cloth::{
     Collider, Limiter, Path, Pbd, StepError, Tearing, Threshold, Wind, Xpbd, energy, force,
 };
+use tearmesh_cloth::{Method, Quality};
 
 use crate::parts::scenes::{methods, play, square, staged};
 

@@ -7,7 +7,7 @@ use tearmesh::geometry::length;
 use tearmesh::{
     CutMethod, Edits, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, VertexId, shapes,
 };
-use tearmesh_cloth::scene::Method;
+use tearmesh_cloth::Method;
 use tearmesh_cloth::{
     ClothError, CutId, Event, Fabric, InputError, Loads, Simulation, SimulationDef,
     SimulationError, StepError, Tearing, Unstable, Wounds,

@@ -1,8 +1,9 @@
 //! Scenes that play on a square metre.
 
 use tearmesh::{Mesh, Positions, shapes};
+use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::Settings;
-use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Limiter, Pbd, Xpbd};
 
 /// A square of one metre with `cells` cells per side and alternating diagonals.

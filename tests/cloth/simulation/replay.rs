@@ -8,7 +8,7 @@ use proptest::test_runner::Config;
 
 use tearmesh::geometry::length;
 use tearmesh::{Plane, Point, Scissor, Vector, VertexId, shapes};
-use tearmesh_cloth::scene::Method;
+use tearmesh_cloth::Method;
 use tearmesh_cloth::{
     CutId, Event, Fabric, HandId, InputLog, LogError, ReplayError, Simulation, SimulationDef,
     Tearing, Threshold, Unstable, Wounds,

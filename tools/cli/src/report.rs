@@ -289,7 +289,7 @@ pub(crate) struct EnergyGain {
     pub(crate) put_in_j: Option<f64>,
 }
 
-/// What the method says of its own steps; see [`tearmesh_cloth::scene::Quality`].
+/// What the method says of its own steps; see [`tearmesh_cloth::Quality`].
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Quality {

@@ -14,24 +14,14 @@ mod run;
 
 pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
-pub use run::{
-    CutMade, EnergyGain, ImplicitStats, LimiterStats, Names, Quality, Run, RunError, RunTally,
-    Softness, Step, suggested_step_s,
-};
+pub use run::{CutMade, EnergyGain, Names, Run, RunError, RunTally, Step};
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, VertexId};
 
 use crate::fabric::Fabric;
-use crate::implicit::Settings;
 use crate::load::{Collider, Wind};
-use crate::pbd::Pbd;
-use crate::provot::Limiter;
-use crate::xpbd::Xpbd;
-
-/// The duration of a frame of film or screen, in seconds. Steps that a run chooses are whole
-/// fractions of it, forces are means over it, and the energy balance is checked once per frame.
-pub const FRAME_S: f64 = 1.0 / 60.0;
+use crate::method::Method;
 
 /// The plan of a simulation: the fabric, the method, and the timed events.
 #[derive(Clone, Debug)]
@@ -64,54 +54,6 @@ pub struct Scene {
     /// Regions with a strength, as a multiple of the tearing threshold. The strength is 1
     /// elsewhere. If regions overlap, the last one counts.
     pub strengths: Vec<(Region, f64)>,
-}
-
-/// A method that advances a cloth, with its settings.
-#[derive(Clone, Debug)]
-pub enum Method {
-    /// Provot's mass-spring model with its limiter ([`Provot`](crate::Provot)). The tearing rule
-    /// uses lengths before the limiter changes them.
-    Provot(Limiter),
-    /// Position based dynamics ([`Pbd`]).
-    Pbd(Pbd),
-    /// Velocity Verlet with guards ([`Verlet`](crate::Verlet)). This is the default, and exact at
-    /// rest at every step.
-    Verlet,
-    /// Extended position based dynamics ([`Xpbd`]).
-    Xpbd(Xpbd),
-    /// An implicit method ([`Implicit`](crate::Implicit)).
-    Implicit(Settings),
-}
-
-impl Method {
-    /// Returns Provot's model with the settings that scenes use by default.
-    #[must_use]
-    pub fn provot() -> Method {
-        Method::Provot(Limiter::default())
-    }
-
-    /// Returns [`Pbd`] with the settings that scenes use by default.
-    #[must_use]
-    pub fn pbd() -> Method {
-        Method::Pbd(Pbd::default())
-    }
-
-    /// Returns [`Xpbd`] with the settings that scenes use by default. A step is one sweep, so that
-    /// the cloth can tear after each sweep.
-    #[must_use]
-    pub fn xpbd() -> Method {
-        Method::Xpbd(Xpbd::new(1, 1))
-    }
-
-    /// Returns [`Implicit`](crate::Implicit) with the settings that scenes use by default: an error
-    /// of at most 0.2 mm/s in a step of 1/240 s.
-    #[must_use]
-    pub fn implicit() -> Method {
-        Method::Implicit(Settings {
-            tolerance: 10.0,
-            ..Settings::default()
-        })
-    }
 }
 
 /// Wind whose velocity may sway: u(t) = steady + sway · triangle(t / period). The triangle wave

@@ -36,9 +36,10 @@ use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
-use crate::scene::suggested_step_s;
+use crate::method::MethodSolver;
 use crate::sheet::Cloth;
-use crate::solver::{Solver, StepError};
+use crate::solver::StepError;
+use crate::step_length::{speed_m_per_s, suggested_step_s};
 use crate::tearing::Tear;
 
 /// A cloth with its mesh, in motion.
@@ -72,7 +73,7 @@ pub struct Simulation {
     sheet: Sheet,
     cloth: Cloth,
     tear: Option<Tear>,
-    solver: Box<dyn Solver + Send + Sync>,
+    solver: MethodSolver,
     step_s: f64,
     steps: u64,
     /// The time that was asked for and is not simulated, up to half a step either way.
@@ -109,7 +110,7 @@ impl Simulation {
         let masses = sheet.masses.clone();
         let cloth = Cloth::new(mesh, &sheet.positions, masses, def.fabric);
         let mut cloth = cloth.map_err(SimulationError::Cloth)?;
-        let solver = def.solver();
+        let solver = MethodSolver::new(&def.method);
         let mut strengths = def.strengths;
         if strengths.is_empty() {
             strengths.resize(mesh.vertex_count(), 1.0);
@@ -127,7 +128,7 @@ impl Simulation {
             .set_loads(def.loads)
             .map_err(SimulationError::Loads)?;
         system.when_unstable(def.when_unstable);
-        let speed_m_per_s = (def.fabric.stretch_n_per_m / def.density_kg_per_m2).sqrt();
+        let speed_m_per_s = speed_m_per_s(&def.fabric, def.density_kg_per_m2);
         let step_s = def.step_s;
         let step_s = step_s.unwrap_or_else(|| suggested_step_s(&def.method, system, speed_m_per_s));
         if !(step_s > 0.0 && step_s.is_finite()) {
@@ -287,7 +288,7 @@ impl Simulation {
     }
 
     fn step(&mut self) -> Result<(), StepError> {
-        self.cloth.step(&mut *self.solver, self.step_s)?;
+        self.cloth.step(&mut self.solver, self.step_s)?;
         self.steps += 1;
         if let Some(log) = &mut self.log {
             log.steps = self.steps;

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 use tearmesh_cloth::implicit::{self, Settings};
-use tearmesh_cloth::scene;
 use tearmesh_cloth::{
     Implicit, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
 };
@@ -156,19 +155,19 @@ impl Method {
 
     /// Returns the method as scenes have it; `None` for methods of the lab alone.
     #[must_use]
-    pub fn settings(&self) -> Option<scene::Method> {
+    pub fn settings(&self) -> Option<tearmesh_cloth::Method> {
         let implicit = |method| {
-            scene::Method::Implicit(Settings {
+            tearmesh_cloth::Method::Implicit(Settings {
                 method,
                 tolerance: self.setting.into(),
                 ..Settings::default()
             })
         };
         Some(match self.family {
-            Family::Verlet => scene::Method::Verlet,
-            Family::Provot => scene::Method::provot(),
-            Family::Pbd => scene::Method::Pbd(Pbd::new(self.setting)),
-            Family::Xpbd => scene::Method::Xpbd(Xpbd::new(1, self.setting)),
+            Family::Verlet => tearmesh_cloth::Method::Verlet,
+            Family::Provot => tearmesh_cloth::Method::provot(),
+            Family::Pbd => tearmesh_cloth::Method::Pbd(Pbd::new(self.setting)),
+            Family::Xpbd => tearmesh_cloth::Method::Xpbd(Xpbd::new(1, self.setting)),
             Family::BackwardEuler => implicit(implicit::Method::BackwardEuler),
             Family::Bdf2 => implicit(implicit::Method::Bdf2),
             Family::PlainVerlet | Family::Rk4 | Family::SymplecticEuler => return None,
@@ -179,11 +178,11 @@ impl Method {
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
         match self.settings() {
-            Some(scene::Method::Verlet) => Box::new(Verlet::new()),
-            Some(scene::Method::Provot(limiter)) => Box::new(Provot::new(limiter)),
-            Some(scene::Method::Pbd(pbd)) => Box::new(pbd),
-            Some(scene::Method::Xpbd(xpbd)) => Box::new(xpbd),
-            Some(scene::Method::Implicit(settings)) => Box::new(Implicit::new(settings)),
+            Some(tearmesh_cloth::Method::Verlet) => Box::new(Verlet::new()),
+            Some(tearmesh_cloth::Method::Provot(limiter)) => Box::new(Provot::new(limiter)),
+            Some(tearmesh_cloth::Method::Pbd(pbd)) => Box::new(pbd),
+            Some(tearmesh_cloth::Method::Xpbd(xpbd)) => Box::new(xpbd),
+            Some(tearmesh_cloth::Method::Implicit(settings)) => Box::new(Implicit::new(settings)),
             None if self.family == Family::Rk4 => Box::new(Rk4::new()),
             None if self.family == Family::PlainVerlet => Box::new(Verlet::plain()),
             None => Box::new(Provot::unlimited()),
@@ -234,11 +233,11 @@ mod tests {
     #[test]
     fn defaults_are_those_of_scenes() {
         let of_scenes = [
-            scene::Method::Verlet,
-            scene::Method::xpbd(),
-            scene::Method::implicit(),
-            scene::Method::pbd(),
-            scene::Method::provot(),
+            tearmesh_cloth::Method::Verlet,
+            tearmesh_cloth::Method::xpbd(),
+            tearmesh_cloth::Method::implicit(),
+            tearmesh_cloth::Method::pbd(),
+            tearmesh_cloth::Method::provot(),
         ];
         for (method, known) in DEFAULTS.iter().zip(of_scenes) {
             let settings = method.settings().expect("scenes have it");

@@ -2,7 +2,8 @@
 //! paper's rip takes of real time: of ours alone.
 
 use tearmesh::{Edits, Mesh, shapes};
-use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh_cloth::Method;
 use tearmesh_cloth::{Cloth, Pbd, Solver, Tear, Tearing, Verlet, Xpbd};
 
 use crate::measure::{median, timed_on_cpu};

@@ -1,6 +1,7 @@
 //! What `[fabric]` says: its weight, and what resists stretch and bending.
 
-use tearmesh_cloth::scene::{Frame, Method, Scene};
+use tearmesh_cloth::Method;
+use tearmesh_cloth::scene::{Frame, Scene};
 use tearmesh_cloth::{Bending, Buckling, Copies, Unbend, Weave};
 
 use super::file::{SceneFile, Table};

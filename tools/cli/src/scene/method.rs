@@ -1,8 +1,9 @@
 //! What `[solver]` says, and the methods with their defaults.
 
 use clap::ValueEnum;
+use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::{self, Settings};
-use tearmesh_cloth::scene::{Method, Scene};
+use tearmesh_cloth::scene::Scene;
 use tearmesh_cloth::{Limiter, Pbd};
 
 use super::file::{SceneFile, Table};

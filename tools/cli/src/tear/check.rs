@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
-use tearmesh_cloth::scene::{Frame, Method, Run, RunError, Scene, Softness, TimedCut};
+use tearmesh_cloth::scene::{Frame, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency_bound};
+use tearmesh_cloth::{Method, Softness};
 
 use super::words::two_digits;
 use crate::args::TearArgs;

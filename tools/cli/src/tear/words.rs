@@ -1,8 +1,9 @@
 //! What is said of a simulation.
 
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Method, Quality, Run};
+use tearmesh_cloth::scene::Run;
 use tearmesh_cloth::{BlowUpSite, StepError};
+use tearmesh_cloth::{Method, Quality};
 
 use crate::report;
 use crate::say::{Fault, count, short};

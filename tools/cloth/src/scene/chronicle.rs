@@ -5,10 +5,12 @@ use std::collections::VecDeque;
 use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
 
+use super::HeldVertices;
 use super::run::{Run, Step};
-use super::{FRAME_S, HeldVertices, Method};
 use crate::balance::AIR_S;
 use crate::force;
+use crate::method::Method;
+use crate::step_length::FRAME_S;
 
 /// A step in which something tore.
 #[derive(Clone, Copy, Debug, PartialEq)]

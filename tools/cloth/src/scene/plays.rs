@@ -2,9 +2,10 @@
 
 use tearmesh::geometry::{Ray, Vector};
 
-use super::{Axis, Frame, HeldVertices, Method, Region, Scene, SwayingWind, TimedCut};
+use super::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
 use crate::fabric::Fabric;
 use crate::load::Wind;
+use crate::method::Method;
 use crate::{Tearing, Threshold};
 
 impl Scene {

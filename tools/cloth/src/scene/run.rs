@@ -5,32 +5,28 @@
 //! too far; whoever else follows the mesh replays [`Run::edits`] after it. Times of a scene are
 //! rounded to whole steps. Nothing here reads a clock, so the same scene gives the same bytes.
 
-mod engine;
 mod error;
 mod gain;
 mod held;
-mod quality;
-mod step_size;
 
 pub use self::error::{Names, RunError};
 pub use self::gain::EnergyGain;
-pub use self::quality::{ImplicitStats, LimiterStats, Quality};
-pub use self::step_size::{Softness, suggested_step_s};
 
 use std::num::NonZero;
 
 use tearmesh::geometry::{Vector, dot, length};
 use tearmesh::{CutReport, Edits, Masses, Mesh, PositionError, Positions, Scissor, VertexId};
 
-use self::engine::Engine;
 use self::gain::Watch;
 use self::held::Held;
 use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::load::{Collider, Loads};
+use crate::method::{MethodSolver, Quality};
 use crate::sheet::{Cloth, ClothError};
-use crate::solver::StepError;
+use crate::solver::{Solver, StepError};
+use crate::step_length::{self, Softness, speed_m_per_s, suggested_step_s};
 use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport, Tearing};
 
@@ -55,7 +51,7 @@ pub struct Run {
     mesh: Mesh,
     cloth: Cloth,
     edits: Edits,
-    engine: Engine,
+    engine: MethodSolver,
     tear: Option<Tear>,
     held: Vec<Held>,
     scissors: Vec<Scissor>,
@@ -168,13 +164,13 @@ impl Run {
             Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
             None => None,
         };
-        let engine = Engine::new(&scene.solver);
+        let engine = MethodSolver::new(&scene.solver);
         let step_s = match scene.step_s {
             Some(step_s) => step_s,
             None => suggested_step_s(
                 &scene.solver,
                 cloth.system_mut(),
-                step_size::speed_m_per_s(&scene),
+                speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2),
             ),
         };
         let duration_s = scene.duration_s;
@@ -262,6 +258,37 @@ impl Run {
         self.steps_planned = self.steps_planned.saturating_mul(parts.get().into());
         assert!(self.steps_planned <= Run::STEPS_MAX, "steps can be counted");
         self.watch = Watch::new(self.cloth.system(), self.step_s);
+        self
+    }
+
+    /// Has a solver of the caller's take the steps of a run that has not begun, in place of the
+    /// method of the scene. The step is still the scene's: [`Scene::step_s`], or one that suits its
+    /// method. [`Run::quality`] is then [`Quality::Unknown`].
+    ///
+    /// ```
+    /// use tearmesh_cloth::Verlet;
+    /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+    /// use tearmesh::shapes;
+    ///
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    /// let run = || Run::new(mesh.clone(), &positions, Scene::hang(&frame), &frame);
+    /// let (mut one, mut other) = (run()?, run()?.with_solver(Verlet::new()));
+    /// for _ in 0..100 {
+    ///     one.step()?;
+    ///     other.step()?;
+    /// }
+    /// assert_eq!(one.cloth().positions(), other.cloth().positions());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If a step was taken already.
+    #[must_use]
+    pub fn with_solver(mut self, solver: impl Solver + Send + Sync + 'static) -> Run {
+        assert_eq!(self.tally.steps, 0, "the run has not begun");
+        self.engine = MethodSolver::Own(Box::new(solver));
         self
     }
 
@@ -463,15 +490,16 @@ impl Run {
     /// may tear without cause.
     #[must_use]
     pub fn step_wanted_s(&self) -> Option<f64> {
-        let speed_m_per_s = step_size::speed_m_per_s(&self.scene);
-        step_size::wanted_s(&self.scene.solver, self.cloth.system(), speed_m_per_s)
+        let scene = &self.scene;
+        let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
+        step_length::wanted_s(&scene.solver, self.cloth.system(), speed_m_per_s)
     }
 
     /// Returns an estimate, from the masses, of how much softer XPBD leaves the cloth than its
     /// fabric at the step of this scene; `None` for other methods. Takes linear time.
     #[must_use]
     pub fn softness(&self) -> Option<Softness> {
-        step_size::softness(&self.scene, self.step_s, &self.cloth)
+        step_length::softness(&self.scene.solver, self.cloth.system(), self.step_s)
     }
 
     /// Returns the time simulated so far, in seconds.
@@ -513,7 +541,8 @@ impl Run {
     /// ω. `None` if the method removed none, and before 1/60 s. Costs a pass over all constraints.
     ///
     /// ```
-    /// use tearmesh_cloth::scene::{Axis, Frame, Method, Run, Scene};
+    /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+    /// use tearmesh_cloth::Method;
     /// use tearmesh::shapes;
     ///
     /// let (mesh, positions) = shapes::grid(6, 6);

@@ -3,14 +3,10 @@
 use tearmesh::Vector;
 
 use crate::fabric::Fabric;
-use crate::implicit::Implicit;
 use crate::load::Loads;
-use crate::provot::Provot;
-use crate::scene::Method;
-use crate::solver::Solver;
+use crate::method::Method;
 use crate::system::Unstable;
 use crate::tearing::Tearing;
-use crate::verlet::Verlet;
 
 /// The definition of a simulation beside its mesh.
 #[derive(Clone, Debug)]
@@ -54,19 +50,6 @@ impl Default for SimulationDef {
             step_s: None,
             when_unstable: Unstable::Substep,
             is_recorded: false,
-        }
-    }
-}
-
-impl SimulationDef {
-    /// The method, before its first step.
-    pub(super) fn solver(&self) -> Box<dyn Solver + Send + Sync> {
-        match self.method {
-            Method::Provot(limiter) => Box::new(Provot::new(limiter)),
-            Method::Pbd(pbd) => Box::new(pbd),
-            Method::Verlet => Box::new(Verlet::new()),
-            Method::Xpbd(xpbd) => Box::new(xpbd),
-            Method::Implicit(settings) => Box::new(Implicit::new(settings)),
         }
     }
 }

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::ensemble::Disturbance;
-use tearmesh_cloth::scene::{Axis, Chronicle, FRAME_S, Frame, Method, Run, Scene, Step};
+use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene, Step};
 use tearmesh_cloth::statistics::{Random, median};
+use tearmesh_cloth::{FRAME_S, Method};
 
 use crate::experiment::{Bounds, Status};
 use crate::method::{self, DEFAULTS};

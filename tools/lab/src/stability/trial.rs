@@ -3,9 +3,8 @@
 use std::num::NonZero;
 
 use tearmesh::{CutMethod, Point, Ray, Vector, shapes};
-use tearmesh_cloth::scene::{
-    Axis, FRAME_S, Frame, HeldVertices, Method, Region, Run, Scene, SwayingWind, TimedCut,
-};
+use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut};
+use tearmesh_cloth::{FRAME_S, Method};
 use tearmesh_cloth::{StepError, Wind, energy};
 
 use super::row::Row;

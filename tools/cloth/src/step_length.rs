@@ -1,10 +1,14 @@
-//! Chooses the step of a scene, and estimates how soft a method that sweeps is at a given step.
+//! The step that suits a method, a fabric and a mesh, and how soft a method that sweeps leaves a cloth at
+//! a step.
 
-use super::engine::Engine;
-use crate::scene::{FRAME_S, Method, Scene};
-use crate::sheet::Cloth;
+use crate::fabric::Fabric;
+use crate::method::{Method, MethodSolver};
 use crate::stability;
 use crate::system::System;
+
+/// The duration of a frame of film or screen, in seconds. Steps that a run chooses are whole
+/// fractions of it, forces are means over it, and the energy balance is checked once per frame.
+pub const FRAME_S: f64 = 1.0 / 60.0;
 
 /// The longest step in seconds that is chosen for any scene.
 const LONGEST_S: f64 = FRAME_S / 2.0;
@@ -13,13 +17,12 @@ const LONGEST_S: f64 = FRAME_S / 2.0;
 /// motion a step that is all but unstable errs by half.
 const EXPLICIT: f64 = 0.925;
 
-/// Returns the step in seconds that a [`Run`](super::Run) chooses if its scene sets none. It suits
-/// the method, and a system through which a pull travels at the speed c = √(k/ρ), in m/s. It is
+/// Returns the step in seconds that is taken where a scene or a definition sets none. It suits the method, and a system through which a pull travels at the speed c = √(k/ρ), in m/s. It is
 /// 1/60 s divided by a whole number.
 pub fn suggested_step_s(method: &Method, system: &mut System, speed_m_per_s: f64) -> f64 {
-    let engine = &Engine::new(method);
-    let suited_s = stability::suited_s(system, engine);
-    let stable_s = suited_s.or_else(|| Some(EXPLICIT * stability::whole_step_s(system, engine)?));
+    let solver = &MethodSolver::new(method);
+    let suited_s = stability::suited_s(system, solver);
+    let stable_s = suited_s.or_else(|| Some(EXPLICIT * stability::whole_step_s(system, solver)?));
     let stable_s = stable_s.unwrap_or(LONGEST_S);
     let limit_s = match method {
         Method::Provot(_) | Method::Verlet => stable_s,
@@ -34,15 +37,15 @@ pub fn suggested_step_s(method: &Method, system: &mut System, speed_m_per_s: f64
             .max(1.0)
 }
 
-/// The speed at which a pull travels through the fabric of a scene, c = √(k/ρ), in m/s.
-pub(super) fn speed_m_per_s(scene: &Scene) -> f64 {
-    (scene.fabric.stretch_n_per_m / scene.areal_density_kg_per_m2).sqrt()
+/// The speed at which a pull travels through a fabric of this areal density, c = √(k/ρ), in m/s.
+pub(crate) fn speed_m_per_s(fabric: &Fabric, density_kg_per_m2: f64) -> f64 {
+    (fabric.stretch_n_per_m / density_kg_per_m2).sqrt()
 }
 
 /// The longest step at which a method that sweeps is about as stiff as the fabric. In a
 /// sweep a pull travels an edge or two of length h, and in the fabric it travels at the speed
 /// c = √(k/ρ); so the time for a sweep must not be much longer than h/c.
-pub(super) fn wanted_s(method: &Method, system: &System, speed_m_per_s: f64) -> Option<f64> {
+pub(crate) fn wanted_s(method: &Method, system: &System, speed_m_per_s: f64) -> Option<f64> {
     let sweeps = match method {
         Method::Xpbd(xpbd) => f64::from(xpbd.substeps.max(1)) * reach(xpbd.sweeps, 1.0),
         Method::Pbd(pbd) => reach(pbd.sweeps, pbd.fractions()[0]),
@@ -68,7 +71,7 @@ fn reach(sweeps: u32, fraction: f64) -> f64 {
 const SWEEP: f64 = 1.0;
 
 /// The excess softness of a cloth compared with its fabric: the result of
-/// [`Run::softness`](super::Run::softness).
+/// [`Run::softness`](crate::scene::Run::softness).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Softness {
     /// The mean excess stretch of the edges of a cloth that hangs at rest, as a fraction of the
@@ -82,11 +85,11 @@ pub struct Softness {
 /// F s (w + w′)/2 more, with s = Δt²/(1 + cΔt), so that with τ = s k (w + w′) it is too long by
 /// τ/2 of what it should be. Of that each further sweep leaves half of τ/(1 + τ): measured, .35, .32,
 /// .21 and .1 at τ = 2.9, 2, 1 and .5.
-pub(super) fn softness(scene: &Scene, step_s: f64, cloth: &Cloth) -> Option<Softness> {
-    let Method::Xpbd(xpbd) = scene.solver else {
+pub(crate) fn softness(method: &Method, system: &System, step_s: f64) -> Option<Softness> {
+    let Method::Xpbd(xpbd) = method else {
         return None;
     };
-    let system = cloth.system();
+    let drag_per_s = system.model.drag_per_s();
     let stretches = system.stretches();
     let rates = stretches.iter().map(|id| {
         let spring = stretches.get(id);
@@ -99,7 +102,7 @@ pub(super) fn softness(scene: &Scene, step_s: f64, cloth: &Cloth) -> Option<Soft
     }
     let extra = |step_s: f64| {
         let dt_s = step_s / f64::from(xpbd.substeps.max(1));
-        let tau = dt_s * dt_s / (1.0 + dt_s * scene.drag_per_s) * sum / count;
+        let tau = dt_s * dt_s / (1.0 + dt_s * drag_per_s) * sum / count;
         let left = tau / (1.0 + tau);
         tau / 2.0 * power(left / 2.0, xpbd.sweeps.max(1) - 1)
     };
