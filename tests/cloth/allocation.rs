@@ -2,9 +2,8 @@
 
 use allocation_counter::measure;
 use tearmesh::{Edits, Plane, Point, Scissor, Vector, VertexId, shapes};
-use tearmesh_cloth::Method;
 use tearmesh_cloth::{
-    Bending, Cloth, Fabric, Implicit, Pbd, Provot, Simulation, SimulationDef, Solver, Tear,
+    Bending, Cloth, Fabric, Implicit, Method, Pbd, Provot, Simulation, SimulationDef, Solver, Tear,
     Tearing, Threshold, Unstable, Verlet, Weave, Wounds, Xpbd,
 };
 

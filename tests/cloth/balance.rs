@@ -1,13 +1,12 @@
 //! The balance of energy, against answers on paper; and the watch over what a method makes.
 
 use tearmesh::{Edits, Masses, Plane, Point, Vector, mend, shapes, split};
-use tearmesh_cloth::Method;
-use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{EnergyGain, Frame, Run, Scene};
 use tearmesh_cloth::{
     Balance, Cloth, Collider, Copies, EnergyBalance, Fabric, Implicit, Limiter, Loads, Path,
     Solver, StepError, System, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
 };
+use tearmesh_cloth::{Method, implicit};
 
 use crate::parts::scenes::{methods, play, staged};
 use crate::parts::{mechanical_j, near, run};

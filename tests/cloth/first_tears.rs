@@ -47,9 +47,8 @@ fn first_tears_of_all_methods_by_all_thresholds() {
             });
             let (edge, _) = loop {
                 assert!(!run.is_over(), "{name} {kind}: nothing tore");
-                let torn = run.step().expect("a step").tear;
-                let torn = torn.filter(|tear| tear.splits > 0);
-                if let Some(worst) = torn.and_then(|tear| tear.worst) {
+                let tear = run.step().expect("a step");
+                if let Some(worst) = tear.worst.filter(|_| tear.splits > 0) {
                     break worst;
                 }
             };

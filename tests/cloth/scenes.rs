@@ -7,9 +7,9 @@ use tearmesh_cloth::scene::{
     Axis, Frame, HeldVertices, Names, Region, Run, RunError, Scene, SwayingWind, TimedCut,
 };
 use tearmesh_cloth::{
-    Collider, Limiter, Path, Pbd, StepError, Tearing, Threshold, Wind, Xpbd, energy, force,
+    Collider, Limiter, Method, Path, Pbd, Quality, SimulationError, StepError, Tearing, Threshold,
+    Wind, Xpbd, energy, force,
 };
-use tearmesh_cloth::{Method, Quality};
 
 use crate::parts::scenes::{methods, play, square, staged};
 
@@ -577,9 +577,15 @@ fn scenes_that_make_no_sense_are_refused() {
     let threshold = refused(&|scene| {
         scene.tearing = Some(Tearing::new(Threshold::Stretch(0.5)));
     });
-    assert!(matches!(threshold, RunError::Tearing(_)));
+    assert!(matches!(
+        threshold,
+        RunError::Simulation(SimulationError::Tearing(_))
+    ));
     let massless = refused(&|scene| scene.areal_density_kg_per_m2 = 0.0);
-    assert!(matches!(massless, RunError::Cloth(_)));
+    assert!(matches!(
+        massless,
+        RunError::Simulation(SimulationError::Cloth(_))
+    ));
 }
 
 #[test]

@@ -7,9 +7,8 @@ use tearmesh::geometry::length;
 use tearmesh::{
     CutMethod, Edits, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, VertexId, shapes,
 };
-use tearmesh_cloth::Method;
 use tearmesh_cloth::{
-    ClothError, CutId, Event, Fabric, InputError, Loads, Simulation, SimulationDef,
+    ClothError, CutId, Event, Fabric, InputError, Loads, Method, Simulation, SimulationDef,
     SimulationError, StepError, Tearing, Unstable, Wounds,
 };
 

@@ -8,10 +8,9 @@ use proptest::test_runner::Config;
 
 use tearmesh::geometry::length;
 use tearmesh::{Plane, Point, Scissor, Vector, VertexId, shapes};
-use tearmesh_cloth::Method;
 use tearmesh_cloth::{
-    CutId, Event, Fabric, HandId, InputLog, LogError, ReplayError, Simulation, SimulationDef,
-    Tearing, Threshold, Unstable, Wounds,
+    CutId, Event, Fabric, HandId, InputLog, LogError, Method, ReplayError, Simulation,
+    SimulationDef, Tearing, Threshold, Unstable, Wounds,
 };
 
 use super::{ALL, across, check, pass, ray, v};

@@ -1,8 +1,6 @@
 //! The methods that advance a cloth, as data with their settings, the solver of each, and what that
 //! reports about its own steps.
 
-use std::fmt;
-
 use crate::implicit::{Implicit, Settings, StepReport};
 use crate::pbd::Pbd;
 use crate::provot::{Limiter, LimiterReport, Provot};
@@ -122,12 +120,6 @@ impl MethodSolver {
             MethodSolver::Implicit(_, solved) => Quality::Implicit(*solved),
             MethodSolver::Own(_) => Quality::Unknown,
         }
-    }
-}
-
-impl fmt::Debug for MethodSolver {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("MethodSolver").finish_non_exhaustive()
     }
 }
 

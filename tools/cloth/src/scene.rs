@@ -14,7 +14,7 @@ mod run;
 
 pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
-pub use run::{CutMade, EnergyGain, Names, Run, RunError, RunTally, Step};
+pub use run::{CutMade, EnergyGain, Names, Run, RunError, RunTally};
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, VertexId};

@@ -29,7 +29,10 @@ pub use report::{CutId, Event, Picked, Reached};
 use std::fmt;
 
 use tearmesh::geometry::{Point, Ray, check_point};
-use tearmesh::{Cursor, Edit, Edits, Mesh, Mix, PerVertex, Positions, Scissor, VertexId, pick};
+use tearmesh::{
+    Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Mesh, Mix, PerVertex, PositionError,
+    Positions, Scissor, VertexId, pick,
+};
 
 use self::hand::Hands;
 use self::heal::Healing;
@@ -38,9 +41,10 @@ use self::seams::Seams;
 use self::sheet::Sheet;
 use crate::method::MethodSolver;
 use crate::sheet::Cloth;
-use crate::solver::StepError;
+use crate::solver::{StepError, StepReport};
+use crate::step::Observer;
 use crate::step_length::{speed_m_per_s, suggested_step_s};
-use crate::tearing::Tear;
+use crate::tearing::{Tear, TearReport, TearingError};
 
 /// A cloth with its mesh, in motion.
 ///
@@ -70,11 +74,11 @@ use crate::tearing::Tear;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Simulation {
-    sheet: Sheet,
-    cloth: Cloth,
-    tear: Option<Tear>,
-    solver: MethodSolver,
-    step_s: f64,
+    pub(crate) sheet: Sheet,
+    pub(crate) cloth: Cloth,
+    pub(crate) tear: Option<Tear>,
+    pub(crate) solver: MethodSolver,
+    pub(crate) step_s: f64,
     steps: u64,
     /// The time that was asked for and is not simulated, up to half a step either way.
     owed_s: f64,
@@ -86,7 +90,7 @@ pub struct Simulation {
     buffers: ClothBuffers,
     /// The edit up to which the buffers know pieces.
     pieces_seen: Cursor,
-    events: Vec<Event>,
+    pub(crate) events: Vec<Event>,
     log: Option<InputLog>,
 }
 
@@ -288,22 +292,41 @@ impl Simulation {
     }
 
     fn step(&mut self) -> Result<(), StepError> {
-        self.cloth.step(&mut self.solver, self.step_s)?;
-        self.steps += 1;
-        if let Some(log) = &mut self.log {
-            log.steps = self.steps;
-        }
-        self.tear_overstretched();
+        self.step_observed(&mut ())?;
+        let found = self.find_overstretched();
+        self.tear_found(found);
         self.heal_step();
         Ok(())
     }
 
-    fn tear_overstretched(&mut self) {
-        let Some(tear) = &mut self.tear else {
-            return;
+    /// Takes a step, which an observer sees, and looks at nothing that it overstretched.
+    pub(crate) fn step_observed(
+        &mut self,
+        observer: &mut impl Observer,
+    ) -> Result<StepReport, StepError> {
+        let cloth = &mut self.cloth;
+        let report = cloth.step_observed(&mut self.solver, self.step_s, observer)?;
+        self.steps += 1;
+        if let Some(log) = &mut self.log {
+            log.steps = self.steps;
+        }
+        Ok(report)
+    }
+
+    /// Finds what is overstretched, and changes nothing.
+    pub(crate) fn find_overstretched(&mut self) -> TearReport {
+        let (sheet, cloth) = (&self.sheet, &mut self.cloth);
+        let find = |tear: &mut Tear| tear.find(&sheet.mesh, cloth, &sheet.edits);
+        self.tear.as_mut().map(find).unwrap_or_default()
+    }
+
+    /// Tears what was found.
+    pub(crate) fn tear_found(&mut self, found: TearReport) -> TearReport {
+        let Some(tear) = self.tear.as_mut().filter(|_| found.overstretched > 0) else {
+            return found;
         };
         let Sheet { mesh, edits, .. } = &mut self.sheet;
-        tear.apply(mesh, &mut self.cloth, edits);
+        let report = tear.tear(mesh, &mut self.cloth, edits, found);
         let time_s = self.cloth.system().elapsed_s();
         let torn = tear.torn().iter().map(|torn| Event::Tore {
             edge: torn.edge,
@@ -313,6 +336,7 @@ impl Simulation {
         });
         self.events.extend(torn);
         self.follow();
+        report
     }
 
     /// Draws the open pairs together, leaves those whose time is over, and sews those that met.
@@ -350,6 +374,16 @@ impl Simulation {
         if let Some(tear) = &mut self.tear {
             self.sheet.edits.replay(tear);
         }
+    }
+
+    /// Sets the strengths that vertices have by themselves, without grips and open wounds; nothing
+    /// where there is no rule for tearing.
+    pub(crate) fn set_strengths(&mut self, strengths: Vec<f64>) -> Result<(), TearingError> {
+        if let Some(tear) = self.tear.take() {
+            self.tear = Some(tear.with_strengths(strengths.clone())?);
+            self.strengths = PerVertex::new(strengths).starting_at(self.sheet.edits.cursor());
+        }
+        Ok(())
     }
 
     /// Gives vertices the strengths that they have by themselves, by grips, and by open wounds
@@ -473,21 +507,14 @@ impl Simulation {
     /// # Errors
     ///
     /// [`InputError`] if the scissor continues another cut, or the cloth is too far away.
-    #[expect(
-        clippy::missing_panics_doc,
-        reason = "the positions are in step with the mesh"
-    )]
     pub fn cut(&mut self, scissor: &Scissor) -> Result<CutId, InputError> {
         let words = scissor.to_words().ok_or(InputError::Continued)?;
         self.sheet.edits.clear();
-        let moved = self.sheet.move_to(self.cloth.positions());
-        moved.map_err(InputError::Positions)?;
-        let made = self.sheet.cut(scissor);
-        let made = made.expect("positions that follow every edit are in step");
+        let made = self.cut_by(|sheet| Ok((sheet.cut(scissor)?, ())));
+        let (cut, ()) = made.map_err(InputError::Positions)?;
         let is_split = |edit: &Edit<'_>| matches!(edit, Edit::Split(_));
         let splits = self.sheet.edits.iter().filter(is_split).count();
-        self.follow();
-        let (cut, time_s) = (self.seams.add(&made), self.time_s());
+        let time_s = self.time_s();
         self.note("cut", words);
         self.events.push(Event::Cut {
             cut,
@@ -495,6 +522,27 @@ impl Simulation {
             time_s,
         });
         Ok(cut)
+    }
+
+    /// Cuts the cloth where it is now, and measures the cut.
+    pub(crate) fn cut_measured(
+        &mut self,
+        scissor: &Scissor,
+        method: CutMethod,
+    ) -> Result<CutReport, PositionError> {
+        let made = self.cut_by(|sheet| sheet.cut_measured(scissor, method))?;
+        Ok(made.1)
+    }
+
+    fn cut_by<R>(
+        &mut self,
+        make: impl FnOnce(&mut Sheet) -> Result<(Cut, R), CutError>,
+    ) -> Result<(CutId, R), PositionError> {
+        self.sheet.move_to(self.cloth.positions())?;
+        let made = make(&mut self.sheet);
+        let (cut, report) = made.expect("positions that follow every edit are in step");
+        self.follow();
+        Ok((self.seams.add(&cut), report))
     }
 
     /// Begins to heal wounds, together with those that heal already, and returns the number of

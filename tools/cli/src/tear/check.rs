@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Run, RunError, Scene, TimedCut};
-use tearmesh_cloth::{ClothError, TearingError, Threshold, frequency_bound};
-use tearmesh_cloth::{Method, Softness};
+use tearmesh_cloth::{
+    ClothError, Method, SimulationError, Softness, TearingError, Threshold, frequency_bound,
+};
 
 use super::words::two_digits;
 use crate::args::TearArgs;
@@ -189,7 +190,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
             let table = named_by.to_string();
             return blame((&table, number, "vertices"), "E-SCENE-RANGE", message, None);
         }
-        RunError::Tearing(TearingError::Axis { .. }) => {
+        RunError::Simulation(SimulationError::Tearing(TearingError::Axis { .. })) => {
             return blame(
                 ("tear", 0, "warp"),
                 "E-SCENE-RANGE",
@@ -197,7 +198,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
                 None,
             );
         }
-        RunError::Cloth(ClothError::Face { face, warp }) => {
+        RunError::Simulation(SimulationError::Cloth(ClothError::Face { face, warp })) => {
             return flat(face, warp, opened, source);
         }
         _ => {}
@@ -208,15 +209,17 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
             "E-SIM-MESH",
             Some("the mesh has no faces that a scene could be played with"),
         ),
-        RunError::Cloth(ClothError::Length { ends, .. }) => {
+        RunError::Simulation(SimulationError::Cloth(ClothError::Length { ends, .. })) => {
             let [a, b] = ends.map(|v| opened.document.number_of_vertex(v.index()));
             let message = format!("the vertices {a} and {b} of an edge are at one place");
             let help = "an edge without length has no strain: take the face out";
             let fault = Fault::error("E-SIM-MESH", message).help(help);
             return Stop::new(Exit::Input, fault);
         }
-        RunError::Cloth(ClothError::Mass(_)) => (Exit::Input, "E-MASS", None),
-        RunError::Cloth(_) => (Exit::Input, "E-SIM-MESH", None),
+        RunError::Simulation(SimulationError::Cloth(ClothError::Mass(_))) => {
+            (Exit::Input, "E-MASS", None)
+        }
+        RunError::Simulation(SimulationError::Cloth(_)) => (Exit::Input, "E-SIM-MESH", None),
         RunError::Times { .. } => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
         _ => (Exit::Usage, "E-SCENE-RANGE", None),
     };

@@ -2,8 +2,7 @@
 
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::Run;
-use tearmesh_cloth::{BlowUpSite, StepError};
-use tearmesh_cloth::{Method, Quality};
+use tearmesh_cloth::{BlowUpSite, Method, Quality, StepError};
 
 use crate::report;
 use crate::say::{Fault, count, short};

@@ -6,11 +6,12 @@ use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
 
 use super::HeldVertices;
-use super::run::{Run, Step};
+use super::run::Run;
 use crate::balance::AIR_S;
 use crate::force;
 use crate::method::Method;
 use crate::step_length::FRAME_S;
+use crate::tearing::TearReport;
 
 /// A step in which something tore.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +69,8 @@ pub struct HoldForces {
 /// let mut run = Run::new(mesh, &positions, Scene::rip(&frame), &frame)?;
 /// let mut chronicle = Chronicle::new(&run);
 /// while !run.is_over() {
-///     let step = run.step()?;
-///     chronicle.note(&run, &step);
+///     let tear = run.step()?;
+///     chronicle.note(&run, &tear);
 /// }
 /// let first = chronicle.first_tear().ok_or("it rips")?;
 /// assert!(first.event.time_s > 0.5); // It is grabbed then.
@@ -117,12 +118,11 @@ impl Chronicle {
     }
 
     /// Records a step that the run has just taken.
-    pub fn note(&mut self, run: &Run, step: &Step) {
+    pub fn note(&mut self, run: &Run, tear: &TearReport) {
         if self.knows_forces {
             self.weigh(run);
         }
-        let torn = step.tear.filter(|tear| tear.splits > 0);
-        let Some((tear, (edge, load))) = torn.and_then(|tear| Some((tear, tear.worst?))) else {
+        let Some((edge, load)) = tear.worst.filter(|_| tear.splits > 0) else {
             return;
         };
         let (mesh, cloth) = (run.mesh(), run.cloth());

@@ -327,7 +327,7 @@ pub fn member(
             return interrupted();
         }
         match run.step() {
-            Ok(step) => chronicle.note(&run, &step),
+            Ok(tear) => chronicle.note(&run, &tear),
             Err(error) => return failed(error.to_string()),
         }
     }

@@ -14,8 +14,8 @@ pub use self::gain::EnergyGain;
 
 use std::num::NonZero;
 
-use tearmesh::geometry::{Vector, dot, length};
-use tearmesh::{CutReport, Edits, Masses, Mesh, PositionError, Positions, Scissor, VertexId};
+use tearmesh::geometry::{Point, Vector, dot, length};
+use tearmesh::{CutReport, Edits, Mesh, PositionError, Positions, Scissor, VertexId};
 
 use self::gain::Watch;
 use self::held::Held;
@@ -24,11 +24,12 @@ use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::load::{Collider, Loads};
 use crate::method::{MethodSolver, Quality};
-use crate::sheet::{Cloth, ClothError};
+use crate::sheet::Cloth;
+use crate::simulation::{Simulation, SimulationDef, SimulationError};
 use crate::solver::{Solver, StepError};
-use crate::step_length::{self, Softness, speed_m_per_s, suggested_step_s};
+use crate::step_length::{self, Softness, speed_m_per_s};
 use crate::system::{System, Unstable};
-use crate::tearing::{Tear, TearReport, Tearing};
+use crate::tearing::{Tear, TearReport};
 
 /// A scene in progress, with its mesh and its cloth.
 ///
@@ -48,16 +49,11 @@ use crate::tearing::{Tear, TearReport, Tearing};
 #[derive(Debug)]
 pub struct Run {
     scene: Scene,
-    mesh: Mesh,
-    cloth: Cloth,
-    edits: Edits,
-    engine: MethodSolver,
-    tear: Option<Tear>,
+    sim: Simulation,
     held: Vec<Held>,
     scissors: Vec<Scissor>,
     next_cut: usize,
     cuts_made: Vec<CutMade>,
-    step_s: f64,
     steps_planned: u64,
     tally: RunTally,
     balance: Balance,
@@ -88,13 +84,6 @@ pub struct RunTally {
     pub momentum_drift: f64,
 }
 
-/// The report of one step of a run.
-#[derive(Debug)]
-pub struct Step {
-    /// The report of tearing in this step; `None` if the scene has no rule for tearing.
-    pub tear: Option<TearReport>,
-}
-
 /// A cut that was made while the cloth moved.
 #[derive(Debug)]
 pub struct CutMade {
@@ -117,21 +106,9 @@ impl Run {
         scene: Scene,
         frame: &Frame,
     ) -> Result<Run, RunError> {
-        let masses = Masses::area(&mesh, positions, scene.areal_density_kg_per_m2)
-            .map_err(ClothError::from)?;
-        let mut cloth = Cloth::new(&mesh, positions, masses, scene.fabric)?;
         if let Some((field, given)) = scene.wind.and_then(|wind| wind.fault()) {
             return Err(RunError::Wind { field, given });
         }
-        let loads = Loads {
-            gravity_m_per_s2: Some(scene.gravity_m_per_s2)
-                .filter(|gravity| *gravity != Vector::zeros()),
-            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
-            wind: scene.wind.map(|wind| wind.at(0.0)),
-            colliders: scene.colliders.clone(),
-        };
-        let system = cloth.system_mut();
-        system.set_loads(loads).map_err(RunError::Loads)?;
         let points = positions.as_slice();
         let vertices = |(number, hold): (usize, &_)| Held::new(number, hold, &mesh, points, frame);
         let held: Vec<Held> = scene
@@ -160,23 +137,38 @@ impl Run {
             .enumerate()
             .map(scissor)
             .collect::<Result<_, _>>()?;
-        let tear = match scene.tearing {
-            Some(tearing) => Some(strong(tearing, &scene, &cloth, &mesh, frame)?),
-            None => None,
+        let loads = Loads {
+            gravity_m_per_s2: Some(scene.gravity_m_per_s2)
+                .filter(|gravity| *gravity != Vector::zeros()),
+            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
+            wind: scene.wind.map(|wind| wind.at(0.0)),
+            colliders: scene.colliders.clone(),
         };
-        let engine = MethodSolver::new(&scene.solver);
-        let step_s = match scene.step_s {
-            Some(step_s) => step_s,
-            None => suggested_step_s(
-                &scene.solver,
-                cloth.system_mut(),
-                speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2),
-            ),
+        let def = SimulationDef {
+            density_kg_per_m2: scene.areal_density_kg_per_m2,
+            fabric: scene.fabric,
+            method: scene.solver.clone(),
+            tearing: scene.tearing,
+            strengths: strengths(&scene, &mesh, points, frame)?,
+            loads,
+            step_s: scene.step_s,
+            // A step of our own choice is not refused because of what tore since.
+            when_unstable: match scene.step_s {
+                Some(_) => Unstable::Refuse,
+                None => Unstable::Substep,
+            },
+            is_recorded: false,
         };
         let duration_s = scene.duration_s;
+        let sim = Simulation::new(mesh, positions.clone(), def);
+        let mut sim = sim.map_err(|error| match error {
+            SimulationError::Step(step_s) => RunError::Times { step_s, duration_s },
+            error => RunError::Simulation(error),
+        })?;
+        let step_s = sim.step_s();
         let steps_planned = (duration_s / step_s).round();
         let is_countable = (0.0..=Run::STEPS_MAX as f64).contains(&steps_planned);
-        if !(step_s > 0.0 && step_s.is_finite() && duration_s >= 0.0 && is_countable) {
+        if !(duration_s >= 0.0 && is_countable) {
             return Err(RunError::Times { step_s, duration_s });
         }
         let last_s = Run::STEPS_MAX as f64 * step_s;
@@ -187,25 +179,15 @@ impl Run {
                 given: wind.period_s,
             });
         }
-        if scene.step_s.is_none() {
-            // A step of our own choice is not refused because of what tore since.
-            cloth.system_mut().when_unstable(Unstable::Substep);
-        }
-        let balance = Balance::new(cloth.system_mut());
         Ok(Run {
-            engine,
-            watch: Watch::new(cloth.system(), step_s),
-            mesh,
-            cloth,
-            edits: Edits::new(),
-            tear,
+            watch: Watch::new(sim.cloth.system(), step_s),
+            balance: Balance::new(sim.cloth.system_mut()),
+            sim,
             held,
             scissors,
             next_cut: 0,
             cuts_made: Vec::new(),
-            step_s,
             steps_planned: steps_planned as u64,
-            balance,
             tally: RunTally {
                 stretch_ratio_max: 1.0,
                 ..RunTally::default()
@@ -222,12 +204,10 @@ impl Run {
     ///
     /// # Errors
     ///
-    /// [`RunError::Tearing`] unless there is one positive finite number per vertex.
+    /// [`RunError`] unless there is one positive finite number per vertex.
     pub fn with_strengths(mut self, strengths: Vec<f64>) -> Result<Run, RunError> {
-        if let Some(tear) = self.tear.take() {
-            let tear = tear.with_strengths(strengths);
-            self.tear = Some(tear.map_err(RunError::Tearing)?);
-        }
+        let set = self.sim.set_strengths(strengths);
+        set.map_err(|error| RunError::Simulation(SimulationError::Tearing(error)))?;
         Ok(self)
     }
 
@@ -254,10 +234,10 @@ impl Run {
     #[must_use]
     pub fn in_smaller_steps(mut self, parts: NonZero<u32>) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
-        self.step_s /= f64::from(parts.get());
+        self.sim.step_s /= f64::from(parts.get());
         self.steps_planned = self.steps_planned.saturating_mul(parts.get().into());
         assert!(self.steps_planned <= Run::STEPS_MAX, "steps can be counted");
-        self.watch = Watch::new(self.cloth.system(), self.step_s);
+        self.watch = Watch::new(self.cloth().system(), self.step_s());
         self
     }
 
@@ -288,7 +268,7 @@ impl Run {
     #[must_use]
     pub fn with_solver(mut self, solver: impl Solver + Send + Sync + 'static) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
-        self.engine = MethodSolver::Own(Box::new(solver));
+        self.sim.solver = MethodSolver::Own(Box::new(solver));
         self
     }
 
@@ -307,54 +287,53 @@ impl Run {
         mut by_m: impl FnMut(VertexId) -> Vector,
     ) -> Result<Run, PositionError> {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
-        let points = self.cloth.positions().iter();
-        let moved = self.mesh.vertices().zip(points);
+        let points = self.cloth().positions().iter();
+        let moved = self.mesh().vertices().zip(points);
         let moved = Positions::new(moved.map(|(v, &x)| x + by_m(v)))?;
-        let system = self.cloth.system_mut();
+        let system = self.sim.cloth.system_mut();
         system.state_mut().0.copy_from_slice(moved.as_slice());
         self.balance = Balance::new(system);
         Ok(self)
     }
 
-    /// Advances the scene by one step.
+    /// Advances the scene by one step, and returns the report of tearing in it.
     ///
     /// # Errors
     ///
     /// [`StepError`]; the cloth is then as it was at the end of the last good step, except for cuts
     /// made at the beginning of this one ([`Run::cuts_made`]).
-    pub fn step(&mut self) -> Result<Step, StepError> {
-        self.edits.clear();
+    pub fn step(&mut self) -> Result<TearReport, StepError> {
+        self.sim.sheet.edits.clear();
+        self.sim.events.clear();
         self.cuts_made.clear();
         let done = self.advance(self.tally.steps);
         // A step that fails has been cut as well.
-        self.held
-            .iter_mut()
-            .for_each(|held| held.follow(&self.edits));
+        let edits = self.sim.edits();
+        self.held.iter_mut().for_each(|held| held.follow(edits));
         done
     }
 
-    fn advance(&mut self, now: u64) -> Result<Step, StepError> {
-        let hands = (self.cloth.system_mut(), &mut self.balance);
-        held::take_and_release(&mut self.held, now, self.step_s, hands);
+    fn advance(&mut self, now: u64) -> Result<TearReport, StepError> {
+        let step_s = self.step_s();
+        let hands = (self.sim.cloth.system_mut(), &mut self.balance);
+        held::take_and_release(&mut self.held, now, step_s, hands);
         self.cut(now)?;
         self.blow(now);
-        let (engine, balance) = (&mut self.engine, &mut self.balance);
-        let report = self.cloth.step_observed(engine, self.step_s, balance)?;
+        let report = self.sim.step_observed(&mut self.balance)?;
         self.tally.steps += 1;
-        self.measure_moves(self.step_s / f64::from(report.substeps));
+        self.measure_moves(step_s / f64::from(report.substeps));
         let is_frame = self.watch.is_time(self.tally.steps);
         let tear = self.tear_overstretched();
-        let is_overstretched = tear.is_some_and(|tear| tear.overstretched > 0);
-        if is_frame || is_overstretched || self.is_over() {
+        if is_frame || tear.overstretched > 0 || self.is_over() {
             // Splits move nothing: edges are as long as they were before.
-            let ratio = longest_ratio(self.cloth.system());
+            let ratio = longest_ratio(self.cloth().system());
             self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(ratio);
         }
         if is_frame {
             let elapsed_s = self.elapsed_s();
             self.watch.judge(elapsed_s, &self.energy_balance());
         }
-        Ok(Step { tear })
+        Ok(tear)
     }
 
     /// Notes how far vertices move in a substep, where there is something to get past.
@@ -363,27 +342,23 @@ impl Run {
         if !self.scene.colliders.iter().any(is_ball) {
             return;
         }
-        let velocities = self.cloth.system().velocities().iter();
+        let velocities = self.cloth().system().velocities().iter();
         let fastest = velocities.map(|v| dot(*v, *v)).fold(0.0, f64::max).sqrt();
         self.tally.farthest_m = self.tally.farthest_m.max(fastest * substep_s);
     }
 
     /// Makes the cuts whose time has come.
     fn cut(&mut self, now: u64) -> Result<(), StepError> {
-        while let Some(&cut) = self.scene.cuts.get(self.next_cut) {
-            if held::step_at(cut.at_s, self.step_s) > now {
-                break;
-            }
-            let before = momentum(&self.cloth);
-            let mut positions = self.places()?;
+        while let Some(cut) = self.scene.cuts.get(self.next_cut)
+            && held::step_at(cut.at_s, self.step_s()) <= now
+        {
+            let before = momentum(self.cloth());
             let scissor = &self.scissors[self.next_cut];
-            let made =
-                scissor.cut_measured(cut.method, &mut self.mesh, &mut positions, &mut self.edits);
-            let (_, report) = made.expect("positions that follow every cut are in step");
-            self.edits.replay(&mut self.cloth);
-            if let Some(tear) = &mut self.tear {
-                self.edits.replay(tear);
-            }
+            let made = self.sim.cut_measured(scissor, cut.method);
+            let report = made.map_err(|error| StepError::BlowUp {
+                elapsed_s: self.elapsed_s(),
+                at: BlowUpSite::Particle(error.unusable()[0].0.index()),
+            })?;
             self.tally.cut_splits += report.splits as u64;
             self.compare(before);
             self.cuts_made.push(CutMade {
@@ -395,52 +370,39 @@ impl Run {
         Ok(())
     }
 
-    /// Where the vertices are, for the scissor.
-    fn places(&self) -> Result<Positions, StepError> {
-        let points = self.cloth.positions().iter().copied();
-        match Positions::new(points) {
-            Ok(positions) => Ok(positions.starting_at(self.edits.cursor())),
-            Err(error) => Err(StepError::BlowUp {
-                elapsed_s: self.elapsed_s(),
-                at: BlowUpSite::Particle(error.unusable()[0].0.index()),
-            }),
-        }
-    }
-
     fn blow(&mut self, now: u64) {
         let Some(wind) = self.scene.wind.filter(SwayingWind::sways) else {
             return;
         };
-        let system = self.cloth.system_mut();
+        let step_s = self.step_s();
+        let system = self.sim.cloth.system_mut();
         let loads = Loads {
-            wind: Some(wind.at(now as f64 * self.step_s)),
+            wind: Some(wind.at(now as f64 * step_s)),
             ..system.loads().clone()
         };
         let set = system.set_loads(loads);
         set.expect("wind between two usable winds is usable");
     }
 
-    fn tear_overstretched(&mut self) -> Option<TearReport> {
-        let tear = self.tear.as_mut()?;
-        let (mesh, cloth, edits) = (&mut self.mesh, &mut self.cloth, &mut self.edits);
-        let found = tear.find(mesh, cloth, edits);
+    fn tear_overstretched(&mut self) -> TearReport {
+        let found = self.sim.find_overstretched();
         if found.overstretched == 0 {
-            return Some(found);
+            return found;
         }
-        let momentum = momentum(cloth);
-        let report = tear.tear(mesh, cloth, edits, found);
+        let momentum = momentum(self.cloth());
+        let report = self.sim.tear_found(found);
         self.tally.splits += report.splits as u64;
         self.tally.edge_energy_j += report.edge_energy_j;
         self.tally.steps_at_cap += u64::from(report.cap_hit);
         if report.splits > 0 {
             self.compare(momentum);
         }
-        Some(report)
+        report
     }
 
     /// Notes how far the momentum is now from what it was.
     fn compare(&mut self, (before, size): (Vector, f64)) {
-        let (after, _) = momentum(&self.cloth);
+        let (after, _) = momentum(self.cloth());
         if size > 0.0 {
             let drift = length(after - before) / size;
             self.tally.momentum_drift = self.tally.momentum_drift.max(drift);
@@ -457,7 +419,7 @@ impl Run {
     /// and an event at the end of the last step never happens.
     #[must_use]
     pub fn reaches(&self, time_s: f64) -> bool {
-        held::step_at(time_s, self.step_s) < self.steps_planned
+        held::step_at(time_s, self.step_s()) < self.steps_planned
     }
 
     /// Returns the number of steps of the whole scene.
@@ -482,7 +444,7 @@ impl Run {
     /// ([`wind_rate`](crate::air::wind_rate)).
     #[must_use]
     pub fn step_s(&self) -> f64 {
-        self.step_s
+        self.sim.step_s()
     }
 
     /// Returns the longest step at which PBD or XPBD is about as stiff as the fabric, in seconds;
@@ -492,20 +454,20 @@ impl Run {
     pub fn step_wanted_s(&self) -> Option<f64> {
         let scene = &self.scene;
         let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
-        step_length::wanted_s(&scene.solver, self.cloth.system(), speed_m_per_s)
+        step_length::wanted_s(&scene.solver, self.cloth().system(), speed_m_per_s)
     }
 
     /// Returns an estimate, from the masses, of how much softer XPBD leaves the cloth than its
     /// fabric at the step of this scene; `None` for other methods. Takes linear time.
     #[must_use]
     pub fn softness(&self) -> Option<Softness> {
-        step_length::softness(&self.scene.solver, self.cloth.system(), self.step_s)
+        step_length::softness(&self.scene.solver, self.cloth().system(), self.step_s())
     }
 
     /// Returns the time simulated so far, in seconds.
     #[must_use]
     pub fn elapsed_s(&self) -> f64 {
-        self.tally.steps as f64 * self.step_s
+        self.tally.steps as f64 * self.step_s()
     }
 
     /// Returns totals and extremes of the run so far.
@@ -517,14 +479,14 @@ impl Run {
     /// Returns the report of the method about its steps so far. Costs up to a force evaluation.
     #[must_use]
     pub fn quality(&self) -> Quality {
-        self.engine.quality(self.cloth.system())
+        self.sim.solver.quality(self.cloth().system())
     }
 
     /// Returns the energy balance of the scene so far. Costs a pass over all constraints.
     #[must_use]
     pub fn energy_balance(&self) -> EnergyBalance {
-        let edits_j = self.cloth.ledger().made_j();
-        self.balance.now(self.cloth.system(), edits_j)
+        let cloth = self.cloth();
+        self.balance.now(cloth.system(), cloth.ledger().made_j())
     }
 
     /// Returns the energy that the method made out of nothing; `None` unless it exceeded a hundredth
@@ -572,19 +534,19 @@ impl Run {
     /// Returns the mesh in its present state, with all cuts and tears.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
-        &self.mesh
+        &self.sim.sheet.mesh
     }
 
     /// Returns the cloth in its present state.
     #[must_use]
     pub fn cloth(&self) -> &Cloth {
-        &self.cloth
+        &self.sim.cloth
     }
 
     /// Returns the edits of the mesh in the last step, for followers to replay.
     #[must_use]
     pub fn edits(&self) -> &Edits {
-        &self.edits
+        self.sim.edits()
     }
 
     /// Returns the cuts made at the beginning of the last step, even if that step failed later.
@@ -596,7 +558,7 @@ impl Run {
     /// Returns the state of tearing; `None` for a scene without a rule for tearing.
     #[must_use]
     pub fn tear(&self) -> Option<&Tear> {
-        self.tear.as_ref()
+        self.sim.tear.as_ref()
     }
 
     /// Returns the vertices that a hold of the scene holds or leads now, copies included. Holds are
@@ -619,42 +581,40 @@ impl Run {
     /// If the scene has no hold of this number.
     #[must_use]
     pub fn pins(&self, hold: usize) -> usize {
-        self.held[hold].pins(&self.mesh)
+        self.held[hold].pins(self.mesh())
     }
 
     /// Returns the length at rest of all torn edges, each counted once, in metres.
     #[must_use]
     pub fn torn_length_m(&self) -> f64 {
-        let rest = self.cloth.rest_positions().as_slice();
-        let torn = self.mesh.half_edges().filter_map(|h| {
-            self.mesh.ghost_pair(h)?;
-            let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
+        let (mesh, rest) = (self.mesh(), self.cloth().rest_positions().as_slice());
+        let torn = mesh.half_edges().filter_map(|h| {
+            mesh.ghost_pair(h)?;
+            let [a, b] = [mesh.origin(h), mesh.target(h)];
             Some(length(rest[b.index()] - rest[a.index()]))
         });
         torn.sum::<f64>() / 2.0
     }
 }
 
-/// A tear with the strengths of its scene.
-fn strong(
-    tearing: Tearing,
+/// The strength of each vertex by the regions of a scene; empty for 1 everywhere.
+fn strengths(
     scene: &Scene,
-    cloth: &Cloth,
     mesh: &Mesh,
+    points: &[Point],
     frame: &Frame,
-) -> Result<Tear, RunError> {
-    let tear = Tear::new(cloth, tearing).map_err(RunError::Tearing)?;
-    if scene.strengths.is_empty() {
-        return Ok(tear);
+) -> Result<Vec<f64>, RunError> {
+    if scene.tearing.is_none() || scene.strengths.is_empty() {
+        return Ok(Vec::new());
     }
     let mut strengths = vec![1.0; mesh.vertex_count()];
     for (number, (region, strength)) in scene.strengths.iter().enumerate() {
         let name = (Names::Strength, number);
-        for v in held::vertices_in(region, name, mesh, cloth.positions(), frame)? {
+        for v in held::vertices_in(region, name, mesh, points, frame)? {
             strengths[v.index()] = *strength;
         }
     }
-    tear.with_strengths(strengths).map_err(RunError::Tearing)
+    Ok(strengths)
 }
 
 /// The largest ratio of an edge's length to its rest length, before Provot's limiter; 0 without edges.

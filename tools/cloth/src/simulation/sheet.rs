@@ -2,19 +2,19 @@
 //! together. It knows no cloth.
 
 use tearmesh::{
-    Cut, CutError, CutMethod, Edits, Followers, HalfEdgeId, MassError, Masses, Mesh, Point,
-    PositionError, Positions, Scissor, VertexId, mend,
+    Cut, CutError, CutMethod, CutReport, Edits, Followers, HalfEdgeId, MassError, Masses, Mesh,
+    Point, PositionError, Positions, Scissor, VertexId, mend,
 };
 
 /// A mesh with what every follower of it needs.
 #[derive(Clone, Debug)]
-pub(super) struct Sheet {
-    pub(super) mesh: Mesh,
+pub(crate) struct Sheet {
+    pub(crate) mesh: Mesh,
     /// Where the vertices were when the mesh was last cut, and since then by its edits alone: a
     /// cloth that moves says where they are by [`Sheet::move_to`].
     pub(super) positions: Positions,
     pub(super) masses: Masses,
-    pub(super) edits: Edits,
+    pub(crate) edits: Edits,
 }
 
 impl Sheet {
@@ -61,6 +61,16 @@ impl Sheet {
     pub(super) fn cut(&mut self, scissor: &Scissor) -> Result<Cut, CutError> {
         let (mesh, positions) = (&mut self.mesh, &mut self.positions);
         scissor.cut(CutMethod::Exact, mesh, positions, &mut self.edits)
+    }
+
+    /// Cuts the sheet where it is, and measures the cut.
+    pub(super) fn cut_measured(
+        &mut self,
+        scissor: &Scissor,
+        method: CutMethod,
+    ) -> Result<(Cut, CutReport), CutError> {
+        let (mesh, positions) = (&mut self.mesh, &mut self.positions);
+        scissor.cut_measured(method, mesh, positions, &mut self.edits)
     }
 
     /// Makes two copies of a vertex one again.

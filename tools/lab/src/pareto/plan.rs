@@ -1,8 +1,7 @@
 //! The runs of a case: references, the gate, and every method at every step, each with an estimate of its cost.
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
-use tearmesh_cloth::suggested_step_s;
-use tearmesh_cloth::{Solver, System, Unstable};
+use tearmesh_cloth::{Solver, System, Unstable, suggested_step_s};
 
 use super::scene::{Case, Until};
 use crate::method::{DEFAULTS, Family, METHODS, Method, STEP_FRACTIONS};

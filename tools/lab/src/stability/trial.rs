@@ -4,8 +4,7 @@ use std::num::NonZero;
 
 use tearmesh::{CutMethod, Point, Ray, Vector, shapes};
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut};
-use tearmesh_cloth::{FRAME_S, Method};
-use tearmesh_cloth::{StepError, Wind, energy};
+use tearmesh_cloth::{FRAME_S, Method, StepError, Wind, energy};
 
 use super::row::Row;
 use crate::experiment::Status::{self, Ok as Fine, Refused, Wrong};

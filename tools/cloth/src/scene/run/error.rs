@@ -4,16 +4,15 @@ use std::fmt;
 
 use tearmesh::{ScissorError, VertexId};
 
-use crate::sheet::ClothError;
-use crate::system::SystemError;
-use crate::tearing::TearingError;
+use crate::simulation::SimulationError;
 
 /// The reason why a scene was refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The mesh cannot become a cloth.
-    Cloth(ClothError),
+    /// The mesh makes no cloth of this fabric, or a number of a load, of the rule for tearing or of
+    /// a strength cannot be used.
+    Simulation(SimulationError),
     /// The step is not positive and finite, the duration is negative or not finite, or the run
     /// would need more than [`Run::STEPS_MAX`](super::Run::STEPS_MAX) steps.
     Times {
@@ -22,8 +21,6 @@ pub enum RunError {
         /// The duration of the scene, in seconds.
         duration_s: f64,
     },
-    /// A number of a load is not finite, or is negative where it must not be.
-    Loads(SystemError),
     /// The wind is not usable at all times: its velocity with the sway is not finite, or its period
     /// is not positive and finite, or is too short.
     Wind {
@@ -78,8 +75,6 @@ pub enum RunError {
         /// The index of the first cut that is earlier than the one before it, from 0.
         number: usize,
     },
-    /// A number of the rule for tearing cannot be used.
-    Tearing(TearingError),
 }
 
 /// The part of a scene that names vertices.
@@ -100,20 +95,13 @@ impl fmt::Display for Names {
     }
 }
 
-impl From<ClothError> for RunError {
-    fn from(error: ClothError) -> RunError {
-        RunError::Cloth(error)
-    }
-}
-
 impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            RunError::Cloth(error) => error.fmt(f),
+            RunError::Simulation(error) => error.fmt(f),
             RunError::Times { step_s, duration_s } => {
                 write!(f, "{duration_s} s cannot be taken in steps of {step_s} s")
             }
-            RunError::Loads(error) => error.fmt(f),
             RunError::Wind { field, given } => {
                 write!(f, "{field} is {given}, which gives no usable wind")
             }
@@ -145,7 +133,6 @@ impl fmt::Display for RunError {
             RunError::CutTimes { number } => {
                 write!(f, "cut {} is earlier than the one before it", number + 1)
             }
-            RunError::Tearing(error) => error.fmt(f),
         }
     }
 }
