@@ -44,7 +44,6 @@ impl Staged {
             positions: &self.positions,
             frame: &self.frame,
             scene: &self.scene,
-            strengths: None,
         }
     }
 }

@@ -547,7 +547,13 @@ fn scenes_that_make_no_sense_are_refused() {
         "drag_per_s is -1, which is not finite, or negative"
     );
     let nowhere = refused(&|scene| scene.holds[1].region = Region::Vertices(Vec::new()));
-    assert_eq!(nowhere, RunError::NothingHeld { number: 1 });
+    assert_eq!(
+        nowhere,
+        RunError::NoVertices {
+            named_by: Names::Hold,
+            number: 1
+        }
+    );
     let region = || Region::Vertices([3, 25].map(|v| VertexId::new(v).expect("an id")).to_vec());
     for (names, refused) in [
         (
@@ -569,7 +575,13 @@ fn scenes_that_make_no_sense_are_refused() {
     }
     let nowhere = Region::Vertices(Vec::new());
     let weak = refused(&|scene| scene.strengths = vec![(nowhere.clone(), 0.5)]);
-    assert_eq!(weak, RunError::NothingStrong { number: 0 });
+    assert_eq!(
+        weak,
+        RunError::NoVertices {
+            named_by: Names::Strength,
+            number: 0
+        }
+    );
     let moves = refused(&|scene| scene.holds[0].moves = vec![(1.0, Vector::zeros()); 2]);
     assert_eq!(moves, RunError::Moves { number: 0 });
     let early = refused(&|scene| scene.holds[0].until_s = Some(0.0));

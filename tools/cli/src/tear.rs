@@ -57,16 +57,11 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
     check::known_forces(args, &scene)?;
-    let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
-    let mut run = run.map_err(|error| check::refused(&error, &opened, &source))?;
-    let strengths = match &args.strength {
-        Some(path) => Some(strength::read(path, &opened.document, streams)?),
-        None => None,
-    };
-    if let Some(strengths) = &strengths {
-        let with = run.with_strengths(strengths.clone());
-        run = with.map_err(|error| check::refused(&error, &opened, &source))?;
+    if let Some(path) = &args.strength {
+        scene.strengths = strength::read(path, &opened.document, streams)?;
     }
+    let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
+    let run = run.map_err(|error| check::refused(&error, &opened, &source))?;
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
     session.faults.extend(times::warnings(&run, args));
@@ -76,7 +71,6 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         args,
         opened: &opened,
         frame: &frame,
-        strengths: strengths.as_deref(),
         guard: Guard::new(),
     };
     play.perform(run, session, streams)
@@ -130,7 +124,6 @@ struct Play<'a> {
     args: &'a TearArgs,
     opened: &'a Opened,
     frame: &'a Frame,
-    strengths: Option<&'a [f64]>,
     /// An interruption ends the steps, or the writing of frames; what was done is written.
     guard: Guard,
 }
@@ -370,7 +363,6 @@ impl Play<'_> {
             positions: &self.opened.positions,
             frame: self.frame,
             scene: run.scene(),
-            strengths: self.strengths,
         };
         let bar = self.bar(1000, "of the step check {percent} %", streams);
         let checked = step::check(subject, &self.guard, &bar);

@@ -44,7 +44,7 @@ use crate::sheet::Cloth;
 use crate::solver::{StepError, StepReport};
 use crate::step::Observer;
 use crate::step_length::{speed_m_per_s, suggested_step_s};
-use crate::tearing::{Tear, TearReport, TearingError};
+use crate::tearing::{Tear, TearReport};
 
 /// A cloth with its mesh, in motion.
 ///
@@ -374,16 +374,6 @@ impl Simulation {
         if let Some(tear) = &mut self.tear {
             self.sheet.edits.replay(tear);
         }
-    }
-
-    /// Sets the strengths that vertices have by themselves, without grips and open wounds; nothing
-    /// where there is no rule for tearing.
-    pub(crate) fn set_strengths(&mut self, strengths: Vec<f64>) -> Result<(), TearingError> {
-        if let Some(tear) = self.tear.take() {
-            self.tear = Some(tear.with_strengths(strengths.clone())?);
-            self.strengths = PerVertex::new(strengths).starting_at(self.sheet.edits.cursor());
-        }
-        Ok(())
     }
 
     /// Gives vertices the strengths that they have by themselves, by grips, and by open wounds

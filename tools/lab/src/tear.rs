@@ -250,7 +250,6 @@ impl Experiment for Tear {
             positions: &positions,
             frame: &frame,
             scene: &scene,
-            strengths: None,
         };
         let step_divisor = NonZero::new(key.step_divisor)?;
         let member = ensemble::member(subject, step_divisor, key.seed, bounds.stop);

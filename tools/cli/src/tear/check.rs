@@ -164,12 +164,10 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
     };
     match *error {
         _ if opened.mesh.face_count() == 0 => {}
-        RunError::NothingHeld { number } | RunError::NothingStrong { number } => {
-            let is_hold = matches!(error, RunError::NothingHeld { .. });
-            let table = if is_hold { "hold" } else { "strength" };
+        RunError::NoVertices { named_by, number } => {
             let help = "give it a larger region, or `near` with a place";
             return blame(
-                (table, number, ""),
+                (&named_by.to_string(), number, ""),
                 "E-SCENE-EMPTY",
                 error.to_string(),
                 Some(help),

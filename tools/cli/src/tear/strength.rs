@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use tearmesh::VertexId;
+use tearmesh_cloth::scene::Region;
 use tearmesh_obj::Document;
 
 use crate::exit::{Exit, Stop};
@@ -14,18 +16,18 @@ pub(super) fn read(
     path: &Path,
     document: &Document,
     streams: &mut Streams<'_>,
-) -> Result<Vec<f64>, Stop> {
+) -> Result<Vec<(Region, f64)>, Stop> {
     let unreadable = |fault| Stop::new(Exit::Input, fault);
     let file = Input::find(path, streams.input).map_err(unreadable)?;
     let text = file.text().map_err(unreadable)?;
-    let mut strengths = vec![1.0; document.positions().len()];
+    let mut strengths = Vec::new();
     for (i, line) in text.lines().enumerate() {
         let words = line.split('#').next().unwrap_or_default();
         if words.trim().is_empty() {
             continue;
         }
         match entry(words, document) {
-            Ok((vertex, strength)) => strengths[vertex] = strength,
+            Ok((vertex, strength)) => strengths.push((Region::Vertices(vec![vertex]), strength)),
             Err(label) => {
                 let fault = Fault {
                     code: "E-STRENGTH",
@@ -48,7 +50,7 @@ pub(super) fn read(
     Ok(strengths)
 }
 
-fn entry(words: &str, document: &Document) -> Result<(usize, f64), String> {
+fn entry(words: &str, document: &Document) -> Result<(VertexId, f64), String> {
     let mut words = words.split_whitespace();
     let (Some(vertex), Some(strength), None) = (words.next(), words.next(), words.next()) else {
         return Err("expected two numbers".to_owned());
@@ -56,7 +58,8 @@ fn entry(words: &str, document: &Document) -> Result<(usize, f64), String> {
     let number: usize = vertex
         .parse()
         .map_err(|_| "expected a whole number first".to_owned())?;
-    let Some(vertex) = document.vertex_of_number(number) else {
+    let vertex = document.vertex_of_number(number);
+    let Some(vertex) = vertex.and_then(VertexId::new) else {
         let last = document.vertex_statement_count();
         return Err(format!("the mesh has the vertices 1 to {last}"));
     };

@@ -32,8 +32,6 @@ pub struct Subject<'a> {
     pub frame: &'a Frame,
     /// The scene to play.
     pub scene: &'a Scene,
-    /// The strength of each vertex, as in [`Run::with_strengths`]; `None` for the strengths of the scene.
-    pub strengths: Option<&'a [f64]>,
 }
 
 /// All runs of a subject with one step.
@@ -228,13 +226,8 @@ impl Job {
 ///
 /// let (mesh, positions) = shapes::grid(4, 4);
 /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-/// let subject = Subject {
-///     mesh: &mesh,
-///     positions: &positions,
-///     frame: &frame,
-///     scene: &Scene { duration_s: 0.1, ..Scene::hang(&frame) },
-///     strengths: None,
-/// };
+/// let scene = &Scene { duration_s: 0.1, ..Scene::hang(&frame) };
+/// let subject = Subject { mesh: &mesh, positions: &positions, frame: &frame, scene };
 /// let step_divisors = [1, 2].map(|divisor| NonZero::new(divisor).unwrap());
 /// let ensembles = ensemble::play(subject, 1..=3, &step_divisors, &|| false, ensemble::in_series)?;
 /// let [(whole, _), (half, _)] = [0, 1].map(|i| ensembles[i].numbers(Quantity::Torn));
@@ -353,10 +346,7 @@ fn visits(run: &Run) -> u64 {
 /// A run of the subject on `mesh`, with its step divided.
 fn begin(subject: Subject<'_>, mesh: Mesh, step_divisor: NonZero<u32>) -> Result<Run, RunError> {
     let scene = subject.scene.clone();
-    let mut run = Run::new(mesh, subject.positions, scene, subject.frame)?;
-    if let Some(strengths) = subject.strengths {
-        run = run.with_strengths(strengths.to_vec())?;
-    }
+    let run = Run::new(mesh, subject.positions, scene, subject.frame)?;
     Ok(run.in_smaller_steps(step_divisor))
 }
 

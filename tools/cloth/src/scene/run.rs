@@ -199,18 +199,6 @@ impl Run {
     /// The largest number of steps in a run.
     pub const STEPS_MAX: u64 = 1 << 40;
 
-    /// Sets the strength of each vertex, as a multiple of the tearing threshold, in place of the
-    /// scene's strengths. It has no effect if the scene has no rule for tearing.
-    ///
-    /// # Errors
-    ///
-    /// [`RunError`] unless there is one positive finite number per vertex.
-    pub fn with_strengths(mut self, strengths: Vec<f64>) -> Result<Run, RunError> {
-        let set = self.sim.set_strengths(strengths);
-        set.map_err(|error| RunError::Simulation(SimulationError::Tearing(error)))?;
-        Ok(self)
-    }
-
     /// Divides the step of a run that has not begun by `parts`, to show which results depend on the
     /// step. A step that the run chose itself is divided further if stability needs it.
     ///

@@ -29,14 +29,11 @@ pub enum RunError {
         /// The value that was given; for a vector, its unusable component.
         given: f64,
     },
-    /// The region of a hold contains no vertex.
-    NothingHeld {
-        /// The index of the hold in the scene, from 0.
-        number: usize,
-    },
-    /// The region of a strength contains no vertex.
-    NothingStrong {
-        /// The index of the strength in the scene, from 0.
+    /// The region of a hold or a strength contains no vertex.
+    NoVertices {
+        /// The part of the scene that has the region.
+        named_by: Names,
+        /// The index of that hold or strength in the scene, from 0.
         number: usize,
     },
     /// A hold or a strength names a vertex that the mesh does not have.
@@ -105,11 +102,12 @@ impl fmt::Display for RunError {
             RunError::Wind { field, given } => {
                 write!(f, "{field} is {given}, which gives no usable wind")
             }
-            RunError::NothingHeld { number } => {
-                write!(f, "hold {} holds no vertex", number + 1)
-            }
-            RunError::NothingStrong { number } => {
-                write!(f, "strength {} contains no vertex", number + 1)
+            RunError::NoVertices { named_by, number } => {
+                let verb = match named_by {
+                    Names::Hold => "holds",
+                    Names::Strength => "contains",
+                };
+                write!(f, "{named_by} {} {verb} no vertex", number + 1)
             }
             RunError::NoVertex {
                 named_by,

@@ -3,9 +3,6 @@
 //! Where several hold one vertex the one that took it last leads it, and the last in the scene of
 //! those that took it at one time. When that ends, the one before it holds on to the vertex.
 
-use std::cmp::Reverse;
-use std::collections::BTreeSet;
-
 use tearmesh::geometry::Point;
 use tearmesh::{Edit, Edits, Mesh, VertexId};
 
@@ -20,17 +17,8 @@ use crate::system::System;
 pub(super) struct Held {
     hold: HeldVertices,
     vertices: Vec<VertexId>,
-    state: State,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    Waiting,
-    Holding {
-        /// Since the beginning of this step.
-        since: u64,
-    },
-    Released,
+    /// The step at whose beginning it took its vertices; `None` before that, and after it let go.
+    since: Option<u64>,
 }
 
 /// The step at whose beginning something is to happen.
@@ -59,11 +47,10 @@ pub(super) fn vertices_in(
         });
     }
     let found = region.vertices(mesh, points, frame);
-    match named_by {
-        _ if !found.is_empty() => Ok(found),
-        Names::Hold => Err(RunError::NothingHeld { number }),
-        Names::Strength => Err(RunError::NothingStrong { number }),
+    if found.is_empty() {
+        return Err(RunError::NoVertices { named_by, number });
     }
+    Ok(found)
 }
 
 /// A system in whose particles hands have a part, and the balance of what they work.
@@ -73,8 +60,8 @@ type Hands<'a> = (&'a mut System, &'a mut Balance);
 pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, hands: Hands<'_>) {
     let (system, balance) = hands;
     for held in all.iter_mut() {
-        if held.state == State::Waiting && step_at(held.hold.from_s, step_s) <= now {
-            held.state = State::Holding { since: now };
+        if held.since.is_none() && step_at(held.hold.from_s, step_s) == now {
+            held.since = Some(now);
             for &v in &held.vertices {
                 held.take(v, system.positions()[v.index()], (system, balance));
             }
@@ -82,31 +69,22 @@ pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, hands: H
     }
     let ends = |until_s: f64| step_at(until_s, step_s) <= now;
     for number in 0..all.len() {
-        if let State::Holding { since } = all[number].state
-            && all[number].hold.until_s.is_some_and(ends)
+        if all[number].hold.until_s.is_some_and(ends)
+            && let Some(since) = all[number].since.take()
         {
-            all[number].state = State::Released;
             release(all, number, since, (system, balance));
         }
     }
 }
 
-/// Lets the vertices of a hold go, or gives them to those that hold them as well. Linear in the
-/// vertices of all, times the logarithm.
+/// Lets the vertices of a hold go, or gives them to those that hold them as well.
 fn release(all: &[Held], number: usize, since: u64, (system, balance): Hands<'_>) {
-    let mut others = Vec::new();
-    for (other, held) in all.iter().enumerate() {
-        if let State::Holding { since } = held.state {
-            let vertices: BTreeSet<VertexId> = held.vertices.iter().copied().collect();
-            others.push(((since, other), held, vertices));
-        }
-    }
-    others.sort_by_key(|&(taken, ..)| Reverse(taken));
     for &v in &all[number].vertices {
-        let last = others.iter().find(|(_, _, vertices)| vertices.contains(&v));
-        match last {
-            Some(&(taken, ..)) if taken > (since, number) => {} // It leads it already.
-            Some((_, held, _)) => held.take_back(v, (system, balance)),
+        let others = (0..).zip(all);
+        let others = others.filter(|(_, held)| held.since.is_some() && held.vertices.contains(&v));
+        match others.max_by_key(|&(other, held)| (held.since, other)) {
+            Some((other, held)) if (held.since, other) > (Some(since), number) => {} // It leads it already.
+            Some((_, held)) => held.take_back(v, (system, balance)),
             None => balance.handle(system, v.index(), |system| system.release(v.index())),
         }
     }
@@ -132,7 +110,7 @@ impl Held {
         Ok(Held {
             hold: hold.clone(),
             vertices,
-            state: State::Waiting,
+            since: None,
         })
     }
 
@@ -179,10 +157,7 @@ impl Held {
     }
 
     pub(super) fn now(&self) -> &[VertexId] {
-        match self.state {
-            State::Holding { .. } => &self.vertices,
-            State::Waiting | State::Released => &[],
-        }
+        self.since.map_or(&[], |_| &self.vertices)
     }
 
     /// How many of its vertices are joined to no other of them.
