@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use tearmesh_cloth::implicit::{self, Settings};
-use tearmesh_cloth::{
-    Implicit, Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s,
-};
+use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s};
 
 use crate::plot::{COLOURS, Colour, Mark, Shape};
 use crate::rk4::Rk4;
@@ -178,11 +176,7 @@ impl Method {
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
         match self.settings() {
-            Some(tearmesh_cloth::Method::Verlet) => Box::new(Verlet::new()),
-            Some(tearmesh_cloth::Method::Provot(limiter)) => Box::new(Provot::new(limiter)),
-            Some(tearmesh_cloth::Method::Pbd(pbd)) => Box::new(pbd),
-            Some(tearmesh_cloth::Method::Xpbd(xpbd)) => Box::new(xpbd),
-            Some(tearmesh_cloth::Method::Implicit(settings)) => Box::new(Implicit::new(settings)),
+            Some(settings) => Box::new(settings.solver()),
             None if self.family == Family::Rk4 => Box::new(Rk4::new()),
             None if self.family == Family::PlainVerlet => Box::new(Verlet::plain()),
             None => Box::new(Provot::unlimited()),

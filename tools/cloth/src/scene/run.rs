@@ -422,7 +422,7 @@ impl Run {
     /// * Verlet: at most the step that suits nine tenths of the vertices
     ///   ([`suited_step_s`](crate::suited_step_s)); the others are carried by their neighbours, and
     ///   so are vertices that become light by a tear or a cut.
-    /// * Provot: at most 0.7 of the stability limit of the cloth at rest. If a tear or a cut lowers
+    /// * Provot: at most 0.925 of the longest step that is admitted at rest. If a tear or a cut lowers
     ///   the limit, each step is divided ([`Unstable::Substep`]).
     /// * PBD, XPBD: at most [`Run::step_wanted_s`], since a pull travels only an edge or two in
     ///   each sweep.

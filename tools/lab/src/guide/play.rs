@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::ensemble::Disturbance;
-use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene, Step};
+use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene};
 use tearmesh_cloth::statistics::{Random, median};
-use tearmesh_cloth::{FRAME_S, Method};
+use tearmesh_cloth::{FRAME_S, Method, TearReport};
 
 use crate::experiment::{Bounds, Status};
 use crate::method::{self, DEFAULTS};
@@ -406,7 +406,7 @@ impl Stage {
 fn take_steps(
     run: &mut Run,
     stop: &dyn Fn() -> bool,
-    mut is_done: impl FnMut(&Run, &Step) -> bool,
+    mut is_done: impl FnMut(&Run, &TearReport) -> bool,
 ) -> Result<(), End> {
     while !run.is_over() {
         if stop() {
