@@ -253,7 +253,7 @@ fn led_forces(system: &System) -> impl Iterator<Item = Vector> {
 /// The power of wind and of drag on free particles, in watts.
 fn air_w(system: &System, gusts: &mut Vec<Vector>) -> [f64; 2] {
     let model = &system.model;
-    let drag_w = -2.0 * model.drag_per_s() * energy::free_kinetic_j(system);
+    let drag_w = -2.0 * model.drag_per_s() * energy::kinetic_j(system);
     let Some(wind) = model.loads.wind else {
         return [0.0, drag_w];
     };

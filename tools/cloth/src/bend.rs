@@ -27,8 +27,6 @@
 //! and the force is −4 k / (L² p(u)) without cancellation at d = L, where the formula above
 //! divides zero by zero. Only + − × ÷ in a fixed order: the same bits on every machine.
 
-use crate::pair::{Law, Link};
-
 /// The law by which bend constraints yield under compression: like a spring at first, and then as a
 /// buckled arc (Choi and Ko 2002 §4.2).
 ///
@@ -91,98 +89,45 @@ impl Buckling {
     pub fn compression_n_per_m(&self, flexural_n_m2: f64, rest_length_m: f64) -> f64 {
         self.number * flexural_n_m2 / (rest_length_m * rest_length_m * rest_length_m)
     }
-}
 
-impl Law for Buckling {
-    type Link = Bend;
-
-    /// A bend without stiffness, which is what an edit leaves where rounding left no length, does
-    /// nothing.
-    fn link(self, rest_length_m: f64, stiffness_n_per_m: f64) -> Option<Bend> {
-        (stiffness_n_per_m > 0.0).then_some(Bend {
-            law: self,
-            rest: rest_length_m,
-            compression: stiffness_n_per_m,
-        })
-    }
-
-    /// That of the spring, or that of the arc where both ends meet, 12π² k / L³. The arc's force is
-    /// concave in d, so it is nowhere stiffer.
-    fn stiffest(self) -> f64 {
+    /// The largest stiffness at any length, as a multiple of c: that of the spring, or that of the arc where
+    /// both ends meet, 12π² k / L³. The arc's force is concave in d, so it is nowhere stiffer.
+    pub(crate) fn stiffest(self) -> f64 {
         let pi = std::f64::consts::PI;
         (12.0 * (pi * pi) / self.number).max(1.0)
     }
-}
 
-/// What resists bending between two particles that are two apart.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Bend {
-    law: Buckling,
-    rest: f64,
-    /// c, in N/m.
-    compression: f64,
-}
-
-impl Bend {
-    /// Energy, force and slope with the ends so far apart.
-    fn axial(self, distance: f64) -> Axial {
-        let gap = distance - self.rest;
-        if gap >= 0.0 {
+    /// Energy, force and slope of a bend of this rest length L and stiffness c against compression with
+    /// the ends so far apart; nothing of one without stiffness.
+    pub(crate) fn axial(self, rest: f64, compression: f64, distance: f64) -> Axial {
+        let (l, c, gap) = (rest, compression, distance - rest);
+        if gap >= 0.0 || c <= 0.0 {
             return Axial::default();
         }
-        let c = self.compression;
-        if distance >= self.law.below * self.rest {
+        if distance >= self.below * l {
             return Axial {
                 energy: 0.5 * c * (gap * gap),
                 force: c * gap,
                 slope: c,
             };
         }
-        let mut arc = self.arc(distance);
-        arc.energy += self.law.shift * (c * (self.rest * self.rest));
-        arc
-    }
-
-    /// The arc at the distance d in 0 … L.
-    fn arc(self, distance: f64) -> Axial {
-        let l = self.rest;
-        let k = self.compression * (l * l * l) / self.law.number;
+        let k = c * (l * l * l) / self.number;
         let u = inverse_sinc_squared(distance / l);
         let Series { p, r, .. } = series(u);
         Axial {
-            energy: 2.0 * k * u / l,
+            energy: 2.0 * k * u / l + self.shift * (c * (l * l)),
             force: -4.0 * k / (l * l * p),
             slope: 4.0 * k / (l * l * l) * (r / (p * p * p)),
         }
     }
 }
 
-impl Link for Bend {
-    fn twice_energy(self, length: f64) -> f64 {
-        2.0 * self.axial(length).energy
-    }
-
-    fn force(self, length: f64) -> f64 {
-        self.axial(length).force
-    }
-
-    /// A fold is where it is meant to be short.
-    #[inline]
-    fn damped_stiffness(self) -> f64 {
-        0.0
-    }
-    fn stiffness(self, length: f64) -> [f64; 2] {
-        let axial = self.axial(length);
-        [axial.slope, axial.force / length]
-    }
-}
-
 /// An energy that depends on a distance, with its first two derivatives.
 #[derive(Clone, Copy, Debug, Default)]
-struct Axial {
-    energy: f64,
-    force: f64,
-    slope: f64,
+pub(crate) struct Axial {
+    pub(crate) energy: f64,
+    pub(crate) force: f64,
+    pub(crate) slope: f64,
 }
 
 /// Functions of u = t², for t in 0 … π.

@@ -40,24 +40,15 @@ pub enum BlowUpSite {
     Unknown,
 }
 
-/// The constraint that is longest for its rest length, of those that were looked at.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Longest {
-    worst: Option<(f64, BlowUpSite)>,
-}
-
-impl Longest {
-    /// Looks at one of this length, as a multiple of that at rest.
-    pub(crate) fn weigh(&mut self, ratio: f64, site: impl FnOnce() -> BlowUpSite) {
-        if self.worst.is_none_or(|(most, _)| ratio > most) {
-            self.worst = Some((ratio, site()));
+impl BlowUpSite {
+    /// The length of what became too long, as a multiple of its rest length.
+    pub(crate) fn stretch_ratio(&self) -> Option<f64> {
+        match *self {
+            BlowUpSite::Constraint { stretch_ratio, .. }
+            | BlowUpSite::Bend { stretch_ratio, .. }
+            | BlowUpSite::Triangle { stretch_ratio, .. } => Some(stretch_ratio),
+            BlowUpSite::Particle(_) | BlowUpSite::Beyond(_) | BlowUpSite::Unknown => None,
         }
-    }
-
-    /// The longest, if it is beyond `ratio_max`.
-    pub(crate) fn beyond(self, ratio_max: f64) -> Option<BlowUpSite> {
-        let beyond = self.worst.filter(|&(ratio, _)| ratio > ratio_max);
-        beyond.map(|(_, site)| site)
     }
 }
 

@@ -29,12 +29,6 @@
 
 use std::ops::{AddAssign, Mul};
 
-/// The stiffness of a net of springs, as far as masses are concerned.
-pub(crate) trait Net {
-    /// The neighbours of a particle with the stiffness between, in N/m.
-    fn neighbours(&self, particle: usize, visit: &mut dyn FnMut(usize, f64));
-}
-
 /// What particles weigh in a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Carry {
@@ -58,12 +52,13 @@ struct Star {
 
 impl Carry {
     /// Weighs particles of these masses for a net with the sums `stiffness` at each of them, so that
-    /// Δt² λ is at most 4 `share`. An inverse mass of zero says that a particle is held.
+    /// Δt² λ is at most 4 `share`. An inverse mass of zero says that a particle is held. `neighbours` visits
+    /// those of a particle with the stiffness between, in N/m.
     pub(crate) fn weigh(
         &mut self,
         masses: [&[f64]; 2],
         stiffness: &[f64],
-        net: &dyn Net,
+        neighbours: impl Fn(usize, &mut dyn FnMut(usize, f64)),
         share: f64,
         dt_s: f64,
     ) {
@@ -90,7 +85,7 @@ impl Carry {
         self.light.sort_unstable_by(by_weight);
         for i in 0..self.light.len() {
             let particle = self.light[i].1 as usize;
-            self.carry(particle, need(particle), net);
+            self.carry(particle, need(particle), &neighbours);
         }
         for (inverse, &w) in self.inverse.iter_mut().zip(inverse_masses) {
             *inverse = if w > 0.0 { 1.0 / *inverse } else { 0.0 };
@@ -98,13 +93,18 @@ impl Carry {
     }
 
     /// Has a particle carried by its neighbours that are not, unless it weighs what it needs.
-    fn carry(&mut self, particle: usize, need: f64, net: &dyn Net) {
+    fn carry(
+        &mut self,
+        particle: usize,
+        need: f64,
+        neighbours: &impl Fn(usize, &mut dyn FnMut(usize, f64)),
+    ) {
         let own = self.inverse[particle];
         if need <= own {
             return;
         }
         let (first, mut sum) = (self.legs.len(), 0.0);
-        net.neighbours(particle, &mut |other, stiffness| {
+        neighbours(particle, &mut |other, stiffness| {
             if self.is_carried[other] {
                 self.is_proven = false;
             } else {
@@ -173,7 +173,7 @@ mod tests {
     /// Springs as a list.
     struct Springs(Vec<([usize; 2], f64)>);
 
-    impl Net for Springs {
+    impl Springs {
         fn neighbours(&self, particle: usize, visit: &mut dyn FnMut(usize, f64)) {
             for &([a, b], stiffness) in &self.0 {
                 if a == particle || b == particle {
@@ -206,7 +206,10 @@ mod tests {
             sums[b] += stiffness;
         }
         let mut carry = Carry::default();
-        carry.weigh(masses, &sums, springs, 0.65, dt_s);
+        let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
+            springs.neighbours(particle, visit);
+        };
+        carry.weigh(masses, &sums, neighbours, 0.65, dt_s);
         carry
     }
 

@@ -66,42 +66,18 @@ pub struct Constraints {
     taken: Vec<bool>,
 }
 
-/// The columns of a colour, an entry a constraint.
+/// The constraints of one colour, no two of which share a particle: columns of the same length. The last
+/// two are left behind by a step, as in [`Memory`].
 #[derive(Clone, Debug, Default)]
-struct Colour {
-    ids: Vec<u32>,
-    ends: Vec<[u32; 2]>,
-    rest: Vec<f64>,
-    stiffness: Vec<f64>,
+pub(crate) struct Colour {
+    pub(crate) ids: Vec<u32>,
+    pub(crate) ends: Vec<[u32; 2]>,
+    pub(crate) rest: Vec<f64>,
+    pub(crate) stiffness: Vec<f64>,
     /// The inverse of the stiffness: a division less in each projection.
-    compliance: Vec<f64>,
-    multipliers: Vec<f64>,
-    ratios: Vec<f64>,
-}
-
-/// How many constraints of a colour are projected together: first all their lengths, then
-/// all roots and divisions, which a processor does two at a time, then all moves. Each number is what
-/// it would be one by one.
-///
-/// Fewer or more at a time are slower. What is left is to fetch two ends and to put them back, not
-/// arithmetic: intrinsics, which need `unsafe`, gain 2 % with SSE2 and about 30 % with AVX2.
-pub(crate) const TOGETHER: usize = 8;
-
-/// The constraints of one colour, no two of which share a particle: slices of the same length.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Batch<'a> {
-    pub(crate) ids: &'a [u32],
-    pub(crate) ends: &'a [[u32; 2]],
-    pub(crate) rest: &'a [f64],
-    pub(crate) stiffness: &'a [f64],
-    pub(crate) compliance: &'a [f64],
-}
-
-/// What a step leaves behind in the constraints of one colour.
-#[derive(Debug)]
-pub(crate) struct Memories<Column> {
-    pub(crate) multipliers: Column,
-    pub(crate) ratios: Column,
+    pub(crate) compliance: Vec<f64>,
+    pub(crate) multipliers: Vec<f64>,
+    pub(crate) ratios: Vec<f64>,
 }
 
 /// What a step leaves behind in a constraint.
@@ -131,12 +107,6 @@ impl Constraints {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
-    }
-
-    /// Returns the number of colours.
-    #[must_use]
-    pub fn colour_count(&self) -> usize {
-        self.colours.len()
     }
 
     /// Returns the colour of a constraint, from 0.
@@ -190,24 +160,13 @@ impl Constraints {
     }
 
     /// The colours, in the order of every sweep.
-    pub(crate) fn batches(&self) -> impl Iterator<Item = Batch<'_>> {
-        self.colours.iter().map(Colour::batch)
+    pub(crate) fn colours(&self) -> &[Colour] {
+        &self.colours
     }
 
-    /// The batches of constraints, colour by colour, with what a step left behind in each
-    /// constraint.
-    pub(crate) fn batches_remembered(&self) -> impl Iterator<Item = (Batch<'_>, Memories<&[f64]>)> {
-        self.colours
-            .iter()
-            .map(|colour| (colour.batch(), colour.memories()))
-    }
-
-    /// Mutable batches of constraints, colour by colour, with what a step leaves behind in each
-    /// constraint.
-    pub(crate) fn batches_mut(
-        &mut self,
-    ) -> impl Iterator<Item = (Batch<'_>, Memories<&mut [f64]>)> {
-        self.colours.iter_mut().map(Colour::batch_mut)
+    /// The colours, for what a step leaves behind in them.
+    pub(crate) fn colours_mut(&mut self) -> &mut [Colour] {
+        &mut self.colours
     }
 
     pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
@@ -328,6 +287,13 @@ impl Constraints {
 }
 
 impl Colour {
+    /// The ends, the rest length and the stiffness of each constraint.
+    pub(crate) fn springs(&self) -> impl Iterator<Item = ([usize; 2], f64, f64)> + '_ {
+        let numbers = self.rest.iter().zip(&self.stiffness);
+        let springs = self.ends.iter().zip(numbers);
+        springs.map(|(&[a, b], (&rest, &stiffness))| ([a as usize, b as usize], rest, stiffness))
+    }
+
     fn push(&mut self, id: u32, constraint: Constraint, memory: Memory) {
         self.ids.push(id);
         self.ends.push(constraint.ends.map(|end| end as u32));
@@ -349,38 +315,6 @@ impl Colour {
             multiplier: self.multipliers.swap_remove(i),
             ratio: self.ratios.swap_remove(i),
         }
-    }
-
-    fn batch(&self) -> Batch<'_> {
-        Batch {
-            ids: &self.ids,
-            ends: &self.ends,
-            rest: &self.rest,
-            stiffness: &self.stiffness,
-            compliance: &self.compliance,
-        }
-    }
-
-    fn memories(&self) -> Memories<&[f64]> {
-        Memories {
-            multipliers: &self.multipliers,
-            ratios: &self.ratios,
-        }
-    }
-
-    fn batch_mut(&mut self) -> (Batch<'_>, Memories<&mut [f64]>) {
-        let batch = Batch {
-            ids: &self.ids,
-            ends: &self.ends,
-            rest: &self.rest,
-            stiffness: &self.stiffness,
-            compliance: &self.compliance,
-        };
-        let memories = Memories {
-            multipliers: &mut self.multipliers[..],
-            ratios: &mut self.ratios[..],
-        };
-        (batch, memories)
     }
 }
 
@@ -404,7 +338,7 @@ mod tests {
             assert_eq!(constraints.get(id).ends, ends);
             for end in ends {
                 assert!(constraints.of(end).any(|of| of == id), "{id} at {end}");
-                let same = |&of: &ConstraintId| constraints.colour(of) == constraints.colour(id);
+                let same = |&of: &ConstraintId| constraints.slot(of).0 == constraints.slot(id).0;
                 assert_eq!(constraints.of(end).filter(same).count(), 1, "{id} at {end}");
             }
         }
@@ -413,9 +347,9 @@ mod tests {
             .sum();
         assert_eq!(listed, 2 * expected.len());
         assert_eq!(constraints.iter().count(), expected.len());
-        for batch in constraints.batches() {
-            let inverse = batch.stiffness.iter().map(|k| 1.0 / k);
-            assert_eq!(batch.compliance, inverse.collect::<Vec<_>>());
+        for colour in constraints.colours() {
+            let inverse = colour.stiffness.iter().map(|k| 1.0 / k);
+            assert_eq!(colour.compliance, inverse.collect::<Vec<_>>());
         }
     }
 
@@ -429,7 +363,7 @@ mod tests {
                 check(&constraints, &expected);
             }
         }
-        assert!(constraints.colour_count() <= 9);
+        assert!(constraints.colours.len() <= 9);
         for (id, [a, b]) in &expected {
             constraints.set_stiffness(*id, (7 + a * b) as f64);
         }

@@ -19,11 +19,9 @@ pub(crate) fn stored_j(system: &System) -> f64 {
         Recorded::Nothing | Recorded::Limiter => elastic_j(system),
         Recorded::RigidForces => 0.0,
         Recorded::SpringForces => {
-            let batches = families
-                .into_iter()
-                .flat_map(Constraints::batches_remembered);
-            0.5 * batches.fold(0.0, |sum, (batch, memories)| {
-                let forces = memories.multipliers.iter().zip(batch.compliance);
+            let colours = families.into_iter().flat_map(Constraints::colours);
+            0.5 * colours.fold(0.0, |sum, colour| {
+                let forces = colour.multipliers.iter().zip(&colour.compliance);
                 forces.fold(sum, |sum, (f, compliance)| sum + f * f * compliance)
             })
         }
@@ -39,17 +37,6 @@ pub fn kinetic_j(system: &System) -> f64 {
         .sum()
 }
 
-/// The kinetic energy of the particles that are not held, in joules, in one pass over slices.
-pub(crate) fn free_kinetic_j(system: &System) -> f64 {
-    let model = &system.model;
-    let particles = system.velocities.iter().zip(&model.masses);
-    let particles = particles.zip(&model.inverse_masses);
-    let twice = particles.fold(0.0, |sum, ((&v, m), &w)| {
-        sum + if w > 0.0 { m * dot(v, v) } else { 0.0 }
-    });
-    0.5 * twice
-}
-
 /// The potential of gravity of all particles, in joules: zero at the origin.
 pub(crate) fn potential_j(system: &System) -> f64 {
     let Some(gravity) = system.model.loads.gravity_m_per_s2 else {
@@ -62,7 +49,8 @@ pub(crate) fn potential_j(system: &System) -> f64 {
 /// The elastic energy of a constraint of a family, in joules, whether it is one of the system or
 /// was.
 pub(crate) fn elastic_of_j(system: &System, family: Family, constraint: &Constraint) -> f64 {
-    system.model.axial(family, constraint, &system.positions)[0]
+    let pairs = system.model.pairs(family);
+    pairs.energy_of(constraint, &system.positions)
 }
 
 /// The elastic energy of all that a particle has a part in, in joules.

@@ -23,10 +23,8 @@ use crate::system::{Family, System};
 /// If there is no such constraint.
 #[must_use]
 pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
-    let constraint = system.model.stretch.get(id);
-    system
-        .model
-        .axial(Family::Stretch, &constraint, &system.positions)[1]
+    let stretch = system.model.pairs(Family::Stretch);
+    stretch.force_of(&stretch.constraints.get(id), &system.positions)
 }
 
 /// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
@@ -88,42 +86,29 @@ pub fn reaction_n(system: &System, particle: usize) -> Vector {
 pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bool {
     accelerations.clear();
     accelerations.resize(system.positions.len(), Vector::zeros());
-    system.model.accelerate(
-        &system.positions,
-        &system.velocities,
-        accelerations,
-        &mut system.counters,
-    )
+    let (x, v, model) = (&system.positions, &system.velocities, &system.model);
+    let is_sane = model.pull(x, v, None, accelerations, &mut system.counters);
+    model.weigh(None, accelerations);
+    is_sane
 }
 
 /// The force of constraints, triangles and gravity on a particle, in newtons.
 pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
     let model = &system.model;
     let mut sum = model.gravity() * model.masses[particle];
-    for kind in &model.kinds() {
-        let exerted = |ends, by_length, multiplier| model.exerted_n(ends, by_length, multiplier);
-        kind.force_at(&system.positions, particle, &exerted, &mut sum);
-    }
+    model.add_force_at(&system.positions, particle, &mut sum);
     sum
 }
 
 fn wind_n(system: &System, particle: usize) -> Vector {
+    let model = &system.model;
     let mut sum = Vector::zeros();
-    let Some(wind) = system.model.loads.wind else {
-        return sum;
-    };
-    for face in system.model.faces.chunks_exact(3) {
-        let Some(corner) = face.iter().position(|&v| v as usize == particle) else {
-            continue;
-        };
-        let corners = [0, 1, 2].map(|i| face[i] as usize);
-        let mut sums = [Vector::zeros(); 3];
-        let (x, v) = (
-            corners.map(|v| system.positions[v]),
-            corners.map(|v| system.velocities[v]),
-        );
-        wind.press(&[0, 1, 2], &x, &v, &mut sums);
-        sum += sums[corner];
+    if let Some(wind) = model.loads.wind {
+        for face in model.faces.as_chunks::<3>().0 {
+            if face.iter().any(|&v| v as usize == particle) {
+                sum += wind.force_at_corners(*face, &system.positions, &system.velocities);
+            }
+        }
     }
     sum
 }

@@ -41,7 +41,7 @@
 
 use tearmesh::geometry::Point;
 
-use crate::carry::{Carry, Net};
+use crate::carry::Carry;
 use crate::system::counters::Counters;
 use crate::system::model::Model;
 
@@ -170,13 +170,13 @@ impl Guard {
         self.sums.clear();
         self.sums.resize(model.masses.len(), 0.0);
         let sums = &mut self.sums;
-        each_spring(model, self.reach, &mut |[a, b], stiffness| {
+        model.each_spring(self.reach, |[a, b], stiffness| {
             sums[a] += stiffness;
             sums[b] += stiffness;
         });
         let (sums, w) = (&self.sums, &model.inverse_masses);
         let mut most = (0.0, None);
-        each_spring(model, self.reach, &mut |[a, b], _| {
+        model.each_spring(self.reach, |[a, b], _| {
             let row = w[a] * sums[a] + w[b] * sums[b];
             if row > most.0 {
                 most = (row, Some([a, b]));
@@ -210,12 +210,12 @@ impl Guard {
         }
         let had = self.carry.len();
         let masses = [&model.masses[..], &model.inverse_masses[..]];
-        let net = Within {
-            model,
-            reach: self.reach,
+        let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
+            model.springs_at(particle, self.reach, visit);
         };
         let share = SHARE * (1.0 - air);
-        self.carry.weigh(masses, &self.sums, &net, share, dt_s);
+        self.carry
+            .weigh(masses, &self.sums, neighbours, share, dt_s);
         self.weighed = Some([dt_s, air]);
         self.is_sound = self.carry.is_proven();
         had + self.carry.len() > 0
@@ -255,7 +255,7 @@ impl Guard {
             }
             product.clear();
             product.resize(count, 0.0);
-            each_spring(model, self.reach, &mut |[a, b], stiffness| {
+            model.each_spring(self.reach, |[a, b], stiffness| {
                 let force = stiffness * (u[a] - u[b]);
                 product[a] += force;
                 product[b] -= force;
@@ -284,25 +284,4 @@ impl Guard {
 
 fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The springs that are as stiff as all constraints of a model together, or stiffer.
-fn each_spring(model: &Model, reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
-    for kind in &model.kinds() {
-        kind.each_spring(reach, visit);
-    }
-}
-
-/// A model as such a net.
-struct Within<'a> {
-    model: &'a Model,
-    reach: f64,
-}
-
-impl Net for Within<'_> {
-    fn neighbours(&self, particle: usize, visit: &mut dyn FnMut(usize, f64)) {
-        for kind in &self.model.kinds() {
-            kind.springs_at(particle, self.reach, visit);
-        }
-    }
 }

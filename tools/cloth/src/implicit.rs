@@ -195,11 +195,7 @@ impl Implicit {
             .then(|| self.history.ratio(x, dt_s))
             .flatten();
         self.blow(model, (x, v), known, counters);
-        self.layout.follow(x.len(), &|visit| {
-            for (kind, constraints) in model.kinds().iter().enumerate() {
-                constraints.each_pair(&mut |number, ends| visit(kind, number, ends));
-            }
-        });
+        self.layout.follow(x.len(), &|visit| model.each_pair(visit));
         let stage = self.begin(model, x, v, known, dt_s);
         let solution = self.solve(model, weights, (x, v), stage, report, counters);
         let velocity = |acceleration: f64| acceleration * stage.h / stage.dragged;
@@ -316,21 +312,16 @@ impl Implicit {
         self.forces.clear();
         let loads = self.outside.iter().zip(weights.masses);
         self.forces.extend(loads.map(|(g, m)| g * *m));
-        for constraints in &model.kinds() {
-            // What is far too long is found in the state in which a step ends.
-            let _ = constraints.forces(x, f64::INFINITY, None, &mut self.forces);
-        }
+        // What is far too long is found in the state in which a step ends.
+        let _ = model.add_forces(x, f64::INFINITY, None, &mut self.forces);
         let drag_per_s = model.drag_per_s();
         let acting = weights.rms(|i| self.forces[i] - v[i] * (drag_per_s * weights.masses[i]));
         let residual_max = stage.residual_max.min(UNANSWERED * acting);
         let (mut sums, mut is_clamped) = (1, false);
         let solution = loop {
             self.hessian.clear(&self.layout);
-            let mut clamped = 0;
-            for (i, constraints) in model.kinds().iter().enumerate() {
-                let slots = self.layout.slots(i);
-                clamped += constraints.hessian(x, is_clamped, slots, &mut self.hessian);
-            }
+            let slots = |kind| self.layout.slots(kind);
+            let clamped = model.add_hessian(x, is_clamped, slots, &mut self.hessian);
             let pcg = &mut self.pcg;
             self.hessian.product(&self.layout, &self.shift, &mut pcg.b);
             for (i, b) in pcg.b.iter_mut().enumerate() {
@@ -412,7 +403,9 @@ impl Solver for Implicit {
         Failure::unless(first_bad(&system.positions, &system.velocities).is_none())?;
         let mut report = StepReport::default();
         self.divide(system, dt_s, 1, &mut report)?;
-        Failure::unless(system.model.is_within_limit(&system.positions))?;
+        let ratio_max = system.model.stretch_ratio_max;
+        let too_long = system.model.longest_beyond(&system.positions, ratio_max);
+        Failure::unless(too_long.is_none())?;
         system.counters.overshoots += u64::from(report.parts > 1);
         self.report = Some(report);
         Ok(())
@@ -495,10 +488,8 @@ fn has_overshot(model: &Model, x: &[Point], reached: &[Point], v: &[Vector]) -> 
         is_long |= beyond > OVERSHOOT * rest;
         made_j += 0.5 * stiffness * beyond * beyond;
     };
-    for batch in model.stretch.batches() {
-        let numbers = batch.rest.iter().zip(batch.stiffness);
-        for (&ends, (&rest, &stiffness)) in batch.ends.iter().zip(numbers) {
-            let [a, b] = ends.map(|end| end as usize);
+    for colour in model.stretch.colours() {
+        for ([a, b], rest, stiffness) in colour.springs() {
             look(x[b] - x[a], reached[b] - reached[a], rest, stiffness);
         }
     }

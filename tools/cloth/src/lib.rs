@@ -52,7 +52,6 @@ mod constraint;
 mod contact;
 mod crush;
 mod digits;
-mod element;
 pub mod energy;
 mod fabric;
 mod flight;
@@ -68,7 +67,6 @@ mod matrix;
 mod method;
 mod pair;
 mod particle;
-mod pbd;
 mod provot;
 pub mod scene;
 mod sheet;
@@ -98,7 +96,6 @@ pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
 pub use material::warp_of_texture;
 pub use method::{ImplicitStats, LimiterStats, Method, Quality};
-pub use pbd::Pbd;
 pub use provot::{Limiter, LimiterReport, Provot};
 pub use sheet::{Cloth, ClothError, EnergyLedger};
 pub use simulation::{
@@ -113,7 +110,7 @@ pub use system::{Counters, FeatureVisits, System, SystemError, Unstable, Visits}
 pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;
 pub use verlet::Verlet;
-pub use xpbd::Xpbd;
+pub use xpbd::{Pbd, Xpbd};
 
 /// The library's example in the README is a test.
 #[cfg(doctest)]

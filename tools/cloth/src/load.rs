@@ -78,43 +78,33 @@ impl Loads {
 }
 
 impl Wind {
-    /// Adds the force on faces, a third to each corner: pressure c n·(u − v), where v is the mean
-    /// velocity of the corners, along the normal.
+    /// Adds the force on faces, a third to each corner.
     pub(crate) fn press(&self, faces: &[u32], x: &[Point], v: &[Vector], forces: &mut [Vector]) {
-        for face in faces.chunks_exact(3) {
-            let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
-            // Twice the area along the normal.
-            let normal = cross(x[b] - x[a], x[c] - x[a]);
-            let double_area = dot(normal, normal).sqrt();
-            if double_area > 0.0 {
-                let mean = (v[a] + v[b] + v[c]) / 3.0;
-                let relative = self.velocity_m_per_s - mean;
-                let pressure = self.coefficient * dot(normal, relative) / double_area;
-                let third = normal * (pressure / 6.0);
-                forces[a] += third;
-                forces[b] += third;
-                forces[c] += third;
+        for face in faces.as_chunks::<3>().0 {
+            let third = self.force_at_corners(*face, x, v);
+            for corner in *face {
+                forces[corner as usize] += third;
             }
         }
+    }
+
+    /// A third of the force on a face: pressure c n·(u − v), where v is the mean velocity of the corners,
+    /// along the normal.
+    pub(crate) fn force_at_corners(&self, face: [u32; 3], x: &[Point], v: &[Vector]) -> Vector {
+        let [a, b, c] = face.map(|corner| corner as usize);
+        // Twice the area along the normal.
+        let normal = cross(x[b] - x[a], x[c] - x[a]);
+        let double_area = length(normal);
+        if double_area <= 0.0 {
+            return Vector::zeros();
+        }
+        let relative = self.velocity_m_per_s - (v[a] + v[b] + v[c]) / 3.0;
+        let pressure = self.coefficient * dot(normal, relative) / double_area;
+        normal * (pressure / 6.0)
     }
 }
 
 impl Collider {
-    /// Moves the free particles inside to the surface, and takes their velocity inward.
-    pub(crate) fn push_out(
-        &self,
-        inverse_masses: &[f64],
-        positions: &mut [Point],
-        velocities: &mut [Vector],
-    ) {
-        let particles = positions.iter_mut().zip(velocities).zip(inverse_masses);
-        for ((position, velocity), _) in particles.filter(|(_, w)| **w > 0.0) {
-            if let Some((x, v)) = self.pushed(*position, *velocity) {
-                (*position, *velocity) = (x, v);
-            }
-        }
-    }
-
     /// Where a particle inside comes out, and its velocity then; `None` for one outside.
     pub(crate) fn pushed(&self, x: Point, v: Vector) -> Option<(Point, Vector)> {
         let (normal, depth) = self.depth(x)?;

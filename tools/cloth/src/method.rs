@@ -2,13 +2,12 @@
 //! reports about its own steps.
 
 use crate::implicit::{Implicit, Settings, StepReport};
-use crate::pbd::Pbd;
 use crate::provot::{Limiter, LimiterReport, Provot};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::stability::carried_count;
 use crate::system::System;
 use crate::verlet::Verlet;
-use crate::xpbd::Xpbd;
+use crate::xpbd::{Pbd, Xpbd};
 
 /// A method that advances a cloth, with its settings.
 ///

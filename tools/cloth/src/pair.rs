@@ -1,130 +1,138 @@
 //! Constraints between two particles that act along the line between them: sums over all of one
-//! law, whatever that is.
+//! family, which are springs, or bends that buckle ([`Buckling`]).
+//!
+//! A spring has the energy E = ½ k (l − L)², with k the stiffness, l the length and L that at rest. Its
+//! force is k (l − L) along the spring; across it the stiffness is k (1 − L/l), which is negative under
+//! compression.
 
-use tearmesh::geometry::{Point, Vector, dot};
+use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::blow_up::{BlowUpSite, Longest};
-use crate::constraint::{Batch, Constraint, Constraints};
+use crate::bend::Buckling;
+use crate::constraint::{Colour, Constraint, Constraints};
 use crate::crush::Crush;
-use crate::element::Element;
 use crate::matrix::{Block, Hessian};
 
-/// A law by which constraints act, all of them alike but for their rest length and stiffness.
-pub(crate) trait Law: Copy {
-    /// One of them.
-    type Link: Link;
-
-    /// The constraint of this rest length in metres and this stiffness in newtons per metre. `None`
-    /// where it does nothing, and its length does not matter.
-    fn link(self, rest_length_m: f64, stiffness_n_per_m: f64) -> Option<Self::Link>;
-
-    /// The largest stiffness at any length, by that number.
-    fn stiffest(self) -> f64;
-}
-
-/// What acts between two particles, by how far they are apart.
-pub(crate) trait Link: Copy {
-    /// Twice the energy, in joules: a sum is halved once.
-    fn twice_energy(self, length: f64) -> f64;
-
-    /// The pull, in newtons: the derivative of the energy. Negative where it pushes apart.
-    fn force(self, length: f64) -> f64;
-
-    /// The stiffness that is damped where it is crushed; zero where being short is being bent.
-    fn damped_stiffness(self) -> f64;
-
-    /// The derivative of that along the line, and that of the force across it for a turn, force
-    /// over length, in newtons per metre.
-    fn stiffness(self, length: f64) -> [f64; 2];
-}
-
-/// All constraints of one law.
+/// All constraints of a family, with the law by which they act.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pairs<'a, L> {
-    constraints: &'a Constraints,
-    law: L,
-    /// What a blow-up calls one of these.
-    site: fn([usize; 2], f64) -> BlowUpSite,
+pub(crate) struct Pairs<'a> {
+    pub(crate) constraints: &'a Constraints,
+    /// `None` where they are springs.
+    pub(crate) buckling: Option<Buckling>,
 }
 
-impl<'a, L: Law> Pairs<'a, L> {
-    pub(crate) fn new(
-        constraints: &'a Constraints,
-        law: L,
-        site: fn([usize; 2], f64) -> BlowUpSite,
-    ) -> Pairs<'a, L> {
-        Pairs {
-            constraints,
-            law,
-            site,
+impl Pairs<'_> {
+    /// Twice the energy of one, in joules: a sum is halved once.
+    #[inline]
+    fn twice_energy(self, rest: f64, stiffness: f64, length: f64) -> f64 {
+        match self.buckling {
+            None => stiffness * (length - rest) * (length - rest),
+            Some(law) => 2.0 * law.axial(rest, stiffness, length).energy,
         }
     }
 
-    fn link(&self, constraint: &Constraint) -> Option<L::Link> {
-        let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
-        self.law.link(rest, stiffness)
-    }
-}
-
-/// The links of a colour: their ends, rest lengths, and what acts.
-fn links<L: Law>(batch: Batch<'_>, law: L) -> impl Iterator<Item = ([usize; 2], f64, L::Link)> {
-    let numbers = batch.rest.iter().zip(batch.stiffness);
-    let constraints = batch.ends.iter().zip(numbers);
-    constraints.filter_map(move |(&[a, b], (&rest, &stiffness))| {
-        let link = law.link(rest, stiffness)?;
-        Some(([a as usize, b as usize], rest, link))
-    })
-}
-
-/// The length of a constraint, in metres.
-pub(crate) fn length(x: &[Point], [a, b]: [usize; 2]) -> f64 {
-    let d = x[b] - x[a];
-    dot(d, d).sqrt()
-}
-
-impl<L: Law> Element for Pairs<'_, L> {
-    fn len(&self) -> usize {
-        self.constraints.len()
+    /// The pull of one, in newtons: the derivative of the energy. Negative where it pushes apart.
+    #[inline]
+    fn force(self, rest: f64, stiffness: f64, length: f64) -> f64 {
+        match self.buckling {
+            None => stiffness * (length - rest),
+            Some(law) => law.axial(rest, stiffness, length).force,
+        }
     }
 
-    fn energy(&self, x: &[Point], sum: f64) -> f64 {
-        self.constraints.batches().fold(sum, |sum, batch| {
-            let links = links(batch, self.law);
-            let twice = links.map(|(ends, _, link)| link.twice_energy(length(x, ends)));
+    /// The derivative of that along the line, and that of the force across it for a turn, force over
+    /// length, in newtons per metre.
+    fn stiffness(self, rest: f64, stiffness: f64, length: f64) -> [f64; 2] {
+        match self.buckling {
+            None => [stiffness, stiffness * ((length - rest) / length)],
+            Some(law) => {
+                let axial = law.axial(rest, stiffness, length);
+                [axial.slope, axial.force / length]
+            }
+        }
+    }
+
+    /// The largest stiffness at any length of one of this stiffness.
+    fn stiffest(self, stiffness: f64) -> f64 {
+        stiffness * self.buckling.map_or(1.0, Buckling::stiffest)
+    }
+
+    /// The elastic energy in joules, added to a sum one colour after the other.
+    pub(crate) fn energy(self, x: &[Point], sum: f64) -> f64 {
+        let colours = self.constraints.colours().iter();
+        colours.fold(sum, |sum, colour| {
+            let twice = colour
+                .springs()
+                .map(|(ends, rest, stiffness)| self.twice_energy(rest, stiffness, span(x, ends)));
             sum + 0.5 * twice.fold(0.0, |sum, twice_j| sum + twice_j)
         })
     }
 
-    fn energy_at(&self, x: &[Point], particle: usize) -> f64 {
-        let constraints = self.constraints.of(particle);
-        let constraints = constraints.map(|id| self.constraints.get(id));
-        let energy = |constraint: Constraint| {
-            let link = self.link(&constraint)?;
-            Some(0.5 * link.twice_energy(length(x, constraint.ends)))
-        };
-        constraints.filter_map(energy).sum()
+    /// That of one constraint, whether it is one of them or was.
+    pub(crate) fn energy_of(self, one: &Constraint, x: &[Point]) -> f64 {
+        0.5 * self.twice_energy(one.rest_length_m, one.stiffness_n_per_m, span(x, one.ends))
     }
 
-    fn forces(
-        &self,
+    /// The pull of one constraint by its length, in newtons.
+    pub(crate) fn force_of(self, one: &Constraint, x: &[Point]) -> f64 {
+        self.force(one.rest_length_m, one.stiffness_n_per_m, span(x, one.ends))
+    }
+
+    /// The elastic energy of the constraints of a particle.
+    pub(crate) fn energy_at(self, x: &[Point], particle: usize) -> f64 {
+        let ids = self.constraints.of(particle);
+        ids.map(|id| self.energy_of(&self.constraints.get(id), x))
+            .sum()
+    }
+
+    /// Adds the forces, in newtons, to those of the particles, with those of damping where a spring is
+    /// crushed: a fold is where it is meant to be short. False where one is longer than `ratio_max` times
+    /// its rest length, or not a number.
+    #[must_use]
+    pub(crate) fn add_forces(
+        self,
+        x: &[Point],
+        ratio_max: f64,
+        crush: Option<Crush<'_>>,
+        forces: &mut [Vector],
+    ) -> bool {
+        let spring = |rest, stiffness: f64, length| Some(stiffness * (length - rest));
+        match self.buckling {
+            None => self.add_forces_by(spring, x, ratio_max, crush, forces),
+            Some(law) => {
+                let arc = |rest, stiffness, length| {
+                    (stiffness > 0.0).then(|| law.axial(rest, stiffness, length).force)
+                };
+                self.add_forces_by(arc, x, ratio_max, None, forces)
+            }
+        }
+    }
+
+    /// [`Pairs::add_forces`] by one law, which the loop has inlined: the pull by rest length, stiffness and
+    /// length. `None` where that does not matter.
+    #[inline]
+    fn add_forces_by(
+        self,
+        pull: impl Fn(f64, f64, f64) -> Option<f64>,
         x: &[Point],
         ratio_max: f64,
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> bool {
         let mut sane = true;
-        for batch in self.constraints.batches() {
-            for ([a, b], rest, link) in links(batch, self.law) {
+        for colour in self.constraints.colours() {
+            for ([a, b], rest, stiffness) in colour.springs() {
                 let d = x[b] - x[a];
-                let length = dot(d, d).sqrt();
+                let length = length(d);
+                let Some(mut pull) = pull(rest, stiffness, length) else {
+                    continue;
+                };
                 sane &= length <= ratio_max * rest;
-                let mut pull = link.force(length);
                 if length > 0.0 {
                     if let Some(crush) = crush
                         && length < Crush::BELOW * rest
                     {
                         let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
-                        pull += crush.pull(link.damped_stiffness(), length / rest, speed);
+                        pull += crush.pull(stiffness, length / rest, speed);
                     }
                     let force = d * (pull / length);
                     forces[a] += force;
@@ -135,85 +143,85 @@ impl<L: Law> Element for Pairs<'_, L> {
         sane
     }
 
-    fn force_at(
-        &self,
+    /// Adds the forces on one particle, as `exerted` has them by the ends of a constraint, its force by its
+    /// length, and the multiplier that the last step recorded.
+    pub(crate) fn add_force_at(
+        self,
         x: &[Point],
         particle: usize,
-        exerted: &dyn Fn([usize; 2], f64, f64) -> f64,
+        exerted: impl Fn([usize; 2], f64, f64) -> f64,
         sum: &mut Vector,
     ) {
         for id in self.constraints.of(particle) {
-            let constraint = self.constraints.get(id);
-            let [a, b] = constraint.ends;
+            let one = self.constraints.get(id);
+            let [a, b] = one.ends;
             let d = x[a + b - particle] - x[particle];
-            let length = dot(d, d).sqrt();
+            let length = length(d);
             if length > 0.0 {
-                let link = self.link(&constraint);
-                let by_length = link.map_or(0.0, |link| link.force(length));
                 let multiplier = self.constraints.memory(id).multiplier;
-                *sum += d * (exerted([a, b], by_length, multiplier) / length);
+                *sum += d * (exerted([a, b], self.force_of(&one, x), multiplier) / length);
             }
         }
     }
 
-    fn is_within(&self, x: &[Point], ratio_max: f64) -> bool {
-        let mut batches = self.constraints.batches();
-        batches.all(|batch| {
-            links(batch, self.law).all(|(ends, rest, _)| length(x, ends) <= ratio_max * rest)
-        })
+    /// The one that is longest for its rest length: its ends, and the ratio of the two. The length of a bend
+    /// without stiffness does not matter, which is what an edit leaves where rounding left none at rest.
+    pub(crate) fn longest(self, x: &[Point]) -> Option<([usize; 2], f64)> {
+        let all = self.constraints.colours().iter().flat_map(Colour::springs);
+        let measured = all.filter(|one| self.buckling.is_none() || one.2 > 0.0);
+        let ratios = measured.map(|(ends, rest, _)| (ends, span(x, ends) / rest));
+        ratios.reduce(|most, one| if one.1 > most.1 { one } else { most })
     }
 
-    fn find_longest(&self, x: &[Point], longest: &mut Longest) {
-        for batch in self.constraints.batches() {
-            for (ends, rest, _) in links(batch, self.law) {
-                let ratio = length(x, ends) / rest;
-                longest.weigh(ratio, || (self.site)(ends, ratio));
+    /// Visits springs that together are as stiff as these constraints or stiffer, in every direction and in
+    /// any state: their particles, and their stiffness in N/m.
+    pub(crate) fn each_spring(self, mut visit: impl FnMut([usize; 2], f64)) {
+        for (ends, _, stiffness) in self.constraints.colours().iter().flat_map(Colour::springs) {
+            if stiffness > 0.0 {
+                visit(ends, self.stiffest(stiffness));
             }
         }
     }
 
-    fn each_spring(&self, _reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
-        for batch in self.constraints.batches() {
-            for (&[a, b], &k) in batch.ends.iter().zip(batch.stiffness) {
-                if k > 0.0 {
-                    visit([a as usize, b as usize], k * self.law.stiffest());
-                }
-            }
-        }
-    }
-
-    fn springs_at(&self, particle: usize, _reach: f64, visit: &mut dyn FnMut(usize, f64)) {
+    /// Visits those springs of a particle: the other one, and the stiffness.
+    pub(crate) fn springs_at(self, particle: usize, mut visit: impl FnMut(usize, f64)) {
         for id in self.constraints.of(particle) {
-            let constraint = self.constraints.get(id);
-            let [a, b] = constraint.ends;
-            if constraint.stiffness_n_per_m > 0.0 {
-                let stiffness = constraint.stiffness_n_per_m * self.law.stiffest();
-                visit(a + b - particle, stiffness);
+            let one = self.constraints.get(id);
+            if one.stiffness_n_per_m > 0.0 {
+                let [a, b] = one.ends;
+                visit(a + b - particle, self.stiffest(one.stiffness_n_per_m));
             }
         }
     }
 
-    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2])) {
-        for batch in self.constraints.batches() {
-            for (&id, &ends) in batch.ids.iter().zip(batch.ends) {
+    /// The particles of each, with its id.
+    pub(crate) fn each_pair(self, mut visit: impl FnMut(usize, [u32; 2])) {
+        for colour in self.constraints.colours() {
+            for (&id, &ends) in colour.ids.iter().zip(&colour.ends) {
                 visit(id as usize, ends);
             }
         }
     }
 
-    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64 {
+    /// Adds the second derivatives of the energy, each to its slot by its id. With `clamp` every term is
+    /// positive semidefinite; returns how many had a part dropped for it.
+    pub(crate) fn add_hessian(
+        self,
+        x: &[Point],
+        clamp: bool,
+        slots: &[u32],
+        hessian: &mut Hessian,
+    ) -> u64 {
         let mut clamped = 0;
-        for batch in self.constraints.batches() {
-            let numbers = batch.rest.iter().zip(batch.stiffness);
-            let constraints = batch.ids.iter().zip(batch.ends).zip(numbers);
-            for ((&id, &ends), (&rest, &stiffness)) in constraints {
+        for colour in self.constraints.colours() {
+            for (&id, (ends, rest, stiffness)) in colour.ids.iter().zip(colour.springs()) {
                 // Edges of a cloth of triangles alone are measured, and pull at nothing.
-                let link = self.law.link(rest, stiffness).filter(|_| stiffness > 0.0);
-                if let Some(link) = link {
-                    let [p, q] = ends.map(|end| x[end as usize]);
-                    let (block, dropped) = block(link, q - p, clamp);
+                if stiffness > 0.0 {
+                    let d = x[ends[1]] - x[ends[0]];
+                    let (block, dropped) =
+                        block(d, self.stiffness(rest, stiffness, length(d)), clamp);
                     clamped += u64::from(dropped);
-                    hessian.add_pair(slots[id as usize], ends, &block);
+                    hessian.add_pair(slots[id as usize], ends.map(|end| end as u32), &block);
                 }
             }
         }
@@ -221,8 +229,13 @@ impl<L: Law> Element for Pairs<'_, L> {
     }
 }
 
-/// The second derivative of a link's energy by the position of either end (by both it is the
-/// negative), and whether a part of it was dropped that is indefinite:
+/// How far two particles are apart, in metres.
+pub(crate) fn span(x: &[Point], [a, b]: [usize; 2]) -> f64 {
+    length(x[b] - x[a])
+}
+
+/// The second derivative of the energy by the position of either end (by both it is the negative), and
+/// whether a part of it was dropped that is indefinite:
 ///
 /// ```text
 /// H = E″ t tᵀ + E′/l (I − t tᵀ),   t the direction, l the length
@@ -230,9 +243,8 @@ impl<L: Law> Element for Pairs<'_, L> {
 ///
 /// Under compression the second term is negative; Choi and Ko 2002 §4 drop it there. Where both
 /// ends are one point the derivative does not exist, and E″ I is given for it.
-fn block(link: impl Link, d: Vector, clamp: bool) -> (Block, bool) {
-    let length = dot(d, d).sqrt();
-    let [along, across] = link.stiffness(length);
+fn block(d: Vector, [along, across]: [f64; 2], clamp: bool) -> (Block, bool) {
+    let length = length(d);
     if length == 0.0 {
         return (Block::identity_times(along), false);
     }

@@ -109,8 +109,8 @@ impl Provot {
             ..
         } = system;
         scratch.before.clone_from(positions);
-        for (batch, memories) in model.stretch.batches_mut() {
-            spring::ratios(batch, positions, memories.ratios);
+        for colour in model.stretch.colours_mut() {
+            spring::ratios(colour, positions);
         }
         model.clear_multipliers();
         let ratio_max = limiter.stretch_ratio_max;
@@ -119,11 +119,10 @@ impl Provot {
         while report.passes < limiter.passes_max && largest > ratio_max {
             last = largest;
             largest = 0.0;
-            for (batch, memories) in model.stretch.batches_mut() {
-                counters.visits.project += batch.ends.len() as u64;
-                counters.features.stretch += batch.ends.len() as u64;
-                let masses = &model.inverse_masses;
-                let met = spring::limit(batch, memories.multipliers, masses, ratio_max, positions);
+            counters.visits.project += model.stretch.len() as u64;
+            counters.features.stretch += model.stretch.len() as u64;
+            for colour in model.stretch.colours_mut() {
+                let met = spring::limit(colour, &model.inverse_masses, ratio_max, positions);
                 largest = largest.max(met);
             }
             if report.passes == 0 {

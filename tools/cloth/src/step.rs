@@ -203,11 +203,11 @@ type State<'a> = (&'a [Point], &'a [Vector]);
 /// shows any of these counts.
 fn blow_up_site(model: &Model, states: &[State<'_>]) -> BlowUpSite {
     let shown = states.iter().find_map(|&state| {
-        let too_long = || model.longest(state.0).beyond(model.stretch_ratio_max);
+        let too_long = || model.longest_beyond(state.0, model.stretch_ratio_max);
         let named = broken(state).or_else(too_long);
         named.or_else(|| beyond(state))
     });
-    let last = || model.longest(states.last()?.0).beyond(f64::NEG_INFINITY);
+    let last = || model.longest_beyond(states.last()?.0, f64::NEG_INFINITY);
     shown.or_else(last).unwrap_or(BlowUpSite::Unknown)
 }
 

@@ -529,7 +529,7 @@ impl System {
     #[must_use]
     pub fn stretch_ratio(&self, id: ConstraintId) -> f64 {
         let constraint = self.model.stretch.get(id);
-        pair::length(&self.positions, constraint.ends) / constraint.rest_length_m
+        pair::span(&self.positions, constraint.ends) / constraint.rest_length_m
     }
 
     /// Returns the length of a stretch constraint as a multiple of its rest length, as it was in

@@ -27,9 +27,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::blow_up::{BlowUpSite, Longest};
 use crate::crush::Crush;
-use crate::element::Element;
 use crate::incidence::Incidence;
 use crate::matrix::{Block, Hessian};
 
@@ -78,18 +76,12 @@ impl Triangle {
             area: 0.5 * twice.abs(),
             stiffness,
         };
-        triangle.fault().is_none().then_some(triangle)
-    }
-
-    /// The first number that makes the triangle unusable.
-    fn fault(&self) -> Option<f64> {
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        let usable = |x: f64| x >= 0.0 && x.is_finite();
-        let inverse = self.rest_inverse.as_flattened();
-        let bad = inverse.iter().find(|x| !x.is_finite());
-        let bad = bad.or_else(|| Some(&self.area).filter(|&&x| !positive(x)));
-        let bad = bad.or_else(|| self.stiffness.iter().find(|&&x| !usable(x)));
-        bad.copied()
+        let inverse = triangle.rest_inverse.as_flattened();
+        let is_usable = inverse.iter().all(|x| x.is_finite())
+            && triangle.area > 0.0
+            && triangle.area.is_finite()
+            && stiffness.iter().all(|k| *k >= 0.0 && k.is_finite());
+        is_usable.then_some(triangle)
     }
 
     /// One that resists nothing, in the place of one without area.
@@ -228,27 +220,17 @@ impl Triangle {
         ([[b00, b01, b02], [b10, b11, b12], [b20, b21, b22]], clamped)
     }
 
-    /// How much the extensions along warp and along weft, times √(A k), change with each corner: what
-    /// √k is of a spring.
-    fn roots(&self, reach: f64) -> [[f64; 3]; 2] {
-        let [k_u, k_v, k_s] = self.stiffness;
-        let [g_u, g_v] = self.weights();
-        let along = |k: f64, weights: [f64; 3]| {
-            let root = (self.area * (k + k_s * reach)).sqrt();
-            weights.map(|weight| root * weight.abs())
-        };
-        [along(k_u, g_u), along(k_v, g_v)]
-    }
-
     /// Springs between its corners that together are as stiff as warp and weft: since the weights g of
     /// either have no sum, |Σ gᵢuᵢ|² is −Σ gᵢgⱼ|uᵢ − uⱼ|² over pairs, and those with a negative
     /// factor are left out.
     fn springs(&self, reach: f64) -> [f64; 3] {
-        let roots = self.roots(reach);
+        let [k_u, k_v, k_s] = self.stiffness;
         let weights = self.weights();
+        // What √k is of a spring.
+        let roots = [k_u, k_v].map(|k| (self.area * (k + k_s * reach)).sqrt());
         [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
             let part = |c: usize| match weights[c][i] * weights[c][j] < 0.0 {
-                true => roots[c][i] * roots[c][j],
+                true => (roots[c] * weights[c][i].abs()) * (roots[c] * weights[c][j].abs()),
                 false => 0.0,
             };
             part(0) + part(1)
@@ -354,24 +336,24 @@ impl Triangles {
         }
         self.lists.swap_remove_particle(particle);
     }
-}
 
-impl Element for Triangles {
-    fn len(&self) -> usize {
-        self.list.len()
-    }
-
-    fn energy(&self, x: &[Point], sum: f64) -> f64 {
+    /// The elastic energy in joules, added to a sum one after the other.
+    pub(crate) fn energy(&self, x: &[Point], sum: f64) -> f64 {
         let triangles = self.list.iter();
         triangles.fold(sum, |sum, t| sum + t.energy(t.corners(x)))
     }
 
-    fn energy_at(&self, x: &[Point], particle: usize) -> f64 {
+    /// That of the triangles of a particle.
+    pub(crate) fn energy_at(&self, x: &[Point], particle: usize) -> f64 {
         let triangles = self.of(particle);
         triangles.fold(0.0, |sum, (t, _)| sum + self.energy_of(t, x))
     }
 
-    fn forces(
+    /// Adds the forces, in newtons, to those of the particles, with those of damping where something is
+    /// crushed. False where one is longer along warp or weft than `ratio_max` times its rest length, or not
+    /// a number.
+    #[must_use]
+    pub(crate) fn add_forces(
         &self,
         x: &[Point],
         ratio_max: f64,
@@ -398,36 +380,27 @@ impl Element for Triangles {
         sane
     }
 
-    fn force_at(
-        &self,
-        x: &[Point],
-        particle: usize,
-        _exerted: &dyn Fn([usize; 2], f64, f64) -> f64,
-        sum: &mut Vector,
-    ) {
+    /// Adds the forces on one particle.
+    pub(crate) fn add_force_at(&self, x: &[Point], particle: usize, sum: &mut Vector) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
             *sum += t.forces(t.corners(x))[corner];
         }
     }
 
-    fn is_within(&self, x: &[Point], ratio_max: f64) -> bool {
-        let mut triangles = self.list.iter();
-        triangles.all(|t| t.is_within(t.corners(x), ratio_max))
+    /// The one that is longest along warp or weft for its length at rest: its corners, and that ratio.
+    pub(crate) fn longest(&self, x: &[Point]) -> Option<([usize; 3], f64)> {
+        let ratios = self.list.iter().map(|t| {
+            let ratios = t.derivatives(t.corners(x)).map(length);
+            let corners = t.vertices.map(|v| v as usize);
+            (corners, ratios.into_iter().fold(0.0, f64::max))
+        });
+        ratios.reduce(|most, one| if one.1 > most.1 { one } else { most })
     }
 
-    fn find_longest(&self, x: &[Point], longest: &mut Longest) {
-        for t in &self.list {
-            let derivatives = t.derivatives(t.corners(x));
-            let stretch_ratio = derivatives.map(length).into_iter().fold(0.0, f64::max);
-            longest.weigh(stretch_ratio, || BlowUpSite::Triangle {
-                corners: t.vertices.map(|v| v as usize),
-                stretch_ratio,
-            });
-        }
-    }
-
-    fn each_spring(&self, reach: f64, visit: &mut dyn FnMut([usize; 2], f64)) {
+    /// Visits springs that together are as stiff as these triangles or stiffer, in any state within `reach`:
+    /// their particles, and their stiffness in N/m.
+    pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
         for t in &self.list {
             let [a, b, c] = t.vertices.map(|v| v as usize);
             for (ends, stiffness) in [[a, b], [b, c], [c, a]].into_iter().zip(t.springs(reach)) {
@@ -436,7 +409,13 @@ impl Element for Triangles {
         }
     }
 
-    fn springs_at(&self, particle: usize, reach: f64, visit: &mut dyn FnMut(usize, f64)) {
+    /// Visits those springs of a particle: the other one, and the stiffness.
+    pub(crate) fn springs_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        mut visit: impl FnMut(usize, f64),
+    ) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
             let springs = t.springs(reach);
@@ -449,8 +428,8 @@ impl Element for Triangles {
         }
     }
 
-    /// The edges of triangle t have the numbers 3 t and on.
-    fn each_pair(&self, visit: &mut dyn FnMut(usize, [u32; 2])) {
+    /// The pairs of particles that act on each other. The edges of triangle t have the numbers 3 t and on.
+    pub(crate) fn each_pair(&self, mut visit: impl FnMut(usize, [u32; 2])) {
         for (t, triangle) in self.list.iter().enumerate() {
             let [a, b, c] = triangle.vertices;
             for (i, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
@@ -459,7 +438,15 @@ impl Element for Triangles {
         }
     }
 
-    fn hessian(&self, x: &[Point], clamp: bool, slots: &[u32], hessian: &mut Hessian) -> u64 {
+    /// Adds the second derivatives of the energy, each pair's to its slot by that number. With `clamp` every
+    /// term is positive semidefinite; returns how many had a part dropped for it.
+    pub(crate) fn add_hessian(
+        &self,
+        x: &[Point],
+        clamp: bool,
+        slots: &[u32],
+        hessian: &mut Hessian,
+    ) -> u64 {
         let mut clamped = 0;
         for (t, slots) in self.list.iter().zip(slots.as_chunks::<3>().0) {
             let (blocks, dropped) = t.hessian(t.corners(x), clamp);

@@ -1,4 +1,5 @@
-//! Extended position based dynamics with small steps.
+//! Methods that move particles until constraints hold: extended position based dynamics with small
+//! steps, and the position based dynamics of the paper.
 //!
 //! Constraints with a compliance α = 1/k (Macklin, Müller and Chentanez 2016), and many substeps of
 //! one sweep rather than one step of many (Macklin et al. 2019, "Small Steps"): 6.5–11 times
@@ -15,15 +16,19 @@
 //! Sweeps always run in the same direction; alternating stretches 33 times more. Drag enters the
 //! prediction *and* the compliance (a factor 1 + c Δt), otherwise the static stretch would be
 //! wrong by just that factor.
+//!
+//! [`Pbd`] is that without compliance: predict positions, project the constraints a fixed number of times,
+//! and take the resulting motion as the velocity (Müller et al. 2007). It is never accurate: how stiff it is
+//! depends on the step and on the number of sweeps, and as the step goes to zero there is no limit. What
+//! it converges to with more sweeps is an inextensible net. [`System::strain_rms`] says how far its lengths
+//! are from that, and not where it hangs.
 
-use tearmesh::geometry::{Vector, dot};
+use tearmesh::geometry::{Vector, length};
 
-use crate::constraint::Constraint;
 use crate::flight::{finish, finish_and_predict, force_scale, predict};
-use crate::pair::{Law, Link};
-use crate::solver::{Abilities, Failure, Solver};
-use crate::spring::{self, Hooke};
-use crate::system::{Recorded, System};
+use crate::solver::{Abilities, Failure, SettingError, Solver};
+use crate::spring::{self, Correction};
+use crate::system::{Family, Recorded, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
@@ -53,61 +58,21 @@ impl Xpbd {
         Xpbd { substeps, sweeps }
     }
 
-    /// The sweeps of a substep, after the particles have flown. False where something blew up, which
-    /// is left as it is then.
-    fn sweep(&self, system: &mut System, dt_s: f64) -> bool {
-        let System {
-            positions,
-            model,
-            counters,
-            ..
-        } = system;
-        let scale = force_scale(model, dt_s);
-        for sweep in 0..self.sweeps.max(1) {
-            let project = match sweep {
-                0 => spring::project_compliant::<true>,
-                _ => spring::project_compliant::<false>,
-            };
-            let features = &mut counters.features;
-            for (family, of_family) in [
-                (&mut model.stretch, &mut features.stretch),
-                (&mut model.bend, &mut features.bend),
-            ] {
-                for (batch, memories) in family.batches_mut() {
-                    counters.visits.project += batch.ends.len() as u64;
-                    *of_family += batch.ends.len() as u64;
-                    let sane = project(
-                        batch,
-                        memories.multipliers,
-                        &model.inverse_masses,
-                        scale,
-                        model.stretch_ratio_max,
-                        positions,
-                    );
-                    if !sane {
-                        return false;
-                    }
-                }
-            }
-        }
-        true
-    }
-
     /// Returns the largest difference, over all free particles, between the sum of the forces that
     /// the last substep used and the sum of those that the springs have now, in newtons. It is zero
     /// if the sweeps have converged. Costs one force evaluation.
     #[must_use]
     pub fn residual_n(&self, system: &System) -> f64 {
         let mut residual = vec![Vector::zeros(); system.positions.len()];
-        for family in [&system.model.stretch, &system.model.bend] {
-            for id in family.iter() {
-                let constraint = family.get(id);
+        for family in [Family::Stretch, Family::Bend] {
+            let pairs = system.model.pairs(family);
+            for id in pairs.constraints.iter() {
+                let constraint = pairs.constraints.get(id);
                 let [a, b] = constraint.ends;
-                let d: Vector = system.positions[b] - system.positions[a];
-                let length = dot(d, d).sqrt();
-                if length > 0.0 {
-                    let miss =
-                        d * ((force(&constraint, length) + family.memory(id).multiplier) / length);
+                let d = system.positions[b] - system.positions[a];
+                if length(d) > 0.0 {
+                    let force = pairs.force_of(&constraint, &system.positions);
+                    let miss = d * ((force + pairs.constraints.memory(id).multiplier) / length(d));
                     residual[a] += miss;
                     residual[b] -= miss;
                 }
@@ -115,7 +80,7 @@ impl Xpbd {
         }
         let free = residual.iter().zip(&system.model.inverse_masses);
         free.filter(|(_, w)| **w > 0.0)
-            .map(|(r, _)| dot(*r, *r).sqrt())
+            .map(|(r, _)| length(*r))
             .fold(0.0, f64::max)
     }
 }
@@ -134,26 +99,161 @@ impl Solver for Xpbd {
         let substeps = self.substeps.max(1);
         let substep_s = dt_s / f64::from(substeps);
         predict(system, substep_s);
-        let sane = (0..substeps).all(|substep| {
+        for substep in 0..substeps {
             if substep > 0 {
                 finish_and_predict(system, substep_s);
             }
-            self.sweep(system, substep_s)
-        });
-        Failure::unless(sane)?;
-        finish(system, substep_s);
-        // Who asks for forces asks for those of the last substep.
-        let model = &mut system.model;
-        model.scale_multipliers(force_scale(model, substep_s));
-        model.recorded = Recorded::SpringForces;
+            let scale = force_scale(&system.model, substep_s);
+            sweep(system, self.sweeps, [1.0; 2], scale)?;
+        }
+        conclude(system, substep_s, Recorded::SpringForces);
         Ok(())
     }
 }
 
-/// The force of a spring of this length.
-fn force(constraint: &Constraint, length: f64) -> f64 {
-    let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
-    Hooke
-        .link(rest, stiffness)
-        .map_or(0.0, |spring| spring.force(length))
+/// Position based dynamics. It ignores the stiffness of constraints in N/m: they are rigid, or as
+/// soft as [`Pbd::stiffness`] makes them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pbd {
+    /// The number of sweeps over all constraints per step. Zero counts as one.
+    pub sweeps: u32,
+    /// The fraction k of an error in a stretch constraint that one step corrects, from 0 to 1. It
+    /// does not depend on the number of sweeps n, since each sweep corrects 1 − (1 − k)^(1/n)
+    /// (Müller et al. 2007, §3.3).
+    pub stiffness: f64,
+    /// The fraction of an error in a bend constraint that one step corrects, from 0 to 1, whatever
+    /// the number of sweeps.
+    pub bend_stiffness: f64,
+}
+
+impl Default for Pbd {
+    /// Returns the method with ten sweeps, rigid stretch constraints, and a bend stiffness of 0.1.
+    fn default() -> Pbd {
+        Pbd {
+            sweeps: 10,
+            stiffness: 1.0,
+            bend_stiffness: 0.1,
+        }
+    }
+}
+
+impl Pbd {
+    /// Creates the method with rigid constraints and `sweeps` sweeps per step.
+    #[must_use]
+    pub fn new(sweeps: u32) -> Pbd {
+        Pbd {
+            sweeps,
+            ..Pbd::default()
+        }
+    }
+
+    /// The part of an error that a sweep corrects, of stretch and of bend constraints.
+    pub(super) fn fractions(&self) -> [f64; 2] {
+        [self.stiffness, self.bend_stiffness].map(|k| 1.0 - root(1.0 - k, self.sweeps.max(1)))
+    }
+}
+
+impl Solver for Pbd {
+    fn abilities(&self) -> Abilities {
+        Abilities {
+            air_limit: Some(2.0),
+            ..Abilities::default()
+        }
+    }
+
+    fn check(&self) -> Result<(), SettingError> {
+        for (setting, given) in [
+            ("stiffness", self.stiffness),
+            ("bend_stiffness", self.bend_stiffness),
+        ] {
+            SettingError::unless((0.0..=1.0).contains(&given), setting, given, "0 to 1")?;
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        predict(system, dt_s);
+        sweep(system, self.sweeps, self.fractions(), 0.0)?;
+        conclude(system, dt_s, Recorded::RigidForces);
+        Ok(())
+    }
+}
+
+/// Sweeps over all constraints: a part of the errors of stretch and of bend constraints, with the
+/// compliances of a step by `scale`. What blew up is left as it is.
+fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> Result<(), Failure> {
+    let System {
+        positions,
+        model,
+        counters,
+        ..
+    } = system;
+    for sweep in 0..sweeps.max(1) {
+        let project = match sweep {
+            0 => spring::project::<true>,
+            _ => spring::project::<false>,
+        };
+        let [stretch, bend] = [model.stretch.len() as u64, model.bend.len() as u64];
+        counters.visits.project += stretch + bend;
+        counters.features.stretch += stretch;
+        counters.features.bend += bend;
+        for (family, fraction) in [&mut model.stretch, &mut model.bend]
+            .into_iter()
+            .zip(fractions)
+        {
+            let correction = Correction {
+                fraction,
+                scale,
+                ratio_max: model.stretch_ratio_max,
+            };
+            for colour in family.colours_mut() {
+                let is_sane = project(colour, &model.inverse_masses, correction, positions);
+                Failure::unless(is_sane)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Takes velocities from what was moved in a substep, and makes forces of multipliers: who asks for them
+/// asks for those of the last substep.
+fn conclude(system: &mut System, substep_s: f64, recorded: Recorded) {
+    finish(system, substep_s);
+    let model = &mut system.model;
+    model.scale_multipliers(force_scale(model, substep_s));
+    model.recorded = recorded;
+}
+
+/// The n-th root of a number from 0 to 1, by Newton's iteration from above.
+fn root(a: f64, n: u32) -> f64 {
+    if a <= 0.0 || n == 0 {
+        return 0.0;
+    }
+    let mut x = 1.0;
+    for _ in 0..200 {
+        let power = (1..n).fold(1.0, |power, _| power * x);
+        let next = x - (x - a / power) / f64::from(n);
+        if next >= x {
+            break;
+        }
+        x = next;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_to_a_power_give_the_number() {
+        for n in 1..=40 {
+            for a in [1e-6, 0.1, 0.5, 0.9, 1.0] {
+                let x = root(a, n);
+                let back = (0..n).fold(1.0, |power, _| power * x);
+                assert!((back - a).abs() < 1e-13, "{a} {n}: {x}");
+            }
+            assert_eq!(root(0.0, n), 0.0);
+        }
+    }
 }

@@ -1,19 +1,16 @@
 //! All of a system but its state: what its particles weigh, what joins them, and what acts on them.
 
-use std::ops::Deref;
-
 use tearmesh::geometry::{Point, Vector};
 
 use super::counters::Counters;
 use crate::bend::Buckling;
-use crate::blow_up::{BlowUpSite, Longest};
+use crate::blow_up::BlowUpSite;
 use crate::carry::Carry;
-use crate::constraint::{Constraint, Constraints};
+use crate::constraint::Constraints;
 use crate::crush::Crush;
-use crate::element::Element;
 use crate::load::{Loads, Path};
-use crate::pair::{Law, Link, Pairs, length};
-use crate::spring::Hooke;
+use crate::matrix::Hessian;
+use crate::pair::Pairs;
 use crate::triangle::Triangles;
 
 /// All but positions and velocities.
@@ -66,25 +63,23 @@ impl Model {
         }
     }
 
-    /// All kinds of constraints, in the order of every sum.
-    pub(crate) fn kinds(&self) -> [Kind<'_>; 3] {
-        let stretch: fn([usize; 2], f64) -> BlowUpSite =
-            |ends, stretch_ratio| BlowUpSite::Constraint {
-                ends,
-                stretch_ratio,
-            };
-        let bend: fn([usize; 2], f64) -> BlowUpSite = |ends, stretch_ratio| BlowUpSite::Bend {
-            ends,
-            stretch_ratio,
-        };
-        [
-            Kind::Springs(Pairs::new(&self.stretch, Hooke, stretch)),
-            match self.buckling {
-                None => Kind::Springs(Pairs::new(&self.bend, Hooke, bend)),
-                Some(law) => Kind::Bends(Pairs::new(&self.bend, law, bend)),
+    /// The constraints of a family, with their law.
+    pub(crate) fn pairs(&self, family: Family) -> Pairs<'_> {
+        match family {
+            Family::Stretch => Pairs {
+                constraints: &self.stretch,
+                buckling: None,
             },
-            Kind::Triangles(&self.triangles),
-        ]
+            Family::Bend => Pairs {
+                constraints: &self.bend,
+                buckling: self.buckling,
+            },
+        }
+    }
+
+    /// Both families, in the order of every sum; triangles come after them.
+    fn families(&self) -> [Pairs<'_>; 2] {
+        [Family::Stretch, Family::Bend].map(|family| self.pairs(family))
     }
 
     /// Appends a particle without mass and constraints.
@@ -107,58 +102,130 @@ impl Model {
         self.triangles.swap_remove_particle(particle);
     }
 
-    /// The energy in joules and the pull in newtons of a constraint of a family, whether it is one
-    /// of this model or was.
-    pub(crate) fn axial(&self, family: Family, constraint: &Constraint, x: &[Point]) -> [f64; 2] {
-        let (rest, stiffness) = (constraint.rest_length_m, constraint.stiffness_n_per_m);
-        let length = length(x, constraint.ends);
-        let both = match (family, self.buckling) {
-            (Family::Bend, Some(law)) => law
-                .link(rest, stiffness)
-                .map(|link| [link.twice_energy(length), link.force(length)]),
-            _ => Hooke
-                .link(rest, stiffness)
-                .map(|link| [link.twice_energy(length), link.force(length)]),
-        };
-        let [twice, force] = both.unwrap_or_default();
-        [0.5 * twice, force]
-    }
-
-    /// How many constraints and triangles there are.
-    pub(crate) fn constraint_count(&self) -> u64 {
-        self.kinds().iter().map(|kind| kind.len() as u64).sum()
-    }
-
     /// Counts so many visits of each constraint for forces.
     pub(crate) fn count_visits(&self, times: u64, counters: &mut Counters) {
-        let features = &mut counters.features;
-        features.stretch += times * self.stretch.len() as u64;
-        features.bend += times * self.bend.len() as u64;
-        features.triangle += times * self.triangles.len() as u64;
-        counters.visits.force += times * self.constraint_count();
+        let [stretch, bend] = [&self.stretch, &self.bend].map(|family| times * family.len() as u64);
+        let triangle = times * self.triangles.as_slice().len() as u64;
+        counters.features.stretch += stretch;
+        counters.features.bend += bend;
+        counters.features.triangle += triangle;
+        counters.visits.force += stretch + bend + triangle;
     }
 
     /// The elastic energy of all constraints, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
-        let kinds = self.kinds();
-        kinds.iter().fold(0.0, |sum, kind| kind.energy(x, sum))
+        let families = self.families().into_iter();
+        let sum = families.fold(0.0, |sum, pairs| pairs.energy(x, sum));
+        self.triangles.energy(x, sum)
     }
 
     /// That of all constraints that a particle has a part in.
     pub(crate) fn elastic_at_j(&self, x: &[Point], particle: usize) -> f64 {
-        let kinds = self.kinds();
-        kinds
-            .iter()
-            .fold(0.0, |sum, kind| sum + kind.energy_at(x, particle))
+        let [stretch, bend] = self.families().map(|pairs| pairs.energy_at(x, particle));
+        stretch + bend + self.triangles.energy_at(x, particle)
     }
 
-    /// The constraint that is longest for its rest length.
-    pub(crate) fn longest(&self, x: &[Point]) -> Longest {
-        let mut longest = Longest::default();
-        self.kinds()
-            .iter()
-            .for_each(|kind| kind.find_longest(x, &mut longest));
-        longest
+    /// The constraint that is longest for its rest length, if that is beyond `ratio_max`.
+    pub(crate) fn longest_beyond(&self, x: &[Point], ratio_max: f64) -> Option<BlowUpSite> {
+        let [stretch, bend] = self.families().map(|pairs| pairs.longest(x));
+        let stretch = stretch.map(|(ends, stretch_ratio)| BlowUpSite::Constraint {
+            ends,
+            stretch_ratio,
+        });
+        let bend = bend.map(|(ends, stretch_ratio)| BlowUpSite::Bend {
+            ends,
+            stretch_ratio,
+        });
+        let triangle = self.triangles.longest(x);
+        let triangle = triangle.map(|(corners, stretch_ratio)| BlowUpSite::Triangle {
+            corners,
+            stretch_ratio,
+        });
+        let sites = [stretch, bend, triangle].into_iter().flatten();
+        let longest = sites.reduce(|most, one| {
+            if one.stretch_ratio() > most.stretch_ratio() {
+                one
+            } else {
+                most
+            }
+        });
+        longest.filter(|site| site.stretch_ratio() > Some(ratio_max))
+    }
+
+    /// Visits springs that together are as stiff as all constraints, or stiffer, in every direction and in
+    /// any state in which triangles are stretched within `reach`: their particles, and their stiffness in
+    /// N/m.
+    pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
+        for pairs in self.families() {
+            pairs.each_spring(&mut visit);
+        }
+        self.triangles.each_spring(reach, visit);
+    }
+
+    /// Visits those springs of a particle: the other one, and the stiffness.
+    pub(crate) fn springs_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        mut visit: impl FnMut(usize, f64),
+    ) {
+        for pairs in self.families() {
+            pairs.springs_at(particle, &mut visit);
+        }
+        self.triangles.springs_at(particle, reach, visit);
+    }
+
+    /// Visits the pairs of particles that act on each other: the kind of their constraint, and a number that
+    /// stays its own.
+    pub(crate) fn each_pair(&self, visit: &mut dyn FnMut(usize, usize, [u32; 2])) {
+        for (kind, pairs) in self.families().into_iter().enumerate() {
+            pairs.each_pair(|number, ends| visit(kind, number, ends));
+        }
+        self.triangles
+            .each_pair(|number, ends| visit(2, number, ends));
+    }
+
+    /// Adds the second derivatives of the energy, with `slots` by the kind of a constraint. With `clamp`
+    /// every term is positive semidefinite; returns how many had a part dropped for it.
+    pub(crate) fn add_hessian<'a>(
+        &self,
+        x: &[Point],
+        clamp: bool,
+        slots: impl Fn(usize) -> &'a [u32],
+        hessian: &mut Hessian,
+    ) -> u64 {
+        let families = self.families().into_iter().enumerate();
+        let clamped = families.fold(0, |clamped, (kind, pairs)| {
+            clamped + pairs.add_hessian(x, clamp, slots(kind), hessian)
+        });
+        clamped + self.triangles.add_hessian(x, clamp, slots(2), hessian)
+    }
+
+    /// Adds the forces of constraints and triangles. False where one is longer than `ratio_max` times its
+    /// rest length, or not a number.
+    #[must_use]
+    pub(crate) fn add_forces(
+        &self,
+        x: &[Point],
+        ratio_max: f64,
+        crush: Option<Crush<'_>>,
+        forces: &mut [Vector],
+    ) -> bool {
+        let mut sane = true;
+        for pairs in self.families() {
+            sane &= pairs.add_forces(x, ratio_max, crush, forces);
+        }
+        sane & self.triangles.add_forces(x, ratio_max, crush, forces)
+    }
+
+    /// Adds the forces of constraints and triangles on a particle, as the method of the last step exerted
+    /// them.
+    pub(crate) fn add_force_at(&self, x: &[Point], particle: usize, sum: &mut Vector) {
+        for pairs in self.families() {
+            let exerted = |ends, by_length, multiplier| self.exerted_n(ends, by_length, multiplier);
+            pairs.add_force_at(x, particle, exerted, sum);
+        }
+        self.triangles.add_force_at(x, particle, sum);
     }
 
     pub(crate) fn drag_per_s(&self) -> f64 {
@@ -184,21 +251,6 @@ impl Model {
         }
     }
 
-    /// Fills in the accelerations by springs, triangles, wind and gravity; held particles have
-    /// none. False where a spring has blown up.
-    #[must_use]
-    pub(crate) fn accelerate(
-        &self,
-        positions: &[Point],
-        velocities: &[Vector],
-        accelerations: &mut [Vector],
-        counters: &mut Counters,
-    ) -> bool {
-        let sane = self.inner(positions, None, accelerations, counters);
-        self.external(positions, velocities, accelerations, counters);
-        sane
-    }
-
     /// Fills in the forces of springs, triangles and wind. False where a spring has blown up.
     #[must_use]
     pub(crate) fn pull(
@@ -209,7 +261,11 @@ impl Model {
         forces: &mut [Vector],
         counters: &mut Counters,
     ) -> bool {
-        let sane = self.inner(positions, crush, forces, counters);
+        counters.force_evaluations += 1;
+        self.count_visits(1, counters);
+        counters.triangle_evaluations += u64::from(!self.triangles.as_slice().is_empty());
+        forces.fill(Vector::zeros());
+        let sane = self.add_forces(positions, self.stretch_ratio_max, crush, forces);
         self.blow(positions, velocities, forces, counters);
         sane
     }
@@ -230,25 +286,6 @@ impl Model {
         carry.accelerate(forces);
     }
 
-    /// Fills in the forces of springs and triangles. False where one has blown up.
-    fn inner(
-        &self,
-        positions: &[Point],
-        crush: Option<Crush<'_>>,
-        forces: &mut [Vector],
-        counters: &mut Counters,
-    ) -> bool {
-        counters.force_evaluations += 1;
-        self.count_visits(1, counters);
-        counters.triangle_evaluations += u64::from(self.triangles.len() > 0);
-        forces.fill(Vector::zeros());
-        let mut sane = true;
-        for kind in &self.kinds() {
-            sane &= kind.forces(positions, self.stretch_ratio_max, crush, forces);
-        }
-        sane
-    }
-
     /// Adds the forces of wind.
     fn blow(
         &self,
@@ -262,16 +299,6 @@ impl Model {
             counters.features.wind += self.faces.len() as u64 / 3;
             wind.press(&self.faces, positions, velocities, forces);
         }
-    }
-
-    /// Whether nothing is stretched beyond the limit, nor not a number: what [`Model::pull`]
-    /// says of the same positions, for methods that do not ask it.
-    #[must_use]
-    pub(crate) fn is_within_limit(&self, positions: &[Point]) -> bool {
-        let ratio_max = self.stretch_ratio_max;
-        self.kinds()
-            .iter()
-            .all(|kind| kind.is_within(positions, ratio_max))
     }
 
     /// Adds the force of wind, and makes accelerations of forces, with gravity.
@@ -303,21 +330,23 @@ impl Model {
         }
     }
 
-    /// Sets all multipliers to zero.
-    pub(crate) fn clear_multipliers(&mut self) {
+    /// Makes forces of multipliers.
+    pub(crate) fn scale_multipliers(&mut self, scale: f64) {
         for family in [&mut self.stretch, &mut self.bend] {
-            for (_, memories) in family.batches_mut() {
-                memories.multipliers.fill(0.0);
+            for colour in family.colours_mut() {
+                colour
+                    .multipliers
+                    .iter_mut()
+                    .for_each(|lambda| *lambda *= scale);
             }
         }
     }
 
-    /// Makes forces of multipliers.
-    pub(crate) fn scale_multipliers(&mut self, scale: f64) {
+    /// Sets all multipliers to zero.
+    pub(crate) fn clear_multipliers(&mut self) {
         for family in [&mut self.stretch, &mut self.bend] {
-            for (_, memories) in family.batches_mut() {
-                let multipliers = memories.multipliers.iter_mut();
-                multipliers.for_each(|lambda| *lambda *= scale);
+            for colour in family.colours_mut() {
+                colour.multipliers.fill(0.0);
             }
         }
     }
@@ -330,26 +359,6 @@ fn accelerated(force: Vector, inverse_mass: f64, gravity: Vector) -> Vector {
         force * inverse_mass + gravity
     } else {
         Vector::zeros()
-    }
-}
-
-/// A kind of constraints, as [`Model::kinds`] lists it.
-#[derive(Debug)]
-pub(crate) enum Kind<'a> {
-    Springs(Pairs<'a, Hooke>),
-    Bends(Pairs<'a, Buckling>),
-    Triangles(&'a Triangles),
-}
-
-impl<'a> Deref for Kind<'a> {
-    type Target = dyn Element + 'a;
-
-    fn deref(&self) -> &Self::Target {
-        match self {
-            Kind::Springs(springs) => springs,
-            Kind::Bends(bends) => bends,
-            Kind::Triangles(triangles) => *triangles,
-        }
     }
 }
 

@@ -134,12 +134,12 @@ pub(super) fn strain(system: &System, id: ConstraintId) -> f64 {
 /// some that rounding brings there. Takes one pass, without a root.
 pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(ConstraintId)) {
     let (strain, square, x) = (ratio - 1.0, ratio * ratio, &system.positions[..]);
-    for (batch, memories) in system.model.stretch.batches_remembered() {
-        let constraints = batch.ids.iter().zip(batch.rest);
+    for colour in system.model.stretch.colours() {
+        let constraints = colour.ids.iter().zip(&colour.rest);
         // What is not a number is found as well.
         match system.model.recorded {
             Recorded::Nothing | Recorded::RigidForces => {
-                for ((&id, &rest), &[a, b]) in constraints.zip(batch.ends) {
+                for ((&id, &rest), &[a, b]) in constraints.zip(&colour.ends) {
                     let d = x[b as usize] - x[a as usize];
                     let is_short = dot(d, d) < square * (rest * rest);
                     if !is_short {
@@ -148,7 +148,7 @@ pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(
                 }
             }
             Recorded::SpringForces => {
-                let forces = memories.multipliers.iter().zip(batch.compliance);
+                let forces = colour.multipliers.iter().zip(&colour.compliance);
                 for ((&id, &rest), (&multiplier, &compliance)) in constraints.zip(forces) {
                     let is_short = -multiplier * compliance < strain * rest;
                     if !is_short {
@@ -157,7 +157,7 @@ pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(
                 }
             }
             Recorded::Limiter => {
-                for (&id, &before) in batch.ids.iter().zip(memories.ratios) {
+                for (&id, &before) in colour.ids.iter().zip(&colour.ratios) {
                     let is_short = before < ratio;
                     if !is_short {
                         found(ConstraintId(id));
