@@ -8,7 +8,7 @@ use tearmesh::Vector;
 use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::Method as Formula;
 use tearmesh_cloth::scene::{Axis, Scene};
-use tearmesh_cloth::{Loads, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s};
+use tearmesh_cloth::{Loads, Solver, System, Verlet, Xpbd, recommended_step_s, stable_step_s};
 
 use self::sheets::{ORDERS, Sheet};
 use crate::parts::{implicit, mechanical_j};
@@ -36,7 +36,7 @@ fn weight(gravity: f64, drag_per_s: f64) -> Loads {
 /// The default method of scenes at the step that suits.
 fn default_step(system: &mut System) -> (Verlet, f64) {
     assert!(matches!(Scene::fall(Axis::Y).solver, Method::Verlet));
-    (Verlet::new(), suited_step_s(system))
+    (Verlet::new(), recommended_step_s(system))
 }
 
 /// R2, link by link: a link above n masses is stretched by n m g / k.
@@ -140,7 +140,7 @@ fn first_tear(sheet: &Sheet, order: sheets::Order, dt_s: f64, ratio: f64) -> (f6
 #[test]
 fn the_first_edge_tears_at_the_same_load_in_any_order() {
     for sheet in Sheet::all() {
-        let suited_s = suited_step_s(&mut sheet.system(ORDERS[0]));
+        let suited_s = recommended_step_s(&mut sheet.system(ORDERS[0]));
         for ratio in [1.15, 1.3, 1.5] {
             let (load, edge) = first_tear(&sheet, ORDERS[0], suited_s / 10.0, ratio);
             for order in ORDERS {
@@ -174,7 +174,7 @@ fn shock(sheet: &Sheet, order: sheets::Order, dt_s: f64) -> f64 {
 #[test]
 fn the_largest_strain_under_a_sudden_load_is_that_of_a_tenth_of_the_step() {
     for sheet in Sheet::all() {
-        let suited_s = suited_step_s(&mut sheet.system(ORDERS[0]));
+        let suited_s = recommended_step_s(&mut sheet.system(ORDERS[0]));
         let exact = shock(&sheet, ORDERS[0], suited_s / 10.0);
         for (order, times) in ORDERS
             .into_iter()
@@ -220,13 +220,13 @@ fn a_swing_of_ten_seconds_keeps_its_energy() {
         let low = {
             let mut hanging = sheet.system(ORDERS[0]);
             hanging.set_loads(weight(9.81, 10.0)).expect("loads");
-            let dt_s = suited_step_s(&mut hanging);
+            let dt_s = recommended_step_s(&mut hanging);
             settle(&mut hanging, &mut Verlet::new(), dt_s, 4.0);
             energy_j(&hanging)
         };
         sheet.tilt(&mut system);
         let began = energy_j(&system) - low;
-        let dt_s = suited_step_s(&mut system);
+        let dt_s = recommended_step_s(&mut system);
         let [largest, last] = energies(&mut system, dt_s, 10.0);
         let [largest, last] = [largest, last].map(|e| (e - low) / began);
         println!("{}: {largest} {last}", sheet.name);
@@ -250,7 +250,7 @@ fn a_crushed_sheet_makes_no_energy_at_any_step() {
                     *x += Vector::zeros().map(|_: f64| noise * (random.next() - 0.5));
                 }
                 let began = energy_j(&system);
-                let dt_s = times * suited_step_s(&mut system);
+                let dt_s = times * recommended_step_s(&mut system);
                 let [largest, _] = energies(&mut system, dt_s, 0.3);
                 let name = sheet.name;
                 assert!(

@@ -116,7 +116,7 @@ fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
 fn check_triangles(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
     let Some(weave) = fabric.weave else {
         assert!(cloth.system().triangles().is_empty());
-        assert_eq!(cloth.system().counters().triangle_evaluations, 0);
+        assert_eq!(cloth.system().counters().features.triangle, 0);
         return 0;
     };
     let (rest, masses) = (cloth.rest_positions(), cloth.masses().clone());

@@ -3,7 +3,7 @@
 use tearmesh::{Edits, Mesh, Plane, Point, Vector, VertexId, shapes};
 use tearmesh_cloth::{
     Cloth, Collider, Fabric, Implicit, Loads, Pbd, Provot, Solver, System, Tear, Tearing,
-    Threshold, Unstable, Verlet, Xpbd, suited_step_s,
+    Threshold, Unstable, Verlet, Xpbd, recommended_step_s,
 };
 
 use crate::parts::cloths::{cloth, sheet};
@@ -54,7 +54,7 @@ impl Pulled {
             _ => Threshold::Force(0.05 + random.next()),
         };
         let strengths = mesh.vertices().map(|_| 0.5 + random.next()).collect();
-        let step_s = suited_step_s(cloth.system_mut());
+        let step_s = recommended_step_s(cloth.system_mut());
         Pulled {
             mesh,
             cloth,

@@ -284,10 +284,11 @@ fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted(
         cloth.step(&mut Implicit::default(), dt).expect("a step");
     }
     let [springs, woven] = [&springs, &woven].map(|cloth| cloth.system().counters());
-    assert_eq!(springs.triangle_evaluations, 0);
-    // When asked here, and for each of ten steps the bound; eleven sums of forces for ten steps; and
-    // for the implicit one, one of forces and one of the matrix.
-    assert_eq!(woven.triangle_evaluations, 1 + 10 + 11 + 2);
+    assert_eq!(springs.features.triangle, 0);
+    // Eleven sums of forces for ten steps; and for the implicit one, one of forces and one of the matrix,
+    // the first product with it, two for each further one, and two for lengths at the end.
+    let solved = 3 + woven.matrix_products + 2;
+    assert_eq!(woven.features.triangle, 18 * (11 + solved));
     assert_eq!(woven.force_evaluations, springs.force_evaluations);
     assert_eq!((woven.matrix_products > 0, woven.visits.project), (true, 0));
 }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use tearmesh::Point;
-use tearmesh_cloth::{Solver, Verlet, Xpbd, suited_step_s};
+use tearmesh_cloth::{Solver, Verlet, Xpbd, recommended_step_s};
 
 use super::sheets::{ORDERS, Sheet};
 use super::{energy_j, reference, weight};
@@ -103,7 +103,7 @@ fn table_of_what_chose_the_default() {
         );
         let exact = sheet.strains(&reference(&sheet, 400.0));
         let hc = sheet.edge_s();
-        let own = suited_step_s(&mut sheet.system(ORDERS[0])) / hc;
+        let own = recommended_step_s(&mut sheet.system(ORDERS[0])) / hc;
         println!("the step that suits is {own:.3} h/c");
         for (name, make) in ROWS {
             for part in [0.25, own, 0.5, 1.0, 2.0] {

@@ -46,7 +46,6 @@ pub fn wind_rate(system: &mut System) -> Option<AirRate> {
     if faces.is_empty() {
         return None;
     }
-    system.counters.area_evaluations += 1;
     system.counters.features.wind += faces.len() as u64 / 3;
     let areas = &mut system.scratch.areas;
     areas.clear();

@@ -30,7 +30,6 @@ use tearmesh::geometry::{Vector, dot};
 
 use crate::energy;
 use crate::force;
-use crate::step::{Observer, Substep};
 use crate::system::System;
 
 /// How far apart the work of wind and drag is sampled, in seconds of the simulation; a longer step is
@@ -189,10 +188,9 @@ impl Balance {
         self.work.held_j += energy::at_j(system, particle) - before_j;
         self.taken = self.work;
     }
-}
 
-impl Observer for Balance {
-    fn before(&mut self, system: &System) {
+    /// Looks at the system before a substep. Particles that are led have the velocity for it already.
+    pub(crate) fn before(&mut self, system: &System) {
         if is_leading(system) {
             self.forces.clear();
             self.forces.extend(led_forces(system));
@@ -205,21 +203,23 @@ impl Observer for Balance {
         }
     }
 
-    fn after(&mut self, system: &System, substep: Substep) {
+    /// Looks at the system after a substep of so many seconds, in which the method moved particles by the
+    /// forces at its end, or by those at both.
+    pub(crate) fn after(&mut self, system: &System, substep_s: f64, moves_at_end: bool) {
         if is_leading(system) {
             let led = system.model.grabbed.iter().zip(&self.forces);
             for ((&(particle, _), &before), after) in led.zip(led_forces(system)) {
-                let mean = if substep.moves_at_end {
+                let mean = if moves_at_end {
                     after
                 } else {
                     (before + after) / 2.0
                 };
-                let way = system.velocities[particle as usize] * substep.dt_s;
+                let way = system.velocities[particle as usize] * substep_s;
                 self.work.held_j -= dot(mean, way);
             }
         }
         if let Some(before) = self.work.sampled {
-            self.work.since_s += substep.dt_s;
+            self.work.since_s += substep_s;
             if self.work.since_s >= AIR_S {
                 let after = air_w(system, &mut self.gusts);
                 self.work
@@ -229,7 +229,8 @@ impl Observer for Balance {
         }
     }
 
-    fn ended(&mut self, is_taken: bool) {
+    /// Keeps what was summed up in a step that was taken; forgets that of one that failed.
+    pub(crate) fn ended(&mut self, is_taken: bool) {
         if is_taken {
             self.taken = self.work;
         } else {

@@ -345,9 +345,6 @@ impl Implicit {
             is_clamped = true;
         };
         counters.force_evaluations += 1;
-        if !model.triangles.as_slice().is_empty() {
-            counters.triangle_evaluations += 2 + u64::from(is_clamped);
-        }
         // And two for lengths at the end.
         model.count_visits(sums + 2, counters);
         for (v, d) in self.velocities.iter_mut().zip(&self.pcg.delta) {

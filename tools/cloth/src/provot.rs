@@ -10,7 +10,7 @@
 //! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
-use crate::flight::{accelerate, fly, force_scale};
+use crate::motion::{accelerate, force_scale, kick_and_drift};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring;
 use crate::system::{Recorded, System};
@@ -166,7 +166,7 @@ impl Solver for Provot {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         // What blew up is left as it is, for all to see.
         Failure::unless(accelerate(system, false, None))?;
-        fly(system, dt_s, dt_s);
+        kick_and_drift(system, dt_s, dt_s);
         self.shorten(system, dt_s);
         Ok(())
     }

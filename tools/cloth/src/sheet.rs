@@ -7,11 +7,11 @@ pub use error::ClothError;
 use tearmesh::geometry::{Point, Vector, length};
 use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
+use crate::balance::Balance;
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
 use crate::follow::room::Room;
 use crate::solver::{Solver, StepError, StepReport};
-use crate::step::Observer;
 use crate::system::System;
 
 /// The energy that edits added to a cloth, in joules; negative if they removed energy.
@@ -282,7 +282,7 @@ impl Cloth {
         self.system.step(solver, dt_s)
     }
 
-    /// Advances the cloth by `dt_s` seconds, and shows each substep to an observer, as
+    /// Advances the cloth by `dt_s` seconds, with a balance of its energy, as
     /// [`System::step_observed`] does.
     ///
     /// # Errors
@@ -292,9 +292,9 @@ impl Cloth {
         &mut self,
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
-        observer: &mut (impl Observer + ?Sized),
+        balance: &mut Balance,
     ) -> Result<StepReport, StepError> {
-        self.system.step_observed(solver, dt_s, observer)
+        self.system.step_observed(solver, dt_s, balance)
     }
 
     /// Returns the particles and constraints; vertex v is particle `v.index()`.

@@ -39,10 +39,10 @@ use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
+use crate::balance::Balance;
 use crate::method::MethodSolver;
 use crate::sheet::Cloth;
 use crate::solver::{StepError, StepReport};
-use crate::step::Observer;
 use crate::step_length::{speed_m_per_s, suggested_step_s};
 use crate::tearing::{Tear, TearReport};
 
@@ -292,20 +292,23 @@ impl Simulation {
     }
 
     fn step(&mut self) -> Result<(), StepError> {
-        self.step_observed(&mut ())?;
+        self.step_observed(None)?;
         let found = self.find_overstretched();
         self.tear_found(found);
         self.heal_step();
         Ok(())
     }
 
-    /// Takes a step, which an observer sees, and looks at nothing that it overstretched.
+    /// Takes a step, which a balance of energy sees, and looks at nothing that it overstretched.
     pub(crate) fn step_observed(
         &mut self,
-        observer: &mut impl Observer,
+        balance: Option<&mut Balance>,
     ) -> Result<StepReport, StepError> {
         let cloth = &mut self.cloth;
-        let report = cloth.step_observed(&mut self.solver, self.step_s, observer)?;
+        let report = match balance {
+            None => cloth.step(&mut self.solver, self.step_s)?,
+            Some(balance) => cloth.step_observed(&mut self.solver, self.step_s, balance)?,
+        };
         self.steps += 1;
         if let Some(log) = &mut self.log {
             log.steps = self.steps;

@@ -81,7 +81,7 @@ pub struct Abilities {
     /// counts towards [`air_limit`](Abilities::air_limit).
     pub takes_drag_explicitly: bool,
     /// Whether neighbours carry the particles that are too light for a step. The step is then
-    /// limited by [`suited_step_s`](crate::suited_step_s) instead of the largest frequency.
+    /// limited by [`recommended_step_s`](crate::recommended_step_s) instead of the largest frequency.
     pub carries_light: bool,
     /// Whether the method supports the forces of [`System::triangles`]. A method that does not is
     /// refused if the system has triangles.

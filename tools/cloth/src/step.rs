@@ -6,44 +6,12 @@
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
+use crate::balance::Balance;
 use crate::blow_up::BlowUpSite;
 use crate::contact;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
 use crate::system::{Model, Recorded, System};
-
-/// An observer that sees a system before and after each substep.
-pub trait Observer {
-    /// Called before each substep. Particles that are led have the velocity for it already.
-    fn before(&mut self, system: &System);
-
-    /// Called after each substep that was taken, with its report.
-    fn after(&mut self, system: &System, substep: Substep);
-
-    /// Called at the end of a step, after its substeps. If `is_taken` is false, the step failed and
-    /// the system is back where it began, so all observations of the step are void. Not called for
-    /// a step that was refused before its first substep.
-    fn ended(&mut self, is_taken: bool);
-}
-
-/// An observer that ignores everything.
-impl Observer for () {
-    fn before(&mut self, _: &System) {}
-
-    fn after(&mut self, _: &System, _: Substep) {}
-
-    fn ended(&mut self, _: bool) {}
-}
-
-/// The report of a substep that was taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Substep {
-    /// The length of the substep, in seconds.
-    pub dt_s: f64,
-    /// Whether the method moved particles by the forces at the end of the substep, as methods
-    /// without a stability limit do.
-    pub moves_at_end: bool,
-}
 
 impl System {
     /// Advances the system by `dt_s` seconds.
@@ -57,11 +25,10 @@ impl System {
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
     ) -> Result<StepReport, StepError> {
-        self.step_observed(solver, dt_s, &mut ())
+        self.step_with(solver, dt_s, None)
     }
 
-    /// Advances the system by `dt_s` seconds, and shows each substep to an observer such as a
-    /// [`Balance`](crate::Balance).
+    /// Advances the system by `dt_s` seconds, with a balance of its energy that sees each substep.
     ///
     /// # Errors
     ///
@@ -70,31 +37,38 @@ impl System {
         &mut self,
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
-        observer: &mut (impl Observer + ?Sized),
+        balance: &mut Balance,
+    ) -> Result<StepReport, StepError> {
+        self.step_with(solver, dt_s, Some(balance))
+    }
+
+    fn step_with(
+        &mut self,
+        solver: &mut (impl Solver + ?Sized),
+        dt_s: f64,
+        mut balance: Option<&mut Balance>,
     ) -> Result<StepReport, StepError> {
         check(self, solver, dt_s)?;
         let admitted = admit(self, solver, dt_s);
         let report = admitted.map_err(|error| unless_broken(self, error))?;
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
-        let began = Began {
-            elapsed_s: self.elapsed_s,
-            contact_j: self.contact_j,
-        };
+        let (began_s, contact_j) = (self.elapsed_s, self.contact_j);
         self.model.recorded = Recorded::Nothing;
-        let substep = Substep {
-            dt_s: dt_s / f64::from(report.substeps),
-            moves_at_end: solver.abilities().frequency_limit.is_none(),
-        };
+        let substep_s = dt_s / f64::from(report.substeps);
         for _ in 0..report.substeps {
-            if let Err(failure) = advance(self, solver, substep, observer) {
-                let error = go_back(self, failure, began);
-                observer.ended(false);
-                return Err(error);
+            if let Err(failure) = advance(self, solver, substep_s, balance.as_deref_mut()) {
+                (self.elapsed_s, self.contact_j) = (began_s, contact_j);
+                if let Some(balance) = balance {
+                    balance.ended(false);
+                }
+                return Err(go_back(self, failure));
             }
         }
-        observer.ended(true);
-        self.elapsed_s = began.elapsed_s + dt_s;
+        if let Some(balance) = balance {
+            balance.ended(true);
+        }
+        self.elapsed_s = began_s + dt_s;
         Ok(report)
     }
 }
@@ -123,17 +97,23 @@ fn check(system: &System, solver: &(impl Solver + ?Sized), dt_s: f64) -> Result<
 fn advance(
     system: &mut System,
     solver: &mut (impl Solver + ?Sized),
-    substep: Substep,
-    observer: &mut (impl Observer + ?Sized),
+    substep_s: f64,
+    mut balance: Option<&mut Balance>,
 ) -> Result<(), Failure> {
     system.counters.substeps += 1;
-    system.drive(substep.dt_s);
-    observer.before(system);
-    solver.advance(system, substep.dt_s)?;
+    system.drive(substep_s);
+    if let Some(balance) = balance.as_deref_mut() {
+        balance.before(system);
+    }
+    solver.advance(system, substep_s)?;
     contact::push_out(system);
     Failure::unless(is_finite(system))?;
-    observer.after(system, substep);
-    system.elapsed_s += substep.dt_s;
+    if let Some(balance) = balance {
+        // Methods without a stability limit move particles by the forces at the end of a substep.
+        let moves_at_end = solver.abilities().frequency_limit.is_none();
+        balance.after(system, substep_s, moves_at_end);
+    }
+    system.elapsed_s += substep_s;
     Ok(())
 }
 
@@ -156,20 +136,16 @@ fn unless_broken(system: &System, error: StepError) -> StepError {
     }
 }
 
-/// What a step changes beside positions and velocities, as it was before.
-#[derive(Clone, Copy)]
-struct Began {
-    elapsed_s: f64,
-    contact_j: Option<f64>,
-}
-
-/// Puts the system back to where the step began, and says why the step was not taken.
-fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
-    let elapsed_s = began.elapsed_s;
+/// Puts the system back to the state in which the step began, and says why the step was not taken.
+fn go_back(system: &mut System, failure: Failure) -> StepError {
+    let elapsed_s = system.elapsed_s;
+    let scratch = &system.scratch;
+    let began = (&scratch.positions[..], &scratch.velocities[..]);
+    let now = (&system.positions[..], &system.velocities[..]);
     let error = match failure {
         Failure::BlowUp => StepError::BlowUp {
             elapsed_s,
-            at: given_up(system),
+            at: blow_up_site(&system.model, &[began, now]),
         },
         Failure::Implicit(error) => StepError::Implicit { elapsed_s, error },
     };
@@ -179,19 +155,7 @@ fn go_back(system: &mut System, failure: Failure, began: Began) -> StepError {
     system.model.recorded = Recorded::Nothing;
     system.model.clear_multipliers();
     system.changes += 1;
-    Began {
-        elapsed_s: system.elapsed_s,
-        contact_j: system.contact_j,
-    } = began;
     error
-}
-
-/// What is wrong with a step that blew up, by where it began, and where it was given up.
-fn given_up(system: &System) -> BlowUpSite {
-    let scratch = &system.scratch;
-    let began = (&scratch.positions[..], &scratch.velocities[..]);
-    let now = (&system.positions[..], &system.velocities[..]);
-    blow_up_site(&system.model, &[began, now])
 }
 
 /// Positions and velocities.

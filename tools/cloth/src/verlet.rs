@@ -5,8 +5,8 @@
 //! Two things make velocity Verlet unfit for cloth as it stands in textbooks, and each has a guard:
 //!
 //! * One light particle shortens the stable step of all. It is *carried* by its neighbours
-//!   ([`carry`](crate::carry)), and the step that suits most particles serves all
-//!   ([`suited_step_s`](crate::suited_step_s)).
+//!   ([`mass_scaling`](crate::mass_scaling)), and the step that suits most particles serves all
+//!   ([`recommended_step_s`](crate::recommended_step_s)).
 //! * Crushed springs make energy below every limit. They are damped ([`crush`](crate::crush)).
 //!
 //! Where nothing is carried and nothing is crushed, the guards change no bit.
@@ -51,7 +51,7 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
-use crate::flight::{accelerate, fly, foresee, kick};
+use crate::motion::{accelerate, kick, kick_and_drift, predict_velocities};
 use crate::solver::{Abilities, Failure, Solver};
 use crate::stability::{carried_count, weigh_for};
 use crate::system::System;
@@ -60,7 +60,7 @@ use crate::system::System;
 ///
 /// [`Verlet::new`] is guarded: particles that are too light for the step are carried by their
 /// neighbours, and constraints shorter than nine tenths of their rest length are damped. It is
-/// stable at steps of up to twice [`suited_step_s`](crate::suited_step_s) in every configuration,
+/// stable at steps of up to twice [`recommended_step_s`](crate::recommended_step_s) in every configuration,
 /// and exact at rest. In motion the guards make light particles swing more slowly about their
 /// neighbours; at half the suited step or less hardly any particle is carried.
 ///
@@ -138,13 +138,13 @@ impl Solver for Verlet {
         let guarded_s = (!self.is_plain).then_some(dt_s);
         let is_fresh = self.is_fresh(system, dt_s);
         let began_sane = is_fresh || accelerate(system, false, guarded_s);
-        fly(system, half_s, dt_s);
+        kick_and_drift(system, half_s, dt_s);
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
         // as without wind. (Those of the middle err by O(Δt).)
         let blows = system.model.loads.wind.is_some();
         if blows {
-            foresee(system, half_s);
+            predict_velocities(system, half_s);
         }
         let is_sane = accelerate(system, blows, guarded_s);
         kick(system, half_s);

@@ -25,7 +25,7 @@
 
 use tearmesh::geometry::{Vector, length};
 
-use crate::flight::{finish, finish_and_predict, force_scale, predict};
+use crate::motion::{finish, finish_and_predict, force_scale, predict};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring::{self, Correction};
 use crate::system::{Family, Recorded, System};

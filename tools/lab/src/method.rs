@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use tearmesh_cloth::implicit::{self, Settings};
-use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd, stable_step_s, suited_step_s};
+use tearmesh_cloth::{
+    Pbd, Provot, Solver, System, Verlet, Xpbd, recommended_step_s, stable_step_s,
+};
 
 use crate::plot::{COLOURS, Colour, Mark, Shape};
 use crate::rk4::Rk4;
@@ -200,7 +202,7 @@ impl Method {
     pub fn base_s(&self, system: &mut System, edge_s: f64) -> f64 {
         match self.family {
             // Admitted up to twice the recommended step.
-            Family::Verlet => MARGIN * 2.0 * suited_step_s(system),
+            Family::Verlet => MARGIN * 2.0 * recommended_step_s(system),
             Family::Pbd | Family::Xpbd => edge_s,
             Family::BackwardEuler | Family::Bdf2 => 1.0 / 60.0,
             _ => MARGIN * limit_s(system, &*self.solver()),

@@ -307,7 +307,7 @@ impl Run {
         held::take_and_release(&mut self.held, now, step_s, hands);
         self.cut(now)?;
         self.blow(now);
-        let report = self.sim.step_observed(&mut self.balance)?;
+        let report = self.sim.step_observed(Some(&mut self.balance))?;
         self.tally.steps += 1;
         self.measure_moves(step_s / f64::from(report.substeps));
         let is_frame = self.watch.is_time(self.tally.steps);
@@ -420,7 +420,7 @@ impl Run {
     /// whole number:
     ///
     /// * Verlet: at most the step that suits nine tenths of the vertices
-    ///   ([`suited_step_s`](crate::suited_step_s)); the others are carried by their neighbours, and
+    ///   ([`recommended_step_s`](crate::recommended_step_s)); the others are carried by their neighbours, and
     ///   so are vertices that become light by a tear or a cut.
     /// * Provot: at most 0.925 of the longest step that is admitted at rest. If a tear or a cut lowers
     ///   the limit, each step is divided ([`Unstable::Substep`]).

@@ -8,13 +8,8 @@ pub struct Counters {
     pub force_evaluations: u64,
     /// The number of products of the stiffness matrix with a vector.
     pub matrix_products: u64,
-    /// The number of sums over all triangles: of forces, of products with the stiffness matrix, and
-    /// of stretch for the bound of frequencies.
-    pub triangle_evaluations: u64,
     /// The number of sums of wind over all faces.
     pub wind_evaluations: u64,
-    /// The number of sums of areas over all faces, for the rate at which wind slows the system.
-    pub area_evaluations: u64,
     /// The number of passes of all particles over one collider.
     pub collider_passes: u64,
     /// The number of substeps taken.

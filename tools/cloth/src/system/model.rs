@@ -5,10 +5,10 @@ use tearmesh::geometry::{Point, Vector};
 use super::counters::Counters;
 use crate::bend::Buckling;
 use crate::blow_up::BlowUpSite;
-use crate::carry::Carry;
 use crate::constraint::Constraints;
 use crate::crush::Crush;
 use crate::load::{Loads, Path};
+use crate::mass_scaling::MassScaling;
 use crate::matrix::Hessian;
 use crate::pair::Pairs;
 use crate::triangle::Triangles;
@@ -263,7 +263,6 @@ impl Model {
     ) -> bool {
         counters.force_evaluations += 1;
         self.count_visits(1, counters);
-        counters.triangle_evaluations += u64::from(!self.triangles.as_slice().is_empty());
         forces.fill(Vector::zeros());
         let sane = self.add_forces(positions, self.stretch_ratio_max, crush, forces);
         self.blow(positions, velocities, forces, counters);
@@ -272,7 +271,7 @@ impl Model {
 
     /// Makes accelerations of forces, with gravity, and with what is carried as heavy as that makes it;
     /// held particles have none.
-    pub(crate) fn weigh(&self, carry: Option<&Carry>, forces: &mut [Vector]) {
+    pub(crate) fn weigh(&self, carry: Option<&MassScaling>, forces: &mut [Vector]) {
         let gravity = self.gravity();
         let Some(carry) = carry.filter(|carry| carry.len() > 0) else {
             for (a, &w) in forces.iter_mut().zip(&self.inverse_masses) {

@@ -2,7 +2,7 @@
 
 use tearmesh::Vector;
 use tearmesh_cloth::statistics::Random;
-use tearmesh_cloth::{Solver, StepError, System, Unstable, energy, suited_step_s};
+use tearmesh_cloth::{Solver, StepError, System, Unstable, energy, recommended_step_s};
 
 use super::net::{NETS, omega_rad_per_s};
 use super::row::Row;
@@ -61,7 +61,7 @@ impl Theory {
                 let omega_rad_per_s = unit_omega_rad_per_s * stiffness_n_per_m.sqrt();
                 let theory_s = match self {
                     Theory::UpTo(limit) => Some(limit / omega_rad_per_s),
-                    Theory::Promised => Some(2.0 * suited_step_s(&mut system)),
+                    Theory::Promised => Some(2.0 * recommended_step_s(&mut system)),
                     Theory::Always => None,
                 };
                 // Near a limit, motions must stay small even when they have grown.

@@ -20,7 +20,7 @@
 //! * With it Σ k |uₐ − uᵦ|² ≤ (4μ/Δt²) u M′u, which is stability up to Δt² λ = 4μ in every
 //!   configuration: of a spring between two that are not carried since |uₐ − uᵦ|² ≤ 2 uₐ² + 2 uᵦ²,
 //!   and of one that is carried by others since (1 − s)² ≤ 1 + 2s − s². Of two neighbours that are
-//!   both carried it is not proven in general; there [`Carry::is_proven`] is false, and λ is measured.
+//!   both carried it is not proven in general; there [`MassScaling::is_proven`] is false, and λ is measured.
 //! * At rest it does nothing: M′⁻¹ 0 = 0. So strains at rest are those of the fabric.
 //!
 //! M′⁻¹ f costs one pass over the carried particles forward, one over all, and one back. Macek and
@@ -31,10 +31,10 @@ use std::ops::{AddAssign, Mul};
 
 /// What particles weigh in a step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Carry {
+pub(crate) struct MassScaling {
     /// 1/D: zero for particles that are held.
     inverse: Vec<f64>,
-    stars: Vec<Star>,
+    stars: Vec<OneRing>,
     /// The neighbours of all stars, with their β.
     legs: Vec<(u32, f64)>,
     is_carried: Vec<bool>,
@@ -44,13 +44,13 @@ pub(crate) struct Carry {
 
 /// A particle that is carried by its neighbours.
 #[derive(Clone, Copy, Debug)]
-struct Star {
+struct OneRing {
     particle: u32,
     /// Where its legs end.
     legs: u32,
 }
 
-impl Carry {
+impl MassScaling {
     /// Weighs particles of these masses for a net with the sums `stiffness` at each of them, so that
     /// Δt² λ is at most 4 `share`. An inverse mass of zero says that a particle is held. `neighbours` visits
     /// those of a particle with the stiffness between, in N/m.
@@ -123,7 +123,7 @@ impl Carry {
         }
         self.inverse[particle] = need;
         self.is_carried[particle] = true;
-        self.stars.push(Star {
+        self.stars.push(OneRing {
             particle: particle as u32,
             legs: self.legs.len() as u32,
         });
@@ -184,7 +184,7 @@ mod tests {
     }
 
     /// The columns of M′⁻¹.
-    fn columns(carry: &Carry, count: usize) -> Vec<Vec<f64>> {
+    fn columns(carry: &MassScaling, count: usize) -> Vec<Vec<f64>> {
         let column = |i| {
             let mut unit = vec![0.0; count];
             unit[i] = 1.0;
@@ -194,18 +194,18 @@ mod tests {
         (0..count).map(column).collect()
     }
 
-    fn free(masses: &[f64], springs: &Springs, dt_s: f64) -> Carry {
+    fn free(masses: &[f64], springs: &Springs, dt_s: f64) -> MassScaling {
         let inverse: Vec<f64> = masses.iter().map(|m| 1.0 / m).collect();
         weighed([masses, &inverse], springs, dt_s)
     }
 
-    fn weighed(masses: [&[f64]; 2], springs: &Springs, dt_s: f64) -> Carry {
+    fn weighed(masses: [&[f64]; 2], springs: &Springs, dt_s: f64) -> MassScaling {
         let mut sums = vec![0.0; masses[0].len()];
         for &([a, b], stiffness) in &springs.0 {
             sums[a] += stiffness;
             sums[b] += stiffness;
         }
-        let mut carry = Carry::default();
+        let mut carry = MassScaling::default();
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
             springs.neighbours(particle, visit);
         };
@@ -243,7 +243,7 @@ mod tests {
     }
 
     /// The largest eigenvalue of M′⁻¹ L by power iteration.
-    fn largest(carry: &Carry, springs: &Springs, count: usize) -> f64 {
+    fn largest(carry: &MassScaling, springs: &Springs, count: usize) -> f64 {
         let mut u: Vec<f64> = (0..count).map(|i| ((i * i + 1) % 5) as f64 - 1.7).collect();
         let mut largest = 0.0;
         for _ in 0..3000 {

@@ -8,7 +8,7 @@ use crate::crush::Crush;
 use crate::system::{Model, System};
 
 /// Takes the accelerations now, with wind at the velocities of now or at those that were
-/// [`foreseen`](foresee): in a step of `dt_s` seconds with the guards of
+/// [`foreseen`](predict_velocities): in a step of `dt_s` seconds with the guards of
 /// [`Verlet`](crate::Verlet), or without any. False where a constraint is longer than the system's
 /// largest stretch ratio.
 #[must_use]
@@ -40,7 +40,7 @@ pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Opti
 
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
 /// divides them; then all fly for `dt_s` seconds.
-pub(crate) fn fly(system: &mut System, kick_s: f64, dt_s: f64) {
+pub(crate) fn kick_and_drift(system: &mut System, kick_s: f64, dt_s: f64) {
     let fade = 1.0 + kick_s * system.model.drag_per_s();
     let accelerations = &system.scratch.accelerations;
     let particles = system.positions.iter_mut().zip(&mut system.velocities);
@@ -65,7 +65,7 @@ pub(crate) fn kick(system: &mut System, kick_s: f64) {
 }
 
 /// The velocities that a [`kick`] would lead to, into the scratch room.
-pub(crate) fn foresee(system: &mut System, kick_s: f64) {
+pub(crate) fn predict_velocities(system: &mut System, kick_s: f64) {
     let scratch = &mut system.scratch;
     scratch.foreseen.clone_from(&system.velocities);
     let foreseen = &mut scratch.foreseen;
@@ -106,7 +106,7 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
         accelerations.resize(positions.len(), Vector::zeros());
         model.external(positions, velocities, accelerations, counters);
     }
-    let flight = Flight::new(model, dt_s);
+    let flight = FreeStep::new(model, dt_s);
     let particles = positions.iter_mut().zip(&mut scratch.before);
     let particles = particles.zip(&*velocities).zip(&model.inverse_masses);
     if model.loads.wind.is_some() {
@@ -143,7 +143,7 @@ pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
         return;
     }
     let per_s = 1.0 / dt_s;
-    let flight = Flight::new(&system.model, dt_s);
+    let flight = FreeStep::new(&system.model, dt_s);
     let particles = system.positions.iter_mut().zip(&mut system.scratch.before);
     for ((x, before), &w) in particles.zip(&system.model.inverse_masses) {
         let v = (*x - *before) * per_s;
@@ -153,16 +153,16 @@ pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
 }
 
 /// A substep without constraints.
-struct Flight {
+struct FreeStep {
     gravity: Vector,
     /// The part of a velocity that drag leaves.
     keep: f64,
     dt_s: f64,
 }
 
-impl Flight {
-    fn new(model: &Model, dt_s: f64) -> Flight {
-        Flight {
+impl FreeStep {
+    fn new(model: &Model, dt_s: f64) -> FreeStep {
+        FreeStep {
             gravity: model.gravity(),
             keep: 1.0 / (1.0 + dt_s * model.drag_per_s()),
             dt_s,
