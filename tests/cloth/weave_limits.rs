@@ -1,16 +1,16 @@
 //! Cloth of triangles: what its limits are, what is refused, and what it costs.
 
 use tearmesh::insert::Plan;
-use tearmesh::{Edit, Edits, FaceId, Masses, Point, Vector, VertexId, shapes, slide, split};
+use tearmesh::{Edits, Masses, Point, Vector, shapes, slide, split};
 use tearmesh_cloth::{
     BlowUpSite, Cloth, ClothError, Fabric, Implicit, Pbd, Provot, Solver, StepError, System,
-    SystemError, Unstable, Verlet, Weave, Xpbd, energy, frequency_bound, warp_of_texture,
+    SystemError, Unstable, Verlet, Weave, Xpbd, energy, frequency_bound,
 };
 
 use crate::parts::cloths::cloth;
+use crate::parts::mechanical_j;
 use crate::parts::vibration::{largest_frequency, rayleigh_quotient};
 use crate::parts::woven::{sheet, strip, weave};
-use crate::parts::{mechanical_j, near};
 use crate::rk4::Rk4;
 
 #[test]
@@ -151,11 +151,6 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
             "{error}"
         );
     }
-    let warps = vec![Vector::x(); 3];
-    let error = Cloth::with_warps(&mesh, &positions, masses.clone(), Fabric::new(1.0), warps)
-        .expect_err("too few");
-    assert_eq!(error, ClothError::Warps { faces: 8, warps: 3 });
-
     let mut cloth = made(Fabric::woven(weave())).expect("a cloth");
     let methods: [&mut dyn Solver; 2] = [&mut Pbd::default(), &mut Xpbd::default()];
     for method in methods {
@@ -188,89 +183,6 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
     assert_eq!(system.triangle([0, 1, 2], places, [1.0; 3]), Ok(0));
 }
 
-/// The axes of texture coordinates, face by face.
-#[test]
-fn warp_may_be_named_face_by_face_by_texture_coordinates() {
-    let (mesh, positions) = shapes::tube(6, 2);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    // Warp runs round the tube, whatever the direction in space.
-    let round = |v: VertexId| {
-        let p = positions.at(v);
-        let n = Vector::new(p.x, p.y, 0.0);
-        Vector::z().cross(&n)
-    };
-    let warps: Vec<Vector> = mesh
-        .faces()
-        .map(|f| {
-            let corners = mesh.face_vertices(f);
-            let rest = corners.map(|v| positions.at(v));
-            let along = corners
-                .iter()
-                .fold(Vector::zeros(), |sum, v| sum + round(*v));
-            // Texture coordinates that grow along that direction and along the axis.
-            let texture = rest.map(|p| [3.0 * along.dot(&p.coords), p.z]);
-            warp_of_texture(rest, texture).expect("texture with area")
-        })
-        .collect();
-    let fabric = Fabric::woven(weave());
-    let mut cloth = Cloth::with_warps(&mesh, &positions, masses, fabric, warps).expect("a cloth");
-    // Twice as long: weft, and nothing of warp.
-    for p in cloth.system_mut().state_mut().0 {
-        p.z *= 2.0;
-    }
-    for f in mesh.faces() {
-        let [warp, weft] = cloth.warp_weft_stretch(f);
-        near(warp, 1.0, 1e-12);
-        near(weft, 2.0, 1e-12);
-        near(cloth.principal_stretch(f), 2.0, 1e-12);
-    }
-}
-
-/// Warp round a tube in every second face and along it in the others; children have their parent's.
-#[test]
-fn children_inherit_the_warp_of_their_face() {
-    let (mut mesh, positions) = shapes::tube(6, 2);
-    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
-    let is_along = |f: FaceId| f.index() % 2 == 1;
-    let warps = mesh.faces().map(|f| {
-        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
-        let round = Vector::z().cross(&(b - a).cross(&(c - a)));
-        if is_along(f) { Vector::z() } else { round }
-    });
-    let (fabric, warps) = (Fabric::woven(weave()), warps.collect());
-    let mut cloth = Cloth::with_warps(&mesh, &positions, masses, fabric, warps).expect("a cloth");
-    for p in cloth.system_mut().state_mut().0 {
-        p.z *= 2.0;
-    }
-    let energy = energy::elastic_j(cloth.system());
-    let mut edits = Edits::new();
-    for f in [0, 3, 5, 8] {
-        let mut plan = Plan::new();
-        plan.in_face(FaceId::new(f).expect("a face"), [0.5, 0.3, 0.2]);
-        plan.apply(&mut mesh, &mut edits).expect("an insertion");
-    }
-    let mut along: Vec<bool> = mesh.faces().map(is_along).collect();
-    for edit in edits.iter() {
-        if let Edit::Insert(insert) = edit {
-            for child in insert.children {
-                along[child.face.index()] = along[child.parent.index()];
-            }
-        }
-    }
-    edits.replay(&mut cloth);
-    for f in mesh.faces() {
-        let [warp, weft] = cloth.warp_weft_stretch(f);
-        let [one, two] = if along[f.index()] {
-            [2.0, 1.0]
-        } else {
-            [1.0, 2.0]
-        };
-        near(warp, one, 1e-12);
-        near(weft, two, 1e-12);
-    }
-    near(energy::elastic_j(cloth.system()), energy, 1e-12 * energy);
-}
-
 #[test]
 fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted() {
     let (mesh, positions) = shapes::grid(3, 3);
@@ -286,8 +198,8 @@ fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted(
     let [springs, woven] = [&springs, &woven].map(|cloth| cloth.system().counters());
     assert_eq!(springs.features.triangle, 0);
     // Eleven sums of forces for ten steps; and for the implicit one, one of forces and one of the matrix,
-    // the first product with it, two for each further one, and two for lengths at the end.
-    let solved = 3 + woven.matrix_products + 2;
+    // products with it, and two for lengths at the end.
+    let solved = 2 + woven.matrix_products + 2;
     assert_eq!(woven.features.triangle, 18 * (11 + solved));
     assert_eq!(woven.force_evaluations, springs.force_evaluations);
     assert_eq!((woven.matrix_products > 0, woven.visits.project), (true, 0));

@@ -100,8 +100,7 @@ pub struct Weave {
     /// The shear modulus, in N/m; zero or more.
     pub shear_n_per_m: f64,
     /// The direction of warp in space, for the cloth at rest. It is projected onto each face, and
-    /// weft is perpendicular to it. [`Cloth::with_warps`](crate::Cloth::with_warps) sets a
-    /// direction for each face instead.
+    /// weft is perpendicular to it.
     pub warp: Vector,
 }
 

@@ -1,21 +1,17 @@
 //! A cloth follows the log: splits, insertions and merges change particles, constraints, triangles
 //! and the bound of frequencies where they are, and nowhere else.
 
-pub(crate) mod room;
-
-use tearmesh::geometry::between;
+use tearmesh::geometry::{Vector, between};
 use tearmesh::{
-    ChildFace, CornerSource, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Slide, Split,
-    VertexId, VertexOp,
+    Blend, ChildFace, CornerSource, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Mix, Slide,
+    Split, VertexId, VertexOp,
 };
 
-use self::room::Piece;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::energy;
 use crate::fabric::{Copies, Unbend};
-use crate::particle;
 use crate::sheet::{Cloth, NO_BEND, weight};
-use crate::system::Family;
+use crate::system::{Family, System};
 
 impl Follower for Cloth {
     fn cursor(&mut self) -> &mut Cursor {
@@ -77,14 +73,14 @@ impl Cloth {
         }
         if self.fabric.unbend == Unbend::Vertex {
             for particle in [old, new] {
-                self.room.ids.clear();
-                self.room.ids.extend(self.system.model.bend.of(particle));
-                for i in 0..self.room.ids.len() {
-                    gained -= self.unbend(self.bent_edge[self.room.ids[i].index()][0]);
+                self.scratch.ids.clear();
+                self.scratch.ids.extend(self.system.model.bend.of(particle));
+                for i in 0..self.scratch.ids.len() {
+                    gained -= self.unbend(self.bent_edge[self.scratch.ids[i].index()][0]);
                 }
             }
         }
-        self.split_triangles(split);
+        self.relabel_triangles(split.corners, new);
         self.ledger.split_elastic_j += gained;
         self.system.touched();
     }
@@ -99,7 +95,7 @@ impl Cloth {
         for &corner in merge.corners {
             self.system.model.faces[corner.index()] = kept as u32;
         }
-        self.merge_triangles(merge);
+        self.relabel_triangles(merge.corners, kept);
         for link in merge.sewn {
             let (id, copied) = (self.stretch(link.stayed), self.stretch(link.moved));
             let stretch = &mut self.system.model.stretch;
@@ -114,9 +110,9 @@ impl Cloth {
         }
         let model = &mut self.system.model;
         for family in [&mut model.stretch, &mut model.bend] {
-            self.room.ids.clear();
-            self.room.ids.extend(family.of(gone));
-            for &id in &self.room.ids {
+            self.scratch.ids.clear();
+            self.scratch.ids.extend(family.of(gone));
+            for &id in &self.scratch.ids {
                 family.repoint(id, gone, kept);
             }
         }
@@ -129,7 +125,7 @@ impl Cloth {
                 }
             }
         }
-        particle::join(&mut self.system, kept, gone, merge.share);
+        join_particles(&mut self.system, kept, gone, merge.share);
         if let Some(renumbered) = merge.renumbered {
             for &corner in renumbered.corners {
                 self.system.model.faces[corner.index()] = renumbered.to.index() as u32;
@@ -164,7 +160,7 @@ impl Cloth {
     /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
     /// Stretch constraints keep k L, as the parts of a divided edge do.
     fn measure_again(&mut self, particle: usize) {
-        let mut ids = std::mem::take(&mut self.room.ids);
+        let mut ids = std::mem::take(&mut self.scratch.ids);
         ids.clear();
         ids.extend(self.system.model.stretch.of(particle));
         for &id in &ids {
@@ -183,14 +179,14 @@ impl Cloth {
         for &id in &ids {
             self.measure_bend(id);
         }
-        self.room.ids = ids;
+        self.scratch.ids = ids;
         self.weave_again(particle);
         self.system.touched();
     }
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
         let count = self.system.positions.len();
-        let mut room = std::mem::take(&mut self.room);
+        let mut room = std::mem::take(&mut self.scratch);
         room.vertices.clear();
         let corners = insert.children.iter().flat_map(|child| child.vertices);
         room.vertices.extend(corners.map(VertexId::index));
@@ -278,7 +274,7 @@ impl Cloth {
         gained += self.insert_triangles(insert);
         self.ledger.insert_elastic_j += gained;
         self.system.touched();
-        self.room = room;
+        self.scratch = room;
     }
 
     /// A particle for each new vertex.
@@ -287,7 +283,7 @@ impl Cloth {
             if let VertexOp::Push { new, from } = op {
                 let count = self.system.positions.len();
                 assert_eq!(new.index(), count, "a cloth is in step with its mesh");
-                particle::push(&mut self.system, from);
+                push_particle(&mut self.system, from);
             }
         }
     }
@@ -420,4 +416,88 @@ fn repoint(family: &mut Constraints, id: ConstraintId, from: usize, to: usize) {
     if family.get(id).ends.contains(&from) {
         family.repoint(id, from, to);
     }
+}
+
+/// Appends a particle that is where others are, or between them, and as fast; a copy is also held and
+/// led like the one that it is of.
+fn push_particle(system: &mut System, from: Mix<VertexId>) {
+    let new = system.positions.len() as u32;
+    let x = Blend::blend(from.map(|v| &system.positions[v.index()]));
+    let v = Blend::blend(from.map(|v| &system.velocities[v.index()]));
+    let like = match from {
+        Mix::Copy(v) => Some(v.index()),
+        Mix::Between { .. } | Mix::Weighted { .. } => None,
+    };
+    system.positions.push(x);
+    system.velocities.push(v);
+    let model = &mut system.model;
+    model.push_particle(like.is_some_and(|particle| model.held[particle]));
+    let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;
+    if let Some(&(_, path)) = model.grabbed.iter().find(led) {
+        model.grabbed.push((new, path));
+    }
+}
+
+/// Makes two particles one, where the held one is if only one is held; `gone` has no
+/// constraints any more, and the last particle takes its index.
+fn join_particles(system: &mut System, kept: usize, gone: usize, share: f64) {
+    let model = &mut system.model;
+    let (x, v) = (&mut system.positions, &mut system.velocities);
+    x[kept] = match (model.held[kept], model.held[gone]) {
+        (true, false) => x[kept],
+        (false, true) => x[gone],
+        _ => between(x[kept], x[gone], 1.0 - share),
+    };
+    model.held[kept] |= model.held[gone];
+    let (mass, more) = (model.masses[kept], model.masses[gone]);
+    if model.held[kept] {
+        v[kept] = Vector::zeros();
+    } else if v[kept] != v[gone] {
+        v[kept] = (v[kept] * mass + v[gone] * more) / (mass + more);
+    }
+    x.swap_remove(gone);
+    v.swap_remove(gone);
+    model.swap_remove_particle(gone);
+    let led = |&(led, _): &(u32, u32)| led as usize == kept;
+    if system.model.grabbed.iter().any(led) {
+        system.model.unlead(gone);
+    }
+    let last = system.positions.len() as u32;
+    for (particle, _) in &mut system.model.grabbed {
+        if *particle as usize == gone {
+            *particle = kept as u32;
+        } else if *particle == last {
+            *particle = gone as u32;
+        }
+    }
+}
+
+/// Room that edits reuse.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scratch {
+    ids: Vec<ConstraintId>,
+    vertices: Vec<usize>,
+    pieces: Vec<Piece>,
+}
+
+/// An edge of a child, from one of its sides.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    /// The lower particle first. They name the edge: no two edges have the same two.
+    ends: [usize; 2],
+    half_edge: HalfEdgeId,
+    /// The half-edge of the parent that it lies on; any for one inside.
+    half_edge_before: HalfEdgeId,
+    apex: usize,
+    apex_before: usize,
+    /// Whether it is a whole edge of the parent.
+    is_kept: bool,
+    /// Whether it is a part of an edge of the parent.
+    divided: bool,
+    /// The constraint of that edge.
+    stretch: ConstraintId,
+    bend: ConstraintId,
+    /// What k L shall be.
+    stiffness_by_length: f64,
+    length: f64,
 }

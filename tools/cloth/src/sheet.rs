@@ -4,13 +4,13 @@ pub(crate) mod error;
 
 pub use error::ClothError;
 
-use tearmesh::geometry::{Point, Vector, length};
+use tearmesh::geometry::{Point, length};
 use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
 use crate::balance::Balance;
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
-use crate::follow::room::Room;
+use crate::follow::Scratch;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::System;
 
@@ -115,8 +115,6 @@ pub struct Cloth {
     /// Where the vertices are at rest.
     pub(super) rest: Positions,
     pub(super) fabric: Fabric,
-    /// By face: the direction of warp at rest. Empty where the fabric has one for all.
-    pub(super) warps: Vec<Vector>,
     /// By half-edge: the constraint of its edge.
     pub(super) stretch_of: Vec<ConstraintId>,
     /// By constraint: a half-edge of its edge.
@@ -126,7 +124,7 @@ pub struct Cloth {
     /// By bend constraint: the two half-edges that it is across.
     pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
     pub(super) ledger: EnergyLedger,
-    pub(super) room: Room,
+    pub(super) scratch: Scratch,
     pub(super) seen: Cursor,
 }
 
@@ -154,25 +152,6 @@ impl Cloth {
         masses: Masses,
         fabric: Fabric,
     ) -> Result<Cloth, ClothError> {
-        Cloth::with_warps(mesh, positions, masses, fabric, Vec::new())
-    }
-
-    /// Creates a cloth as [`Cloth::new`] does, with a direction of warp for each face, in space,
-    /// for the cloth at rest. This is for garments whose texture coordinates give that direction
-    /// ([`warp_of_texture`](crate::warp_of_texture)). It replaces
-    /// [`Weave::warp`](crate::Weave::warp), and children of a divided face inherit it.
-    ///
-    /// # Errors
-    ///
-    /// The errors of [`Cloth::new`], and [`ClothError`] if the numbers of directions and faces
-    /// differ, or a direction has no projection onto its face.
-    pub fn with_warps(
-        mesh: &Mesh,
-        positions: &Positions,
-        masses: Masses,
-        fabric: Fabric,
-        warps: Vec<Vector>,
-    ) -> Result<Cloth, ClothError> {
         fabric.check()?;
         let count = mesh.vertex_count();
         if masses.len() != count || positions.len() != count {
@@ -194,13 +173,12 @@ impl Cloth {
             masses: masses.starting_at(seen),
             rest: positions.clone(),
             fabric,
-            warps,
             stretch_of: vec![NO_BEND; half_edges],
             edge_of: Vec::new(),
             bend_of: Vec::new(),
             bent_edge: Vec::new(),
             ledger: EnergyLedger::default(),
-            room: Room::default(),
+            scratch: Scratch::default(),
             seen,
         };
         for h in mesh.edges() {

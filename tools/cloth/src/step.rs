@@ -8,7 +8,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::balance::Balance;
 use crate::blow_up::BlowUpSite;
-use crate::contact;
+use crate::motion;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
 use crate::system::{Model, Recorded, System};
@@ -106,7 +106,7 @@ fn advance(
         balance.before(system);
     }
     solver.advance(system, substep_s)?;
-    contact::push_out(system);
+    motion::push_out(system);
     Failure::unless(is_finite(system))?;
     if let Some(balance) = balance {
         // Methods without a stability limit move particles by the forces at the end of a substep.

@@ -11,33 +11,24 @@
 //! deform as it did, so together they hold what it held; where a vertex slides the triangles
 //! around it are made anew.
 
-use tearmesh::{FaceId, HalfEdgeId, Insert, Merge, Split};
+use tearmesh::geometry::{Point, Vector, cross, dot, length};
+use tearmesh::{FaceId, HalfEdgeId, Insert};
 
-use crate::material::material;
+use crate::fabric::Weave;
 use crate::sheet::{Cloth, ClothError};
 use crate::triangle::Triangle;
 
 impl Cloth {
     /// Makes a triangle for each face, if the fabric asks for them.
     pub(super) fn weave(&mut self) -> Result<(), ClothError> {
-        let count = self.indices().len() / 3;
-        if !self.warps.is_empty() && self.warps.len() != count {
-            return Err(ClothError::Warps {
-                faces: count,
-                warps: self.warps.len(),
-            });
-        }
-        if self.fabric.weave.is_none() && self.warps.is_empty() {
+        let Some(Weave { warp, .. }) = self.fabric.weave else {
             return Ok(());
-        }
-        for f in (0..count).filter_map(FaceId::new) {
-            let warp = self.warp(f);
+        };
+        for f in (0..self.indices().len() / 3).filter_map(FaceId::new) {
             let triangle = material(self.rest_corners(f), warp)
                 .and_then(|material| self.triangle_of(f, material))
                 .ok_or(ClothError::Face { face: f, warp })?;
-            if self.fabric.weave.is_some() {
-                self.system.push_triangle(triangle);
-            }
+            self.system.push_triangle(triangle);
         }
         Ok(())
     }
@@ -60,20 +51,9 @@ impl Cloth {
         triangle.unwrap_or_else(|| Triangle::slack(self.face_vertices(f)))
     }
 
-    fn is_woven(&self) -> bool {
-        self.fabric.weave.is_some()
-    }
-
-    pub(super) fn split_triangles(&mut self, split: &Split<'_>) {
-        self.relabel_triangles(split.corners, split.new.index());
-    }
-
-    pub(super) fn merge_triangles(&mut self, merge: &Merge<'_>) {
-        self.relabel_triangles(merge.corners, merge.kept.index());
-    }
-
-    fn relabel_triangles(&mut self, corners: &[HalfEdgeId], to: usize) {
-        if self.is_woven() {
+    /// Gives corners of triangles to another particle.
+    pub(super) fn relabel_triangles(&mut self, corners: &[HalfEdgeId], to: usize) {
+        if self.fabric.weave.is_some() {
             let triangles = &mut self.system.model.triangles;
             for corner in corners {
                 triangles.repoint(corner.face().index(), corner.corner(), to);
@@ -84,12 +64,7 @@ impl Cloth {
     /// Divides triangles among the children of their faces, and returns the energy gained: zero
     /// to rounding, since children deform as their parents did.
     pub(super) fn insert_triangles(&mut self, insert: &Insert<'_>) -> f64 {
-        if !self.warps.is_empty() {
-            for family in insert.families() {
-                family.apply_to_faces(&mut self.warps);
-            }
-        }
-        if !self.is_woven() {
+        if self.fabric.weave.is_none() {
             return 0.0;
         }
         let mut gained = 0.0;
@@ -125,4 +100,106 @@ impl Cloth {
     fn triangle_energy(&self, t: usize) -> f64 {
         self.system.model.triangles.energy_of(t, self.positions())
     }
+
+    /// Returns the largest stretch of a face in any direction, as a multiple of the length at rest:
+    /// the larger singular value of its deformation. It is 1 at rest, up to rounding.
+    /// [`Threshold::PrincipalStretch`](crate::Threshold::PrincipalStretch) is compared with it.
+    ///
+    /// For a face without area at rest, the result is the largest stretch ratio of its edges.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such face.
+    #[must_use]
+    pub fn principal_stretch(&self, f: FaceId) -> f64 {
+        match self.derivatives(f) {
+            Some(derivatives) => larger_singular_value(derivatives),
+            None => self.edge_stretch(f),
+        }
+    }
+
+    /// Returns the stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples
+    /// of the lengths at rest. Shear does not enter.
+    ///
+    /// The direction of warp is that of [`Weave::warp`](crate::Weave::warp), projected onto the face at
+    /// rest. Weft is perpendicular to it. If the
+    /// fabric sets no direction, warp runs along the x-axis, or along the y-axis in faces whose
+    /// normal is nearer to the x-axis than to the other axes.
+    ///
+    /// For a face without area at rest, both numbers are the largest stretch ratio of its edges.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such face.
+    #[must_use]
+    pub fn warp_weft_stretch(&self, f: FaceId) -> [f64; 2] {
+        match self.derivatives(f) {
+            Some(derivatives) => derivatives.map(length),
+            None => [self.edge_stretch(f); 2],
+        }
+    }
+
+    /// `w_u` and `w_v` of a face; `None` where it has no area at rest.
+    fn derivatives(&self, f: FaceId) -> Option<[Vector; 2]> {
+        let material = self.material(f)?;
+        let triangle = Triangle::new(self.face_vertices(f), material, [0.0; 3])?;
+        let now = self.face_vertices(f).map(|v| self.positions()[v as usize]);
+        Some(triangle.derivatives(now))
+    }
+
+    /// The largest stretch ratio of a face's edges.
+    fn edge_stretch(&self, f: FaceId) -> f64 {
+        let ratio = |h: HalfEdgeId| self.system.stretch_ratio(self.stretch(h));
+        f.half_edges().map(ratio).into_iter().fold(0.0, f64::max)
+    }
+
+    /// The places of a face's corners in the material. Where edits have turned a face until its
+    /// warp has no projection the axis of cloths without names takes its place. `None` where
+    /// there is no area at rest.
+    fn material(&self, f: FaceId) -> Option<[[f64; 2]; 3]> {
+        let rest = self.rest_corners(f);
+        let warp = self.fabric.weave.map(|weave| weave.warp);
+        let named = warp.and_then(|warp| material(rest, warp));
+        named.or_else(|| material(rest, default_warp(rest)))
+    }
+
+    fn rest_corners(&self, f: FaceId) -> [Point; 3] {
+        let at = |v: u32| self.rest.as_slice()[v as usize];
+        self.face_vertices(f).map(at)
+    }
+}
+
+/// The larger singular value of a matrix of two columns.
+fn larger_singular_value([w_u, w_v]: [Vector; 2]) -> f64 {
+    let (uu, vv, uv) = (dot(w_u, w_u), dot(w_v, w_v), dot(w_u, w_v));
+    let apart = 0.5 * (uu - vv);
+    (0.5 * (uu + vv) + (apart * apart + uv * uv).sqrt()).sqrt()
+}
+
+/// The places (u, v) of a triangle's corners in its own plane, in metres: the first at the origin,
+/// u along the projection of `warp`, v across it. `None` where the triangle has no area or
+/// `warp` no projection.
+fn material(rest: [Point; 3], warp: Vector) -> Option<[[f64; 2]; 3]> {
+    let (a, b) = (rest[1] - rest[0], rest[2] - rest[0]);
+    let normal = unit(cross(a, b))?;
+    let u = unit(warp - normal * dot(normal, warp))?;
+    let v = cross(normal, u);
+    Some([[0.0, 0.0], [dot(a, u), dot(a, v)], [dot(b, u), dot(b, v)]])
+}
+
+/// The axis that is warp where nobody says: x, or y where the normal lies nearest to x. So the
+/// projection is never short.
+fn default_warp(rest: [Point; 3]) -> Vector {
+    let normal = cross(rest[1] - rest[0], rest[2] - rest[0]);
+    let x = normal.x.abs();
+    if x > normal.y.abs() && x > normal.z.abs() {
+        Vector::y()
+    } else {
+        Vector::x()
+    }
+}
+
+fn unit(v: Vector) -> Option<Vector> {
+    let l = length(v);
+    (l > 0.0).then(|| v / l)
 }

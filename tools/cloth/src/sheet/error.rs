@@ -35,13 +35,6 @@ pub enum ClothError {
         /// The direction of warp that was given, in space.
         warp: Vector,
     },
-    /// The number of warp directions differs from the number of faces.
-    Warps {
-        /// The number of faces.
-        faces: usize,
-        /// The number of warp directions.
-        warps: usize,
-    },
     /// The number of positions or masses differs from the number of vertices.
     Counts {
         /// The number of vertices.
@@ -76,9 +69,6 @@ impl fmt::Display for ClothError {
                 "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
                 warp.x, warp.y, warp.z
             ),
-            ClothError::Warps { faces, warps } => {
-                write!(f, "there are {warps} directions of warp for {faces} faces")
-            }
             ClothError::Counts {
                 vertices,
                 positions,
