@@ -148,23 +148,21 @@ const TERMS: usize = 16;
 /// of r for 5.
 const fn coefficients(first: usize) -> [f64; TERMS] {
     let mut list = [0.0; TERMS];
-    let mut factorial = 1.0;
-    let mut i = 1;
-    while i < 2 * TERMS + first {
-        factorial *= i as f64;
-        if i >= first && (i - first).is_multiple_of(2) {
-            let k = (i - first) / 2;
-            if k < TERMS {
-                let even = 2.0 * k as f64;
-                let weight = match first {
-                    1 => 1.0,
-                    3 => even + 2.0,
-                    _ => (even + 4.0) * (even + 2.0),
-                };
-                list[k] = weight / factorial;
-            }
+    let mut k = 0;
+    while k < TERMS {
+        let even = 2.0 * k as f64;
+        let weight = match first {
+            1 => 1.0,
+            3 => even + 2.0,
+            _ => (even + 4.0) * (even + 2.0),
+        };
+        let (mut factorial, mut i) = (1.0, 1);
+        while i <= 2 * k + first {
+            factorial *= i as f64;
+            i += 1;
         }
-        i += 1;
+        list[k] = weight / factorial;
+        k += 1;
     }
     list
 }

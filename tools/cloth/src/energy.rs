@@ -8,7 +8,10 @@ use crate::system::{Family, Recorded, System};
 /// Returns the elastic energy of all constraints and triangles, in joules.
 #[must_use]
 pub fn elastic_j(system: &System) -> f64 {
-    system.model.elastic_j(&system.positions)
+    let (model, x) = (&system.model, &system.positions);
+    let families = model.families().into_iter();
+    let sum = families.fold(0.0, |sum, pairs| pairs.energy(x, sum));
+    model.triangles.energy(x, sum)
 }
 
 /// The elastic energy that the method of the last step stores, in joules: that of the forces which it
@@ -55,7 +58,9 @@ pub(crate) fn elastic_of_j(system: &System, family: Family, constraint: &Constra
 
 /// The elastic energy of all that a particle has a part in, in joules.
 pub(crate) fn elastic_at_j(system: &System, particle: usize) -> f64 {
-    system.model.elastic_at_j(&system.positions, particle)
+    let (model, x) = (&system.model, &system.positions);
+    let [stretch, bend] = model.families().map(|pairs| pairs.energy_at(x, particle));
+    stretch + bend + model.triangles.energy_at(x, particle)
 }
 
 /// The kinetic energy of a particle, in joules: none of one that is held.

@@ -139,7 +139,7 @@ impl Cloth {
         if apart {
             self.measure_again(kept);
         }
-        self.ledger.merge_elastic_j += energy::elastic_at_j(&self.system, kept) + across - elastic;
+        self.ledger.moved_elastic_j += energy::elastic_at_j(&self.system, kept) + across - elastic;
         self.ledger.gravity_j += energy::potential_at_j(&self.system, kept) - lifted;
         self.ledger.merge_kinetic_j += energy::kinetic_at_j(&self.system, kept) - kinetic;
     }
@@ -154,7 +154,7 @@ impl Cloth {
         edit.pass_on(&mut self.rest);
         self.measure_again(particle);
         self.ledger.gravity_j += energy::potential_at_j(&self.system, particle) - lifted;
-        self.ledger.slide_elastic_j += energy::elastic_at_j(&self.system, particle) - elastic;
+        self.ledger.moved_elastic_j += energy::elastic_at_j(&self.system, particle) - elastic;
     }
 
     /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
@@ -192,13 +192,9 @@ impl Cloth {
         room.vertices.extend(corners.map(VertexId::index));
         room.vertices.sort_unstable();
         room.vertices.dedup();
-        let there = |&&v: &&usize| v < count;
-        let kinetic: f64 = room
-            .vertices
-            .iter()
-            .filter(there)
-            .map(|&v| energy::kinetic_at_j(&self.system, v))
-            .sum();
+        let there = room.vertices.iter().filter(|&&v| v < count);
+        let kinetic = there.map(|&v| energy::kinetic_at_j(&self.system, v));
+        let kinetic: f64 = kinetic.sum();
 
         self.push_particles(edit);
         edit.pass_on(&mut self.masses);
@@ -206,10 +202,8 @@ impl Cloth {
         for &v in &room.vertices {
             self.reweigh(v);
         }
-        let now = room
-            .vertices
-            .iter()
-            .map(|&v| energy::kinetic_at_j(&self.system, v));
+        let vertices = room.vertices.iter();
+        let now = vertices.map(|&v| energy::kinetic_at_j(&self.system, v));
         self.ledger.insert_kinetic_j += now.sum::<f64>() - kinetic;
 
         room.pieces.clear();
@@ -219,10 +213,8 @@ impl Cloth {
         }
         room.pieces
             .sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
-        let half_edges = insert
-            .children
-            .iter()
-            .map(|child| 3 * child.face.index() + 3);
+        let children = insert.children.iter();
+        let half_edges = children.map(|child| 3 * child.face.index() + 3);
         let half_edges = half_edges.fold(self.stretch_of.len(), usize::max);
         self.stretch_of.resize(half_edges, NO_BEND);
         self.system.model.faces.resize(half_edges, 0);
@@ -239,30 +231,22 @@ impl Cloth {
             }
         }
         // First what goes, then what comes: an id may be given again.
-        room.ids.clear();
-        room.ids.extend(
-            room.pieces
-                .iter()
-                .filter(|piece| piece.divided)
-                .map(|piece| piece.stretch),
-        );
-        room.ids.sort_unstable();
-        room.ids.dedup();
-        for &id in &room.ids {
-            let gone = self.system.model.stretch.remove(id);
-            gained -= energy::elastic_of_j(&self.system, Family::Stretch, &gone);
-        }
-        room.ids.clear();
-        let divided = room
-            .pieces
-            .iter()
-            .filter(|piece| piece.divided && piece.bend != NO_BEND);
-        room.ids.extend(divided.map(|piece| piece.bend));
-        room.ids.sort_unstable();
-        room.ids.dedup();
-        for &id in &room.ids {
-            let gone = self.system.model.bend.remove(id);
-            gained -= energy::elastic_of_j(&self.system, Family::Bend, &gone);
+        for (family, id_of) in [
+            (
+                Family::Stretch,
+                (|piece| piece.stretch) as fn(&Piece) -> ConstraintId,
+            ),
+            (Family::Bend, |piece| piece.bend),
+        ] {
+            let divided = room.pieces.iter().filter(|piece| piece.divided).map(id_of);
+            room.ids.clear();
+            room.ids.extend(divided.filter(|id| *id != NO_BEND));
+            room.ids.sort_unstable();
+            room.ids.dedup();
+            for &id in &room.ids {
+                let gone = self.system.model.family_mut(family).remove(id);
+                gained -= energy::elastic_of_j(&self.system, family, &gone);
+            }
         }
         for edge in room.pieces.chunk_by(|one, other| one.ends == other.ends) {
             gained += if edge[0].is_kept {

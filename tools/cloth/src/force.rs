@@ -96,7 +96,12 @@ pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bo
 pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
     let model = &system.model;
     let mut sum = model.gravity() * model.masses[particle];
-    model.add_force_at(&system.positions, particle, &mut sum);
+    let exerted = |ends, by_length, multiplier| model.exerted_n(ends, by_length, multiplier);
+    for pairs in model.families() {
+        pairs.add_force_at(&system.positions, particle, exerted, &mut sum);
+    }
+    let triangles = &model.triangles;
+    triangles.add_force_at(&system.positions, particle, &mut sum);
     sum
 }
 

@@ -213,7 +213,10 @@ impl Guard {
         let had = self.carry.len();
         let masses = [&model.masses[..], &model.inverse_masses[..]];
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
-            model.springs_at(particle, self.reach, visit);
+            let [stretch, bend] = model.families();
+            stretch.springs_at(particle, &mut *visit);
+            bend.springs_at(particle, &mut *visit);
+            model.triangles.springs_at(particle, self.reach, visit);
         };
         let share = SHARE * (1.0 - air);
         self.carry

@@ -21,22 +21,27 @@ pub(crate) struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// Twice the energy of one, in joules: a sum is halved once.
+    /// Twice the energy of one, in joules (a sum is halved once), and its pull in newtons: the derivative of
+    /// the energy, negative where it pushes apart.
     #[inline]
-    fn twice_energy(self, rest: f64, stiffness: f64, length: f64) -> f64 {
+    fn axial(self, rest: f64, stiffness: f64, length: f64) -> [f64; 2] {
         match self.buckling {
-            None => stiffness * (length - rest) * (length - rest),
-            Some(law) => 2.0 * law.axial(rest, stiffness, length).energy,
+            None => [
+                stiffness * (length - rest) * (length - rest),
+                stiffness * (length - rest),
+            ],
+            Some(law) => {
+                let axial = law.axial(rest, stiffness, length);
+                [2.0 * axial.energy, axial.force]
+            }
         }
     }
 
-    /// The pull of one, in newtons: the derivative of the energy. Negative where it pushes apart.
-    #[inline]
-    fn force(self, rest: f64, stiffness: f64, length: f64) -> f64 {
-        match self.buckling {
-            None => stiffness * (length - rest),
-            Some(law) => law.axial(rest, stiffness, length).force,
-        }
+    /// The energy in joules and the pull in newtons of one constraint, whether it is one of them or was.
+    fn axial_of(self, one: &Constraint, x: &[Point]) -> [f64; 2] {
+        let length = span(x, one.ends);
+        let [twice_j, force] = self.axial(one.rest_length_m, one.stiffness_n_per_m, length);
+        [0.5 * twice_j, force]
     }
 
     /// The derivative of that along the line, and that of the force across it for a turn, force over
@@ -62,19 +67,19 @@ impl Pairs<'_> {
         colours.fold(sum, |sum, colour| {
             let twice = colour
                 .springs()
-                .map(|(ends, rest, stiffness)| self.twice_energy(rest, stiffness, span(x, ends)));
+                .map(|(ends, rest, stiffness)| self.axial(rest, stiffness, span(x, ends))[0]);
             sum + 0.5 * twice.fold(0.0, |sum, twice_j| sum + twice_j)
         })
     }
 
-    /// That of one constraint, whether it is one of them or was.
+    /// The elastic energy of one constraint, whether it is one of them or was.
     pub(crate) fn energy_of(self, one: &Constraint, x: &[Point]) -> f64 {
-        0.5 * self.twice_energy(one.rest_length_m, one.stiffness_n_per_m, span(x, one.ends))
+        self.axial_of(one, x)[0]
     }
 
     /// The pull of one constraint by its length, in newtons.
     pub(crate) fn force_of(self, one: &Constraint, x: &[Point]) -> f64 {
-        self.force(one.rest_length_m, one.stiffness_n_per_m, span(x, one.ends))
+        self.axial_of(one, x)[1]
     }
 
     /// The elastic energy of the constraints of a particle.

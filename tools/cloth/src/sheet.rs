@@ -26,13 +26,11 @@ pub struct EnergyLedger {
     /// The kinetic energy added by insertions. Velocities are interpolated, so momentum is
     /// conserved, but differences between corners are partly lost.
     pub insert_kinetic_j: f64,
-    /// The elastic energy added by merges.
-    pub merge_elastic_j: f64,
+    /// The elastic energy added by merges and slides.
+    pub moved_elastic_j: f64,
     /// The kinetic energy added by merges. It is negative, since two particles become one as in an
     /// inelastic impact.
     pub merge_kinetic_j: f64,
-    /// The elastic energy added by slides.
-    pub slide_elastic_j: f64,
     /// The potential energy of gravity added by merges and slides, which move weight. The other
     /// fields do not include it.
     pub gravity_j: f64,
@@ -51,9 +49,8 @@ impl EnergyLedger {
         self.split_elastic_j
             + self.insert_elastic_j
             + self.insert_kinetic_j
-            + self.merge_elastic_j
+            + self.moved_elastic_j
             + self.merge_kinetic_j
-            + self.slide_elastic_j
     }
 }
 

@@ -78,7 +78,7 @@ impl Model {
     }
 
     /// Both families, in the order of every sum; triangles come after them.
-    fn families(&self) -> [Pairs<'_>; 2] {
+    pub(crate) fn families(&self) -> [Pairs<'_>; 2] {
         [Family::Stretch, Family::Bend].map(|family| self.pairs(family))
     }
 
@@ -112,19 +112,6 @@ impl Model {
         counters.visits.force += stretch + bend + triangle;
     }
 
-    /// The elastic energy of all constraints, in joules.
-    pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
-        let families = self.families().into_iter();
-        let sum = families.fold(0.0, |sum, pairs| pairs.energy(x, sum));
-        self.triangles.energy(x, sum)
-    }
-
-    /// That of all constraints that a particle has a part in.
-    pub(crate) fn elastic_at_j(&self, x: &[Point], particle: usize) -> f64 {
-        let [stretch, bend] = self.families().map(|pairs| pairs.energy_at(x, particle));
-        stretch + bend + self.triangles.energy_at(x, particle)
-    }
-
     /// The constraint that is longest for its rest length, if that is beyond `ratio_max`.
     pub(crate) fn longest_beyond(&self, x: &[Point], ratio_max: f64) -> Option<BlowUpSite> {
         let [stretch, bend] = self.families().map(|pairs| pairs.longest(x));
@@ -156,31 +143,18 @@ impl Model {
     /// any state in which triangles are stretched within `reach`: their particles, and their stiffness in
     /// N/m.
     pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
-        for pairs in self.families() {
-            pairs.each_spring(&mut visit);
-        }
+        let [stretch, bend] = self.families();
+        stretch.each_spring(&mut visit);
+        bend.each_spring(&mut visit);
         self.triangles.each_spring(reach, visit);
-    }
-
-    /// Visits those springs of a particle: the other one, and the stiffness.
-    pub(crate) fn springs_at(
-        &self,
-        particle: usize,
-        reach: f64,
-        mut visit: impl FnMut(usize, f64),
-    ) {
-        for pairs in self.families() {
-            pairs.springs_at(particle, &mut visit);
-        }
-        self.triangles.springs_at(particle, reach, visit);
     }
 
     /// Visits the pairs of particles that act on each other: the kind of their constraint, and a number that
     /// stays its own.
     pub(crate) fn each_pair(&self, visit: &mut dyn FnMut(usize, usize, [u32; 2])) {
-        for (kind, pairs) in self.families().into_iter().enumerate() {
-            pairs.each_pair(|number, ends| visit(kind, number, ends));
-        }
+        let [stretch, bend] = self.families();
+        stretch.each_pair(|number, ends| visit(0, number, ends));
+        bend.each_pair(|number, ends| visit(1, number, ends));
         self.triangles
             .each_pair(|number, ends| visit(2, number, ends));
     }
@@ -194,11 +168,10 @@ impl Model {
         slots: impl Fn(usize) -> &'a [u32],
         hessian: &mut Hessian,
     ) -> u64 {
-        let families = self.families().into_iter().enumerate();
-        let clamped = families.fold(0, |clamped, (kind, pairs)| {
-            clamped + pairs.add_hessian(x, clamp, slots(kind), hessian)
-        });
-        clamped + self.triangles.add_hessian(x, clamp, slots(2), hessian)
+        let [stretch, bend] = self.families();
+        stretch.add_hessian(x, clamp, slots(0), hessian)
+            + bend.add_hessian(x, clamp, slots(1), hessian)
+            + self.triangles.add_hessian(x, clamp, slots(2), hessian)
     }
 
     /// Adds the forces of constraints and triangles. False where one is longer than `ratio_max` times its
@@ -211,21 +184,10 @@ impl Model {
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> bool {
-        let mut sane = true;
-        for pairs in self.families() {
-            sane &= pairs.add_forces(x, ratio_max, crush, forces);
-        }
-        sane & self.triangles.add_forces(x, ratio_max, crush, forces)
-    }
-
-    /// Adds the forces of constraints and triangles on a particle, as the method of the last step exerted
-    /// them.
-    pub(crate) fn add_force_at(&self, x: &[Point], particle: usize, sum: &mut Vector) {
-        for pairs in self.families() {
-            let exerted = |ends, by_length, multiplier| self.exerted_n(ends, by_length, multiplier);
-            pairs.add_force_at(x, particle, exerted, sum);
-        }
-        self.triangles.add_force_at(x, particle, sum);
+        let [stretch, bend] = self.families();
+        stretch.add_forces(x, ratio_max, crush, forces)
+            & bend.add_forces(x, ratio_max, crush, forces)
+            & self.triangles.add_forces(x, ratio_max, crush, forces)
     }
 
     pub(crate) fn drag_per_s(&self) -> f64 {
