@@ -61,18 +61,15 @@ pub fn wind_rate(system: &mut System) -> Option<AirRate> {
     }
     let rates = areas.iter().zip(&system.model.inverse_masses);
     let rates = rates.map(|(area, w)| w * wind.coefficient * area / 3.0);
-    let mut most = None;
-    for (particle, rate_per_s) in rates.enumerate() {
-        let largest = most.map_or(0.0, |rate: AirRate| rate.rate_per_s);
-        // A state that is not finite is for the step to find.
-        if rate_per_s > largest && rate_per_s.is_finite() {
-            most = Some(AirRate {
-                rate_per_s,
-                particle,
-            });
-        }
-    }
-    most
+    // A state that is not finite is for the step to find.
+    let finite = rates
+        .enumerate()
+        .filter(|(_, rate)| *rate > 0.0 && rate.is_finite());
+    let most = finite.reduce(|most, one| if one.1 > most.1 { one } else { most });
+    most.map(|(particle, rate_per_s)| AirRate {
+        rate_per_s,
+        particle,
+    })
 }
 
 /// The rate of drag, and the first particle that feels it.

@@ -208,13 +208,13 @@ impl Balance {
     pub(crate) fn after(&mut self, system: &System, substep_s: f64, moves_at_end: bool) {
         if is_leading(system) {
             let led = system.model.grabbed.iter().zip(&self.forces);
-            for ((&(particle, _), &before), after) in led.zip(led_forces(system)) {
+            for (((particle, _), &before), after) in led.zip(led_forces(system)) {
                 let mean = if moves_at_end {
                     after
                 } else {
                     (before + after) / 2.0
                 };
-                let way = system.velocities[particle as usize] * substep_s;
+                let way = system.velocities[*particle as usize] * substep_s;
                 self.work.held_j -= dot(mean, way);
             }
         }
@@ -242,13 +242,13 @@ impl Balance {
 /// Whether someone is led, and not at rest.
 fn is_leading(system: &System) -> bool {
     let mut led = system.model.grabbed.iter();
-    led.any(|&(particle, _)| system.velocities[particle as usize] != Vector::zeros())
+    led.any(|(particle, _)| system.velocities[*particle as usize] != Vector::zeros())
 }
 
 /// The forces of constraints and of gravity on those who are led, in the order of the list.
 fn led_forces(system: &System) -> impl Iterator<Item = Vector> {
     let led = system.model.grabbed.iter();
-    led.map(|&(particle, _)| force::inner_n(system, particle as usize))
+    led.map(|(particle, _)| force::inner_n(system, *particle as usize))
 }
 
 /// The power of wind and of drag on free particles, in watts.

@@ -416,8 +416,9 @@ fn push_particle(system: &mut System, from: Mix<VertexId>) {
     system.velocities.push(v);
     let model = &mut system.model;
     model.push_particle(like.is_some_and(|particle| model.held[particle]));
-    let led = |&&(particle, _): &&(u32, u32)| Some(particle as usize) == like;
-    if let Some(&(_, path)) = model.grabbed.iter().find(led) {
+    let mut led = model.grabbed.iter();
+    let path = led.find(|(particle, _)| Some(*particle as usize) == like);
+    if let Some((_, path)) = path.cloned() {
         model.grabbed.push((new, path));
     }
 }
@@ -442,8 +443,8 @@ fn join_particles(system: &mut System, kept: usize, gone: usize, share: f64) {
     x.swap_remove(gone);
     v.swap_remove(gone);
     model.swap_remove_particle(gone);
-    let led = |&(led, _): &(u32, u32)| led as usize == kept;
-    if system.model.grabbed.iter().any(led) {
+    let mut led = system.model.grabbed.iter();
+    if led.any(|(led, _)| *led as usize == kept) {
         system.model.unlead(gone);
     }
     let last = system.positions.len() as u32;

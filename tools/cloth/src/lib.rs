@@ -98,7 +98,7 @@ pub use simulation::{
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
 pub use solver::{Abilities, Failure, SettingError, Solver, StepError, StepReport};
-pub use stability::{carried_count, frequency_bound, recommended_step_s, stable_step_s};
+pub use stability::{frequency_bound, recommended_step_s, stable_step_s};
 pub use step_length::{FRAME_S, Softness, suggested_step_s};
 pub use system::{Counters, FeatureVisits, System, SystemError, Unstable, Visits};
 pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};

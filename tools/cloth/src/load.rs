@@ -3,6 +3,8 @@
 //! Each exists only where it is named, and costs nothing otherwise; [`Counters`](crate::Counters)
 //! prove it.
 
+use std::sync::Arc;
+
 use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
 /// The external loads on the particles. By default there are none.
@@ -137,8 +139,8 @@ impl Collider {
 /// after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// When to be where; at least one, ascending.
-    pub(crate) points: Vec<(f64, Point)>,
+    /// When to be where; at least one, ascending. Shared by all particles that the path leads.
+    pub(crate) points: Arc<[(f64, Point)]>,
 }
 
 impl Path {
@@ -148,7 +150,7 @@ impl Path {
     /// everything that [`Path::at`] returns is finite.
     #[must_use]
     pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
-        let points: Vec<_> = points.into_iter().collect();
+        let points: Arc<[_]> = points.into_iter().collect();
         let usable = |&(s, p): &(f64, Point)| s.is_finite() && check_point(p).is_ok();
         let between = |pair: &[(f64, Point)]| pair[1].0 - pair[0].0;
         let mut between = points.windows(2).map(between);

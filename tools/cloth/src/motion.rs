@@ -8,11 +8,11 @@ use crate::energy;
 use crate::system::{Model, System};
 
 /// Takes the accelerations now, with wind at the velocities of now or at those that were
-/// [`foreseen`](predict_velocities): in a step of `dt_s` seconds with the guards of
+/// predicted: in a step of `dt_s` seconds with the guards of
 /// [`Verlet`](crate::Verlet), or without any. False where a constraint is longer than the system's
 /// largest stretch ratio.
 #[must_use]
-pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Option<f64>) -> bool {
+pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Option<f64>) -> bool {
     let System {
         positions,
         velocities,
@@ -26,8 +26,8 @@ pub(crate) fn accelerate(system: &mut System, is_foreseen: bool, guarded_s: Opti
     scratch.is_fresh = false;
     scratch.accelerations.resize(count, Vector::zeros());
     let crush = guarded_s.map(|dt_s| Crush { velocities, dt_s });
-    let winds = if is_foreseen {
-        &scratch.foreseen
+    let winds = if is_predicted {
+        &scratch.predicted
     } else {
         &*velocities
     };
@@ -53,26 +53,13 @@ pub(crate) fn kick_and_drift(system: &mut System, kick_s: f64, dt_s: f64) {
     }
 }
 
-/// Speeds the free particles up for `kick_s` seconds, with drag by the velocities before.
-pub(crate) fn kick(system: &mut System, kick_s: f64) {
-    let (model, scratch) = (&system.model, &system.scratch);
-    speed_up(
-        model,
-        &scratch.accelerations,
-        kick_s,
-        &mut system.velocities,
-    );
-}
-
-/// The velocities that a [`kick`] would lead to, into the scratch room.
-pub(crate) fn predict_velocities(system: &mut System, kick_s: f64) {
-    let scratch = &mut system.scratch;
-    scratch.foreseen.clone_from(&system.velocities);
-    let foreseen = &mut scratch.foreseen;
-    speed_up(&system.model, &scratch.accelerations, kick_s, foreseen);
-}
-
-fn speed_up(model: &Model, accelerations: &[Vector], kick_s: f64, velocities: &mut [Vector]) {
+/// Speeds free particles up for `kick_s` seconds, with drag by the velocities before.
+pub(crate) fn kick(
+    model: &Model,
+    accelerations: &[Vector],
+    kick_s: f64,
+    velocities: &mut [Vector],
+) {
     let keep = 1.0 - kick_s * model.drag_per_s();
     let particles = velocities.iter_mut().zip(accelerations);
     for ((v, a), &w) in particles.zip(&model.inverse_masses) {

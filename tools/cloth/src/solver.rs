@@ -83,12 +83,9 @@ pub struct Abilities {
     /// Whether neighbours carry the particles that are too light for a step. The step is then
     /// limited by [`recommended_step_s`](crate::recommended_step_s) instead of the largest frequency.
     pub carries_light: bool,
-    /// Whether the method supports the forces of [`System::triangles`]. A method that does not is
-    /// refused if the system has triangles.
-    pub takes_triangles: bool,
-    /// Whether the method supports bends that buckle ([`System::set_buckling`]). A method that does
-    /// not is refused if bends buckle.
-    pub takes_buckling: bool,
+    /// Whether the method supports the forces of [`System::triangles`] and bends that buckle
+    /// ([`System::set_buckling`]). A method that does not is refused if the system has any.
+    pub takes_all_forces: bool,
 }
 
 impl Abilities {
@@ -98,8 +95,7 @@ impl Abilities {
         Abilities {
             frequency_limit,
             air_limit: Some(air_limit),
-            takes_triangles: true,
-            takes_buckling: true,
+            takes_all_forces: true,
             ..Abilities::default()
         }
     }

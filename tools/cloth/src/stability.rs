@@ -92,10 +92,9 @@ pub fn recommended_step_s(system: &mut System) -> f64 {
     system.guard.suited_s(&system.model)
 }
 
-/// Returns the number of particles that were too light for the last step of
+/// The number of particles that were too light for the last step of
 /// [`Verlet`](crate::Verlet), and so were carried by their neighbours.
-#[must_use]
-pub fn carried_count(system: &System) -> usize {
+pub(crate) fn carried_count(system: &System) -> usize {
     system.guard.carry().len()
 }
 

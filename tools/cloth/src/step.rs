@@ -82,14 +82,15 @@ fn check(system: &System, solver: &(impl Solver + ?Sized), dt_s: f64) -> Result<
     let ratio = system.model.stretch_ratio_max;
     SettingError::unless(ratio > 0.0, "stretch_ratio_max", ratio, "any above 0")
         .map_err(StepError::Setting)?;
-    let abilities = solver.abilities();
-    let count = system.triangles().len();
-    if count > 0 && !abilities.takes_triangles {
-        return Err(StepError::Triangles { count });
+    if solver.abilities().takes_all_forces {
+        return Ok(());
     }
-    let count = system.model.bend.len();
-    if count > 0 && system.model.buckling.is_some() && !abilities.takes_buckling {
-        return Err(StepError::Buckling { count });
+    let (triangles, bends) = (system.triangles().len(), system.model.bend.len());
+    if triangles > 0 {
+        return Err(StepError::Triangles { count: triangles });
+    }
+    if bends > 0 && system.model.buckling.is_some() {
+        return Err(StepError::Buckling { count: bends });
     }
     Ok(())
 }

@@ -78,8 +78,8 @@ pub(crate) struct Scratch {
     pub(crate) velocities: Vec<Vector>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
-    /// The velocities that wind blows at, where they are foreseen.
-    pub(crate) foreseen: Vec<Vector>,
+    /// The velocities that wind blows at, where they are predicted.
+    pub(crate) predicted: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
 }
@@ -153,7 +153,6 @@ impl System {
                 triangles: Triangles::new(count),
                 faces: Vec::new(),
                 loads: Loads::default(),
-                paths: Vec::new(),
                 grabbed: Vec::new(),
                 stretch_ratio_max: 100.0,
                 recorded: Recorded::default(),
@@ -395,9 +394,7 @@ impl System {
         self.hold(particle);
         let from = path.at(self.elapsed_s);
         self.positions[particle] = from;
-        let number = self.model.paths.len() as u32;
-        self.model.paths.push(path);
-        self.model.grabbed.push((particle as u32, number));
+        self.model.grabbed.push((particle as u32, path));
     }
 
     /// Brings the inverse mass up to date with the mass and with who is held.
@@ -574,9 +571,9 @@ impl System {
 
     /// Gives the grabbed particles the velocity that leads them along their paths.
     pub(crate) fn drive(&mut self, dt_s: f64) {
-        for &(particle, path) in &self.model.grabbed {
-            let to = self.model.paths[path as usize].at(self.elapsed_s + dt_s);
-            let particle = particle as usize;
+        for (particle, path) in &self.model.grabbed {
+            let to = path.at(self.elapsed_s + dt_s);
+            let particle = *particle as usize;
             self.velocities[particle] = (to - self.positions[particle]) / dt_s;
         }
     }

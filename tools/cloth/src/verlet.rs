@@ -51,7 +51,7 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
-use crate::motion::{accelerate, kick, kick_and_drift, predict_velocities};
+use crate::motion::{accelerate, kick, kick_and_drift};
 use crate::solver::{Abilities, Failure, Solver};
 use crate::stability::{carried_count, weigh_for};
 use crate::system::System;
@@ -144,10 +144,14 @@ impl Solver for Verlet {
         // as without wind. (Those of the middle err by O(Δt).)
         let blows = system.model.loads.wind.is_some();
         if blows {
-            predict_velocities(system, half_s);
+            let scratch = &mut system.scratch;
+            scratch.predicted.clone_from(&system.velocities);
+            let predicted = &mut scratch.predicted;
+            kick(&system.model, &scratch.accelerations, half_s, predicted);
         }
         let is_sane = accelerate(system, blows, guarded_s);
-        kick(system, half_s);
+        let accelerations = &system.scratch.accelerations;
+        kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
         Failure::unless(began_sane && is_sane)
     }

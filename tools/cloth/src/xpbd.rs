@@ -28,7 +28,7 @@ use tearmesh::geometry::{Vector, length};
 use crate::motion::{finish, finish_and_predict, force_scale, predict};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::spring::{self, Correction};
-use crate::system::{Family, Recorded, System};
+use crate::system::{Recorded, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
@@ -63,25 +63,17 @@ impl Xpbd {
     /// if the sweeps have converged. Costs one force evaluation.
     #[must_use]
     pub fn residual_n(&self, system: &System) -> f64 {
-        let mut residual = vec![Vector::zeros(); system.positions.len()];
-        for family in [Family::Stretch, Family::Bend] {
-            let pairs = system.model.pairs(family);
-            for id in pairs.constraints.iter() {
-                let constraint = pairs.constraints.get(id);
-                let [a, b] = constraint.ends;
-                let d = system.positions[b] - system.positions[a];
-                if length(d) > 0.0 {
-                    let force = pairs.force_of(&constraint, &system.positions);
-                    let miss = d * ((force + pairs.constraints.memory(id).multiplier) / length(d));
-                    residual[a] += miss;
-                    residual[b] -= miss;
-                }
+        let (model, x) = (&system.model, &system.positions);
+        let miss = |_, by_length, multiplier| by_length + multiplier;
+        let residual = |particle| {
+            let mut sum = Vector::zeros();
+            for pairs in model.families() {
+                pairs.add_force_at(x, particle, miss, &mut sum);
             }
-        }
-        let free = residual.iter().zip(&system.model.inverse_masses);
-        free.filter(|(_, w)| **w > 0.0)
-            .map(|(r, _)| length(*r))
-            .fold(0.0, f64::max)
+            length(sum)
+        };
+        let free = (0..x.len()).filter(|&particle| model.inverse_masses[particle] > 0.0);
+        free.map(residual).fold(0.0, f64::max)
     }
 }
 

@@ -134,5 +134,7 @@ pub(super) fn now(v: VertexId, merge: &Merge<'_>) -> VertexId {
 pub(super) fn path(from: Point, to: Point, now_s: f64) -> Path {
     let took_s = (length(to - from) / SPEED_MAX_M_PER_S).max(FRAME_S);
     let points = vec![(now_s, from), (now_s + took_s, to)];
-    Path { points }
+    Path {
+        points: points.into(),
+    }
 }

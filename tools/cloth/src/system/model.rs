@@ -28,9 +28,8 @@ pub(crate) struct Model {
     /// The corners of faces, three each, where wind may blow.
     pub(crate) faces: Vec<u32>,
     pub(crate) loads: Loads,
-    pub(super) paths: Vec<Path>,
     /// Particles and their paths.
-    pub(crate) grabbed: Vec<(u32, u32)>,
+    pub(crate) grabbed: Vec<(u32, Path)>,
     pub(crate) stretch_ratio_max: f64,
     pub(crate) recorded: Recorded,
 }
@@ -198,19 +197,9 @@ impl Model {
         self.loads.gravity_m_per_s2.unwrap_or_else(Vector::zeros)
     }
 
-    /// Takes a particle off its path, and forgets a path that leads no other.
+    /// Takes a particle off its path.
     pub(crate) fn unlead(&mut self, particle: usize) {
-        let led = |&(led, _): &(u32, u32)| led as usize == particle;
-        let Some(place) = self.grabbed.iter().position(led) else {
-            return;
-        };
-        let (_, path) = self.grabbed.remove(place);
-        if self.grabbed.iter().all(|&(_, other)| other != path) {
-            self.paths.swap_remove(path as usize);
-            let last = self.paths.len() as u32;
-            let renumbered = self.grabbed.iter_mut().filter(|(_, other)| *other == last);
-            renumbered.for_each(|(_, other)| *other = path);
-        }
+        self.grabbed.retain(|(led, _)| *led as usize != particle);
     }
 
     /// Fills in the forces of springs, triangles and wind. False where a spring has blown up.
@@ -320,28 +309,5 @@ fn accelerated(force: Vector, inverse_mass: f64, gravity: Vector) -> Vector {
         force * inverse_mass + gravity
     } else {
         Vector::zeros()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{System, Xpbd};
-
-    #[test]
-    fn a_path_is_kept_as_long_as_it_leads_someone() {
-        let mut system = System::new([Point::origin(); 3], vec![1.0; 3]).unwrap();
-        let to = |x: f64| Path::new([(0.0, Point::origin()), (1.0, Point::new(x, 0.0, 0.0))]);
-        for turn in 0..10 {
-            for particle in 0..3 {
-                system.grab(particle, to((turn * particle) as f64).unwrap());
-            }
-            assert_eq!(system.model.paths.len(), 3);
-        }
-        system.release(0);
-        assert_eq!(system.model.paths.len(), 2);
-        system.step(&mut Xpbd::default(), 1.0).unwrap();
-        let x: Vec<f64> = system.positions().iter().map(|p| p.x).collect();
-        assert_eq!(x, [0.0, 9.0, 18.0]);
     }
 }

@@ -142,7 +142,9 @@ impl Held {
             .iter()
             .map(|&(s, d)| (s, from + d))
             .collect();
-        (!points.is_empty()).then_some(Path { points })
+        (!points.is_empty()).then_some(Path {
+            points: points.into(),
+        })
     }
 
     /// The copies of held vertices are held as well.
