@@ -10,7 +10,7 @@ use tearmesh::{
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::energy;
 use crate::fabric::{Copies, Unbend};
-use crate::sheet::{Cloth, NO_BEND, weight};
+use crate::sheet::{Cloth, NO_BEND, Piece, weight};
 use crate::system::{Family, System};
 
 impl Follower for Cloth {
@@ -455,34 +455,4 @@ fn join_particles(system: &mut System, kept: usize, gone: usize, share: f64) {
             *particle = gone as u32;
         }
     }
-}
-
-/// Room that edits reuse.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
-    ids: Vec<ConstraintId>,
-    vertices: Vec<usize>,
-    pieces: Vec<Piece>,
-}
-
-/// An edge of a child, from one of its sides.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    /// The lower particle first. They name the edge: no two edges have the same two.
-    ends: [usize; 2],
-    half_edge: HalfEdgeId,
-    /// The half-edge of the parent that it lies on; any for one inside.
-    half_edge_before: HalfEdgeId,
-    apex: usize,
-    apex_before: usize,
-    /// Whether it is a whole edge of the parent.
-    is_kept: bool,
-    /// Whether it is a part of an edge of the parent.
-    divided: bool,
-    /// The constraint of that edge.
-    stretch: ConstraintId,
-    bend: ConstraintId,
-    /// What k L shall be.
-    stiffness_by_length: f64,
-    length: f64,
 }

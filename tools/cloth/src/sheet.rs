@@ -10,7 +10,6 @@ use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 use crate::balance::Balance;
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
-use crate::follow::Scratch;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::System;
 
@@ -121,7 +120,7 @@ pub struct Cloth {
     /// By bend constraint: the two half-edges that it is across.
     pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
     pub(super) ledger: EnergyLedger,
-    pub(super) scratch: Scratch,
+    pub(super) scratch: EditScratch,
     pub(super) seen: Cursor,
 }
 
@@ -175,7 +174,7 @@ impl Cloth {
             bend_of: Vec::new(),
             bent_edge: Vec::new(),
             ledger: EnergyLedger::default(),
-            scratch: Scratch::default(),
+            scratch: EditScratch::default(),
             seen,
         };
         for h in mesh.edges() {
@@ -434,4 +433,34 @@ impl Place for Cloth {
 /// where it is in the air.
 pub(super) fn weight(masses: &Masses, v: VertexId) -> f64 {
     masses.at(v).max(masses.unit())
+}
+
+/// Room that edits reuse.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct EditScratch {
+    pub(crate) ids: Vec<ConstraintId>,
+    pub(crate) vertices: Vec<usize>,
+    pub(crate) pieces: Vec<Piece>,
+}
+
+/// An edge of a child, from one of its sides.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// The lower particle first. They name the edge: no two edges have the same two.
+    pub(crate) ends: [usize; 2],
+    pub(crate) half_edge: HalfEdgeId,
+    /// The half-edge of the parent that it lies on; any for one inside.
+    pub(crate) half_edge_before: HalfEdgeId,
+    pub(crate) apex: usize,
+    pub(crate) apex_before: usize,
+    /// Whether it is a whole edge of the parent.
+    pub(crate) is_kept: bool,
+    /// Whether it is a part of an edge of the parent.
+    pub(crate) divided: bool,
+    /// The constraint of that edge.
+    pub(crate) stretch: ConstraintId,
+    pub(crate) bend: ConstraintId,
+    /// What k L shall be.
+    pub(crate) stiffness_by_length: f64,
+    pub(crate) length: f64,
 }
