@@ -5,12 +5,12 @@ use std::num::NonZero;
 
 use tearmesh::Vector;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{Chronicle, HeldVertices, Run, Scene};
+use tearmesh_cloth::scene::{HeldVertices, Run, Scene, TearLog};
 
 use crate::parts::scenes::{methods, play, staged};
 
-fn told(mut run: Run) -> (Run, Chronicle) {
-    let mut chronicle = Chronicle::new(&run);
+fn told(mut run: Run) -> (Run, TearLog) {
+    let mut chronicle = TearLog::new(&run);
     while !run.is_over() {
         let step = run.step().expect("a step");
         chronicle.note(&run, &step);
@@ -94,7 +94,7 @@ fn events_are_the_steps_in_which_something_tore() {
             solver: solver.clone(),
             ..Scene::rip(frame)
         });
-        let mut chronicle = Chronicle::new(&run);
+        let mut chronicle = TearLog::new(&run);
         let mut expected = Vec::new();
         while !run.is_over() {
             let (splits, torn_m) = (run.tally().splits, run.torn_length_m());

@@ -10,7 +10,7 @@ use tearmesh::{Mesh, Positions};
 use tearmesh_cloth::scene::ensemble::{
     self, Disturbance, Job, Member, MemberStatus, NOISE_M, Quantity, Subject,
 };
-use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, RunError, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene, TearLog};
 
 use crate::parts::scenes::square;
 
@@ -136,7 +136,7 @@ fn a_member_is_a_run_that_was_disturbed() {
     let run = Run::new(mesh, &staged.positions, staged.scene.clone(), &staged.frame);
     let run = run.expect("a scene").in_smaller_steps(TWO);
     let mut run = run.displaced(|v| offsets_m[v.index()]).expect("a metre");
-    let mut chronicle = Chronicle::new(&run);
+    let mut chronicle = TearLog::new(&run);
     while !run.is_over() {
         let step = run.step().expect("a step");
         chronicle.note(&run, &step);

@@ -18,7 +18,7 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tearmesh::{Cursor, Scissor, VertexId};
 use tearmesh_cloth::scene::ensemble::Subject;
-use tearmesh_cloth::scene::{Chronicle, CutMade, Frame, Region, Run, Scene, TimedCut};
+use tearmesh_cloth::scene::{CutMade, Frame, Region, Run, Scene, TearLog, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::{Document, TornDocument};
 
@@ -132,7 +132,7 @@ struct Play<'a> {
 type Followers<'f, 'd> = (
     &'f mut TornDocument<'d>,
     &'f mut Frames,
-    &'f mut Chronicle,
+    &'f mut TearLog,
     &'f mut Option<Film>,
 );
 
@@ -157,7 +157,7 @@ impl Play<'_> {
         let mut frames = Frames::open(self.args, &run)?;
         session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
-        let mut chronicle = Chronicle::new(&run);
+        let mut chronicle = TearLog::new(&run);
         let mut film = self.film();
         let followers = (&mut torn, &mut frames, &mut chronicle, &mut film);
         let ended = self.steps(&mut run, followers, session, streams)?;
@@ -270,7 +270,7 @@ impl Play<'_> {
         &self,
         film: Option<Film>,
         run: &Run,
-        chronicle: &Chronicle,
+        chronicle: &TearLog,
         session: &Session<'_>,
     ) -> Result<(), Stop> {
         let Some((film, path)) = film.zip(self.args.files.view.as_ref()) else {

@@ -6,15 +6,15 @@
 //! any source. [`ensemble`] plays a scene many times with tiny disturbances, to separate results
 //! from chance.
 
-mod chronicle;
 pub mod ensemble;
 mod frame;
-mod plays;
+mod presets;
 mod run;
+mod tear_log;
 
-pub use chronicle::{Chronicle, FirstTear, HoldForces, TearEvent};
 pub use frame::{Axis, Frame};
 pub use run::{CutMade, EnergyGain, Names, Run, RunError, RunTally};
+pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, VertexId};

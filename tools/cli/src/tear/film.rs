@@ -1,7 +1,7 @@
 //! The page of a simulation: all of it, 30 moments a second, and what happened over time.
 
 use tearmesh::geometry::length;
-use tearmesh_cloth::scene::{Chronicle, Run};
+use tearmesh_cloth::scene::{Run, TearLog};
 use tearmesh_view::{Moment, Page, Plot};
 
 use super::frames::RATE_PER_S;
@@ -52,7 +52,7 @@ impl Film {
     pub(super) fn finish(
         mut self,
         run: &Run,
-        chronicle: &Chronicle,
+        chronicle: &TearLog,
         name: Option<&str>,
         facts: &[(&str, String)],
     ) -> Result<Page, Stop> {

@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 
 use tearmesh::Point;
-use tearmesh_cloth::scene::{Chronicle, Run, TearEvent};
+use tearmesh_cloth::scene::{Run, TearEvent, TearLog};
 
 use super::words::three_digits;
 use crate::report;
 use crate::say::short;
 
 /// The line of the summary; none where nothing tore.
-pub(super) fn first_tear(chronicle: &Chronicle) -> Option<String> {
+pub(super) fn first_tear(chronicle: &TearLog) -> Option<String> {
     let first = chronicle.first_tear()?;
     let [_, rest] = first.event.place.map(at).map(|at| at.map(three_digits));
     let forces = first.force_n.zip(chronicle.largest_force_n());
@@ -29,7 +29,7 @@ pub(super) fn first_tear(chronicle: &Chronicle) -> Option<String> {
 }
 
 /// The first tear, for the report.
-pub(super) fn first(chronicle: &Chronicle) -> Option<report::FirstTear> {
+pub(super) fn first(chronicle: &TearLog) -> Option<report::FirstTear> {
     chronicle.first_tear().map(|first| {
         let [place, place_at_rest] = first.event.place.map(at);
         report::FirstTear {
@@ -42,7 +42,7 @@ pub(super) fn first(chronicle: &Chronicle) -> Option<report::FirstTear> {
 }
 
 /// All steps in which something tore.
-pub(super) fn events(chronicle: &Chronicle) -> Vec<report::TearEvent> {
+pub(super) fn events(chronicle: &TearLog) -> Vec<report::TearEvent> {
     let told = |event: &TearEvent| {
         let [place, place_at_rest] = event.place.map(at);
         report::TearEvent {
@@ -58,11 +58,7 @@ pub(super) fn events(chronicle: &Chronicle) -> Vec<report::TearEvent> {
 }
 
 /// The table of forces: a line a frame, three columns a hold of the scene, in its order.
-pub(super) fn write_forces(
-    run: &Run,
-    chronicle: &Chronicle,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+pub(super) fn write_forces(run: &Run, chronicle: &TearLog, out: &mut dyn Write) -> io::Result<()> {
     write!(out, "end_s")?;
     for hold in 1..=run.scene().holds.len() {
         write!(out, ",hold_{hold}_x_n,hold_{hold}_y_n,hold_{hold}_z_n")?;

@@ -14,7 +14,7 @@ use std::ops::RangeInclusive;
 use tearmesh::geometry::Vector;
 use tearmesh::{Mesh, Positions, VertexId};
 
-use super::{Chronicle, Frame, Run, RunError, Scene};
+use super::{Frame, Run, RunError, Scene, TearLog};
 use crate::statistics::Random;
 
 /// The largest random displacement of a vertex from its starting position along each axis, in
@@ -92,14 +92,14 @@ impl MemberStatus {
 pub struct Observed {
     /// The time of the first tear, in seconds; `None` if nothing tore.
     pub first_tear_s: Option<f64>,
-    /// The force at the first tear in newtons, as in [`Chronicle::first_tear`]. `None` if nothing tore, or
+    /// The force at the first tear in newtons, as in [`TearLog::first_tear`]. `None` if nothing tore, or
     /// if the method does not know its forces, as Provot's does not.
     pub first_force_n: Option<f64>,
     /// The rest length of the edges that tore, in metres.
     pub torn_m: f64,
     /// The number of components of the mesh at the end.
     pub pieces: usize,
-    /// The largest force at a hold in newtons, as in [`Chronicle::largest_force_n`]; `None` if unknown.
+    /// The largest force at a hold in newtons, as in [`TearLog::largest_force_n`]; `None` if unknown.
     pub largest_force_n: Option<f64>,
     /// The work of all holds, led ones included, in joules. `None` if the method does not know its forces:
     /// the work of Provot's limiter grows without bound as steps get shorter.
@@ -314,7 +314,7 @@ pub fn member(
         Err(error) => return failed(error.to_string()),
     };
     let torn_before_m = run.torn_length_m();
-    let mut chronicle = Chronicle::new(&run);
+    let mut chronicle = TearLog::new(&run);
     while !run.is_over() {
         if stop() {
             return interrupted();

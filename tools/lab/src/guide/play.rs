@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::ensemble::Disturbance;
-use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{FRAME_S, Method, TearReport};
 
@@ -288,7 +288,7 @@ impl Stage {
         play.row.dt_s = Some(run.step_s());
         let before_m = run.torn_length_m();
         let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
-        let mut chronicle = Chronicle::new(&run);
+        let mut chronicle = TearLog::new(&run);
         let (mut frames, mut times, mut began) = (Vec::new(), Vec::new(), bounds.now());
         take_steps(&mut run, bounds.stop, |run, step| {
             times.push(bounds.now().saturating_sub(began).as_secs_f64());

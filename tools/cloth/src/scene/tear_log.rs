@@ -35,7 +35,7 @@ pub struct FirstTear {
     /// The first step in which the cloth tore.
     pub event: TearEvent,
     /// The largest force at a hold in newtons, as a mean over the [`FRAME_S`] before the tear, by
-    /// the rule of [`Chronicle::largest_force_n`]; `None` if the method does not know its forces.
+    /// the rule of [`TearLog::largest_force_n`]; `None` if the method does not know its forces.
     pub force_n: Option<f64>,
 }
 
@@ -49,7 +49,7 @@ pub struct HoldForces {
     pub forces_n: Vec<Vector>,
 }
 
-/// A record of a run: its tears, and the forces at its holds. Call [`Chronicle::note`] after each
+/// A record of a run: its tears, and the forces at its holds. Call [`TearLog::note`] after each
 /// step.
 ///
 /// Forces are means over a [`FRAME_S`], since those of single steps depend on the method as much as
@@ -61,27 +61,27 @@ pub struct HoldForces {
 /// millisecond, and a sample costs a pass over all faces for each held vertex.
 ///
 /// ```
-/// use tearmesh_cloth::scene::{Axis, Chronicle, Frame, Run, Scene};
+/// use tearmesh_cloth::scene::{Axis, TearLog, Frame, Run, Scene};
 /// use tearmesh::shapes;
 ///
 /// let (mesh, positions) = shapes::grid(6, 6);
 /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
 /// let mut run = Run::new(mesh, &positions, Scene::rip(&frame), &frame)?;
-/// let mut chronicle = Chronicle::new(&run);
+/// let mut log = TearLog::new(&run);
 /// while !run.is_over() {
 ///     let tear = run.step()?;
-///     chronicle.note(&run, &tear);
+///     log.note(&run, &tear);
 /// }
-/// let first = chronicle.first_tear().ok_or("it rips")?;
+/// let first = log.first_tear().ok_or("it rips")?;
 /// assert!(first.event.time_s > 0.5); // It is grabbed then.
 /// let force_n = first.force_n.ok_or("Verlet knows forces")?;
-/// assert!(force_n > 0.0 && Some(force_n) <= chronicle.largest_force_n());
-/// let splits: usize = chronicle.events().iter().map(|event| event.splits).sum();
+/// assert!(force_n > 0.0 && Some(force_n) <= log.largest_force_n());
+/// let splits: usize = log.events().iter().map(|event| event.splits).sum();
 /// assert_eq!(splits as u64, run.tally().splits);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Chronicle {
+pub struct TearLog {
     events: Vec<TearEvent>,
     first_n: f64,
     knows_forces: bool,
@@ -97,14 +97,14 @@ pub struct Chronicle {
     waited_s: f64,
 }
 
-impl Chronicle {
-    /// Creates the chronicle of a run that has not begun.
+impl TearLog {
+    /// Creates the log of a run that has not begun.
     #[must_use]
-    pub fn new(run: &Run) -> Chronicle {
+    pub fn new(run: &Run) -> TearLog {
         let holds = &run.scene().holds;
         let is_led = |hold: &HeldVertices| !hold.moves.is_empty();
         let has_led = holds.iter().any(is_led);
-        Chronicle {
+        TearLog {
             events: Vec::new(),
             first_n: 0.0,
             knows_forces: !matches!(run.scene().solver, Method::Provot(_)),
