@@ -39,9 +39,9 @@ pub enum Family {
     Pbd,
     /// The family of [`Xpbd`].
     Xpbd,
-    /// The family of [`Implicit`] with linearised backward Euler.
+    /// The family of [`Implicit`](tearmesh_cloth::Implicit) with linearised backward Euler.
     BackwardEuler,
-    /// The family of [`Implicit`] with linearised BDF2.
+    /// The family of [`Implicit`](tearmesh_cloth::Implicit) with linearised BDF2.
     Bdf2,
 }
 
