@@ -157,9 +157,9 @@ impl Play<'_> {
         let mut frames = Frames::open(self.args, &run)?;
         session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
-        let mut chronicle = TearLog::new(&run);
+        let mut tear_log = TearLog::new(&run);
         let mut film = self.film();
-        let followers = (&mut torn, &mut frames, &mut chronicle, &mut film);
+        let followers = (&mut torn, &mut frames, &mut tear_log, &mut film);
         let ended = self.steps(&mut run, followers, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
@@ -199,9 +199,9 @@ impl Play<'_> {
             energy_j: words::energy(&run),
             quality: words::quality(&run),
             counters: words::counters(&run),
-            largest_force_n: chronicle.largest_force_n(),
-            first_tear: told::first(&chronicle),
-            tears: told::events(&chronicle),
+            largest_force_n: tear_log.largest_force_n(),
+            first_tear: told::first(&tear_log),
+            tears: told::events(&tear_log),
             step_check: match ended {
                 Ended::Done if self.args.check_step => Some(self.check_step(&run, streams)?),
                 _ => None,
@@ -211,7 +211,7 @@ impl Play<'_> {
         };
         session.faults.extend(advice::after(&run));
         session.words.push(words::simulation(&tear));
-        session.words.extend(told::first_tear(&chronicle));
+        session.words.extend(told::first_tear(&tear_log));
         session.words.push(words::balance(&run));
         if self.args.verbose {
             session.words.push(words::cost(&tear.counters.features));
@@ -232,7 +232,7 @@ impl Play<'_> {
                 session.faults.push(fault);
                 if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                     session.words.clear();
-                    self.play_page(film, &run, &chronicle, session)?;
+                    self.play_page(film, &run, &tear_log, session)?;
                     return self.show(frames, &run, &torn, session);
                 }
             }
@@ -247,12 +247,12 @@ impl Play<'_> {
             .as_ref()
             .filter(|_| !self.args.files.dry_run)
         {
-            files::write_beside(path, |out| told::write_forces(&run, &chronicle, out))?;
+            files::write_beside(path, |out| told::write_forces(&run, &tear_log, out))?;
         }
         let mesh = run.mesh();
         let ending = files::ending(vertices_before, mesh, mass, &session.destination);
         session.words.push(ending);
-        self.play_page(film, &run, &chronicle, session)?;
+        self.play_page(film, &run, &tear_log, session)?;
         self.show(frames, &run, &torn, session)
     }
 
@@ -270,7 +270,7 @@ impl Play<'_> {
         &self,
         film: Option<Film>,
         run: &Run,
-        chronicle: &TearLog,
+        tear_log: &TearLog,
         session: &Session<'_>,
     ) -> Result<(), Stop> {
         let Some((film, path)) = film.zip(self.args.files.view.as_ref()) else {
@@ -288,7 +288,7 @@ impl Play<'_> {
             ("steps", run.tally().steps.to_string()),
             ("vertices split", run.tally().splits.to_string()),
         ];
-        let page = film.finish(run, chronicle, name.as_deref(), &facts)?;
+        let page = film.finish(run, tear_log, name.as_deref(), &facts)?;
         crate::page::write(path, &page)
     }
 
@@ -319,7 +319,7 @@ impl Play<'_> {
     fn steps(
         &self,
         run: &mut Run,
-        (torn, frames, chronicle, film): Followers<'_, '_>,
+        (torn, frames, tear_log, film): Followers<'_, '_>,
         session: &mut Session<'_>,
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
@@ -341,7 +341,7 @@ impl Play<'_> {
             }
             match step {
                 Ok(step) => {
-                    chronicle.note(run, &step);
+                    tear_log.note(run, &step);
                     frames.shoot(run, torn)?;
                     film.as_mut().map_or(Ok(()), |film| film.shoot(run))?;
                 }

@@ -197,7 +197,7 @@ pub enum StepError {
     Unstable {
         /// The step that was given, in seconds.
         given_s: f64,
-        /// The largest step that is admitted, in seconds, including the margin.
+        /// The largest step that is admitted, in seconds.
         limit_s: f64,
         /// The frequency that sets the limit.
         frequency: Frequency,
@@ -216,7 +216,7 @@ pub enum StepError {
     Substeps {
         /// The step that was given, in seconds.
         given_s: f64,
-        /// The largest step that is admitted, in seconds, including the margin.
+        /// The largest step that is admitted, in seconds.
         limit_s: f64,
     },
     /// A number is not finite, or a constraint or a velocity is far too large.

@@ -89,7 +89,7 @@ pub(crate) struct Scratch {
 #[non_exhaustive]
 pub enum Unstable {
     /// Refuses the step with an error that gives the limit, and changes nothing. The limit is that
-    /// of the present configuration, with a margin.
+    /// of the [bound](crate::frequency_bound) of frequencies, which holds in every configuration.
     #[default]
     Refuse,
     /// Divides the step into enough substeps to be stable in every configuration by the linear

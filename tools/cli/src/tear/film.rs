@@ -52,7 +52,7 @@ impl Film {
     pub(super) fn finish(
         mut self,
         run: &Run,
-        chronicle: &TearLog,
+        tear_log: &TearLog,
         name: Option<&str>,
         facts: &[(&str, String)],
     ) -> Result<Page, Stop> {
@@ -72,7 +72,7 @@ impl Film {
             unit: "of the length at rest".to_owned(),
             lines: vec![(String::new(), self.stretch)],
         });
-        let frames = chronicle.hold_forces();
+        let frames = tear_log.hold_forces();
         let holds = frames.first().map_or(0, |frame| frame.forces_n.len());
         let line = |hold: usize| {
             let points = frames.iter();

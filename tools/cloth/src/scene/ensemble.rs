@@ -314,18 +314,18 @@ pub fn member(
         Err(error) => return failed(error.to_string()),
     };
     let torn_before_m = run.torn_length_m();
-    let mut chronicle = TearLog::new(&run);
+    let mut tear_log = TearLog::new(&run);
     while !run.is_over() {
         if stop() {
             return interrupted();
         }
         match run.step() {
-            Ok(tear) => chronicle.note(&run, &tear),
+            Ok(tear) => tear_log.note(&run, &tear),
             Err(error) => return failed(error.to_string()),
         }
     }
-    let first_tear = chronicle.first_tear();
-    let largest_force_n = chronicle.largest_force_n();
+    let first_tear = tear_log.first_tear();
+    let largest_force_n = tear_log.largest_force_n();
     let observed = Observed {
         first_tear_s: first_tear.map(|first| first.event.time_s),
         first_force_n: first_tear.and_then(|first| first.force_n),

@@ -77,7 +77,7 @@ impl Topic {
 /// is compared.
 const REST_S: f64 = 3.0;
 
-/// The name of Newton's method of second order in tables, with each step solved to convergence.
+/// The name in tables of the implicit method of second order, with each linear equation solved to about rounding.
 pub(super) const BDF2: &str = "bdf2";
 
 /// The purpose of a run.
@@ -108,7 +108,7 @@ pub struct Row {
     pub diagonals: u64,
     /// The purpose of the run.
     pub role: Role,
-    /// The method, as on the command line; `bdf2` for Newton's method of second order.
+    /// The method, as on the command line; `bdf2` for the implicit method of second order.
     pub method: String,
     /// The step as a multiple of the default step; `None` for the default.
     pub step_multiple: Option<f64>,
@@ -288,12 +288,12 @@ impl Stage {
         play.row.dt_s = Some(run.step_s());
         let before_m = run.torn_length_m();
         let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
-        let mut chronicle = TearLog::new(&run);
+        let mut tear_log = TearLog::new(&run);
         let (mut frames, mut times, mut began) = (Vec::new(), Vec::new(), bounds.now());
         take_steps(&mut run, bounds.stop, |run, step| {
             times.push(bounds.now().saturating_sub(began).as_secs_f64());
-            chronicle.note(run, step);
-            let is_over = is_first_tear && chronicle.first_tear().is_some();
+            tear_log.note(run, step);
+            let is_over = is_first_tear && tear_log.first_tear().is_some();
             if !is_over && (run.elapsed_s() / FRAME_S) as usize > frames.len() {
                 frames.push(run.cloth().positions().to_vec());
             }
@@ -315,7 +315,7 @@ impl Stage {
             }
             Topic::Rip | Topic::Trouser => {
                 let nothing = || (Status::Restless, "nothing tore".to_owned());
-                let first = chronicle.first_tear().ok_or_else(nothing)?;
+                let first = tear_log.first_tear().ok_or_else(nothing)?;
                 // The hand of a rip begins to pull after half a second.
                 let begins_s = if self.topic == Topic::Rip { 0.5 } else { 0.0 };
                 let numbers = [Some(first.event.time_s - begins_s), first.force_n];
@@ -323,7 +323,7 @@ impl Stage {
             }
             Topic::Aftermath => {
                 play.row.torn_m = Some(run.torn_length_m() - before_m);
-                let force_n = chronicle.largest_force_n();
+                let force_n = tear_log.largest_force_n();
                 play.row.work_j = force_n.map(|_| run.energy_balance().held_j);
                 None
             }
