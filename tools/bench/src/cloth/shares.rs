@@ -3,7 +3,7 @@
 
 use tearmesh::{Edits, Mesh, shapes};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-use tearmesh_cloth::{Method, Cloth, Pbd, Solver, Tear, Tearing, Verlet, Xpbd};
+use tearmesh_cloth::{Cloth, Method, Pbd, Solver, Tear, Tearing, Verlet, Xpbd};
 
 use crate::measure::{median, timed_on_cpu};
 use crate::options::Options;
