@@ -198,8 +198,8 @@ fn a_scene_without_triangles_pays_nothing_for_them_and_one_with_them_is_counted(
     let [springs, woven] = [&springs, &woven].map(|cloth| cloth.system().counters());
     assert_eq!(springs.features.triangle, 0);
     // Eleven sums of forces for ten steps; and for the implicit one, one of forces and one of the matrix,
-    // products with it, and two for lengths at the end.
-    let solved = 2 + woven.matrix_products + 2;
+    // products with it, and two each for lengths and energy at the end.
+    let solved = 2 + woven.matrix_products + 4;
     assert_eq!(woven.features.triangle, 18 * (11 + solved));
     assert_eq!(woven.force_evaluations, springs.force_evaluations);
     assert_eq!((woven.matrix_products > 0, woven.visits.project), (true, 0));

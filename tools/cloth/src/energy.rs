@@ -8,10 +8,7 @@ use crate::system::{Family, Recorded, System};
 /// Returns the elastic energy of all constraints and triangles, in joules.
 #[must_use]
 pub fn elastic_j(system: &System) -> f64 {
-    let (model, x) = (&system.model, &system.positions);
-    let families = model.families().into_iter();
-    let sum = families.fold(0.0, |sum, pairs| pairs.energy(x, sum));
-    model.triangles.energy(x, sum)
+    system.model.elastic_j(&system.positions)
 }
 
 /// The elastic energy that the method of the last step stores, in joules: that of the forces which it

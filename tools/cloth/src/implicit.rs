@@ -31,11 +31,14 @@
 //! triangles that spins by ω Δt > 1 flies apart along the tangent, to √(1 + (ω Δt)²) times its size;
 //! where something is pushed together the matrix may be all but singular, and the step as long as
 //! one likes. Both show in a length that no linearised force has felt: an edge ends longer than it
-//! is at rest, was before, and would be if its ends had moved along it. A step in which that is 15 % of
-//! the rest length, or stores more energy than there is in motion, is divided in two halves, and these
-//! again. (Without this, ready scenes make 2 to 3100 J where 1 to 17 J were put
-//! in. Newton's method from where such a step began takes 1.3 times as many matrix products in
-//! them, and stretches edges to twice their length where this stays below 1.15.)
+//! is at rest, was before, and would be if its ends had moved along it. And they make energy: there is
+//! more at the end than there was and than loads and hands put in. A step in which an edge does so by
+//! 15 % of its rest length, or that makes .3 % of the energy in motion and exchange, is divided in two
+//! halves, and these again. (Without the first, ready scenes make 2 to 3100 J where 1 to 17 J were put
+//! in. Without the second, chains that were pushed once come to 300 times their energy by steps a
+//! thousand times as long as the explicit limit. Newton's method from where such a step began takes 1.3
+//! times as many matrix products in ready scenes, and stretches edges to twice their length where this
+//! stays below 1.15.)
 //!
 //! **The solver's tolerance has to fall with Δt.** A step of a method of order p errs by
 //! Δt^(p+1); a solver that leaves the same error at each step, however short, makes the sum
@@ -59,6 +62,7 @@ pub(crate) mod settings;
 use tearmesh::geometry::{Point, Vector, check_point, dot, length};
 
 pub use self::settings::{Method, Settings, StepError, StepReport};
+use crate::constraint::Colour;
 use crate::matrix::{Hessian, Layout, Pcg, Solution, Weights};
 use crate::solver::{Abilities, Failure, SettingError, Solver};
 use crate::system::{Counters, Model, System};
@@ -133,6 +137,11 @@ const UNANSWERED: f64 = 0.1;
 /// a quarter the flag makes energy; at a tenth there are more parts for nothing.)
 const OVERSHOOT: f64 = 0.15;
 
+/// The energy that a step may make, as a part of what moves and changes hands in it. (At .005 chains that
+/// were pushed once come to twice their energy by steps of a thousand times the explicit limit; at .002
+/// some of their steps are divided without end.)
+const MADE: f64 = 0.003;
+
 impl Implicit {
     /// Returns an implicit method with these settings.
     #[must_use]
@@ -157,10 +166,11 @@ impl Implicit {
         parts: u32,
         report: &mut StepReport,
     ) -> Result<(), Failure> {
-        if self.part(system, dt_s, report)? {
+        let is_last = parts >= StepError::PARTS_MAX;
+        if self.part(system, dt_s, is_last, report)? {
             return Ok(());
         }
-        if parts >= StepError::PARTS_MAX {
+        if is_last {
             return Err(Failure::Implicit(StepError::Overshot));
         }
         for _ in 0..2 {
@@ -169,8 +179,8 @@ impl Implicit {
         Ok(())
     }
 
-    /// Takes a step, in place; false if it overshot and was not taken. A particle that is held keeps
-    /// its velocity.
+    /// Takes a step, in place; false if it overshot and was not taken. The last that is tried may make
+    /// energy. A particle that is held keeps its velocity.
     ///
     /// Cost: an evaluation of forces and second derivatives, and a product with the matrix an
     /// iteration of conjugate gradients.
@@ -178,6 +188,7 @@ impl Implicit {
         &mut self,
         system: &mut System,
         dt_s: f64,
+        is_last: bool,
         report: &mut StepReport,
     ) -> Result<bool, Failure> {
         let System {
@@ -217,7 +228,10 @@ impl Implicit {
         if let Some(particle) = first_bad(&self.reached, &self.velocities) {
             return Err(Failure::Implicit(StepError::NotFinite { particle }));
         }
-        if has_overshot(model, x, &self.reached, &self.velocities) {
+        // The shortest part makes little energy, and no less if it is solved no better.
+        if overstretches(model, x, &self.reached)
+            || !is_last && self.makes_energy(model, weights, (x, v), counters)
+        {
             return Ok(false);
         }
         let reached = (&self.reached[..], &self.velocities[..]);
@@ -353,6 +367,47 @@ impl Implicit {
         solution
     }
 
+    /// Whether the step ends with more energy than there was and was put in, by gravity, by wind and by
+    /// those that are held; by more than a part of what moves and changes hands, and than what rounding of
+    /// positions makes.
+    fn makes_energy(
+        &mut self,
+        model: &Model,
+        weights: Weights<'_>,
+        (x, v): (&[Point], &[Vector]),
+        counters: &mut Counters,
+    ) -> bool {
+        let moved = &mut self.shift;
+        moved.clear();
+        moved.extend(self.reached.iter().zip(x).map(|(to, x)| to - x));
+        let pulls = &mut self.pcg.b;
+        self.hessian.product(&self.layout, moved, pulls);
+        counters.matrix_products += 1;
+        // The product, and two sums of energy.
+        model.count_visits(3, counters);
+        let (mut moving_j, mut gained_j, mut work_j) = (0.0, 0.0, 0.0);
+        for (i, &m) in weights.masses.iter().enumerate() {
+            let kinetic_j = |v: Vector| 0.5 * m * dot(v, v);
+            moving_j += kinetic_j(v[i]);
+            let mut load = self.outside[i] * m;
+            if weights.is_free(i) {
+                gained_j += kinetic_j(self.velocities[i]) - kinetic_j(v[i]);
+            } else {
+                // With the force that holds it, as linearised forces have it in the middle of the step.
+                load += pulls[i] * 0.5 - self.forces[i];
+            }
+            work_j += dot(load, moved[i]);
+        }
+        let [from_j, to_j] = [x, &self.reached].map(|x| model.elastic_j(x));
+        let grain_m = f64::EPSILON * x.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let stiffness = self.hessian.trace().max(0.0);
+        let rounding_j =
+            grain_m * ((from_j + to_j) * stiffness).sqrt() + stiffness * grain_m * grain_m;
+        let changed_j = to_j - from_j;
+        let made_j = changed_j + gained_j - work_j;
+        made_j > MADE * (moving_j + work_j.abs() + changed_j.abs()) + rounding_j
+    }
+
     /// Gives each piece that nothing holds the momentum that the exact answer has.
     fn keep_momentum(&mut self, weights: Weights<'_>, stage: Stage) {
         let pieces = self.layout.pieces();
@@ -469,45 +524,27 @@ impl History {
     }
 }
 
-/// Whether edges, or triangles along warp and weft, end longer than a linearised step knows of: one by
-/// more than a part of its rest length, or all by more energy than there is in motion.
-fn has_overshot(model: &Model, x: &[Point], reached: &[Point], v: &[Vector]) -> bool {
-    let mut is_long = false;
-    let mut made_j = 0.0;
-    let mut look = |before: Vector, after: Vector, rest: f64, stiffness: f64| {
+/// Whether an edge, or a triangle along warp or weft, ends longer than a linearised step knows of, by more than
+/// a part of its rest length.
+fn overstretches(model: &Model, x: &[Point], reached: &[Point]) -> bool {
+    let is_long = |before: Vector, after: Vector, rest: f64| {
         let (from, to) = (length(before), length(after));
         let along = if from > 0.0 {
             dot(before, after) / from
         } else {
             0.0
         };
-        let beyond = (to - rest.max(from).max(along)).max(0.0);
-        is_long |= beyond > OVERSHOOT * rest;
-        made_j += 0.5 * stiffness * beyond * beyond;
+        to - rest.max(from).max(along) > OVERSHOOT * rest
     };
-    for colour in model.stretch.colours() {
-        for ([a, b], rest, stiffness) in colour.springs() {
-            look(x[b] - x[a], reached[b] - reached[a], rest, stiffness);
-        }
-    }
-    for triangle in model.triangles.as_slice() {
-        let [before, after] = [x, reached]
-            .map(|points| triangle.derivatives(triangle.vertices.map(|v| points[v as usize])));
-        for c in 0..2 {
-            look(
-                before[c],
-                after[c],
-                1.0,
-                triangle.area * triangle.stiffness[c],
-            );
-        }
-    }
-    let moving = model
-        .masses
-        .iter()
-        .zip(v)
-        .map(|(m, v)| 0.5 * m * dot(*v, *v));
-    is_long || made_j > moving.sum()
+    let springs = model.stretch.colours().iter().flat_map(Colour::springs);
+    let mut edges = springs.map(|([a, b], rest, _)| (x[b] - x[a], reached[b] - reached[a], rest));
+    let mut triangles = model.triangles.as_slice().iter();
+    edges.any(|(before, after, rest)| is_long(before, after, rest))
+        || triangles.any(|triangle| {
+            let [before, after] = [x, reached]
+                .map(|points| triangle.derivatives(triangle.vertices.map(|v| points[v as usize])));
+            (0..2).any(|c| is_long(before[c], after[c], 1.0))
+        })
 }
 
 /// The first particle whose position or velocity is unusable.

@@ -58,6 +58,11 @@ impl Block {
         sum
     }
 
+    /// Returns the sum of the diagonal.
+    pub(crate) fn trace(&self) -> f64 {
+        self.0[0][0] + self.0[1][1] + self.0[2][2]
+    }
+
     /// Returns the product of this matrix with a vector.
     #[inline]
     pub(crate) fn times(&self, v: Vector) -> Vector {
@@ -142,6 +147,11 @@ impl Hessian {
                 sum.plus(1.0, &block.transposed())
             };
         }
+    }
+
+    /// Returns the sum of the diagonal, which is no less than the largest eigenvalue unless one is negative.
+    pub(crate) fn trace(&self) -> f64 {
+        self.diagonal.iter().map(Block::trace).sum()
     }
 
     /// Computes the product with a vector for each particle, into `out`.

@@ -189,6 +189,13 @@ impl Model {
             & self.triangles.add_forces(x, ratio_max, crush, forces)
     }
 
+    /// The elastic energy of all constraints and triangles, in joules.
+    pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
+        let families = self.families().into_iter();
+        let sum = families.fold(0.0, |sum, pairs| pairs.energy(x, sum));
+        self.triangles.energy(x, sum)
+    }
+
     pub(crate) fn drag_per_s(&self) -> f64 {
         self.loads.drag_per_s.unwrap_or(0.0)
     }
