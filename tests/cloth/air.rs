@@ -9,6 +9,7 @@ use tearmesh_cloth::{
 };
 
 use crate::parts::gravity;
+use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -23,7 +24,7 @@ const RK4: f64 = 2.785_293_563_405_28;
 
 const METHODS: [Method; 8] = [
     ("guarded Verlet", 1.0, || Box::new(Verlet::new())),
-    ("Verlet", 1.0, || Box::new(Verlet::plain())),
+    ("Verlet", 1.0, || Box::new(PlainVerlet::new())),
     ("Provot", 2.0, || Box::new(Provot::default())),
     ("RK4", RK4, || Box::new(Rk4::new())),
     ("PBD", 2.0, || Box::new(Pbd::default())),

@@ -10,6 +10,7 @@ use tearmesh_cloth::{
 use crate::parts::nets::{catenary, chain, framed, modulus, relaxed, row};
 use crate::parts::vibration::{largest_frequency, stiffness_times};
 use crate::parts::{G, gravity, mechanical_j, near, run};
+use crate::plain_verlet::PlainVerlet;
 use crate::rk4::Rk4;
 
 /// R1 in motion: one mass on a spring, released at 0.1 m from rest length.
@@ -136,7 +137,7 @@ fn r3_modes_of_a_chain() {
         let z = mode(j) * dt;
         let turn = (1.0 - z * z / 2.0).acos();
         for step in 1..=100 {
-            run(&mut system, Verlet::plain(), dt, 1);
+            run(&mut system, PlainVerlet::new(), dt, 1);
             let x = system.positions()[7].x - 0.21;
             near(x, shape(7) * (turn * f64::from(step)).cos(), 1e-12);
         }

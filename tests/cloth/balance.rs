@@ -10,6 +10,7 @@ use tearmesh_cloth::{Method, implicit};
 
 use crate::parts::scenes::{methods, play, staged};
 use crate::parts::{mechanical_j, near, run};
+use crate::plain_verlet::PlainVerlet;
 
 const DOWN: Vector = Vector::new(0.0, 0.0, -10.0);
 
@@ -435,7 +436,7 @@ fn a_step_that_fails_leaves_no_trace() {
     let mut kept = Balance::new(&mut chain);
     watch(&mut chain, &mut kept, &mut Verlet::new(), 0.01, 30);
     let before = now(&kept, &chain);
-    let failed = chain.step_observed(&mut Verlet::plain(), 1e3, &mut kept);
+    let failed = chain.step_observed(&mut PlainVerlet::new(), 1e3, &mut kept);
     assert!(matches!(failed, Err(StepError::BlowUp { .. })));
     assert_eq!(now(&kept, &chain), before);
 }
@@ -470,7 +471,13 @@ fn beyond_the_limit_a_spring_makes_energy() {
         let mut kept = Balance::new(&mut swing);
         let mut largest = 0.0_f64;
         for _ in 0..60 {
-            watch(&mut swing, &mut kept, &mut Verlet::plain(), part * 0.2, 1);
+            watch(
+                &mut swing,
+                &mut kept,
+                &mut PlainVerlet::new(),
+                part * 0.2,
+                1,
+            );
             largest = largest.max(now(&kept, &swing).made_j());
         }
         let put_in = now(&kept, &swing).put_in_j();

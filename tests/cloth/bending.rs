@@ -4,13 +4,14 @@
 use tearmesh::{Point, Positions, Vector, shapes};
 use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Fabric, Implicit, Pbd, Provot, Solver, StepError, System, Verlet,
-    Xpbd, energy, force, frequency_bound, stable_step_s,
+    Bending, Buckling, Cloth, Fabric, Implicit, Pbd, Provot, Solver, StepError, System, Xpbd,
+    energy, force, frequency_bound, stable_step_s,
 };
 
 use crate::parts::cloths::cloth;
 use crate::parts::vibration::largest_frequency;
 use crate::parts::{G, gravity, implicit, mechanical_j, near};
+use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -275,7 +276,7 @@ fn methods_that_project_springs_are_refused_and_those_with_forces_run() {
     let dt_s = 0.1 * stable_step_s(cloth.system_mut(), 2.0);
     let before = mechanical_j(cloth.system());
     for solver in [
-        &mut Verlet::plain() as &mut dyn Solver,
+        &mut PlainVerlet::new() as &mut dyn Solver,
         &mut Rk4::new(),
         &mut Provot::unlimited(),
     ] {

@@ -136,18 +136,18 @@ fn a_member_is_a_run_that_was_disturbed() {
     let run = Run::new(mesh, &staged.positions, staged.scene.clone(), &staged.frame);
     let run = run.expect("a scene").in_smaller_steps(TWO);
     let mut run = run.displaced(|v| offsets_m[v.index()]).expect("a metre");
-    let mut chronicle = TearLog::new(&run);
+    let mut log = TearLog::new(&run);
     while !run.is_over() {
         let step = run.step().expect("a step");
-        chronicle.note(&run, &step);
+        log.note(&run, &step);
     }
     let observed = member.observed.expect("a run that is done");
-    let first_tear = chronicle.first_tear().expect("a rip");
+    let first_tear = log.first_tear().expect("a rip");
     assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
     assert_eq!(observed.first_force_n, first_tear.force_n);
     assert_eq!(observed.torn_m, run.torn_length_m());
     assert_eq!(observed.pieces, run.mesh().components().count());
-    assert_eq!(observed.largest_force_n, chronicle.largest_force_n());
+    assert_eq!(observed.largest_force_n, log.largest_force_n());
     assert_eq!(observed.work_j, Some(run.energy_balance().held_j));
     assert!(observed.torn_m > 0.0);
 }

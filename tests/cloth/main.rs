@@ -7,7 +7,6 @@ mod allocation;
 mod answers;
 mod balance;
 mod bending;
-mod chronicle;
 mod cost;
 mod defaults;
 mod ensemble;
@@ -20,6 +19,9 @@ mod losses;
 mod overstretched;
 mod parsimony;
 mod parts;
+#[path = "../../tools/lab/src/plain_verlet.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
+mod plain_verlet;
 #[path = "../data/random.rs"]
 #[allow(dead_code, reason = "shared with the tests of the library")]
 mod random;
@@ -34,6 +36,7 @@ mod stiff;
 mod stiff_held;
 mod strain;
 mod tables;
+mod tear_log;
 mod tearing;
 mod tearing_links;
 mod tearing_order;

@@ -7,6 +7,7 @@ use tearmesh_cloth::{
 };
 
 use crate::parts::cloths::{cloth, sheet};
+use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
 /// A sheet that hangs by its top and is pulled about; what may tear it, and how it is stepped.
@@ -80,7 +81,7 @@ type Make = fn() -> Box<dyn Solver>;
 
 const METHODS: [(&str, Make); 7] = [
     ("Verlet", || Box::new(Verlet::new())),
-    ("plain Verlet", || Box::new(Verlet::plain())),
+    ("plain Verlet", || Box::new(PlainVerlet::new())),
     ("XPBD", || Box::new(Xpbd::default())),
     ("PBD", || Box::new(Pbd::default())),
     ("Provot", || Box::new(Provot::default())),

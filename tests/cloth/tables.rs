@@ -12,11 +12,12 @@ mod theory;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd};
+use tearmesh_cloth::{Pbd, Provot, Solver, System, Xpbd};
 
 use crate::parts::implicit;
 use crate::parts::nets::row;
 use crate::parts::woven::strip;
+use crate::plain_verlet::PlainVerlet;
 use crate::rk4::Rk4;
 
 /// The methods, in the order of the tables' columns.
@@ -27,7 +28,7 @@ pub(crate) const METHODS: [&str; 7] = ["Provot", "Verlet", "RK4", "Euler", "BDF2
 pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
     match name {
         "Provot" => Box::new(Provot::unlimited()),
-        "Verlet" => Box::new(Verlet::plain()),
+        "Verlet" => Box::new(PlainVerlet::new()),
         "RK4" => Box::new(Rk4::new()),
         "Euler" => Box::new(implicit(Method::BackwardEuler)),
         "BDF2" => Box::new(implicit(Method::Bdf2)),

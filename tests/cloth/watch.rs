@@ -10,6 +10,7 @@ use tearmesh_cloth::{
 
 use crate::parts::gravity_along_y;
 use crate::parts::nets::row;
+use crate::plain_verlet::PlainVerlet;
 use crate::rk4::Rk4;
 
 /// Ten springs of 1000 N/m between particles of 10 g: a step of 0.02 s is six times too long.
@@ -20,7 +21,7 @@ fn stiff() -> System {
 const TOO_LONG_S: f64 = 0.02;
 
 fn refused(system: &mut System, dt_s: f64) -> StepError {
-    let taken = system.step(&mut Verlet::plain(), dt_s);
+    let taken = system.step(&mut PlainVerlet::new(), dt_s);
     taken.expect_err("a step that is refused")
 }
 

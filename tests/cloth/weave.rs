@@ -9,6 +9,7 @@ use crate::parts::cloths::cloth;
 use crate::parts::vibration::stiffness_times;
 use crate::parts::woven::{framed, moduli, sheet, strip, weave};
 use crate::parts::{G, gravity, gravity_along_y, implicit, mechanical_j, near, run};
+use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -27,7 +28,7 @@ fn r1_a_row_oscillates_as_a_mass_on_a_spring() {
     let z = omega * dt;
     let discrete = (1.0 - z * z / 2.0).acos();
     for i in 1..=100 {
-        run(&mut system, Verlet::plain(), dt, 1);
+        run(&mut system, PlainVerlet::new(), dt, 1);
         for p in &system.positions()[2..] {
             near(p.x - 1.0, 0.1 * (discrete * f64::from(i)).cos(), 1e-11);
         }

@@ -11,6 +11,7 @@ use crate::parts::cloths::cloth;
 use crate::parts::mechanical_j;
 use crate::parts::vibration::{largest_frequency, rayleigh_quotient};
 use crate::parts::woven::{sheet, strip, weave};
+use crate::plain_verlet::PlainVerlet;
 use crate::rk4::Rk4;
 
 #[test]
@@ -28,11 +29,11 @@ fn explicit_methods_are_held_to_the_limit_of_triangles() {
     let (_, _, mut cloth) = sheet(6, weave());
     let rest = omega(&mut cloth);
     let error = cloth
-        .step(&mut Verlet::plain(), 2.05 / rest)
+        .step(&mut PlainVerlet::new(), 2.05 / rest)
         .expect_err("too long");
     assert!(matches!(error, StepError::Unstable { frequency, .. } if frequency.ends.is_some()));
     let dt = 1.0 / rest;
-    cloth.step(&mut Verlet::plain(), dt).expect("a step");
+    cloth.step(&mut PlainVerlet::new(), dt).expect("a step");
 
     // Stretched eight times its shear is stiffer by far: the same step is refused.
     for p in cloth.system_mut().state_mut().0 {
@@ -42,11 +43,11 @@ fn explicit_methods_are_held_to_the_limit_of_triangles() {
     let stretched = omega(&mut cloth);
     assert!(stretched > 3.0 * rest, "{stretched} {rest}");
     let error = cloth
-        .step(&mut Verlet::plain(), dt)
+        .step(&mut PlainVerlet::new(), dt)
         .expect_err("too long now");
     assert!(matches!(error, StepError::Unstable { .. }), "{error}");
     cloth.system_mut().when_unstable(Unstable::Substep);
-    let report = cloth.step(&mut Verlet::plain(), dt).expect("divided");
+    let report = cloth.step(&mut PlainVerlet::new(), dt).expect("divided");
     assert!(report.substeps > 1);
 }
 
@@ -54,7 +55,7 @@ fn explicit_methods_are_held_to_the_limit_of_triangles() {
 #[test]
 fn the_blow_up_map_of_triangles() {
     let methods: [&mut dyn Solver; 3] = [
-        &mut Verlet::plain(),
+        &mut PlainVerlet::new(),
         &mut Provot::unlimited(),
         &mut Rk4::new(),
     ];
@@ -97,7 +98,7 @@ fn a_blow_up_of_triangles_is_noticed_and_the_last_good_state_kept() {
     cloth.system_mut().state_mut().1[5] = Vector::new(1e-3, 0.0, 1e-3);
     let error = (0..1000).find_map(|_| {
         let good = cloth.positions().to_vec();
-        let error = cloth.step(&mut Verlet::plain(), 0.3).err()?;
+        let error = cloth.step(&mut PlainVerlet::new(), 0.3).err()?;
         assert_eq!(cloth.positions(), good);
         Some(error)
     });

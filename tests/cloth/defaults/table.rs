@@ -7,6 +7,7 @@ use tearmesh_cloth::{Solver, Verlet, Xpbd, recommended_step_s};
 
 use super::sheets::{ORDERS, Sheet};
 use super::{energy_j, reference, weight};
+use crate::plain_verlet::PlainVerlet;
 
 type Make = fn() -> Box<dyn Solver>;
 
@@ -14,7 +15,7 @@ const ROWS: [(&str, Make); 5] = [
     ("xpbd", || Box::new(Xpbd::new(1, 1))),
     ("xpbd, two sweeps", || Box::new(Xpbd::new(1, 2))),
     ("xpbd, four sweeps", || Box::new(Xpbd::new(1, 4))),
-    ("verlet, plain", || Box::new(Verlet::plain())),
+    ("verlet, plain", || Box::new(PlainVerlet::new())),
     ("verlet", || Box::new(Verlet::new())),
 ];
 

@@ -81,7 +81,7 @@ pub struct Abilities {
     /// counts towards [`air_limit`](Abilities::air_limit).
     pub takes_drag_explicitly: bool,
     /// Whether neighbours carry the particles that are too light for a step. The step is then
-    /// limited by [`recommended_step_s`](crate::recommended_step_s) instead of the largest frequency.
+    /// limited by [`recommended_step_s`](crate::recommended_step_s) instead of a bound of frequencies.
     pub carries_light: bool,
     /// Whether the method supports the forces of [`System::triangles`] and bends that buckle
     /// ([`System::set_buckling`]). A method that does not is refused if the system has any.
@@ -268,7 +268,7 @@ impl fmt::Display for StepError {
                 let omega = frequency.omega_rad_per_s;
                 write!(
                     f,
-                    "dt {given_s} s exceeds the stability limit {} s (largest frequency {} rad/s",
+                    "dt {given_s} s exceeds the stability limit {} s (bound of frequencies {} rad/s",
                     Digits(*limit_s),
                     Digits(omega)
                 )?;

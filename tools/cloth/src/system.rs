@@ -94,7 +94,7 @@ pub enum Unstable {
     Refuse,
     /// Divides the step into enough substeps to be stable in every configuration by the linear
     /// theory, and reports their number. Crushed cloth can still gain energy with a method that has
-    /// no guards ([`Verlet::plain`](crate::Verlet::plain), [`Provot`](crate::Provot)): springs
+    /// no guards ([`Provot`](crate::Provot)): springs
     /// under compression push sideways, which no bound for small motions captures.
     Substep,
     /// Takes the step. No frequency is computed, but blow-up is still noticed.

@@ -34,10 +34,10 @@
 //!                 .5      .0    2  .7   .69     .2    5   2   .58     65   65  27    .69
 //!                1         4   48  16   .36     11   56  22   .29    123   87  44    .36
 //!                2       124  232 112   .22    141  293 132   .17    303  340 143    .24
-//! Verlet::plain   .25     .0   .0  .0  4.6      .0   .0  .0  10.7     –    –   –    –
+//! no guards       .25     .0   .0  .0  4.6      .0   .0  .0  10.7     –    –   –    –
 //!                 .5      .0   .0  .0   –       –    –   –    –       –    –   –    –
 //!                1        –    –   –    –       –    –   –    –       –    –   –    –
-//! Verlet::new     .25     .0   .0  .0   .99     .0   .0  .0   .99     .0   .0  .0    .99
+//! Verlet          .25     .0   .0  .0   .99     .0   .0  .0   .99     .0   .0  .0    .99
 //!                 .5      .0   .0  .0   .90     .0   .0  .0   .83     .0   .0  .0    .90
 //!                1        .0   .0  .0   .78     .0   .0  .0   .73     .0   .0  .0    .77
 //!                2        –    –   –    –       –    –   –    –       –    –   –    –
@@ -46,7 +46,7 @@
 //! The last row is unwatched: a step of more than twice the one that suits is divided. A step costs
 //! .85 of one of XPBD with one sweep where little is carried, and 1.1 where most is.
 //!
-//! By the plain method the middle of three particles between two nails, pushed aside by a thousandth
+//! Without guards the middle of three particles between two nails, pushed aside by a thousandth
 //! at nine tenths of the bound, has 150 times its energy, and a sheet crushed to half 2.7 to 5.1
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
@@ -58,15 +58,12 @@ use crate::system::System;
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
-/// [`Verlet::new`] is guarded: particles that are too light for the step are carried by their
-/// neighbours, and constraints shorter than nine tenths of their rest length are damped. It is
-/// stable at steps of up to twice [`recommended_step_s`](crate::recommended_step_s) in every configuration,
-/// and exact at rest. In motion the guards make light particles swing more slowly about their
-/// neighbours; at half the suited step or less hardly any particle is carried.
-///
-/// [`Verlet::plain`] is the textbook method, stable for small motions up to ω Δt = 2 and for wind
-/// alone up to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). Its oscillators have the frequency
-/// ω′ with cos ω′Δt = 1 − (ωΔt)²/2, so it runs fast by up to π/2 at the limit.
+/// Particles that are too light for the step are carried by their neighbours, and constraints
+/// shorter than nine tenths of their rest length are damped. So it is stable at steps of up to twice
+/// [`recommended_step_s`](crate::recommended_step_s) in every configuration, and exact at rest; for
+/// wind alone it is stable up to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). In motion the guards
+/// make light particles swing more slowly about their neighbours; at half the recommended step or less
+/// hardly any particle is carried.
 ///
 /// Drag is applied in a backward and a forward half step, and wind by a prediction of the
 /// velocities at which it acts: both keep the second order. Contact is of first order.
@@ -91,32 +88,13 @@ use crate::system::System;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Verlet {
-    is_plain: bool,
-}
+pub struct Verlet;
 
 impl Verlet {
-    /// Creates velocity Verlet with its guards.
+    /// Creates the method.
     #[must_use]
     pub fn new() -> Verlet {
-        Verlet::default()
-    }
-
-    /// Creates velocity Verlet as in textbooks, without guards. It is for cloth that is never
-    /// crushed, and for comparisons.
-    #[must_use]
-    pub fn plain() -> Verlet {
-        Verlet { is_plain: true }
-    }
-
-    /// Whether the last accelerations of the step before are those of now: unless something has changed
-    /// in between, or the guards are those of another step.
-    fn is_fresh(self, system: &System, dt_s: f64) -> bool {
-        let guarded_s = if self.is_plain { 0.0 } else { dt_s };
-        let had_s = system.scratch.guarded_s;
-        let has_carried = guarded_s > 0.0 && carried_count(system) > 0;
-        let differs = had_s != guarded_s && (had_s > 0.0 || has_carried);
-        system.scratch.is_fresh && !differs
+        Verlet
     }
 }
 
@@ -125,19 +103,15 @@ impl Solver for Verlet {
     /// μ/2 has the root −1 at μ = λΔt = 1.
     fn abilities(&self) -> Abilities {
         Abilities {
-            carries_light: !self.is_plain,
+            carries_light: true,
             ..Abilities::of_forces(Some(2.0), 1.0)
         }
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half_s = dt_s / 2.0;
-        if !self.is_plain {
-            weigh_for(system, dt_s);
-        }
-        let guarded_s = (!self.is_plain).then_some(dt_s);
-        let is_fresh = self.is_fresh(system, dt_s);
-        let began_sane = is_fresh || accelerate(system, false, guarded_s);
+        weigh_for(system, dt_s);
+        let began_sane = is_fresh(system, dt_s) || accelerate(system, false, Some(dt_s));
         kick_and_drift(system, half_s, dt_s);
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
@@ -149,10 +123,18 @@ impl Solver for Verlet {
             let predicted = &mut scratch.predicted;
             kick(&system.model, &scratch.accelerations, half_s, predicted);
         }
-        let is_sane = accelerate(system, blows, guarded_s);
+        let is_sane = accelerate(system, blows, Some(dt_s));
         let accelerations = &system.scratch.accelerations;
         kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
         Failure::unless(began_sane && is_sane)
     }
+}
+
+/// Whether the last accelerations of the step before are those of now: unless something has changed
+/// in between, or the guards are those of another step.
+fn is_fresh(system: &System, dt_s: f64) -> bool {
+    let had_s = system.scratch.guarded_s;
+    let differs = had_s != dt_s && (had_s > 0.0 || carried_count(system) > 0);
+    system.scratch.is_fresh && !differs
 }

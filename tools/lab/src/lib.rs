@@ -15,6 +15,7 @@ pub mod fig7;
 pub mod guide;
 pub mod method;
 pub mod pareto;
+pub mod plain_verlet;
 pub mod plot;
 pub mod reference;
 pub mod rk4;

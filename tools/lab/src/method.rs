@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use tearmesh_cloth::implicit::{self, Settings};
-use tearmesh_cloth::{
-    Pbd, Provot, Solver, System, Verlet, Xpbd, recommended_step_s, stable_step_s,
-};
+use tearmesh_cloth::{Pbd, Provot, Solver, System, Xpbd, recommended_step_s, stable_step_s};
 
+use crate::plain_verlet::PlainVerlet;
 use crate::plot::{COLOURS, Colour, Mark, Shape};
 use crate::rk4::Rk4;
 
@@ -25,9 +24,9 @@ pub struct Method {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
-    /// The family of [`Verlet::new`].
+    /// The family of [`Verlet`](tearmesh_cloth::Verlet).
     Verlet,
-    /// The family of [`Verlet::plain`].
+    /// The family of [`PlainVerlet`].
     PlainVerlet,
     /// The family of [`Rk4`].
     Rk4,
@@ -180,7 +179,7 @@ impl Method {
         match self.settings() {
             Some(settings) => Box::new(settings.solver()),
             None if self.family == Family::Rk4 => Box::new(Rk4::new()),
-            None if self.family == Family::PlainVerlet => Box::new(Verlet::plain()),
+            None if self.family == Family::PlainVerlet => Box::new(PlainVerlet::new()),
             None => Box::new(Provot::unlimited()),
         }
     }

@@ -293,7 +293,7 @@ pub(super) fn failure(error: &StepError, run: &Run) -> Fault {
             let omega = short(frequency.omega_rad_per_s.round());
             let limit = two_digits(limit_s);
             format!(
-                "dt {given_s} s exceeds the stability limit {limit} s (largest frequency {omega} \
+                "dt {given_s} s exceeds the stability limit {limit} s (bound of frequencies {omega} \
                  rad/s{at}){after}"
             )
         }

@@ -1,4 +1,4 @@
-//! What a chronicle tells of a run, against what the run itself says, the balance of energy, and
+//! What a log tells of a run, against what the run itself says, the balance of energy, and
 //! weights.
 
 use std::num::NonZero;
@@ -10,12 +10,12 @@ use tearmesh_cloth::scene::{HeldVertices, Run, Scene, TearLog};
 use crate::parts::scenes::{methods, play, staged};
 
 fn told(mut run: Run) -> (Run, TearLog) {
-    let mut chronicle = TearLog::new(&run);
+    let mut log = TearLog::new(&run);
     while !run.is_over() {
         let step = run.step().expect("a step");
-        chronicle.note(&run, &step);
+        log.note(&run, &step);
     }
-    (run, chronicle)
+    (run, log)
 }
 
 /// How far a hold has been led by then: straight between the points of its way.
@@ -39,13 +39,13 @@ fn force_times_way_is_the_work_of_hands() {
         if matches!(solver, Method::Provot(_)) {
             continue; // Its limiter works on what is held as well.
         }
-        let (run, chronicle) = told(staged(8, |frame| Scene {
+        let (run, log) = told(staged(8, |frame| Scene {
             solver: solver.clone(),
             ..Scene::trouser(frame)
         }));
         let mut worked_j = 0.0;
         let mut since_s = 0.0;
-        for frame in chronicle.hold_forces() {
+        for frame in log.hold_forces() {
             for (hold, force) in run.scene().holds.iter().zip(&frame.forces_n) {
                 worked_j += force.dot(&(led(hold, frame.end_s) - led(hold, since_s)));
             }
@@ -64,18 +64,18 @@ fn force_times_way_is_the_work_of_hands() {
 #[test]
 fn what_hangs_at_rest_pulls_with_its_weight() {
     for (name, solver) in methods() {
-        let (run, chronicle) = told(staged(8, |frame| Scene {
+        let (run, log) = told(staged(8, |frame| Scene {
             solver: solver.clone(),
             drag_per_s: 8.0,
             duration_s: 5.0,
             ..Scene::hang(frame)
         }));
-        assert!(chronicle.first_tear().is_none() && chronicle.events().is_empty());
+        assert!(log.first_tear().is_none() && log.events().is_empty());
         if matches!(solver, Method::Provot(_)) {
-            assert!(chronicle.hold_forces().is_empty() && chronicle.largest_force_n().is_none());
+            assert!(log.hold_forces().is_empty() && log.largest_force_n().is_none());
             continue;
         }
-        let last = chronicle.hold_forces().last().expect("frames");
+        let last = log.hold_forces().last().expect("frames");
         let force: Vector = last.forces_n.iter().sum();
         let mass: f64 = run.cloth().system().masses().iter().sum();
         let weight = -run.scene().gravity_m_per_s2 * mass;
@@ -94,30 +94,30 @@ fn events_are_the_steps_in_which_something_tore() {
             solver: solver.clone(),
             ..Scene::rip(frame)
         });
-        let mut chronicle = TearLog::new(&run);
+        let mut log = TearLog::new(&run);
         let mut expected = Vec::new();
         while !run.is_over() {
             let (splits, torn_m) = (run.tally().splits, run.torn_length_m());
             let step = run.step().expect("a step");
-            chronicle.note(&run, &step);
+            log.note(&run, &step);
             if run.tally().splits > splits {
                 let splits = (run.tally().splits - splits) as usize;
                 expected.push((run.elapsed_s(), splits, run.torn_length_m() - torn_m));
             }
         }
-        let events = chronicle.events();
+        let events = log.events();
         assert_eq!(events.len(), expected.len(), "{name}");
         for (event, &(time_s, splits, torn_m)) in events.iter().zip(&expected) {
             assert_eq!((event.time_s, event.splits), (time_s, splits), "{name}");
             assert!((event.torn_m - torn_m).abs() < 1e-12, "{name}");
             assert!(event.load >= 1.0);
         }
-        let first = chronicle.first_tear().expect("it rips");
+        let first = log.first_tear().expect("it rips");
         assert_eq!(first.event, events[0]);
         // The grip is dragged down, so what tears first is not far above it.
         let [now, rest] = first.event.place;
         assert!(now.y < rest.y + 0.01, "{name}: {now} {rest}");
-        let (first_n, largest_n) = (first.force_n, chronicle.largest_force_n());
+        let (first_n, largest_n) = (first.force_n, log.largest_force_n());
         let knows_forces = !matches!(solver, Method::Provot(_));
         assert_eq!([first_n.is_some(), largest_n.is_some()], [knows_forces; 2]);
         assert!(first_n <= largest_n && first_n.is_none_or(|newtons| newtons > 0.0));
