@@ -11,7 +11,7 @@ mod rest;
 mod tolerance;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{self, Method, StepReport};
+use tearmesh_cloth::implicit::{self, Method, Stats};
 use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System, force};
 
 use crate::parts::{G, implicit};
@@ -145,16 +145,29 @@ impl Scene {
     }
 }
 
-/// Takes a step, and says what the method says of it.
+/// Takes a step, and says what the method did in it.
 pub(crate) fn step(
     system: &mut System,
     solver: &mut Implicit,
     dt_s: f64,
-) -> Result<StepReport, implicit::StepError> {
+) -> Result<Stats, implicit::StepError> {
+    let before = solver.stats();
     match system.step(solver, dt_s) {
-        Ok(_) => Ok(solver.report().expect("a step was taken")),
+        Ok(_) => Ok(since(solver.stats(), before)),
         Err(StepError::Implicit { error, .. }) => Err(error),
         Err(other) => panic!("{other}"),
+    }
+}
+
+/// What was counted since.
+fn since(now: Stats, before: Stats) -> Stats {
+    Stats {
+        parts: now.parts - before.parts,
+        first_order_parts: now.first_order_parts - before.first_order_parts,
+        indefinite: now.indefinite - before.indefinite,
+        clamped: now.clamped - before.clamped,
+        solver_iterations: now.solver_iterations - before.solver_iterations,
+        ..now
     }
 }
 

@@ -82,7 +82,7 @@ fn a_step_is_the_dense_solution_where_some_are_held() {
             }
             assert_eq!(
                 (report.clamped > 0, report.indefinite),
-                (is_indefinite, u32::from(is_indefinite))
+                (is_indefinite, u64::from(is_indefinite))
             );
             seen[usize::from(is_indefinite)] += 1;
             let matrix = match is_indefinite {

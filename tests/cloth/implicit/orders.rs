@@ -65,8 +65,7 @@ fn error(scene: &Scene, truth: &[Point], end: f64, steps: u32, settings: &Settin
     let (mut system, mut solver) = (scene.system(), Implicit::new(*settings));
     for _ in 0..steps {
         let time_step = end / f64::from(steps);
-        let report = step(&mut system, &mut solver, time_step).expect("a step");
-        assert!(report.residual <= report.limit);
+        step(&mut system, &mut solver, time_step).expect("a step");
     }
     let apart: Vec<Vector> = system
         .positions()
@@ -118,7 +117,7 @@ fn bdf2_keeps_its_order_when_the_step_changes() {
         for turn in 0..steps {
             let report = step(&mut system, &mut solver, length(turn)).expect("a step");
             let euler = turn == 0;
-            assert_eq!(report.method == Method::BackwardEuler, euler, "step {turn}");
+            assert_eq!(report.first_order_parts > 0, euler, "step {turn}");
         }
         let x = system.positions();
         let apart: Vec<Vector> = x.iter().zip(&truth).map(|(x, t)| x - t).collect();

@@ -61,10 +61,10 @@ pub(crate) mod settings;
 
 use tearmesh::geometry::{Point, Vector, check_point, dot, length};
 
-pub use self::settings::{Method, Settings, StepError, StepReport};
+pub use self::settings::{Method, Settings, Stats, StepError};
 use crate::constraint::Colour;
 use crate::matrix::{Hessian, Layout, Pcg, Solution, Weights};
-use crate::solver::{Abilities, Failure, SettingError, Solver};
+use crate::solver::{Abilities, Failure, Quality, SettingError, Solver};
 use crate::system::{Counters, Model, System};
 
 /// Linearised implicit steps of a system: backward Euler or BDF2. They are stable at any step for
@@ -109,7 +109,7 @@ use crate::system::{Counters, Model, System};
 pub struct Implicit {
     /// The settings of this method.
     pub settings: Settings,
-    report: Option<StepReport>,
+    stats: Stats,
     history: History,
     layout: Layout,
     hessian: Hessian,
@@ -152,10 +152,10 @@ impl Implicit {
         }
     }
 
-    /// Returns the report of the last step that was taken; `None` before the first one.
+    /// Returns what the method did in all steps that were taken so far.
     #[must_use]
-    pub fn report(&self) -> Option<StepReport> {
-        self.report
+    pub fn stats(&self) -> Stats {
+        self.stats
     }
 
     /// Takes a step, or its halves where it overshoots.
@@ -164,17 +164,17 @@ impl Implicit {
         system: &mut System,
         dt_s: f64,
         parts: u32,
-        report: &mut StepReport,
+        stats: &mut Stats,
     ) -> Result<(), Failure> {
         let is_last = parts >= StepError::PARTS_MAX;
-        if self.part(system, dt_s, is_last, report)? {
+        if self.part(system, dt_s, is_last, stats)? {
             return Ok(());
         }
         if is_last {
             return Err(Failure::Implicit(StepError::Overshot));
         }
         for _ in 0..2 {
-            self.divide(system, 0.5 * dt_s, 2 * parts, report)?;
+            self.divide(system, 0.5 * dt_s, 2 * parts, stats)?;
         }
         Ok(())
     }
@@ -189,7 +189,7 @@ impl Implicit {
         system: &mut System,
         dt_s: f64,
         is_last: bool,
-        report: &mut StepReport,
+        stats: &mut Stats,
     ) -> Result<bool, Failure> {
         let System {
             positions: x,
@@ -208,16 +208,14 @@ impl Implicit {
         self.blow(model, (x, v), known, counters);
         self.layout.follow(x.len(), &|visit| model.each_pair(visit));
         let stage = self.begin(model, x, v, known, dt_s);
-        let solution = self.solve(model, weights, (x, v), stage, report, counters);
+        let solution = self.solve(model, weights, (x, v), stage, stats, counters);
         let velocity = |acceleration: f64| acceleration * stage.h / stage.dragged;
-        report.method = known.map_or(Method::BackwardEuler, |_| Method::Bdf2);
-        report.solver_iterations += u64::from(solution.iterations);
-        (report.residual, report.limit) = (velocity(solution.residual), velocity(solution.limit));
+        let residual = velocity(solution.residual);
         let is_solved = solution.residual <= solution.limit;
         if !is_solved {
             return Err(Failure::Implicit(StepError::NotConverged {
-                residual: report.residual,
-                limit: report.limit,
+                residual,
+                limit: velocity(solution.limit),
                 solver_iterations: solution.iterations,
             }));
         }
@@ -238,7 +236,9 @@ impl Implicit {
         self.history.note((x, v), reached, dt_s);
         x.copy_from_slice(reached.0);
         v.copy_from_slice(reached.1);
-        report.parts += 1;
+        stats.parts += 1;
+        stats.first_order_parts += u64::from(known.is_none());
+        stats.residual_max_m_per_s = stats.residual_max_m_per_s.max(residual);
         Ok(true)
     }
 
@@ -320,7 +320,7 @@ impl Implicit {
         weights: Weights<'_>,
         (x, v): (&[Point], &[Vector]),
         stage: Stage,
-        report: &mut StepReport,
+        stats: &mut Stats,
         counters: &mut Counters,
     ) -> Solution {
         self.forces.clear();
@@ -350,12 +350,13 @@ impl Implicit {
                 |i| x[i].coords.amax(),
             );
             sums += 2 + u64::from(solution.iterations);
+            stats.solver_iterations += u64::from(solution.iterations);
             counters.matrix_products += 1 + u64::from(solution.iterations);
             if !solution.is_indefinite || is_clamped {
-                report.clamped += clamped;
+                stats.clamped += clamped;
                 break solution;
             }
-            report.indefinite += 1;
+            stats.indefinite += 1;
             is_clamped = true;
         };
         counters.force_evaluations += 1;
@@ -453,14 +454,18 @@ impl Solver for Implicit {
         system.scratch.is_fresh = false;
         // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first_bad(&system.positions, &system.velocities).is_none())?;
-        let mut report = StepReport::default();
-        self.divide(system, dt_s, 1, &mut report)?;
+        let mut stats = self.stats;
+        self.divide(system, dt_s, 1, &mut stats)?;
         let ratio_max = system.model.stretch_ratio_max;
         let too_long = system.model.longest_beyond(&system.positions, ratio_max);
         Failure::unless(too_long.is_none())?;
-        system.counters.overshoots += u64::from(report.parts > 1);
-        self.report = Some(report);
+        system.counters.overshoots += u64::from(stats.parts > self.stats.parts + 1);
+        self.stats = stats;
         Ok(())
+    }
+
+    fn quality(&self, _system: &System) -> Quality {
+        Quality::Implicit(self.stats)
     }
 }
 

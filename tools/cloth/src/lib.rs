@@ -90,14 +90,16 @@ pub use fabric::{Bending, Copies, Fabric, Unbend, Weave};
 pub use guard::Frequency;
 pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
-pub use method::{ImplicitStats, LimiterStats, Method, Quality};
-pub use provot::{Limiter, LimiterReport, Provot};
+pub use method::Method;
+pub use provot::{Limiter, Provot};
 pub use sheet::{Cloth, ClothError, EnergyLedger};
 pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
-pub use solver::{Abilities, Failure, SettingError, Solver, StepError, StepReport};
+pub use solver::{
+    Abilities, Failure, LimiterStats, Quality, SettingError, Solver, StepError, StepReport,
+};
 pub use stability::{frequency_bound, recommended_step_s, stable_step_s};
 pub use step_length::{FRAME_S, Softness, suggested_step_s};
 pub use system::{Counters, FeatureVisits, System, SystemError, Unstable, Visits};

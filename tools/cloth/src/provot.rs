@@ -11,7 +11,7 @@
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::motion::{accelerate, force_scale, kick_and_drift};
-use crate::solver::{Abilities, Failure, SettingError, Solver};
+use crate::solver::{Abilities, Failure, LimiterStats, Quality, SettingError, Solver};
 use crate::spring;
 use crate::system::{Recorded, System};
 
@@ -21,7 +21,7 @@ use crate::system::{Recorded, System};
 #[derive(Clone, Copy, Debug)]
 pub struct Provot {
     limiter: Option<Limiter>,
-    report: LimiterReport,
+    stats: LimiterStats,
 }
 
 /// The settings of Provot's limiter.
@@ -47,23 +47,6 @@ impl Default for Limiter {
     }
 }
 
-/// The report of Provot's limiter in one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LimiterReport {
-    /// The number of passes over all constraints. The last pass may have changed nothing.
-    pub passes: u32,
-    /// The largest stretch ratio met in the first pass, which is about the one before limiting.
-    pub stretch_ratio_before: f64,
-    /// Whether a stretch ratio was above the limit, so that particles were moved.
-    pub has_shortened: bool,
-    /// The excess of the largest stretch ratio over the limit after limiting; 0 if the limit is
-    /// met.
-    pub excess: f64,
-    /// Whether the limit cannot be met because held particles are too far apart: the passes ran
-    /// out, and the last one removed less than a hundredth of the excess.
-    pub is_infeasible: bool,
-}
-
 impl Default for Provot {
     fn default() -> Provot {
         Provot::new(Limiter::default())
@@ -76,7 +59,7 @@ impl Provot {
     pub fn new(limiter: Limiter) -> Provot {
         Provot {
             limiter: Some(limiter),
-            report: LimiterReport::default(),
+            stats: LimiterStats::default(),
         }
     }
 
@@ -85,14 +68,14 @@ impl Provot {
     pub fn unlimited() -> Provot {
         Provot {
             limiter: None,
-            report: LimiterReport::default(),
+            stats: LimiterStats::default(),
         }
     }
 
-    /// Returns the report of the limiter in the last step.
+    /// Returns what the limiter did in all steps so far.
     #[must_use]
-    pub fn report(&self) -> LimiterReport {
-        self.report
+    pub fn stats(&self) -> LimiterStats {
+        self.stats
     }
 
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
@@ -114,9 +97,9 @@ impl Provot {
         }
         model.clear_multipliers();
         let ratio_max = limiter.stretch_ratio_max;
-        let mut report = LimiterReport::default();
+        let (mut passes, mut has_shortened) = (0, false);
         let (mut largest, mut last) = (f64::INFINITY, f64::INFINITY);
-        while report.passes < limiter.passes_max && largest > ratio_max {
+        while passes < limiter.passes_max && largest > ratio_max {
             last = largest;
             largest = 0.0;
             counters.visits.project += model.stretch.len() as u64;
@@ -125,13 +108,10 @@ impl Provot {
                 let met = spring::limit(colour, &model.inverse_masses, ratio_max, positions);
                 largest = largest.max(met);
             }
-            if report.passes == 0 {
-                report.stretch_ratio_before = largest;
-                report.has_shortened = largest > ratio_max;
-            }
-            report.passes += 1;
+            has_shortened |= largest > ratio_max;
+            passes += 1;
         }
-        if limiter.rewrites_velocities && report.has_shortened {
+        if limiter.rewrites_velocities && has_shortened {
             let moved = positions.iter().zip(&scratch.before);
             for (v, (x, before)) in velocities.iter_mut().zip(moved) {
                 *v += (x - before) / dt_s;
@@ -139,14 +119,20 @@ impl Provot {
         }
         model.scale_multipliers(force_scale(model, dt_s));
         model.recorded = Recorded::Limiter;
+        self.stats.passes += u64::from(passes);
+        self.stats.steps_limited += u64::from(has_shortened);
         if largest > ratio_max {
             let stretches = system.stretches().iter();
             let longest = stretches.map(|id| system.stretch_ratio(id));
             let longest = longest.fold(0.0, f64::max);
-            report.excess = (longest - ratio_max).max(0.0);
-            report.is_infeasible = report.excess > 1e-9 && last - largest < 0.01 * report.excess;
+            let excess = (longest - ratio_max).max(0.0);
+            // Rounding leaves some 1e-14 of an edge that was shortened to the limit.
+            let is_short = excess > 1e-9;
+            let is_infeasible = is_short && last - largest < 0.01 * excess;
+            self.stats.steps_short += u64::from(is_short);
+            self.stats.steps_infeasible += u64::from(is_infeasible);
+            self.stats.excess_max = self.stats.excess_max.max(excess);
         }
-        self.report = report;
     }
 }
 
@@ -161,6 +147,11 @@ impl Solver for Provot {
         };
         let given = limiter.stretch_ratio_max;
         SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "1 or more")
+    }
+
+    fn quality(&self, _system: &System) -> Quality {
+        let limited = self.limiter.map(|_| Quality::Limiter(self.stats));
+        limited.unwrap_or(Quality::Unknown)
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {

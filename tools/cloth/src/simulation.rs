@@ -40,9 +40,8 @@ use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
 use crate::balance::Balance;
-use crate::method::MethodSolver;
 use crate::sheet::Cloth;
-use crate::solver::{StepError, StepReport};
+use crate::solver::{Solver, StepError, StepReport};
 use crate::step_length::{speed_m_per_s, suggested_step_s};
 use crate::tearing::{Tear, TearReport};
 
@@ -77,7 +76,7 @@ pub struct Simulation {
     pub(crate) sheet: Sheet,
     pub(crate) cloth: Cloth,
     pub(crate) tear: Option<Tear>,
-    pub(crate) solver: MethodSolver,
+    pub(crate) solver: Box<dyn Solver + Send + Sync>,
     pub(crate) step_s: f64,
     steps: u64,
     /// The time that was asked for and is not simulated, up to half a step either way.
@@ -114,7 +113,7 @@ impl Simulation {
         let masses = sheet.masses.clone();
         let cloth = Cloth::new(mesh, &sheet.positions, masses, def.fabric);
         let mut cloth = cloth.map_err(SimulationError::Cloth)?;
-        let solver = MethodSolver::new(&def.method);
+        let solver = def.method.solver();
         let mut strengths = def.strengths;
         if strengths.is_empty() {
             strengths.resize(mesh.vertex_count(), 1.0);
@@ -306,8 +305,8 @@ impl Simulation {
     ) -> Result<StepReport, StepError> {
         let cloth = &mut self.cloth;
         let report = match balance {
-            None => cloth.step(&mut self.solver, self.step_s)?,
-            Some(balance) => cloth.step_observed(&mut self.solver, self.step_s, balance)?,
+            None => cloth.step(&mut *self.solver, self.step_s)?,
+            Some(balance) => cloth.step_observed(&mut *self.solver, self.step_s, balance)?,
         };
         self.steps += 1;
         if let Some(log) = &mut self.log {

@@ -51,6 +51,13 @@ pub trait Solver {
     fn check(&self) -> Result<(), SettingError> {
         Ok(())
     }
+
+    /// Returns how far the steps so far fell short of the model. `system` is the one that the method
+    /// has just advanced. By default nothing is known.
+    fn quality(&self, system: &System) -> Quality {
+        let _ = system;
+        Quality::Unknown
+    }
 }
 
 impl<S: Solver + ?Sized> Solver for &mut S {
@@ -64,6 +71,10 @@ impl<S: Solver + ?Sized> Solver for &mut S {
 
     fn check(&self) -> Result<(), SettingError> {
         (**self).check()
+    }
+
+    fn quality(&self, system: &System) -> Quality {
+        (**self).quality(system)
     }
 }
 
@@ -99,6 +110,47 @@ impl Abilities {
             ..Abilities::default()
         }
     }
+}
+
+/// How far the steps of a method fell short of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Quality {
+    /// For Verlet: the number of particles that are too light for the step, and so are carried by
+    /// their neighbours at present.
+    Carried(usize),
+    /// For Provot's model: what its limiter did.
+    Limiter(LimiterStats),
+    /// For PBD: the root mean square of the present strains. PBD treats constraints as rigid, so
+    /// all strain is an error that its sweeps left.
+    Strain(f64),
+    /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
+    /// substep used and the one that the springs have now
+    /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
+    Residual(f64),
+    /// For an implicit method: what its linear solver did.
+    Implicit(implicit::Stats),
+    /// The method does not say, as Provot's model without its limiter.
+    Unknown,
+}
+
+/// What the limiter of [`Provot`](crate::Provot) did in all steps so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LimiterStats {
+    /// The number of passes over all constraints.
+    pub passes: u64,
+    /// The number of steps (or substeps) after which some edge was still longer than the limit.
+    pub steps_short: u64,
+    /// The number of steps (or substeps) in which further passes no longer helped, because held
+    /// particles are too far apart: the passes ran out, and the last one removed less than a hundredth
+    /// of the excess.
+    pub steps_infeasible: u64,
+    /// The largest excess of a stretch ratio over the limit after a step; 0 if the limit was always
+    /// met.
+    pub excess_max: f64,
+    /// The number of steps (or substeps) in which some edge was longer than the limit and was
+    /// shortened.
+    pub steps_limited: u64,
 }
 
 /// A setting with a value that a method cannot use.

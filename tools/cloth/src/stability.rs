@@ -135,12 +135,12 @@ fn reach_out(system: &mut System) {
 
 /// The largest step that is taken whole by this method with the present wind; `None` if nothing
 /// limits it.
-pub(crate) fn whole_step_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
+pub(crate) fn whole_step_s(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<f64> {
     limit(system, solver).map(|(springs_s, air)| with_air(springs_s, air))
 }
 
 /// The step that suits this method with the air that blows now; `None` where it carries nothing.
-pub(crate) fn suited_s(system: &mut System, solver: &impl Solver) -> Option<f64> {
+pub(crate) fn suited_s(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<f64> {
     if !solver.abilities().carries_light {
         return None;
     }

@@ -2,7 +2,7 @@
 //! a step.
 
 use crate::fabric::Fabric;
-use crate::method::{Method, MethodSolver};
+use crate::method::Method;
 use crate::stability;
 use crate::system::System;
 
@@ -23,7 +23,7 @@ const OF_WIND: f64 = 0.7;
 /// method, and a system through which a pull travels at the speed c = √(k/ρ), in m/s. It is 1/60 s
 /// divided by a whole number.
 pub fn suggested_step_s(method: &Method, system: &mut System, speed_m_per_s: f64) -> f64 {
-    let solver = &MethodSolver::new(method);
+    let solver = &*method.solver();
     let suited_s = stability::suited_s(system, solver);
     let part = match method {
         Method::Provot(_) => OF_SPRINGS,

@@ -52,7 +52,7 @@
 //! with shorter ones.
 
 use crate::motion::{accelerate, kick, kick_and_drift};
-use crate::solver::{Abilities, Failure, Solver};
+use crate::solver::{Abilities, Failure, Quality, Solver};
 use crate::stability::{carried_count, weigh_for};
 use crate::system::System;
 
@@ -128,6 +128,10 @@ impl Solver for Verlet {
         kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
         Failure::unless(began_sane && is_sane)
+    }
+
+    fn quality(&self, system: &System) -> Quality {
+        Quality::Carried(carried_count(system))
     }
 }
 

@@ -26,7 +26,7 @@
 use tearmesh::geometry::{Vector, length};
 
 use crate::motion::{finish, finish_and_predict, force_scale, predict};
-use crate::solver::{Abilities, Failure, SettingError, Solver};
+use crate::solver::{Abilities, Failure, Quality, SettingError, Solver};
 use crate::spring::{self, Correction};
 use crate::system::{Recorded, System};
 
@@ -101,6 +101,10 @@ impl Solver for Xpbd {
         conclude(system, substep_s, Recorded::SpringForces);
         Ok(())
     }
+
+    fn quality(&self, system: &System) -> Quality {
+        Quality::Residual(self.residual_n(system))
+    }
 }
 
 /// Position based dynamics. It ignores the stiffness of constraints in N/m: they are rigid, or as
@@ -168,6 +172,10 @@ impl Solver for Pbd {
         sweep(system, self.sweeps, self.fractions(), 0.0)?;
         conclude(system, dt_s, Recorded::RigidForces);
         Ok(())
+    }
+
+    fn quality(&self, system: &System) -> Quality {
+        Quality::Strain(system.strain_rms())
     }
 }
 

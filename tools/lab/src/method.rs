@@ -177,7 +177,7 @@ impl Method {
     #[must_use]
     pub fn solver(&self) -> Box<dyn Solver> {
         match self.settings() {
-            Some(settings) => Box::new(settings.solver()),
+            Some(settings) => settings.solver(),
             None if self.family == Family::Rk4 => Box::new(Rk4::new()),
             None if self.family == Family::PlainVerlet => Box::new(PlainVerlet::new()),
             None => Box::new(Provot::unlimited()),

@@ -1,4 +1,4 @@
-//! The settings of an implicit step, its report, and the reasons for refusing it.
+//! The settings of an implicit method, what it did, and the reasons for refusing a step.
 
 use std::fmt;
 
@@ -38,24 +38,23 @@ pub enum Method {
     Bdf2,
 }
 
-/// The report of an implicit step. If it was divided, counts are those of all parts.
+/// What an implicit method did in all steps so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StepReport {
-    /// The method of the last part: backward Euler for the first step of BDF2.
-    pub method: Method,
-    /// The number of parts into which the step was divided because it overshot; 1 if it was not.
-    pub parts: u32,
-    /// The number of matrices that proved to be indefinite.
-    pub indefinite: u32,
-    /// The number of terms, in the matrices that were used, that had a part dropped.
+pub struct Stats {
+    /// The number of steps, each part counted of one that was divided because it overshot.
+    pub parts: u64,
+    /// The number of parts by backward Euler: with BDF2, those that had no last step to go on from.
+    pub first_order_parts: u64,
+    /// The number of matrices that proved to be indefinite, which happens to cloth under
+    /// compression.
+    pub indefinite: u64,
+    /// The number of terms, in the matrices that were used, that had a part dropped because the
+    /// matrix was indefinite.
     pub clamped: u64,
-    /// The residual of the linear equation of the last part, as a bound on the rms error of the
-    /// velocity in m/s.
-    pub residual: f64,
-    /// The residual that was allowed in the last part, in m/s.
-    pub limit: f64,
     /// The number of conjugate gradient iterations.
     pub solver_iterations: u64,
+    /// The largest residual of a part, as a bound on the rms error of the velocity in m/s.
+    pub residual_max_m_per_s: f64,
 }
 
 /// The reason why an implicit step was not taken. Positions and velocities are unchanged.

@@ -23,10 +23,9 @@ use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::load::{Collider, Loads};
-use crate::method::{MethodSolver, Quality};
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
-use crate::solver::{Solver, StepError};
+use crate::solver::{Quality, Solver, StepError};
 use crate::step_length::{self, Softness, speed_m_per_s};
 use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport};
@@ -231,7 +230,7 @@ impl Run {
 
     /// Has a solver of the caller's take the steps of a run that has not begun, in place of the
     /// method of the scene. The step is still the scene's: [`Scene::step_s`], or one that suits its
-    /// method. [`Run::quality`] is then [`Quality::Unknown`].
+    /// method.
     ///
     /// ```
     /// use tearmesh_cloth::Verlet;
@@ -256,7 +255,7 @@ impl Run {
     #[must_use]
     pub fn with_solver(mut self, solver: impl Solver + Send + Sync + 'static) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
-        self.sim.solver = MethodSolver::Own(Box::new(solver));
+        self.sim.solver = Box::new(solver);
         self
     }
 
