@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use tearmesh::insert::Plan;
 use tearmesh::{Edits, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split};
 use tearmesh_cloth::{
-    Bending, Cloth, Constraint, Copies, Fabric, Unbend, Unstable, Verlet, Weave, Xpbd, energy,
+    Bending, Cloth, Constraint, Copies, Fabric, Unbend, Unstable, Weave, Xpbd, energy,
     frequency_bound,
 };
 
 use crate::parts::cloths::{cloth, momentum};
 use crate::parts::vibration::rayleigh_quotient;
-use crate::parts::{gravity, gravity_along_y, mechanical_j, near};
+use crate::parts::{gravity, near};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -88,15 +88,6 @@ fn check(mesh: &Mesh, cloth: &Cloth, bends: bool) {
             "the edge of the constraint of {h}"
         );
     }
-    for family in [system.stretches(), system.bends()] {
-        for particle in 0..system.positions().len() {
-            let mut colours: Vec<usize> = family.of(particle).map(|id| family.colour(id)).collect();
-            let count = colours.len();
-            colours.sort_unstable();
-            colours.dedup();
-            assert_eq!(colours.len(), count, "colours at particle {particle}");
-        }
-    }
     for v in mesh.vertices() {
         let mass = cloth.masses().at(v).max(cloth.masses().unit());
         assert_eq!(system.masses()[v.index()], mass);
@@ -135,10 +126,6 @@ fn check_triangles(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
         let [w_u, w_v] = triangle.derivatives([p, q, r]);
         assert!((w_u - warp).norm() < 1e-9, "{w_u} {warp}");
         assert!((w_v - normal.cross(&warp)).norm() < 1e-9);
-        let [w_u, w_v] = triangle.derivatives(corners.map(|v| cloth.at(v)));
-        let [warp, weft] = cloth.warp_weft_stretch(f);
-        near(warp, w_u.norm(), 1e-9);
-        near(weft, w_v.norm(), 1e-9);
     }
     triangles.len()
 }
@@ -306,7 +293,6 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         check(&mesh, &cloth);
         let mut edits = Edits::new();
         for _ in 0..40 {
-            let (before, ledger) = (mechanical_j(cloth.system()), cloth.ledger());
             let elastic = energy::elastic_j(cloth.system());
             let moving = momentum(&cloth);
             let done = edit(&mut mesh, &cloth, &mut edits, &mut random);
@@ -322,11 +308,10 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 Done::Split => {
                     counts[0] += 1;
                     assert_eq!(now, moving, "a split keeps momentum bit for bit");
-                    let made = cloth.ledger().split_elastic_j - ledger.split_elastic_j;
-                    assert!(
-                        made == 0.0 || copies == Copies::Whole || with_bends,
-                        "{made}"
-                    );
+                    if copies == Copies::Halved && !with_bends {
+                        let now = energy::elastic_j(cloth.system());
+                        near(now, elastic, 1e-12 * (1.0 + elastic));
+                    }
                     if triangles_alone {
                         assert_eq!(energy::elastic_j(cloth.system()), elastic);
                     }
@@ -346,12 +331,6 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             for (now, moving) in now.iter().zip(&moving) {
                 near(now.to_f64(), moving.to_f64(), 1e-15);
             }
-            let told = cloth.ledger().total_j() - ledger.total_j();
-            near(
-                mechanical_j(cloth.system()) - before,
-                told,
-                1e-12 * (1.0 + before),
-            );
 
             // The bound holds for the cloth as it is now.
             let known = frequency_bound(cloth.system_mut()).omega_rad_per_s;
@@ -485,7 +464,6 @@ fn a_split_by_halves_makes_no_energy_and_the_papers_says_how_much_it_makes() {
             );
         }
         let answer = if copies == Copies::Halved { 0.0 } else { made };
-        near(cloth.ledger().split_elastic_j, answer, 1e-15);
         near(energy::elastic_j(cloth.system()) - before, answer, 1e-13);
         // Particles are lighter, and the bound of frequencies knows.
         assert!(frequency_bound(cloth.system_mut()).omega_rad_per_s >= bound);
@@ -536,7 +514,6 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
         mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
         edits.replay(&mut cloth);
         assert_eq!(sets(&cloth), before);
-        assert_eq!(cloth.ledger().total_j(), 0.0);
     }
 }
 
@@ -597,43 +574,4 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
         error.to_string(),
         "there are 1 positions and 4 masses for 4 vertices"
     );
-}
-
-#[test]
-fn a_hanging_cloth_is_uploaded_while_it_tears() {
-    let (mut mesh, positions) = shapes::grid(8, 8);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
-    let loads = gravity_along_y(2.0);
-    cloth.system_mut().set_loads(loads).expect("loads");
-    cloth.system_mut().when_unstable(Unstable::Substep);
-    (72..81).for_each(|top| cloth.system_mut().hold(top));
-    let mut edits = Edits::new();
-    let (mut splits, mut buffer, mut tail) = (0, Vec::new(), Vec::new());
-    cloth.write_f32(0, &mut buffer);
-    for _ in 0..60 {
-        cloth.step(&mut Verlet::new(), 1.0 / 120.0).expect("a step");
-        let worst = cloth.overstretched(1.05).max_by(|&a, &b| {
-            let ratio = |h| cloth.system().stretch_ratio(cloth.stretch(h));
-            ratio(a).total_cmp(&ratio(b))
-        });
-        let Some(edge) = worst else { continue };
-        let v = mesh.origin(edge);
-        if cloth.free_mass(v).is_none() {
-            continue;
-        }
-        let plane = tearmesh::Plane::new(cloth.at(v), cloth.at(mesh.target(edge)) - cloth.at(v))
-            .expect("a plane");
-        let old = cloth.positions().len();
-        splits += usize::from(
-            split::by_plane(&mut mesh, v, &plane, cloth.positions(), &mut edits).is_some(),
-        );
-        edits.replay(&mut cloth);
-        edits.clear();
-        cloth.write_f32(old, &mut tail);
-        buffer.extend(&tail);
-        assert_eq!(buffer.len(), mesh.vertex_count());
-        check(&mesh, &cloth, false);
-    }
-    assert!(splits > 3, "{splits}");
-    assert_eq!(cloth.system().counters().wind_evaluations, 0);
 }

@@ -69,7 +69,7 @@ fn a_chain_drawn_slowly_stores_half_k_x_squared_over_n() {
                 .step_observed(&mut *solver, dt_s, &mut kept)
                 .expect("a step");
         }
-        let balance = kept.now(&chain, 0.0);
+        let balance = kept.now(&chain);
         let stored_j = 0.5 * 100.0 * by_m * by_m / links as f64;
         println!("{name}: {stored_j} J, {balance:?}");
         // One sweep of XPBD pulls less than the springs are long.
@@ -92,7 +92,7 @@ fn an_edge_between_two_who_are_held_takes_from_the_hand_what_it_stores() {
             pair.step_observed(&mut *solver, 0.001, &mut kept)
                 .expect("a step");
         }
-        let balance = kept.now(&pair, 0.0);
+        let balance = kept.now(&pair);
         // Those who move by the force at the end take a step's share more.
         let given = balance.held_j / 72.0;
         assert!((given - 1.0).abs() < 0.005, "{name}: {given} was given");

@@ -128,7 +128,7 @@ fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
 }
 
 #[test]
-fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
+fn a_tear_keeps_mass_and_momentum_and_makes_energy_with_whole_copies_alone() {
     for copies in [Copies::Halved, Copies::Whole] {
         let fabric = Fabric {
             copies,
@@ -141,28 +141,23 @@ fn a_tear_keeps_mass_and_momentum_and_the_ledger_says_the_rest() {
             *v = Vector::new(random.next(), random.next(), random.next());
         }
         let total = torn.cloth.masses().total();
-        let mut splits = 0;
+        let (mut splits, mut made_j) = (0, 0.0);
         for _ in 0..40 {
             let moving = momentum(&torn.cloth);
-            let (before, ledger) = (
-                mechanical_j(torn.cloth.system()),
-                torn.cloth.ledger().total_j(),
-            );
+            let before = mechanical_j(torn.cloth.system());
             let report = torn.apply();
             splits += report.splits;
-            let told = torn.cloth.ledger().total_j() - ledger;
-            near(mechanical_j(torn.cloth.system()) - before, told, 1e-12);
-            let made = copies == Copies::Whole && report.tear_length_m > 0.0;
-            assert_eq!(told != 0.0, made, "{report:?}");
+            let made = mechanical_j(torn.cloth.system()) - before;
+            let makes = copies == Copies::Whole && report.tear_length_m > 0.0;
+            assert_eq!(made > 1e-9, makes, "{made} {report:?}");
+            assert!(made > -1e-12, "{made}");
+            made_j += made;
             assert_eq!(momentum(&torn.cloth), moving);
             assert_eq!(torn.cloth.masses().total(), total);
             assert!(torn.cloth.masses().ledger().is_balanced());
             torn.cloth.step(&mut Verlet::new(), 1e-3).expect("a step");
         }
-        println!(
-            "{copies:?}: {splits} splits, {:e} J",
-            torn.cloth.ledger().total_j()
-        );
+        println!("{copies:?}: {splits} splits, {made_j:e} J");
         assert!(splits > 20);
     }
 }

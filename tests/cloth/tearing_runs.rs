@@ -355,7 +355,6 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
         assert!(mesh.vertex_count() <= 3 * mesh.face_count());
         assert_eq!(cloth.masses().total(), total, "seed {seed} step {step}");
         assert!(cloth.masses().ledger().is_balanced());
-        assert!(cloth.ledger().total_j().is_finite());
         assert_eq!(cloth.indices(), mesh.indices());
         let finite = |x: &Point| x.iter().all(|x| x.is_finite());
         assert!(cloth.positions().iter().all(finite));

@@ -251,13 +251,10 @@ pub(crate) struct StepQuantity {
     pub(crate) comparison: Comparison,
 }
 
-/// Energy in joules: what edits made, what edges held as they tore, and the balance of all: what was
+/// Energy in joules: what edges held as they tore, and the balance of all: what was
 /// there when the simulation began, what is there, and the work of everything on the way.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Energy {
-    pub(crate) split_elastic: f64,
-    pub(crate) insert_elastic: f64,
-    pub(crate) insert_kinetic: f64,
     pub(crate) torn_edges: f64,
     pub(crate) began: f64,
     pub(crate) kinetic: f64,

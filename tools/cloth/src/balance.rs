@@ -15,7 +15,7 @@
 //! | leading | −∫ (f + m g) · dx of each led particle | its valence a step while it moves |
 //! | holding, letting go | the change of the particle's own energy ([`Balance::handle`]) | its valence |
 //! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
-//! | edits | [`EnergyLedger`](crate::EnergyLedger) | nothing |
+//! | edits | the change of all energy by an edit ([`Balance::add_edits`]) | a pass over constraints |
 //! | the method | the remainder | nothing |
 //!
 //! Trapezoids err by O(Δt²), as does velocity Verlet itself. The implicit methods and those that project
@@ -51,7 +51,7 @@ pub(crate) const AIR_S: f64 = 1e-3;
 /// for _ in 0..100 {
 ///     stone.step_observed(&mut Verlet::new(), 0.01, &mut balance)?;
 /// }
-/// let balance = balance.now(&stone, 0.0);
+/// let balance = balance.now(&stone);
 /// assert!((balance.kinetic_j - 50.0).abs() < 1e-9);
 /// assert!((balance.gravity_j - 50.0).abs() < 1e-9);
 /// assert!(balance.made_j().abs() < 1e-9);
@@ -112,6 +112,7 @@ pub struct Balance {
     began_j: f64,
     contact_began_j: f64,
     potential_began_j: f64,
+    edits_j: f64,
     /// Up to the last step that was taken, and up to now.
     taken: Work,
     work: Work,
@@ -154,11 +155,16 @@ impl Balance {
         }
     }
 
-    /// Returns the balance up to now. `edits_j` is the energy that edits added since it began:
-    /// [`EnergyLedger::made_j`](crate::EnergyLedger::made_j) of a cloth, and zero for a system
-    /// without a mesh. Costs a pass over all constraints.
+    /// Adds the energy in joules that edits of the mesh made: the difference of
+    /// [`energy::total_j`](crate::energy::total_j) before and after. Without this call it counts as
+    /// made by the method.
+    pub fn add_edits(&mut self, made_j: f64) {
+        self.edits_j += made_j;
+    }
+
+    /// Returns the balance up to now. Costs a pass over all constraints.
     #[must_use]
-    pub fn now(&self, system: &System, edits_j: f64) -> EnergyBalance {
+    pub fn now(&self, system: &System) -> EnergyBalance {
         let mut work = self.work;
         work.add_air(work.sampled.unwrap_or_default());
         EnergyBalance {
@@ -170,7 +176,7 @@ impl Balance {
             wind_j: work.wind_j,
             drag_j: work.drag_j,
             colliders_j: system.contact_j.unwrap_or(0.0) - self.contact_began_j,
-            edits_j,
+            edits_j: self.edits_j,
         }
     }
 

@@ -109,16 +109,6 @@ impl Constraints {
         self.len() == 0
     }
 
-    /// Returns the colour of a constraint, from 0.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    #[must_use]
-    pub fn colour(&self, id: ConstraintId) -> usize {
-        self.slot(id).0
-    }
-
     /// Returns the constraint with this id.
     ///
     /// # Panics

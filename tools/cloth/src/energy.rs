@@ -2,13 +2,20 @@
 
 use tearmesh::geometry::dot;
 
-use crate::constraint::{Constraint, Constraints};
-use crate::system::{Family, Recorded, System};
+use crate::constraint::Constraints;
+use crate::system::{Recorded, System};
 
 /// Returns the elastic energy of all constraints and triangles, in joules.
 #[must_use]
 pub fn elastic_j(system: &System) -> f64 {
     system.model.elastic_j(&system.positions)
+}
+
+/// Returns the kinetic and elastic energy and the potential of gravity together, in joules. The
+/// difference before and after an edit of the mesh is what the edit made.
+#[must_use]
+pub fn total_j(system: &System) -> f64 {
+    kinetic_j(system) + elastic_j(system) + potential_j(system)
 }
 
 /// The elastic energy that the method of the last step stores, in joules: that of the forces which it
@@ -44,13 +51,6 @@ pub(crate) fn potential_j(system: &System) -> f64 {
     };
     let particles = system.positions.iter().zip(&system.model.masses);
     -particles.fold(0.0, |sum, (x, m)| sum + m * dot(gravity, x.coords))
-}
-
-/// The elastic energy of a constraint of a family, in joules, whether it is one of the system or
-/// was.
-pub(crate) fn elastic_of_j(system: &System, family: Family, constraint: &Constraint) -> f64 {
-    let pairs = system.model.pairs(family);
-    pairs.energy_of(constraint, &system.positions)
 }
 
 /// The elastic energy of all that a particle has a part in, in joules.

@@ -192,7 +192,7 @@ pub enum Copies {
     #[default]
     Halved,
     /// Each copy has the full stiffness, as in the paper (Souza et al. 2014 §IV-A). A split then
-    /// adds ½ k (l − L)² per edge, which the [`EnergyLedger`](crate::EnergyLedger) reports.
+    /// adds ½ k (l − L)² per edge.
     Whole,
 }
 

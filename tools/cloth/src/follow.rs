@@ -8,10 +8,9 @@ use tearmesh::{
 };
 
 use crate::constraint::{Constraint, ConstraintId, Constraints};
-use crate::energy;
 use crate::fabric::{Copies, Unbend};
 use crate::sheet::{Cloth, NO_BEND, Piece, weight};
-use crate::system::{Family, System};
+use crate::system::System;
 
 impl Follower for Cloth {
     fn cursor(&mut self) -> &mut Cursor {
@@ -36,12 +35,10 @@ impl Cloth {
         edit.pass_on(&mut self.rest);
         self.reweigh(old);
         self.reweigh(new);
-        let mut gained = 0.0;
         for link in split.torn {
             let id = self.stretch(link.stayed);
             let mut copy = self.system.model.stretch.get(id);
             let mut memory = self.system.model.stretch.memory(id);
-            let before = energy::elastic_of_j(&self.system, Family::Stretch, &copy);
             if self.fabric.copies == Copies::Halved {
                 copy.stiffness_n_per_m *= 0.5;
                 memory.multiplier *= 0.5;
@@ -49,14 +46,12 @@ impl Cloth {
                 self.system.model.stretch.set_stiffness(id, half);
                 self.system.model.stretch.remember(id, memory);
             }
-            let each = energy::elastic_of_j(&self.system, Family::Stretch, &copy);
-            gained += 2.0 * each - before;
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
             let copied = self.system.model.stretch.add(copy);
             self.system.model.stretch.remember(copied, memory);
             self.join(link.stayed, id);
             self.join(link.moved, copied);
-            gained -= self.unbend(link.stayed);
+            self.unbend(link.stayed);
         }
         for &corner in split.corners {
             self.system.model.faces[corner.index()] = new as u32;
@@ -76,22 +71,16 @@ impl Cloth {
                 self.scratch.ids.clear();
                 self.scratch.ids.extend(self.system.model.bend.of(particle));
                 for i in 0..self.scratch.ids.len() {
-                    gained -= self.unbend(self.bent_edge[self.scratch.ids[i].index()][0]);
+                    self.unbend(self.bent_edge[self.scratch.ids[i].index()][0]);
                 }
             }
         }
         self.relabel_triangles(split.corners, new);
-        self.ledger.split_elastic_j += gained;
         self.system.touched();
     }
 
     fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
         let (kept, gone) = (merge.kept.index(), merge.gone.index());
-        let elastic =
-            energy::elastic_at_j(&self.system, kept) + energy::elastic_at_j(&self.system, gone);
-        let system = &self.system;
-        let kinetic = energy::kinetic_at_j(system, kept) + energy::kinetic_at_j(system, gone);
-        let lifted = energy::potential_at_j(system, kept) + energy::potential_at_j(system, gone);
         for &corner in merge.corners {
             self.system.model.faces[corner.index()] = kept as u32;
         }
@@ -117,13 +106,8 @@ impl Cloth {
             }
         }
         // Across a seam: between particles that are neither of the two.
-        let mut across = 0.0;
-        if !self.bend_of.is_empty() {
-            for link in merge.sewn {
-                if let Some(id) = self.bend_across([link.stayed, link.moved]) {
-                    across += self.bend_energy(id);
-                }
-            }
+        for link in merge.sewn {
+            self.bend_across([link.stayed, link.moved]);
         }
         join_particles(&mut self.system, kept, gone, merge.share);
         if let Some(renumbered) = merge.renumbered {
@@ -139,22 +123,15 @@ impl Cloth {
         if apart {
             self.measure_again(kept);
         }
-        self.ledger.moved_elastic_j += energy::elastic_at_j(&self.system, kept) + across - elastic;
-        self.ledger.gravity_j += energy::potential_at_j(&self.system, kept) - lifted;
-        self.ledger.merge_kinetic_j += energy::kinetic_at_j(&self.system, kept) - kinetic;
     }
 
     fn slide(&mut self, slide: &Slide<'_>, edit: &Edit<'_>) {
         let (particle, toward) = (slide.vertex.index(), slide.toward.index());
-        let elastic = energy::elastic_at_j(&self.system, particle);
-        let lifted = energy::potential_at_j(&self.system, particle);
         let x = &mut self.system.positions;
         x[particle] = between(x[particle], x[toward], slide.t);
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
         self.measure_again(particle);
-        self.ledger.gravity_j += energy::potential_at_j(&self.system, particle) - lifted;
-        self.ledger.moved_elastic_j += energy::elastic_at_j(&self.system, particle) - elastic;
     }
 
     /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
@@ -185,16 +162,12 @@ impl Cloth {
     }
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
-        let count = self.system.positions.len();
         let mut room = std::mem::take(&mut self.scratch);
         room.vertices.clear();
         let corners = insert.children.iter().flat_map(|child| child.vertices);
         room.vertices.extend(corners.map(VertexId::index));
         room.vertices.sort_unstable();
         room.vertices.dedup();
-        let there = room.vertices.iter().filter(|&&v| v < count);
-        let kinetic = there.map(|&v| energy::kinetic_at_j(&self.system, v));
-        let kinetic: f64 = kinetic.sum();
 
         self.push_particles(edit);
         edit.pass_on(&mut self.masses);
@@ -202,9 +175,6 @@ impl Cloth {
         for &v in &room.vertices {
             self.reweigh(v);
         }
-        let vertices = room.vertices.iter();
-        let now = vertices.map(|&v| energy::kinetic_at_j(&self.system, v));
-        self.ledger.insert_kinetic_j += now.sum::<f64>() - kinetic;
 
         room.pieces.clear();
         for child in insert.children {
@@ -221,7 +191,6 @@ impl Cloth {
         if !self.bend_of.is_empty() {
             self.bend_of.resize(half_edges, NO_BEND);
         }
-        let mut gained = 0.0;
         for child in insert.children {
             for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
                 self.system.model.faces[h.index()] = v.index() as u32;
@@ -231,12 +200,11 @@ impl Cloth {
             }
         }
         // First what goes, then what comes: an id may be given again.
+        let (stretch, bend) = (|piece: &Piece| piece.stretch, |piece: &Piece| piece.bend);
+        let model = &mut self.system.model;
         for (family, id_of) in [
-            (
-                Family::Stretch,
-                (|piece| piece.stretch) as fn(&Piece) -> ConstraintId,
-            ),
-            (Family::Bend, |piece| piece.bend),
+            (&mut model.stretch, stretch as fn(&Piece) -> ConstraintId),
+            (&mut model.bend, bend),
         ] {
             let divided = room.pieces.iter().filter(|piece| piece.divided).map(id_of);
             room.ids.clear();
@@ -244,19 +212,17 @@ impl Cloth {
             room.ids.sort_unstable();
             room.ids.dedup();
             for &id in &room.ids {
-                let gone = self.system.model.family_mut(family).remove(id);
-                gained -= energy::elastic_of_j(&self.system, family, &gone);
+                family.remove(id);
             }
         }
         for edge in room.pieces.chunk_by(|one, other| one.ends == other.ends) {
-            gained += if edge[0].is_kept {
-                self.keep(edge)
+            if edge[0].is_kept {
+                self.keep(edge);
             } else {
-                self.put(edge)
-            };
+                self.put(edge);
+            }
         }
-        gained += self.insert_triangles(insert);
-        self.ledger.insert_elastic_j += gained;
+        self.insert_triangles(insert);
         self.system.touched();
         self.scratch = room;
     }
@@ -273,21 +239,18 @@ impl Cloth {
     }
 
     /// An edge that was there stays; what is across it may be another vertex.
-    fn keep(&mut self, edge: &[Piece]) -> f64 {
-        let mut gained = 0.0;
+    fn keep(&mut self, edge: &[Piece]) {
         for piece in edge {
             self.join(piece.half_edge, piece.stretch);
             let id = piece.bend;
             if id == NO_BEND {
                 continue;
             }
-            gained -= self.bend_energy(id);
             if piece.apex_before != piece.apex {
                 let bend = &mut self.system.model.bend;
                 bend.repoint(id, piece.apex_before, piece.apex);
             }
             self.measure_bend(id);
-            gained += self.bend_energy(id);
             self.bend_of[piece.half_edge.index()] = id;
             for h in &mut self.bent_edge[id.index()] {
                 if *h == piece.half_edge_before {
@@ -295,11 +258,10 @@ impl Cloth {
                 }
             }
         }
-        gained
     }
 
     /// A part of a divided edge, or a new edge inside a face.
-    fn put(&mut self, edge: &[Piece]) -> f64 {
+    fn put(&mut self, edge: &[Piece]) {
         let piece = &edge[0];
         // A part that rounding left no length for has next to none.
         let shortest = piece.length * f64::EPSILON;
@@ -309,37 +271,24 @@ impl Cloth {
             rest_length_m,
             stiffness_n_per_m: piece.stiffness_by_length / rest_length_m,
         };
-        let mut gained = energy::elastic_of_j(&self.system, Family::Stretch, &constraint);
         let id = self.system.model.stretch.add(constraint);
         for piece in edge {
             self.join(piece.half_edge, id);
         }
-        if let ([one, other], false) = (edge, self.bend_of.is_empty())
-            && let Some(id) = self.bend_across([one.half_edge, other.half_edge])
-        {
-            gained += self.bend_energy(id);
+        if let [one, other] = edge {
+            self.bend_across([one.half_edge, other.half_edge]);
         }
-        gained
     }
 
-    /// Takes away the bend constraint across an edge, and returns the energy that it held.
-    fn unbend(&mut self, h: HalfEdgeId) -> f64 {
-        let Some(&id) = self.bend_of.get(h.index()) else {
-            return 0.0;
-        };
-        if id == NO_BEND {
-            return 0.0;
+    /// Takes away the bend constraint across an edge.
+    fn unbend(&mut self, h: HalfEdgeId) {
+        let id = self.bend_of.get(h.index()).copied().unwrap_or(NO_BEND);
+        if id != NO_BEND {
+            for h in self.bent_edge[id.index()] {
+                self.bend_of[h.index()] = NO_BEND;
+            }
+            self.system.model.bend.remove(id);
         }
-        for h in self.bent_edge[id.index()] {
-            self.bend_of[h.index()] = NO_BEND;
-        }
-        let gone = self.system.model.bend.remove(id);
-        energy::elastic_of_j(&self.system, Family::Bend, &gone)
-    }
-
-    fn bend_energy(&self, id: ConstraintId) -> f64 {
-        let bend = self.system.model.bend.get(id);
-        energy::elastic_of_j(&self.system, Family::Bend, &bend)
     }
 
     /// The edge of a child that starts at this corner.

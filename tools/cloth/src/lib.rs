@@ -92,7 +92,7 @@ pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
 pub use method::Method;
 pub use provot::{Limiter, Provot};
-pub use sheet::{Cloth, ClothError, EnergyLedger};
+pub use sheet::{Cloth, ClothError};
 pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,

@@ -7,51 +7,10 @@ pub use error::ClothError;
 use tearmesh::geometry::{Point, length};
 use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
-use crate::balance::Balance;
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::System;
-
-/// The energy that edits added to a cloth, in joules; negative if they removed energy.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EnergyLedger {
-    /// The elastic energy added by splits: that of full-stiffness copies by the paper's rule, minus
-    /// the energy in removed bend constraints.
-    pub split_elastic_j: f64,
-    /// The elastic energy added by insertions: that of new edges inside strained faces. The parts
-    /// of a divided edge or triangle together hold the energy of the whole.
-    pub insert_elastic_j: f64,
-    /// The kinetic energy added by insertions. Velocities are interpolated, so momentum is
-    /// conserved, but differences between corners are partly lost.
-    pub insert_kinetic_j: f64,
-    /// The elastic energy added by merges and slides.
-    pub moved_elastic_j: f64,
-    /// The kinetic energy added by merges. It is negative, since two particles become one as in an
-    /// inelastic impact.
-    pub merge_kinetic_j: f64,
-    /// The potential energy of gravity added by merges and slides, which move weight. The other
-    /// fields do not include it.
-    pub gravity_j: f64,
-}
-
-impl EnergyLedger {
-    /// Returns all energy that edits added, including the potential energy of gravity.
-    #[must_use]
-    pub fn made_j(&self) -> f64 {
-        self.total_j() + self.gravity_j
-    }
-
-    /// Returns all elastic and kinetic energy that edits added.
-    #[must_use]
-    pub fn total_j(&self) -> f64 {
-        self.split_elastic_j
-            + self.insert_elastic_j
-            + self.insert_kinetic_j
-            + self.moved_elastic_j
-            + self.merge_kinetic_j
-    }
-}
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
 /// with a [`Weave`](crate::Weave) a triangle for each face.
@@ -89,18 +48,14 @@ impl EnergyLedger {
 ///     cloth.step(&mut solver, 1.0 / 60.0)?;
 /// }
 ///
-/// // Split a vertex while it hangs, and upload what changed.
+/// // Split a vertex while it hangs.
 /// let mut edits = Edits::new();
 /// let v = VertexId::new(40).unwrap();
 /// let plane = Plane::new(cloth.positions()[40], Vector::y())?;
-/// let old = cloth.positions().len();
 /// split::by_plane(&mut mesh, v, &plane, cloth.positions(), &mut edits);
 /// edits.replay(&mut cloth);
-/// let mut tail = Vec::new();
-/// cloth.write_f32(old, &mut tail);
-/// assert_eq!((tail.len(), cloth.indices()), (1, mesh.indices()));
+/// assert_eq!(cloth.indices(), mesh.indices());
 /// assert!(cloth.masses().ledger().is_balanced());
-/// assert_eq!(cloth.ledger().total_j(), 0.0);
 /// cloth.step(&mut solver, 1.0 / 60.0)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -119,7 +74,6 @@ pub struct Cloth {
     pub(super) bend_of: Vec<ConstraintId>,
     /// By bend constraint: the two half-edges that it is across.
     pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
-    pub(super) ledger: EnergyLedger,
     pub(super) scratch: EditScratch,
     pub(super) seen: Cursor,
 }
@@ -173,7 +127,6 @@ impl Cloth {
             edge_of: Vec::new(),
             bend_of: Vec::new(),
             bent_edge: Vec::new(),
-            ledger: EnergyLedger::default(),
             scratch: EditScratch::default(),
             seen,
         };
@@ -256,21 +209,6 @@ impl Cloth {
         self.system.step(solver, dt_s)
     }
 
-    /// Advances the cloth by `dt_s` seconds, with a balance of its energy, as
-    /// [`System::step_observed`] does.
-    ///
-    /// # Errors
-    ///
-    /// [`StepError`]; positions and velocities are then as they were before.
-    pub fn step_observed(
-        &mut self,
-        solver: &mut (impl Solver + ?Sized),
-        dt_s: f64,
-        balance: &mut Balance,
-    ) -> Result<StepReport, StepError> {
-        self.system.step_observed(solver, dt_s, balance)
-    }
-
     /// Returns the particles and constraints; vertex v is particle `v.index()`.
     #[must_use]
     pub fn system(&self) -> &System {
@@ -320,19 +258,6 @@ impl Cloth {
         &self.system.model.faces
     }
 
-    /// Writes the positions of the vertices from index `start` on, rounded to `f32`, into a buffer
-    /// that is cleared first. With `start` = 0 this is a whole vertex buffer, and otherwise the
-    /// tail that edits added.
-    ///
-    /// # Panics
-    ///
-    /// If there are fewer than `start` vertices.
-    pub fn write_f32(&self, start: usize, buffer: &mut Vec<[f32; 3]>) {
-        buffer.clear();
-        let tail = &self.positions()[start..];
-        buffer.extend(tail.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]));
-    }
-
     /// Returns the stretch constraint of an edge, given as either of its half-edges.
     ///
     /// # Panics
@@ -361,12 +286,6 @@ impl Cloth {
             let id = self.stretch(h);
             self.edge(id) == h && self.system.stretch_ratio(id) > ratio
         })
-    }
-
-    /// Returns the energy that edits of the mesh added to the cloth.
-    #[must_use]
-    pub fn ledger(&self) -> EnergyLedger {
-        self.ledger
     }
 
     pub(super) fn rest_length(&self, [a, b]: [usize; 2]) -> f64 {
@@ -400,12 +319,13 @@ impl Cloth {
 
     /// Adds the bend constraint across an edge, unless there is no distance across it.
     pub(super) fn bend_across(&mut self, edge: [HalfEdgeId; 2]) -> Option<ConstraintId> {
+        let bend = self.fabric.bend?;
         let apexes = edge.map(|h| self.system.model.faces[h.prev().index()] as usize);
         let rest_length_m = self.rest_length(apexes);
         if rest_length_m <= 0.0 {
             return None;
         }
-        let stiffness_n_per_m = self.fabric.bend?.stiffness_n_per_m(rest_length_m)?;
+        let stiffness_n_per_m = bend.stiffness_n_per_m(rest_length_m)?;
         let id = self.system.model.bend.add(Constraint {
             ends: apexes,
             rest_length_m,

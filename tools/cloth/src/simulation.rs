@@ -303,10 +303,13 @@ impl Simulation {
         &mut self,
         balance: Option<&mut Balance>,
     ) -> Result<StepReport, StepError> {
-        let cloth = &mut self.cloth;
+        let (cloth, solver) = (&mut self.cloth, &mut *self.solver);
         let report = match balance {
-            None => cloth.step(&mut *self.solver, self.step_s)?,
-            Some(balance) => cloth.step_observed(&mut *self.solver, self.step_s, balance)?,
+            None => cloth.step(solver, self.step_s)?,
+            Some(balance) => {
+                let system = cloth.system_mut();
+                system.step_observed(solver, self.step_s, balance)?
+            }
         };
         self.steps += 1;
         if let Some(log) = &mut self.log {

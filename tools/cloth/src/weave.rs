@@ -61,15 +61,12 @@ impl Cloth {
         }
     }
 
-    /// Divides triangles among the children of their faces, and returns the energy gained: zero
-    /// to rounding, since children deform as their parents did.
-    pub(super) fn insert_triangles(&mut self, insert: &Insert<'_>) -> f64 {
+    /// Divides triangles among the children of their faces.
+    pub(super) fn insert_triangles(&mut self, insert: &Insert<'_>) {
         if self.fabric.weave.is_none() {
-            return 0.0;
+            return;
         }
-        let mut gained = 0.0;
         for family in insert.families() {
-            gained -= self.triangle_energy(family.parent().index());
             for child in family.children() {
                 let triangle = self.woven(child.face);
                 let triangles = &mut self.system.model.triangles;
@@ -81,10 +78,8 @@ impl Cloth {
                     assert_eq!(index, face, "triangles are in step with faces");
                     triangles.push(triangle);
                 }
-                gained += self.triangle_energy(child.face.index());
             }
         }
-        gained
     }
 
     /// Makes the triangles around a particle anew, whose place at rest has changed.
@@ -95,10 +90,6 @@ impl Cloth {
             let triangle = self.woven(FaceId::new(t).expect("I1: ids fit"));
             self.system.model.triangles.set(t, triangle);
         }
-    }
-
-    fn triangle_energy(&self, t: usize) -> f64 {
-        self.system.model.triangles.energy_of(t, self.positions())
     }
 
     /// Returns the largest stretch of a face in any direction, as a multiple of the length at rest:
@@ -112,43 +103,12 @@ impl Cloth {
     /// If there is no such face.
     #[must_use]
     pub fn principal_stretch(&self, f: FaceId) -> f64 {
-        match self.derivatives(f) {
-            Some(derivatives) => larger_singular_value(derivatives),
-            None => self.edge_stretch(f),
+        let vertices = self.face_vertices(f);
+        let material = self.material(f);
+        if let Some(triangle) = material.and_then(|m| Triangle::new(vertices, m, [0.0; 3])) {
+            let now = vertices.map(|v| self.positions()[v as usize]);
+            return larger_singular_value(triangle.derivatives(now));
         }
-    }
-
-    /// Returns the stretch of a face along warp and along weft, |`w_u`| and |`w_v`|, as multiples
-    /// of the lengths at rest. Shear does not enter.
-    ///
-    /// The direction of warp is that of [`Weave::warp`](crate::Weave::warp), projected onto the face at
-    /// rest. Weft is perpendicular to it. If the
-    /// fabric sets no direction, warp runs along the x-axis, or along the y-axis in faces whose
-    /// normal is nearer to the x-axis than to the other axes.
-    ///
-    /// For a face without area at rest, both numbers are the largest stretch ratio of its edges.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such face.
-    #[must_use]
-    pub fn warp_weft_stretch(&self, f: FaceId) -> [f64; 2] {
-        match self.derivatives(f) {
-            Some(derivatives) => derivatives.map(length),
-            None => [self.edge_stretch(f); 2],
-        }
-    }
-
-    /// `w_u` and `w_v` of a face; `None` where it has no area at rest.
-    fn derivatives(&self, f: FaceId) -> Option<[Vector; 2]> {
-        let material = self.material(f)?;
-        let triangle = Triangle::new(self.face_vertices(f), material, [0.0; 3])?;
-        let now = self.face_vertices(f).map(|v| self.positions()[v as usize]);
-        Some(triangle.derivatives(now))
-    }
-
-    /// The largest stretch ratio of a face's edges.
-    fn edge_stretch(&self, f: FaceId) -> f64 {
         let ratio = |h: HalfEdgeId| self.system.stretch_ratio(self.stretch(h));
         f.half_edges().map(ratio).into_iter().fold(0.0, f64::max)
     }

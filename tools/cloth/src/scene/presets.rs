@@ -9,16 +9,11 @@ use crate::method::Method;
 use crate::{Tearing, Threshold};
 
 impl Scene {
-    /// The mass of shirt cotton per area, in kg/m², which the built-in scenes use.
-    pub const AREAL_DENSITY_KG_PER_M2: f64 = 0.15;
     /// The stiffness of an edge in the built-in scenes, in N/m. It is soft for cotton, so that a
     /// pull shows.
     pub const STRETCH_N_PER_M: f64 = 1000.0;
     /// The magnitude of gravity in the built-in scenes except [`Scene::trouser`], in m/s².
     pub const GRAVITY_M_PER_S2: f64 = 9.81;
-    /// The rate at which drag slows velocities in [`Scene::fall`], [`Scene::hang`] and
-    /// [`Scene::flag`], in 1/s.
-    pub const DRAG_PER_S: f64 = 0.5;
     /// The ratio of length to rest length at which an edge tears in built-in scenes with tearing.
     pub const STRETCH_RATIO: f64 = 1.5;
 
@@ -30,9 +25,9 @@ impl Scene {
             solver: Method::Verlet,
             step_s: None,
             fabric: Fabric::new(Scene::STRETCH_N_PER_M),
-            areal_density_kg_per_m2: Scene::AREAL_DENSITY_KG_PER_M2,
+            areal_density_kg_per_m2: 0.15, // Of shirt cotton.
             gravity_m_per_s2: up.vector() * -Scene::GRAVITY_M_PER_S2,
-            drag_per_s: Scene::DRAG_PER_S,
+            drag_per_s: 0.5,
             wind: None,
             colliders: Vec::new(),
             holds: Vec::new(),
@@ -160,11 +155,11 @@ impl Scene {
             until_s: None,
             moves: vec![
                 (0.0, Vector::zeros()),
-                (Scene::TROUSER_S, depth * (side * 1.05 * height)),
+                (TROUSER_S, depth * (side * 1.05 * height)),
             ],
         };
         Scene {
-            duration_s: Scene::TROUSER_S,
+            duration_s: TROUSER_S,
             gravity_m_per_s2: Vector::zeros(),
             drag_per_s: 5.0,
             holds: vec![leg([0.0, 0.45], 1.0), leg([0.55, 1.0], -1.0)],
@@ -172,7 +167,7 @@ impl Scene {
             ..Scene::fall(frame.up)
         }
     }
-
-    /// The duration of a trouser test, in seconds.
-    pub const TROUSER_S: f64 = 4.0;
 }
+
+/// The duration of a trouser test, in seconds.
+const TROUSER_S: f64 = 4.0;

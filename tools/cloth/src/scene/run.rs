@@ -22,10 +22,11 @@ use self::held::Held;
 use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
+use crate::energy;
 use crate::load::{Collider, Loads};
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
-use crate::solver::{Quality, Solver, StepError};
+use crate::solver::{Quality, StepError};
 use crate::step_length::{self, Softness, speed_m_per_s};
 use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport};
@@ -228,37 +229,6 @@ impl Run {
         self
     }
 
-    /// Has a solver of the caller's take the steps of a run that has not begun, in place of the
-    /// method of the scene. The step is still the scene's: [`Scene::step_s`], or one that suits its
-    /// method.
-    ///
-    /// ```
-    /// use tearmesh_cloth::Verlet;
-    /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-    /// use tearmesh::shapes;
-    ///
-    /// let (mesh, positions) = shapes::grid(4, 4);
-    /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    /// let run = || Run::new(mesh.clone(), &positions, Scene::hang(&frame), &frame);
-    /// let (mut one, mut other) = (run()?, run()?.with_solver(Verlet::new()));
-    /// for _ in 0..100 {
-    ///     one.step()?;
-    ///     other.step()?;
-    /// }
-    /// assert_eq!(one.cloth().positions(), other.cloth().positions());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Panics
-    ///
-    /// If a step was taken already.
-    #[must_use]
-    pub fn with_solver(mut self, solver: impl Solver + Send + Sync + 'static) -> Run {
-        assert_eq!(self.tally.steps, 0, "the run has not begun");
-        self.sim.solver = Box::new(solver);
-        self
-    }
-
     /// Displaces the vertices of a run that has not begun, each by its offset in metres. The rest
     /// state does not change, and holds take the vertices where they then are.
     ///
@@ -339,7 +309,7 @@ impl Run {
         while let Some(cut) = self.scene.cuts.get(self.next_cut)
             && held::step_at(cut.at_s, self.step_s()) <= now
         {
-            let before = momentum(self.cloth());
+            let before = Measured::of(self.cloth());
             let scissor = &self.scissors[self.next_cut];
             let made = self.sim.cut_measured(scissor, cut.method);
             let report = made.map_err(|error| StepError::BlowUp {
@@ -347,7 +317,7 @@ impl Run {
                 at: BlowUpSite::Particle(error.unusable()[0].0.index()),
             })?;
             self.tally.cut_splits += report.splits as u64;
-            self.compare(before);
+            self.compare(&before);
             self.cuts_made.push(CutMade {
                 number: self.next_cut,
                 report,
@@ -376,22 +346,23 @@ impl Run {
         if found.overstretched == 0 {
             return found;
         }
-        let momentum = momentum(self.cloth());
+        let before = Measured::of(self.cloth());
         let report = self.sim.tear_found(found);
         self.tally.splits += report.splits as u64;
         self.tally.edge_energy_j += report.edge_energy_j;
         self.tally.steps_at_cap += u64::from(report.cap_hit);
         if report.splits > 0 {
-            self.compare(momentum);
+            self.compare(&before);
         }
         report
     }
 
-    /// Notes how far the momentum is now from what it was.
-    fn compare(&mut self, (before, size): (Vector, f64)) {
-        let (after, _) = momentum(self.cloth());
-        if size > 0.0 {
-            let drift = length(after - before) / size;
+    /// Notes what edits made of momentum and energy.
+    fn compare(&mut self, before: &Measured) {
+        let after = Measured::of(self.cloth());
+        self.balance.add_edits(after.energy_j - before.energy_j);
+        if before.size > 0.0 {
+            let drift = length(after.momentum - before.momentum) / before.size;
             self.tally.momentum_drift = self.tally.momentum_drift.max(drift);
         }
     }
@@ -472,8 +443,7 @@ impl Run {
     /// Returns the energy balance of the scene so far. Costs a pass over all constraints.
     #[must_use]
     pub fn energy_balance(&self) -> EnergyBalance {
-        let cloth = self.cloth();
-        self.balance.now(cloth.system(), cloth.ledger().made_j())
+        self.balance.now(self.cloth().system())
     }
 
     /// Returns the energy that the method made out of nothing; `None` unless it exceeded a hundredth
@@ -613,14 +583,27 @@ fn longest_ratio(system: &System) -> f64 {
     ratios.fold(0.0, f64::max)
 }
 
-/// The momentum, and the sum of its parts' sizes, in kg m/s.
-fn momentum(cloth: &Cloth) -> (Vector, f64) {
-    let system = cloth.system();
-    let parts = system.velocities().iter().zip(system.masses());
-    let mut sum = (Vector::zeros(), 0.0);
-    for (&v, &m) in parts {
-        sum.0 += v * m;
-        sum.1 += length(v) * m;
+/// What edits are to keep.
+struct Measured {
+    /// In kg m/s.
+    momentum: Vector,
+    /// The sum of the sizes of its parts.
+    size: f64,
+    energy_j: f64,
+}
+
+impl Measured {
+    fn of(cloth: &Cloth) -> Measured {
+        let system = cloth.system();
+        let mut measured = Measured {
+            momentum: Vector::zeros(),
+            size: 0.0,
+            energy_j: energy::total_j(system),
+        };
+        for (&v, &m) in system.velocities().iter().zip(system.masses()) {
+            measured.momentum += v * m;
+            measured.size += length(v) * m;
+        }
+        measured
     }
-    sum
 }

@@ -5,10 +5,9 @@ use tearmesh::{Cursor, Edit, Edits, Follower, HalfEdgeId, Mesh, PerVertex, Verte
 
 use super::load::{find_stretched, strain};
 use super::{Tearing, TearingError};
-use crate::energy;
 use crate::force;
 use crate::sheet::Cloth;
-use crate::system::{Family, Recorded};
+use crate::system::Recorded;
 
 /// The state of tearing of a cloth: the strength of each vertex, and the tips of its tears.
 ///
@@ -378,11 +377,8 @@ fn whole_edge(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 fn energy_j(cloth: &Cloth, edge: HalfEdgeId) -> f64 {
     let (system, id) = (cloth.system(), cloth.stretch(edge));
     let spring = system.stretches().get(id);
-    if system.model.recorded == Recorded::SpringForces {
-        let extension = strain(system, id) * spring.rest_length_m;
-        return 0.5 * spring.stiffness_n_per_m * extension * extension;
-    }
-    energy::elastic_of_j(system, Family::Stretch, &spring)
+    let extension = strain(system, id) * spring.rest_length_m;
+    0.5 * spring.stiffness_n_per_m * extension * extension
 }
 
 /// The way from one end of an edge to the other, at rest.
