@@ -131,6 +131,17 @@ impl<T: Blend> DrawBuffers<T> {
         DrawBuffers { seen, ..self }
     }
 
+    /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
+    /// nothing.
+    pub fn reserve(&mut self, vertices: usize) {
+        let corners = self.indices.len();
+        self.slots_of.reserve(vertices);
+        self.slots.reserve(corners - self.slots.len()); // Each has a corner.
+        self.empty.reserve(corners);
+        self.changed_slots.reserve(corners);
+        self.changed_corners.reserve(corners);
+    }
+
     /// Returns the number of slots, which is the number of vertices in the GPU's vertex buffer.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -404,6 +415,13 @@ struct Marks {
 }
 
 impl Marks {
+    /// Makes room for the numbers below `count`.
+    fn reserve(&mut self, count: usize) {
+        self.is_marked
+            .resize(count.max(self.is_marked.len()), false);
+        self.list.reserve(count - self.list.len());
+    }
+
     fn set(&mut self, number: u32) {
         let index = number as usize;
         if index >= self.is_marked.len() {
@@ -416,7 +434,8 @@ impl Marks {
 
     /// Those below a limit, ascending; none is marked any more.
     fn take(&mut self, limit: usize) -> Vec<u32> {
-        let mut list = std::mem::take(&mut self.list);
+        let mut list = self.list.clone();
+        self.list.clear(); // Its memory is kept.
         for &number in &list {
             self.is_marked[number as usize] = false;
         }

@@ -11,7 +11,7 @@
 
 use std::fmt;
 
-use crate::incidence::Incidence;
+use crate::incidence::{Incidence, room_for};
 
 /// The id of a constraint within its family, displayed as `c7`. It is stable until the constraint
 /// is removed; a later constraint may then reuse it.
@@ -95,6 +95,23 @@ impl Constraints {
             lists: Incidence::new(particles),
             ..Constraints::default()
         }
+    }
+
+    /// Makes room for so many particles and constraints in all. A colour that is first free has k others
+    /// before it that are taken at either end, so that of C constraints few can have a late one: at a
+    /// time no more than 2 C/(k + 2).
+    pub(crate) fn reserve(&mut self, particles: usize, constraints: usize) {
+        let valences = (0..=self.lists.last_particle()).map(|particle| self.of(particle).count());
+        let colours = 2 * valences.max().unwrap_or(0);
+        self.colours
+            .resize_with(colours.max(self.colours.len()), Colour::default);
+        room_for(&mut self.taken, self.colours.len() + 1);
+        for (k, colour) in self.colours.iter_mut().enumerate() {
+            colour.reserve((particles / 2).min(2 * constraints / (k + 2)));
+        }
+        room_for(&mut self.slots, constraints);
+        room_for(&mut self.free, constraints);
+        self.lists.reserve(particles, constraints);
     }
 
     /// Returns the number of constraints.
@@ -282,6 +299,16 @@ impl Colour {
         let numbers = self.rest.iter().zip(&self.stiffness);
         let springs = self.ends.iter().zip(numbers);
         springs.map(|(&[a, b], (&rest, &stiffness))| ([a as usize, b as usize], rest, stiffness))
+    }
+
+    fn reserve(&mut self, count: usize) {
+        room_for(&mut self.ids, count);
+        room_for(&mut self.ends, count);
+        let numbers = [&mut self.rest, &mut self.stiffness, &mut self.compliance];
+        let left_behind = [&mut self.multipliers, &mut self.ratios];
+        for column in numbers.into_iter().chain(left_behind) {
+            room_for(column, count);
+        }
     }
 
     fn push(&mut self, id: u32, constraint: Constraint, memory: Memory) {

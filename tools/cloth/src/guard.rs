@@ -44,6 +44,7 @@
 
 use tearmesh::geometry::Point;
 
+use crate::incidence::room_for;
 use crate::mass_scaling::MassScaling;
 use crate::system::counters::Counters;
 use crate::system::model::Model;
@@ -121,6 +122,18 @@ impl Default for Guard {
 impl Guard {
     /// How many times the suited step is admitted whole.
     pub(crate) const WHOLE: f64 = 2.0;
+
+    /// Makes room for so many particles, and springs between them.
+    pub(crate) fn reserve(&mut self, particles: usize, springs: usize) {
+        self.carry.reserve(particles, springs);
+        let lists = [&mut self.sums, &mut self.rates];
+        for list in lists
+            .into_iter()
+            .chain([&mut self.vector, &mut self.product])
+        {
+            room_for(list, particles);
+        }
+    }
 
     /// The system is another one.
     pub(crate) fn forget(&mut self) {

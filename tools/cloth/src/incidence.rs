@@ -24,6 +24,12 @@ impl<const ENDS: usize> Incidence<ENDS> {
         }
     }
 
+    /// Makes room for so many particles and constraints in all.
+    pub(crate) fn reserve(&mut self, particles: usize, constraints: usize) {
+        room_for(&mut self.first, particles);
+        room_for(&mut self.next, constraints);
+    }
+
     /// The constraints of a particle, and which of their ends it is.
     pub(crate) fn of(&self, particle: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let mut at = self.first[particle];
@@ -75,6 +81,11 @@ impl<const ENDS: usize> Incidence<ENDS> {
         debug_assert_eq!(self.first[particle], NONE, "a removed particle is free");
         self.first.swap_remove(particle);
     }
+}
+
+/// Makes room in a list for so many in all.
+pub(crate) fn room_for<T>(list: &mut Vec<T>, count: usize) {
+    list.reserve(count.saturating_sub(list.len()));
 }
 
 #[cfg(test)]

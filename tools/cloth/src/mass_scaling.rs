@@ -29,6 +29,8 @@
 
 use std::ops::{AddAssign, Mul};
 
+use crate::incidence::room_for;
+
 /// What particles weigh in a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MassScaling {
@@ -90,6 +92,15 @@ impl MassScaling {
         for (inverse, &w) in self.inverse.iter_mut().zip(inverse_masses) {
             *inverse = if w > 0.0 { 1.0 / *inverse } else { 0.0 };
         }
+    }
+
+    /// Makes room for so many particles, and springs between them.
+    pub(crate) fn reserve(&mut self, particles: usize, springs: usize) {
+        room_for(&mut self.inverse, particles);
+        room_for(&mut self.stars, particles);
+        room_for(&mut self.legs, 2 * springs);
+        room_for(&mut self.is_carried, particles);
+        room_for(&mut self.light, particles);
     }
 
     /// Has a particle carried by its neighbours that are not, unless it weighs what it needs.

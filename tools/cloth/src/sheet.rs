@@ -9,6 +9,7 @@ use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Copies, Fabric};
+use crate::incidence::room_for;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::System;
 
@@ -179,6 +180,20 @@ impl Cloth {
                 given: rest_length_m,
             })
         }
+    }
+
+    /// Makes room for all splits that can follow, of which each leaves every vertex a face, so that
+    /// neither they allocate nor a step by a method that keeps its room in the system: all but
+    /// [`Implicit`](crate::Implicit). (Only a colour beyond those that the present valence of vertices
+    /// needs would take room of its own.) Costs some hundred bytes per face.
+    pub fn reserve(&mut self) {
+        let corners = self.stretch_of.len();
+        let splits = corners.saturating_sub(self.system.positions.len());
+        self.masses.reserve(splits);
+        self.rest.reserve(splits);
+        room_for(&mut self.edge_of, corners);
+        room_for(&mut self.scratch.ids, self.bent_edge.len());
+        self.system.reserve(corners, corners);
     }
 
     /// Declares that this cloth belongs to the mesh as it was at the cursor `seen` of its log.

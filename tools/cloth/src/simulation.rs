@@ -94,8 +94,8 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Creates the simulation of a cloth that is at rest where it is. Takes linear time, and reserves
-    /// room in the mesh, its log, positions and masses for all that can tear: three vertices per face.
+    /// Creates the simulation of a cloth that is at rest where it is. Takes linear time. If the cloth may
+    /// tear, room is reserved for all that can: three vertices per face, some kilobytes each.
     ///
     /// # Errors
     ///
@@ -118,7 +118,7 @@ impl Simulation {
         if strengths.is_empty() {
             strengths.resize(mesh.vertex_count(), 1.0);
         }
-        let tear = match def.tearing {
+        let mut tear = match def.tearing {
             None => None,
             Some(tearing) => {
                 let tear = Tear::new(&cloth, tearing);
@@ -140,7 +140,16 @@ impl Simulation {
         let mut buffers = ClothBuffers::new(mesh, cloth.positions());
         buffers.draw = buffers.draw.starting_at(seen);
         let seams = Seams::of(mesh, seen);
-        sheet.reserve();
+        let mut strengths = PerVertex::new(strengths).starting_at(seen);
+        let mut events = Vec::new();
+        if let Some(tear) = &mut tear {
+            tear.reserve(mesh);
+            cloth.reserve();
+            let splits = sheet.reserve();
+            strengths.reserve(splits);
+            buffers.draw.reserve(splits);
+            events.reserve(splits);
+        }
         Ok(Simulation {
             sheet,
             cloth,
@@ -149,13 +158,13 @@ impl Simulation {
             step_s,
             steps: 0,
             owed_s: 0.0,
-            strengths: PerVertex::new(strengths).starting_at(seen),
+            strengths,
             hands: Hands::starting_at(seen),
             seams,
             healing: Healing::starting_at(seen),
             buffers,
             pieces_seen: seen,
-            events: Vec::new(),
+            events,
             log,
         })
     }
@@ -259,8 +268,8 @@ impl Simulation {
     /// step is made up for by the next call; what the budget leaves out is not, so that a slow
     /// machine shows slow motion and never falls behind for good.
     ///
-    /// Allocates nothing while nothing is sewn, once the method has taken a step, but for the room that
-    /// the lists of particles and constraints need when something tears.
+    /// Allocates nothing while nothing is sewn, whatever tears, once the method has taken a step; but for
+    /// [`Method::Implicit`](crate::Method::Implicit), whose matrix grows when something tears.
     ///
     /// # Errors
     ///

@@ -18,6 +18,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::guard::Guard;
+use crate::incidence::room_for;
 use crate::load::{Loads, Path};
 use crate::pair;
 use crate::triangle::{Triangle, Triangles};
@@ -165,6 +166,35 @@ impl System {
             contact_j: None,
             changes: 0,
         }
+    }
+
+    /// Makes room for so many particles and stretch constraints in all, and for steps of them.
+    pub(crate) fn reserve(&mut self, particles: usize, stretches: usize) {
+        let (model, scratch) = (&mut self.model, &mut self.scratch);
+        for points in [
+            &mut self.positions,
+            &mut scratch.positions,
+            &mut scratch.before,
+        ] {
+            room_for(points, particles);
+        }
+        let vectors = [&mut self.velocities, &mut scratch.velocities];
+        for vectors in vectors.into_iter().chain([&mut scratch.accelerations]) {
+            room_for(vectors, particles);
+        }
+        if model.loads.wind.is_some() {
+            room_for(&mut scratch.predicted, particles);
+            room_for(&mut scratch.areas, particles);
+        }
+        room_for(&mut model.masses, particles);
+        room_for(&mut model.inverse_masses, particles);
+        room_for(&mut model.held, particles);
+        let (bends, triangles) = (model.bend.len(), model.triangles.as_slice().len());
+        model.stretch.reserve(particles, stretches);
+        model.bend.reserve(particles, bends);
+        model.triangles.reserve(particles);
+        self.guard
+            .reserve(particles, stretches + bends + 3 * triangles);
     }
 
     /// Adds a stretch constraint between two particles, with its rest length in metres and its

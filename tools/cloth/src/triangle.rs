@@ -276,6 +276,11 @@ impl Triangles {
         }
     }
 
+    /// Makes room for so many particles in all.
+    pub(crate) fn reserve(&mut self, particles: usize) {
+        self.lists.reserve(particles, self.list.len());
+    }
+
     pub(crate) fn as_slice(&self) -> &[Triangle] {
         &self.list
     }

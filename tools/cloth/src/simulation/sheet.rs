@@ -33,14 +33,16 @@ impl Sheet {
         })
     }
 
-    /// Makes room for all splits that can follow: each leaves every vertex a face, so V ≤ 3F.
-    pub(super) fn reserve(&mut self) {
+    /// Makes room for all splits that can follow: each leaves every vertex a face, so V ≤ 3F. Returns
+    /// how many.
+    pub(super) fn reserve(&mut self) -> usize {
         let corners = self.mesh.half_edge_count();
         let splits = corners.saturating_sub(self.mesh.vertex_count());
         self.mesh.reserve(splits);
         self.positions.reserve(splits);
         self.masses.reserve(splits);
         self.edits.reserve(splits, 2 * corners, corners);
+        splits
     }
 
     /// Brings positions and masses up to date with the log, and all these followers.

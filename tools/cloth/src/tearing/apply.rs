@@ -6,6 +6,7 @@ use tearmesh::{Cursor, Edit, Edits, Follower, HalfEdgeId, Mesh, PerVertex, Verte
 use super::load::{find_stretched, strain};
 use super::{Tearing, TearingError};
 use crate::force;
+use crate::incidence::room_for;
 use crate::sheet::Cloth;
 use crate::system::Recorded;
 
@@ -103,7 +104,7 @@ impl Tear {
     /// # Errors
     ///
     /// [`TearingError`] unless there is one positive finite strength per vertex.
-    pub fn with_strengths(self, strengths: Vec<f64>) -> Result<Tear, TearingError> {
+    pub fn with_strengths(mut self, strengths: Vec<f64>) -> Result<Tear, TearingError> {
         let vertices = self.strengths.as_slice().len();
         if strengths.len() != vertices {
             return Err(TearingError::Strengths {
@@ -116,11 +117,25 @@ impl Tear {
             let given = strengths[vertex];
             return Err(TearingError::Strength { vertex, given });
         }
-        Ok(Tear {
-            strengths: PerVertex::new(strengths).starting_at(self.seen),
-            bound: None,
-            ..self
-        })
+        for (index, strength) in strengths.into_iter().enumerate() {
+            let v = VertexId::new(index).expect("I1: ids fit");
+            *self.strengths.at_mut(v) = strength;
+        }
+        self.bound = None;
+        Ok(self)
+    }
+
+    /// Makes room for all splits that can follow ([`Cloth::reserve`]), so that they allocate nothing.
+    pub fn reserve(&mut self, mesh: &Mesh) {
+        let corners = mesh.half_edge_count();
+        let splits = corners.saturating_sub(mesh.vertex_count());
+        self.strengths.reserve(splits);
+        self.tips.reserve(splits);
+        room_for(&mut self.candidates, corners);
+        room_for(&mut self.due, corners);
+        room_for(&mut self.torn, corners);
+        room_for(&mut self.ahead, corners);
+        room_for(&mut self.is_fresh, corners);
     }
 
     /// Returns the rules by which the cloth tears.
