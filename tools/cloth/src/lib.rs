@@ -73,7 +73,6 @@ mod spring;
 mod stability;
 pub mod statistics;
 mod step;
-mod step_length;
 mod system;
 mod tearing;
 mod triangle;
@@ -90,7 +89,7 @@ pub use fabric::{Bending, Copies, Fabric, Unbend, Weave};
 pub use guard::Frequency;
 pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
-pub use method::Method;
+pub use method::{FRAME_S, Method, Softness};
 pub use provot::{Limiter, Provot};
 pub use sheet::{Cloth, ClothError};
 pub use simulation::{
@@ -101,7 +100,6 @@ pub use solver::{
     Abilities, Failure, LimiterStats, Quality, SettingError, Solver, StepError, StepReport,
 };
 pub use stability::{frequency_bound, recommended_step_s, stable_step_s};
-pub use step_length::{FRAME_S, Softness, suggested_step_s};
 pub use system::{Counters, FeatureVisits, System, SystemError, Unstable, Visits};
 pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;

@@ -1,8 +1,13 @@
-//! The methods that advance a cloth, as data with their settings.
+//! The methods that advance a cloth, as data with their settings; the step that suits each, and how soft
+//! those that sweep leave a cloth at a step.
 
+use crate::fabric::Fabric;
+use crate::guard::Guard;
 use crate::implicit::{Implicit, Settings};
 use crate::provot::{Limiter, Provot};
 use crate::solver::Solver;
+use crate::stability::whole_step_s;
+use crate::system::System;
 use crate::verlet::Verlet;
 use crate::xpbd::{Pbd, Xpbd};
 
@@ -73,4 +78,133 @@ impl Method {
             Method::Implicit(settings) => Box::new(Implicit::new(settings)),
         }
     }
+    /// Returns the step in seconds that is taken where a scene or a definition sets none, for a system
+    /// through which a pull travels at the speed c = √(k/ρ), in m/s. It is 1/60 s divided by a whole
+    /// number.
+    pub fn default_step_s(&self, system: &mut System, speed_m_per_s: f64) -> f64 {
+        let (springs_part, part) = match self {
+            Method::Verlet => (1.0 / Guard::WHOLE, 1.0),
+            Method::Provot(_) => (1.0, OF_SPRINGS),
+            Method::Implicit(_) | Method::Pbd(_) | Method::Xpbd(_) => (1.0, OF_WIND),
+        };
+        let stable_s = whole_step_s(system, &*self.solver(), springs_part);
+        let stable_s = stable_s.map_or(LONGEST_S, |stable_s| part * stable_s);
+        let limit_s = match self {
+            Method::Provot(_) | Method::Verlet => stable_s,
+            Method::Implicit(_) => FRAME_S / 4.0,
+            Method::Pbd(_) | Method::Xpbd(_) => {
+                let wanted_s = self.wanted_step_s(system, speed_m_per_s);
+                wanted_s.unwrap_or(LONGEST_S)
+            }
+        };
+        let shortest_s = limit_s.min(stable_s).min(LONGEST_S);
+        FRAME_S / (FRAME_S / shortest_s).ceil().max(1.0)
+    }
+
+    /// The longest step at which a method that sweeps is about as stiff as the fabric. In a sweep a pull
+    /// travels an edge or two of length h, and in the fabric it travels at the speed c = √(k/ρ); so the
+    /// time for a sweep must not be much longer than h/c.
+    pub(crate) fn wanted_step_s(&self, system: &System, speed_m_per_s: f64) -> Option<f64> {
+        let sweeps = match self {
+            Method::Xpbd(xpbd) => f64::from(xpbd.substeps.max(1)) * reach(xpbd.sweeps, 1.0),
+            Method::Pbd(pbd) => reach(pbd.sweeps, pbd.fractions()[0]),
+            Method::Provot(_) | Method::Verlet | Method::Implicit(_) => return None,
+        };
+        let stretches = system.stretches();
+        if stretches.is_empty() {
+            return None;
+        }
+        let lengths = stretches.iter().map(|id| stretches.get(id).rest_length_m);
+        let edge_m = lengths.sum::<f64>() / stretches.len() as f64;
+        Some(sweeps * edge_m / speed_m_per_s)
+    }
+
+    /// At rest a sweep leaves each edge to those that are swept after it: l − L is F/k and in the mean
+    /// F s (w + w′)/2 more, with s = Δt²/(1 + cΔt), so that with τ = s k (w + w′) it is too long by
+    /// τ/2 of what it should be. Of that each further sweep leaves half of τ/(1 + τ): measured, .35, .32,
+    /// .21 and .1 at τ = 2.9, 2, 1 and .5.
+    pub(crate) fn softness(&self, system: &System, step_s: f64) -> Option<Softness> {
+        let Method::Xpbd(xpbd) = self else {
+            return None;
+        };
+        let drag_per_s = system.model.drag_per_s();
+        let stretches = system.stretches();
+        let rates = stretches.iter().map(|id| {
+            let spring = stretches.get(id);
+            let [a, b] = spring.ends.map(|end| system.inverse_masses()[end]);
+            spring.stiffness_n_per_m * (a + b)
+        });
+        let rates = rates.filter(|rate| *rate > 0.0);
+        let (sum, count) = rates.fold((0.0, 0.0), |(sum, count), rate| (sum + rate, count + 1.0));
+        if count == 0.0 {
+            return None;
+        }
+        let extra = |step_s: f64| {
+            let dt_s = step_s / f64::from(xpbd.substeps.max(1));
+            let tau = dt_s * dt_s / (1.0 + dt_s * drag_per_s) * sum / count;
+            let left = tau / (1.0 + tau);
+            tau / 2.0 * power(left / 2.0, xpbd.sweeps.max(1) - 1)
+        };
+        let mut shorter_s = step_s;
+        while extra(shorter_s) > Softness::TOLERABLE {
+            shorter_s *= 0.95;
+        }
+        Some(Softness {
+            extra: extra(step_s),
+            step_s: shorter_s,
+        })
+    }
+}
+
+/// The duration of a frame of film or screen, in seconds. Steps that a run chooses are whole
+/// fractions of it, forces are means over it, and the energy balance is checked once per frame.
+pub const FRAME_S: f64 = 1.0 / 60.0;
+
+/// The longest step in seconds that is chosen for any scene.
+const LONGEST_S: f64 = FRAME_S / 2.0;
+
+/// The part of the longest admitted step that is chosen where springs limit a method, by a bound that
+/// itself is 1.4 times below the limit of even sheets; and where wind alone does. In motion a step that is
+/// all but unstable errs by half.
+const OF_SPRINGS: f64 = 0.925;
+const OF_WIND: f64 = 0.7;
+
+/// The speed at which a pull travels through a fabric of this areal density, c = √(k/ρ), in m/s.
+pub(crate) fn speed_m_per_s(fabric: &Fabric, density_kg_per_m2: f64) -> f64 {
+    (fabric.stretch_n_per_m / density_kg_per_m2).sqrt()
+}
+
+/// How far a pull travels in `sweeps` sweeps without a step in between, as a multiple of a sweep
+/// that corrects everything: each makes good but a part of what the one before left, as in
+/// diffusion.
+fn reach(sweeps: u32, fraction: f64) -> f64 {
+    (f64::from(sweeps.max(1)) * fraction).sqrt()
+}
+
+fn power(mut base: f64, mut exponent: u32) -> f64 {
+    let mut power = 1.0;
+    while exponent > 0 {
+        if exponent % 2 == 1 {
+            power *= base;
+        }
+        base *= base;
+        exponent /= 2;
+    }
+    power
+}
+
+/// The excess softness of a cloth compared with its fabric: the result of
+/// [`Run::softness`](crate::scene::Run::softness).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Softness {
+    /// The mean excess stretch of the edges of a cloth that hangs at rest, as a fraction of the
+    /// stretch that the fabric's stiffness gives.
+    pub extra: f64,
+    /// The longest step in seconds at which the excess is at most a twentieth.
+    pub step_s: f64,
+}
+
+impl Softness {
+    /// The excess stretch up to which no warning is given, as a fraction.
+    pub const TOLERABLE: f64 = 0.05;
 }

@@ -196,14 +196,9 @@ impl Region {
                     let y = (along - place[1]) * frame.extents_m[1];
                     x * x + y * y
                 };
-                let mut nearest: Option<(f64, VertexId)> = None;
-                for v in used.clone() {
-                    let distance = away(v);
-                    if nearest.is_none_or(|(least, _)| distance < least) {
-                        nearest = Some((distance, v));
-                    }
-                }
-                let Some((_, centre)) = nearest else {
+                // Of those that are as near the first one counts.
+                let nearest = used.clone().min_by(|&a, &b| away(a).total_cmp(&away(b)));
+                let Some(centre) = nearest else {
                     return Vec::new();
                 };
                 let reach = radius * frame.size_m();

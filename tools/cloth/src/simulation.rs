@@ -40,9 +40,9 @@ use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
 use crate::balance::Balance;
+use crate::method::speed_m_per_s;
 use crate::sheet::Cloth;
 use crate::solver::{Solver, StepError, StepReport};
-use crate::step_length::{speed_m_per_s, suggested_step_s};
 use crate::tearing::{Tear, TearReport};
 
 /// A cloth with its mesh, in motion.
@@ -133,7 +133,7 @@ impl Simulation {
         system.when_unstable(def.when_unstable);
         let speed_m_per_s = speed_m_per_s(&def.fabric, def.density_kg_per_m2);
         let step_s = def.step_s;
-        let step_s = step_s.unwrap_or_else(|| suggested_step_s(&def.method, system, speed_m_per_s));
+        let step_s = step_s.unwrap_or_else(|| def.method.default_step_s(system, speed_m_per_s));
         if !(step_s > 0.0 && step_s.is_finite()) {
             return Err(SimulationError::Step(step_s));
         }

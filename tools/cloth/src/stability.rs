@@ -34,7 +34,11 @@ pub(crate) fn admit(
     let suited_s = with_air(springs_s / Guard::WHOLE, air);
     let mut report = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
     system.scratch.air_per_s = air.map_or(0.0, |air| air.per_s);
-    while !is_sound(system, dt_s / f64::from(report.substeps)) {
+    loop {
+        weigh_for(system, dt_s / f64::from(report.substeps));
+        if system.guard.is_sound(&system.model, &mut system.counters) {
+            break;
+        }
         limit_s = dt_s / f64::from(2 * report.substeps);
         report = divided(dt_s, limit_s)?;
     }
@@ -92,24 +96,12 @@ pub fn recommended_step_s(system: &mut System) -> f64 {
     system.guard.suited_s(&system.model)
 }
 
-/// The number of particles that were too light for the last step of
-/// [`Verlet`](crate::Verlet), and so were carried by their neighbours.
-pub(crate) fn carried_count(system: &System) -> usize {
-    system.guard.carry().len()
-}
-
 /// Weighs particles for steps of this length.
 pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
     let air = dt_s * system.scratch.air_per_s;
     if system.guard.weigh(&system.model, dt_s, air) {
         system.scratch.is_fresh = false;
     }
-}
-
-/// Whether steps of this length are stable with particles carried for it.
-fn is_sound(system: &mut System, dt_s: f64) -> bool {
-    weigh_for(system, dt_s);
-    system.guard.is_sound(&system.model, &mut system.counters)
 }
 
 /// Returns an upper bound of the frequencies of a system, and the constraint that sets it. It holds in
@@ -133,19 +125,14 @@ fn reach_out(system: &mut System) {
     system.guard.reach_out(&system.model, &system.positions);
 }
 
-/// The largest step that is taken whole by this method with the present wind; `None` if nothing
-/// limits it.
-pub(crate) fn whole_step_s(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<f64> {
-    limit(system, solver).map(|(springs_s, air)| with_air(springs_s, air))
-}
-
-/// The step that suits this method with the air that blows now; `None` where it carries nothing.
-pub(crate) fn suited_s(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<f64> {
-    if !solver.abilities().carries_light {
-        return None;
-    }
-    let springs_s = recommended_step_s(system);
-    Some(with_air(springs_s, air_share(system, solver)))
+/// The largest step in seconds that is taken whole by this method with the present wind, where of that of the
+/// springs alone only a part is to be taken; `None` if nothing limits it.
+pub(crate) fn whole_step_s(
+    system: &mut System,
+    solver: &(impl Solver + ?Sized),
+    springs_part: f64,
+) -> Option<f64> {
+    limit(system, solver).map(|(springs_s, air)| with_air(springs_part * springs_s, air))
 }
 
 /// What the air takes of a step by this method.

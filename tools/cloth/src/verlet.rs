@@ -53,7 +53,7 @@
 
 use crate::motion::{accelerate, kick, kick_and_drift};
 use crate::solver::{Abilities, Failure, Quality, Solver};
-use crate::stability::{carried_count, weigh_for};
+use crate::stability::weigh_for;
 use crate::system::System;
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
@@ -131,7 +131,7 @@ impl Solver for Verlet {
     }
 
     fn quality(&self, system: &System) -> Quality {
-        Quality::Carried(carried_count(system))
+        Quality::Carried(system.guard.carry().len())
     }
 }
 
@@ -139,6 +139,6 @@ impl Solver for Verlet {
 /// in between, or the guards are those of another step.
 fn is_fresh(system: &System, dt_s: f64) -> bool {
     let had_s = system.scratch.guarded_s;
-    let differs = had_s != dt_s && (had_s > 0.0 || carried_count(system) > 0);
+    let differs = had_s != dt_s && (had_s > 0.0 || system.guard.carry().len() > 0);
     system.scratch.is_fresh && !differs
 }

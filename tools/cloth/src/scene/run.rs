@@ -24,10 +24,10 @@ use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::energy;
 use crate::load::{Collider, Loads};
+use crate::method::{Softness, speed_m_per_s};
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
 use crate::solver::{Quality, StepError};
-use crate::step_length::{self, Softness, speed_m_per_s};
 use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport};
 
@@ -412,14 +412,16 @@ impl Run {
     pub fn step_wanted_s(&self) -> Option<f64> {
         let scene = &self.scene;
         let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
-        step_length::wanted_s(&scene.solver, self.cloth().system(), speed_m_per_s)
+        let system = self.cloth().system();
+        scene.solver.wanted_step_s(system, speed_m_per_s)
     }
 
     /// Returns an estimate, from the masses, of how much softer XPBD leaves the cloth than its
     /// fabric at the step of this scene; `None` for other methods. Takes linear time.
     #[must_use]
     pub fn softness(&self) -> Option<Softness> {
-        step_length::softness(&self.scene.solver, self.cloth().system(), self.step_s())
+        let system = self.cloth().system();
+        self.scene.solver.softness(system, self.step_s())
     }
 
     /// Returns the time simulated so far, in seconds.

@@ -9,8 +9,7 @@ use super::HeldVertices;
 use super::run::Run;
 use crate::balance::AIR_S;
 use crate::force;
-use crate::method::Method;
-use crate::step_length::FRAME_S;
+use crate::method::{FRAME_S, Method};
 use crate::tearing::TearReport;
 
 /// A step in which something tore.

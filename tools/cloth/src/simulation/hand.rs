@@ -12,7 +12,7 @@ use tearmesh::geometry::{Point, length};
 use tearmesh::{Cursor, Edit, Follower, Merge, VertexId};
 
 use crate::load::Path;
-use crate::step_length::FRAME_S;
+use crate::method::FRAME_S;
 
 /// The id of a hand of a [`Simulation`](super::Simulation), displayed as `hand 7`. No two hands of
 /// a simulation have the same, at whatever times they hold.

@@ -1,7 +1,7 @@
 //! The runs of a case: references, the gate, and every method at every step, each with an estimate of its cost.
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
-use tearmesh_cloth::{Solver, System, Unstable, suggested_step_s};
+use tearmesh_cloth::{Solver, System, Unstable};
 
 use super::scene::{Case, Until};
 use crate::method::{DEFAULTS, Family, METHODS, Method, STEP_FRACTIONS};
@@ -115,7 +115,7 @@ pub(super) fn plan(case: &Case) -> Vec<Planned> {
     for method in &DEFAULTS {
         let name = format!("{}@default", method.name);
         let settings = method.settings().expect("defaults are methods of scenes");
-        let step_s = suggested_step_s(&settings, &mut case.system(), case.speed_m_per_s());
+        let step_s = settings.default_step_s(&mut case.system(), case.speed_m_per_s());
         add(&name, Role::Method(method, None), step_s, 1.0);
     }
     runs

@@ -10,7 +10,7 @@
 //! weighed against what moves, at the same frames.
 
 use crate::balance::EnergyBalance;
-use crate::step_length::FRAME_S;
+use crate::method::FRAME_S;
 use crate::system::System;
 
 /// The energy that a method made out of nothing.
