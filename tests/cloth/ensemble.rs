@@ -65,6 +65,11 @@ fn one_thread_per_job(jobs: &[Job], member: RunJob<'_>) -> Vec<Member> {
     })
 }
 
+/// Carries out jobs one after the other.
+fn in_series(jobs: &[Job], member: &(dyn Fn(&Job) -> Member + Sync)) -> Vec<Member> {
+    jobs.iter().map(member).collect()
+}
+
 #[test]
 fn an_ensemble_is_the_same_in_any_order_of_its_jobs() {
     let staged = Staged::new(8, Scene::rip);
@@ -72,7 +77,7 @@ fn an_ensemble_is_the_same_in_any_order_of_its_jobs() {
         let ensembles = ensemble::play(staged.subject(), 1..=3, &[ONE, TWO], &|| false, map);
         ensembles.expect("a scene that can be played")
     };
-    let ensembles = play(ensemble::in_series);
+    let ensembles = play(in_series);
     assert_eq!(play(last_job_first), ensembles);
     assert_eq!(play(one_thread_per_job), ensembles);
     let [whole, half] = &ensembles[..] else {
@@ -177,7 +182,7 @@ fn an_interrupted_ensemble_keeps_the_runs_that_were_done() {
     ] {
         let checks = AtomicU32::new(0);
         let stop = || checks.fetch_add(1, Ordering::SeqCst) >= allowed;
-        let ensembles = ensemble::play(staged.subject(), 1..=2, &[ONE], &stop, ensemble::in_series);
+        let ensembles = ensemble::play(staged.subject(), 1..=2, &[ONE], &stop, in_series);
         let ensemble = ensembles.expect("a scene").remove(0);
         let found = [0, 1].map(|i| ensemble.members[i].status);
         assert_eq!(found, statuses, "{allowed} checks");
@@ -194,15 +199,8 @@ fn a_failed_run_is_a_member_and_a_refused_scene_is_an_error() {
         step_s: Some(0.1),
         ..Scene::hang(frame)
     });
-    let play = |staged: &Staged| {
-        ensemble::play(
-            staged.subject(),
-            1..=2,
-            &[ONE],
-            &|| false,
-            ensemble::in_series,
-        )
-    };
+    let play =
+        |staged: &Staged| ensemble::play(staged.subject(), 1..=2, &[ONE], &|| false, in_series);
     let ensembles = play(&unstable).expect("a scene that begins");
     for member in &ensembles[0].members {
         assert_eq!(member.status, MemberStatus::Failed);

@@ -210,8 +210,7 @@ fn a_step_may_err_by_its_order_or_by_a_tenth_of_what_acts_whichever_is_less() {
                     let expected = tenth.min(order);
                     assert!(
                         (limit / expected - 1.0).abs() < 1e-9,
-                        "{method:?} {dt_s}: {} {expected}",
-                        limit
+                        "{method:?} {dt_s}: {limit} {expected}"
                     );
                 }
             }

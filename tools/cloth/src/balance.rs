@@ -113,9 +113,7 @@ pub struct Balance {
     contact_began_j: f64,
     potential_began_j: f64,
     edits_j: f64,
-    /// Up to the last step that was taken, and up to now.
-    taken: Work,
-    work: Work,
+    pub(crate) work: Work,
     /// The forces on those who are led, where the substep began.
     forces: Vec<Vector>,
     /// Room for the force of wind.
@@ -124,7 +122,7 @@ pub struct Balance {
 
 /// The work that was summed up, in joules, and the power of air that was sampled last.
 #[derive(Clone, Copy, Debug, Default)]
-struct Work {
+pub(crate) struct Work {
     held_j: f64,
     wind_j: f64,
     drag_j: f64,
@@ -192,7 +190,6 @@ impl Balance {
         let before_j = energy::at_j(system, particle);
         change(system);
         self.work.held_j += energy::at_j(system, particle) - before_j;
-        self.taken = self.work;
     }
 
     /// Looks at the system before a substep. Particles that are led have the velocity for it already.
@@ -232,15 +229,6 @@ impl Balance {
                     .add_air([0, 1].map(|i| 0.5 * (before[i] + after[i])));
                 self.work.sampled = Some(after);
             }
-        }
-    }
-
-    /// Keeps what was summed up in a step that was taken; forgets that of one that failed.
-    pub(crate) fn ended(&mut self, is_taken: bool) {
-        if is_taken {
-            self.taken = self.work;
-        } else {
-            self.work = self.taken;
         }
     }
 }

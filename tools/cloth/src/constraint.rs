@@ -15,7 +15,7 @@ use crate::incidence::{Incidence, room_for};
 
 /// The id of a constraint within its family, displayed as `c7`. It is stable until the constraint
 /// is removed; a later constraint may then reuse it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstraintId(pub(crate) u32);
 
 impl ConstraintId {
@@ -29,12 +29,6 @@ impl ConstraintId {
 impl fmt::Display for ConstraintId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "c{}", self.0)
-    }
-}
-
-impl fmt::Debug for ConstraintId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(self, f)
     }
 }
 

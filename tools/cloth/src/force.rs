@@ -13,7 +13,7 @@
 use tearmesh::geometry::Vector;
 
 use crate::constraint::ConstraintId;
-use crate::system::{Family, System};
+use crate::system::System;
 
 /// Returns the force in a stretch constraint, computed from its length as k (l − L), in newtons.
 /// Tension is positive.
@@ -23,7 +23,7 @@ use crate::system::{Family, System};
 /// If there is no such constraint.
 #[must_use]
 pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
-    let stretch = system.model.pairs(Family::Stretch);
+    let [stretch, _] = system.model.families();
     stretch.force_of(&stretch.constraints.get(id), &system.positions)
 }
 

@@ -49,7 +49,6 @@ mod bend;
 mod blow_up;
 mod constraint;
 mod crush;
-mod digits;
 pub mod energy;
 mod fabric;
 mod follow;

@@ -4,8 +4,7 @@
 use std::fmt;
 
 use crate::air::AirRate;
-use crate::blow_up::BlowUpSite;
-use crate::digits::Digits;
+use crate::blow_up::{BlowUpSite, Digits};
 use crate::guard::Frequency;
 use crate::implicit::settings as implicit;
 use crate::system::System;

@@ -54,19 +54,17 @@ impl System {
         self.scratch.positions.clone_from(&self.positions);
         self.scratch.velocities.clone_from(&self.velocities);
         let (began_s, contact_j) = (self.elapsed_s, self.contact_j);
+        let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
         let substep_s = dt_s / f64::from(report.substeps);
         for _ in 0..report.substeps {
             if let Err(failure) = advance(self, solver, substep_s, balance.as_deref_mut()) {
                 (self.elapsed_s, self.contact_j) = (began_s, contact_j);
-                if let Some(balance) = balance {
-                    balance.ended(false);
+                if let Some((balance, work)) = balance.zip(work) {
+                    balance.work = work;
                 }
                 return Err(go_back(self, failure));
             }
-        }
-        if let Some(balance) = balance {
-            balance.ended(true);
         }
         self.elapsed_s = began_s + dt_s;
         Ok(report)

@@ -11,7 +11,7 @@ pub(crate) mod model;
 
 pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::SystemError;
-pub(crate) use model::{Family, Model, Recorded};
+pub(crate) use model::{Model, Recorded};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
@@ -214,7 +214,12 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        self.connect(Family::Stretch, ends, rest_length_m, stiffness_n_per_m)
+        self.connect(
+            |model| &mut model.stretch,
+            ends,
+            rest_length_m,
+            stiffness_n_per_m,
+        )
     }
 
     /// Adds a bend constraint and returns its id. It is a spring between two particles that are
@@ -234,7 +239,12 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        self.connect(Family::Bend, ends, rest_length_m, stiffness_n_per_m)
+        self.connect(
+            |model| &mut model.bend,
+            ends,
+            rest_length_m,
+            stiffness_n_per_m,
+        )
     }
 
     /// Sets the law by which all bend constraints buckle, present and future ones; `None` makes
@@ -299,14 +309,9 @@ impl System {
             material_m,
             stiffness_n_per_m,
         );
-        match triangle.filter(|_| distinct) {
-            Some(triangle) => Ok(self.push_triangle(triangle)),
-            None => Err(SystemError::Triangle {
-                corners,
-                material_m,
-                stiffness_n_per_m,
-            }),
-        }
+        let triangle = triangle.filter(|_| distinct);
+        let triangle = triangle.ok_or(SystemError::Triangle { corners })?;
+        Ok(self.push_triangle(triangle))
     }
 
     pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
@@ -319,7 +324,7 @@ impl System {
 
     fn connect(
         &mut self,
-        family: Family,
+        family: fn(&mut Model) -> &mut Constraints,
         ends: [usize; 2],
         rest_length_m: f64,
         stiffness_n_per_m: f64,
@@ -331,7 +336,7 @@ impl System {
             stiffness_n_per_m,
         };
         check_constraint(&constraint, self.positions.len())?;
-        let id = self.model.family_mut(family).add(constraint);
+        let id = family(&mut self.model).add(constraint);
         self.guard.forget();
         self.touched();
         Ok(id)

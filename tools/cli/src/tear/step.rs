@@ -28,10 +28,11 @@ pub(super) fn check(
     let step_divisors = [WHOLE, WHOLE.saturating_add(1)];
     let stop = || guard.is_interrupted();
     let ensembles = ensemble::play(subject, 1..=SEEDS, &step_divisors, &stop, |jobs, member| {
-        let whole: f64 = jobs.iter().map(Job::cost).sum();
+        let cost = |job: &Job| f64::from(job.step_divisor.get());
+        let whole: f64 = jobs.iter().map(cost).sum();
         let mut done = 0.0;
         side_by_side(jobs, workers(), member, |i| {
-            done += jobs[i].cost();
+            done += cost(&jobs[i]);
             bar.set_position((done / whole * bar.length().unwrap_or(0) as f64) as u64);
         })
     })?;

@@ -6,7 +6,7 @@
 //! Two ensembles are compared by [`compare`](crate::statistics::compare), for each [`Quantity`].
 //!
 //! [`play`] lists the runs as [`Job`]s, and leaves it to its caller to carry them out: this crate
-//! starts no threads. [`in_series`] carries them out one after the other.
+//! starts no threads.
 
 use std::num::NonZero;
 use std::ops::RangeInclusive;
@@ -201,20 +201,11 @@ pub struct Job {
     pub seed: u64,
 }
 
-impl Job {
-    /// Returns the expected cost of the run, relative to a run at the undivided step.
-    #[must_use]
-    pub fn cost(&self) -> f64 {
-        f64::from(self.step_divisor.get())
-    }
-}
-
 /// Plays a subject once for each of `step_divisors` and each of `seeds`.
 ///
 /// The result has one ensemble per divisor, in the order of `step_divisors`. `map` carries out the
 /// jobs in any order, by calling its second argument for each, and returns the members in the order
-/// of the jobs. It is the place for threads and for progress. [`in_series`] is one that needs
-/// neither. When `stop` returns true, every run ends before its next step and is marked as
+/// of the jobs. It is the place for threads and for progress. When `stop` returns true, every run ends before its next step and is marked as
 /// interrupted.
 ///
 /// ```
@@ -229,7 +220,9 @@ impl Job {
 /// let scene = &Scene { duration_s: 0.1, ..Scene::hang(&frame) };
 /// let subject = Subject { mesh: &mesh, positions: &positions, frame: &frame, scene };
 /// let step_divisors = [1, 2].map(|divisor| NonZero::new(divisor).unwrap());
-/// let ensembles = ensemble::play(subject, 1..=3, &step_divisors, &|| false, ensemble::in_series)?;
+/// let ensembles = ensemble::play(subject, 1..=3, &step_divisors, &|| false, |jobs, member| {
+///     jobs.iter().map(member).collect()
+/// })?;
 /// let [(whole, _), (half, _)] = [0, 1].map(|i| ensembles[i].numbers(Quantity::Torn));
 /// assert_eq!(compare(&whole, &half).verdict, Verdict::Same); // Nothing tears at either step.
 /// # Ok::<(), tearmesh_cloth::scene::RunError>(())
@@ -273,12 +266,6 @@ pub fn play(
         members: members.by_ref().take(seeds.clone().count()).collect(),
     };
     Ok(step_divisors.iter().map(ensemble).collect())
-}
-
-/// Carries out jobs one after the other, for [`play`].
-#[must_use]
-pub fn in_series(jobs: &[Job], member: &(dyn Fn(&Job) -> Member + Sync)) -> Vec<Member> {
-    jobs.iter().map(member).collect()
 }
 
 /// Plays a subject once, with its step divided by `step_divisor` and the [`Disturbance`] of `seed`.

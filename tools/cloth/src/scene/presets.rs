@@ -62,17 +62,6 @@ impl Scene {
         let [width, ..] = frame.extents_m;
         let across = frame.across.vector();
         let depth = frame.depth.vector();
-        // Down the whole plane, three fifths of the way from the pole.
-        let ray = |along: f64| {
-            let origin = frame.point([0.6, along, 0.0]) + depth * frame.size_m();
-            Ray::new(origin, -depth).ok()
-        };
-        let cut = |(a, b)| TimedCut {
-            at_s: 1.5,
-            rays: [a, b],
-            through: true,
-            method: tearmesh::CutMethod::Exact,
-        };
         Scene {
             duration_s: 3.0,
             wind: Some(SwayingWind {
@@ -87,7 +76,12 @@ impl Scene {
                 across: [0.0, 0.02],
                 along: [0.0, 1.0],
             })],
-            cuts: ray(1.5).zip(ray(-0.5)).map(cut).into_iter().collect(),
+            // Down the whole plane, three fifths of the way from the pole.
+            cuts: slit(frame, 0.6, [1.5, -0.5], |cut| TimedCut {
+                at_s: 1.5,
+                through: true,
+                ..cut
+            }),
             tearing: None,
             ..Scene::fall(frame.up)
         }
@@ -136,16 +130,6 @@ impl Scene {
     pub fn trouser(frame: &Frame) -> Scene {
         let height = frame.extents_m[1];
         let depth = frame.depth.vector();
-        let ray = |along: f64| {
-            let origin = frame.point([0.5, along, 0.0]) + depth * frame.size_m();
-            Ray::new(origin, -depth).ok()
-        };
-        let slit = |(a, b)| TimedCut {
-            at_s: 0.0,
-            rays: [a, b],
-            through: false,
-            method: tearmesh::CutMethod::Exact,
-        };
         let leg = |across: [f64; 2], side: f64| HeldVertices {
             region: Region::Patch {
                 across,
@@ -163,7 +147,7 @@ impl Scene {
             gravity_m_per_s2: Vector::zeros(),
             drag_per_s: 5.0,
             holds: vec![leg([0.0, 0.45], 1.0), leg([0.55, 1.0], -1.0)],
-            cuts: ray(-0.5).zip(ray(0.5)).map(slit).into_iter().collect(),
+            cuts: slit(frame, 0.5, [-0.5, 0.5], |cut| cut),
             ..Scene::fall(frame.up)
         }
     }
@@ -171,3 +155,26 @@ impl Scene {
 
 /// The duration of a trouser test, in seconds.
 const TROUSER_S: f64 = 4.0;
+
+/// A cut straight along the height of a cloth at a fraction of its width, at the beginning and no farther than
+/// these fractions of its height, unless changed; none of a cloth without extent.
+fn slit(
+    frame: &Frame,
+    across: f64,
+    along: [f64; 2],
+    change: fn(TimedCut) -> TimedCut,
+) -> Vec<TimedCut> {
+    let depth = frame.depth.vector();
+    let ray = |along: f64| {
+        let origin = frame.point([across, along, 0.0]) + depth * frame.size_m();
+        Ray::new(origin, -depth).ok()
+    };
+    let [from, to] = along.map(ray);
+    let cut = |rays: (Ray, Ray)| TimedCut {
+        at_s: 0.0,
+        rays: rays.into(),
+        through: false,
+        method: tearmesh::CutMethod::Exact,
+    };
+    from.zip(to).map(cut).map(change).into_iter().collect()
+}

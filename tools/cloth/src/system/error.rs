@@ -42,10 +42,6 @@ pub enum SystemError {
     Triangle {
         /// The indices of the particles that were given as corners.
         corners: [usize; 3],
-        /// The coordinates (u, v) of the corners in the material, in metres.
-        material_m: [[f64; 2]; 3],
-        /// The stiffness that was given along u, along v and in shear, in N/m.
-        stiffness_n_per_m: [f64; 3],
     },
     /// A number of a load is not finite, or is negative where it must not be.
     Loads {
@@ -80,13 +76,9 @@ impl fmt::Display for SystemError {
                     given.rest_length_m, given.stiffness_n_per_m
                 )
             }
-            SystemError::Triangle {
-                corners: [a, b, c],
-                material_m,
-                stiffness_n_per_m,
-            } => write!(
+            SystemError::Triangle { corners: [a, b, c] } => write!(
                 f,
-                "a triangle of the particles {a}, {b} and {c} cannot have the material coordinates {material_m:?} m and the stiffness {stiffness_n_per_m:?} N/m"
+                "the particles {a}, {b} and {c} make no triangle with these coordinates and this stiffness"
             ),
             SystemError::Loads { field, given } => {
                 write!(f, "{field} is {given}, which is not finite, or negative")

@@ -48,37 +48,14 @@ pub(crate) enum Recorded {
     Limiter,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Family {
-    Stretch,
-    Bend,
-}
-
 impl Model {
-    pub(crate) fn family_mut(&mut self, family: Family) -> &mut Constraints {
-        match family {
-            Family::Stretch => &mut self.stretch,
-            Family::Bend => &mut self.bend,
-        }
-    }
-
-    /// The constraints of a family, with their law.
-    pub(crate) fn pairs(&self, family: Family) -> Pairs<'_> {
-        match family {
-            Family::Stretch => Pairs {
-                constraints: &self.stretch,
-                buckling: None,
-            },
-            Family::Bend => Pairs {
-                constraints: &self.bend,
-                buckling: self.buckling,
-            },
-        }
-    }
-
-    /// Both families, in the order of every sum; triangles come after them.
+    /// Stretch and bend constraints, with their laws, in the order of every sum; triangles come after them.
     pub(crate) fn families(&self) -> [Pairs<'_>; 2] {
-        [Family::Stretch, Family::Bend].map(|family| self.pairs(family))
+        let families = [(&self.stretch, None), (&self.bend, self.buckling)];
+        families.map(|(constraints, buckling)| Pairs {
+            constraints,
+            buckling,
+        })
     }
 
     /// Appends a particle without mass and constraints.

@@ -117,8 +117,7 @@ impl Tear {
             let given = strengths[vertex];
             return Err(TearingError::Strength { vertex, given });
         }
-        for (index, strength) in strengths.into_iter().enumerate() {
-            let v = VertexId::new(index).expect("I1: ids fit");
+        for (v, strength) in (0..).map_while(VertexId::new).zip(strengths) {
             *self.strengths.at_mut(v) = strength;
         }
         self.bound = None;

@@ -54,9 +54,10 @@ impl Threshold {
                 Some(force::force_n(system, id) / (newtons * share))
             }
             Threshold::WarpWeft { warp, weft, axis } => {
-                let ratio = match run(cloth, h, axis)? {
-                    Run::Warp => warp,
-                    Run::Weft => weft,
+                let ratio = if runs_along(cloth, h, axis)? {
+                    warp
+                } else {
+                    weft
                 };
                 Some(strain(system, id) / (ratio - 1.0))
             }
@@ -183,17 +184,11 @@ fn strain_borne(toughness: f64, modulus: f64, length: f64) -> f64 {
     (2.0 * toughness / (modulus * length)).sqrt()
 }
 
-/// Along which threads an edge runs.
-enum Run {
-    Warp,
-    Weft,
-}
-
-/// The threads that an edge runs along at rest, within 22.5°; `None` for a diagonal.
+/// Whether an edge runs along the warp at rest, or else along the weft, within 22.5°; `None` for a diagonal.
 ///
 /// The warp is the axis as seen in the plane of the edge's face: on a curved cloth it
 /// follows the surface.
-fn run(cloth: &Cloth, h: HalfEdgeId, axis: Vector) -> Option<Run> {
+fn runs_along(cloth: &Cloth, h: HalfEdgeId, axis: Vector) -> Option<bool> {
     let corners = [h, h.next(), h.prev()].map(|h| {
         let v = cloth.indices()[h.index()] as usize;
         cloth.rest_positions().as_slice()[v]
@@ -208,9 +203,9 @@ fn run(cloth: &Cloth, h: HalfEdgeId, axis: Vector) -> Option<Run> {
     let bound = (along + across) / std::f64::consts::SQRT_2;
     // cos 2θ ≥ cos 45°
     if along - across >= bound && along > 0.0 {
-        Some(Run::Warp)
+        Some(true)
     } else if across - along >= bound && across > 0.0 {
-        Some(Run::Weft)
+        Some(false)
     } else {
         None
     }
