@@ -1,10 +1,10 @@
-//! Runs that are killed, as by `kill -9`: they can tidy nothing up.
+//! Runs that end in the middle: of a signal, after which nothing is left of them, or killed, as by
+//! `kill -9`, when they can tidy nothing up.
 
-use std::fs::{self, File};
-use std::process::Child;
+use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
-use crate::harness::{Folder, seen};
+use crate::harness::Folder;
 
 /// A flat sheet that takes a while to read and to write.
 fn large_sheet(cells: usize) -> String {
@@ -88,82 +88,38 @@ fn a_run_killed_at_any_moment_leaves_the_old_file_or_the_new_one() {
         let input = sheet.folder.read("large.obj");
         assert!(input == sheet.input, "the input was touched");
     }
-    // One that was killed between giving a file its name and putting it in the place of the old one
-    // leaves that, but the next does not.
-    assert_eq!(sheet.left(), [""; 0]);
 }
 
-/// As many runs as `TEARMESH_KILLS` says, or 40. A new file has no name until it is whole, so that
-/// there is no moment at which anything could be left.
+#[cfg(unix)]
 #[test]
-fn regression_a_killed_run_leaves_no_temporary_file() {
+fn a_run_ended_by_a_signal_leaves_no_draft() {
     let sheet = Sheet::new();
-    if !has_files_without_names(&sheet.folder) {
-        return;
-    }
-    let runs = std::env::var("TEARMESH_KILLS").map_or(40, |n| n.parse().expect("a number"));
     let whole = sheet.whole("new.obj");
     let new = sheet.folder.read("new.obj");
-    let (mut random, mut written) = (1_u64, 0);
-    for run in 1..=runs {
-        random = random
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        let part = (random >> 33) as f64 / f64::from(1_u32 << 31);
-        sheet.killed_after("out.obj", whole.mul_f64(1.2 * part));
-        assert_eq!(sheet.left(), [""; 0], "after {run} runs");
-        if sheet.folder.path("out.obj").exists() {
-            assert!(sheet.folder.read("out.obj") == new, "run {run} left a part");
-            fs::remove_file(sheet.folder.path("out.obj")).expect("a file");
-            written += 1;
+    let mut in_writing = 0;
+    for i in 0..60 {
+        let old = "something old\n";
+        sheet.folder.write("out.obj", old);
+        let mut child = sheet.cut("out.obj");
+        // Half of them as soon as there is a draft.
+        if i % 2 == 0 {
+            std::thread::sleep(whole * i / 60);
+        } else {
+            while child.try_wait().expect("a state").is_none() && sheet.left().is_empty() {}
         }
+        in_writing += usize::from(!sheet.left().is_empty());
+        let signal = ["-INT", "-TERM"][i as usize / 2 % 2];
+        // It may have ended already.
+        let _ = Command::new("kill")
+            .arg(signal)
+            .arg(child.id().to_string())
+            .status();
+        child.wait().expect("an end");
+        assert_eq!(sheet.left(), [""; 0], "after {i} runs");
+        let now = sheet.folder.read("out.obj");
+        assert!(now == old || now == new, "run {i} left {} bytes", now.len());
     }
-    println!("{runs} runs, {written} of them not killed in time");
-}
-
-/// Linux has files without names, but not every file system of it.
-fn has_files_without_names(folder: &Folder) -> bool {
-    #[cfg(target_os = "linux")]
-    {
-        use rustix::fs::{Mode, OFlags, open};
-        let flags = OFlags::TMPFILE | OFlags::WRONLY;
-        open(folder.path(""), flags, Mode::empty()).is_ok()
-    }
-    #[cfg(not(target_os = "linux"))]
-    false
-}
-
-/// What a killed run left is removed by the next one that writes the same file, and what belongs to
-/// a run that is still there, or to another file, is not.
-#[test]
-fn regression_what_a_killed_run_left_is_removed_by_the_next() {
-    let folder = Folder::new();
-    let cut = "tearmesh cut flag.obj --rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1 -o out.obj";
-    let (gone, other) = (
-        ".out.obj.tearmesh-AbC123.tmp",
-        ".in.obj.tearmesh-AbC123.tmp",
-    );
-    let busy = ".out.obj.tearmesh-dEf456.tmp";
-    let strangers = [".out.obj.tearmesh-notes.tmp", "out.obj.tearmesh-AbC123.tmp"];
-    folder.write("out.obj", "something old\n");
-    for name in [gone, other, busy].iter().chain(&strangers) {
-        folder.write(name, "half a mesh\n");
-    }
-    let owner = File::open(folder.path(busy)).expect("a file");
-    owner.lock().expect("a lock");
-    let output = folder.run(cut);
-    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
-    let is_there = |name: &str| folder.path(name).exists();
-    assert!(!is_there(gone), "{:?}", folder.names());
-    assert!(is_there(other) && is_there(busy), "{:?}", folder.names());
-    assert!(
-        strangers.iter().all(|name| is_there(name)),
-        "{:?}",
-        folder.names()
-    );
-    drop(owner);
-    folder.run(cut);
-    assert!(!is_there(busy), "{:?}", folder.names());
+    assert!(in_writing > 0, "no run was ended while it wrote");
 }
 
 /// Many runs at once on one file: each ends well, and one of them has written the file.

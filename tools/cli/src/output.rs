@@ -1,19 +1,36 @@
 //! Files that appear whole or not at all, and standard output.
 //!
-//! Whoever looks at a regular file sees the old one or the new one, which is put in its place when
-//! it is whole ([`Draft`]). Links are resolved first, so the link stays. A pipe or a device is written
-//! directly: it cannot be replaced.
-
-mod draft;
+//! Whoever looks at a regular file sees the old one or the new one: a draft beside it is renamed to it once
+//! it is whole. Links are resolved first, so the link stays. A pipe or a device is written directly: it
+//! cannot be replaced.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use self::draft::{Draft, folder, named_folder};
+use tempfile::NamedTempFile;
+
 use crate::say::Fault;
 
-pub use self::draft::abandon;
+/// The draft that was made last, which may be gone by now.
+static DRAFT: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+fn last_draft() -> MutexGuard<'static, Option<PathBuf>> {
+    DRAFT.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes the file that is being written, if any, and prevents later files from being completed.
+/// Intended for a program that is about to exit.
+pub fn abandon() {
+    let mut last = last_draft();
+    if let Some(path) = last.take() {
+        // Whether or not it is still there, there is nothing more to do about it.
+        let _ = fs::remove_file(path);
+    }
+    // Held for ever: a file that is just being finished waits, and ends with the program.
+    std::mem::forget(last);
+}
 
 /// Writes a file, whole or not at all.
 pub(crate) fn write<T>(
@@ -28,15 +45,17 @@ pub(crate) fn write<T>(
         return Ok(filled);
     }
     let draft = draft(&path)?;
-    let mut out = BufWriter::new(draft.file());
+    let mut out = BufWriter::new(draft.as_file());
     let filled = fill(&mut out)?;
     out.flush()?;
     drop(out);
     if let Some(existing) = existing {
-        draft.file().set_permissions(existing.permissions())?;
+        draft.as_file().set_permissions(existing.permissions())?;
     }
-    draft.file().sync_all()?;
-    draft.publish(&path)?;
+    draft.as_file().sync_all()?;
+    // An interruption comes before or after the renaming.
+    let _last = last_draft();
+    draft.persist(&path).map_err(|failed| failed.error)?;
     Ok(filled)
 }
 
@@ -70,13 +89,27 @@ fn place(path: &Path) -> io::Result<(PathBuf, Option<fs::Metadata>)> {
     Ok((path, existing))
 }
 
-/// A draft of a file, whose folder must be there.
-fn draft(path: &Path) -> io::Result<Draft> {
-    if let Some(missing) = named_folder(path).filter(|folder| !folder.is_dir()) {
-        let message = format!("there is no folder `{}`", missing.display());
+/// A draft of a file, whose folder must be there. It is removed when it is dropped.
+fn draft(path: &Path) -> io::Result<NamedTempFile> {
+    let folder = folder(path);
+    if !folder.is_dir() {
+        let message = format!("there is no folder `{}`", folder.display());
         return Err(io::Error::new(io::ErrorKind::NotFound, message));
     }
-    Draft::new(path)
+    let mut last = last_draft();
+    let mut builder = tempfile::Builder::new();
+    // A temporary file is secret unless it is opened here: this one gets the permissions of any new file.
+    let draft = builder.suffix(".tmp").make_in(folder, |draft| {
+        File::options().write(true).create_new(true).open(draft)
+    })?;
+    *last = Some(draft.path().to_owned());
+    Ok(draft)
+}
+
+/// The folder that a path is in.
+fn folder(path: &Path) -> &Path {
+    let parent = path.parent().filter(|folder| *folder != Path::new(""));
+    parent.unwrap_or(Path::new("."))
 }
 
 /// The file that a path leads to, which need not exist yet.
