@@ -22,6 +22,7 @@ use crate::place::Positions;
 /// A *component* is a set of faces joined by shared edges. The *seam* is the set of edges that this cut
 /// tore. The *slit* is the part of the plane between the side planes. Lengths are in units of the model.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct CutReport {
     /// The number of faces that the slit crosses.
@@ -32,6 +33,9 @@ pub struct CutReport {
     pub refused: usize,
     /// The number of half-edges whose pair became a ghost pair: two for each edge of the seam.
     pub ghost_pairs: usize,
+    /// Whether the two sides are separate where the slit meets the mesh. If true, no vertex strictly
+    /// between the side planes belongs to faces of both sides, and no edge there joins both.
+    pub separated: bool,
     /// The number of components before the cut.
     pub pieces_before: usize,
     /// The number of components after the cut.
@@ -44,9 +48,6 @@ pub struct CutReport {
     pub crumbs: usize,
     /// The number of pieces missing from `pieces_expected`, which is 0 for a perfect cut.
     pub lost: usize,
-    /// Whether the two sides are separate where the slit meets the mesh. If true, no vertex strictly
-    /// between the side planes belongs to faces of both sides, and no edge there joins both.
-    pub separated: bool,
     /// The sum of the lengths of all edges of the seam, each counted once.
     pub seam_length: f64,
     /// The length of the seam divided by the length of the slit on the mesh. It is 0 if there is no
@@ -64,9 +65,11 @@ pub struct CutReport {
     /// The smallest altitude of any face after the cut, or 0 for a mesh without faces.
     pub altitude_min: f64,
     /// Whether the slit meets no face.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub missed: bool,
     /// The distance of the vertex closest to the slit before the cut: √(p² + s²), where p is the
     /// distance from the plane and s is the distance by which the vertex lies outside the side planes.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub nearest_vertex: f64,
     /// The distance of each tip of the seam beyond the nearer side plane. It is negative for a tip
     /// that stops short of that plane. A tip is an end of the seam inside the mesh. The list is in

@@ -516,7 +516,7 @@ fn methods_say_where_their_steps_fall_short() {
             ("implicit", Quality::Implicit(solved)) => {
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
-            ("verlet", Quality::Carried(carried)) => {
+            ("verlet", Quality::Carried { carried }) => {
                 let free = system.inverse_masses().iter().filter(|w| **w > 0.0).count();
                 assert!(10 * carried <= free, "{carried} of {free}");
             }

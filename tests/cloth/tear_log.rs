@@ -115,7 +115,7 @@ fn events_are_the_steps_in_which_something_tore() {
         let first = log.first_tear().expect("it rips");
         assert_eq!(first.event, events[0]);
         // The grip is dragged down, so what tears first is not far above it.
-        let [now, rest] = first.event.place;
+        let (now, rest) = (first.event.place, first.event.place_at_rest);
         assert!(now.y < rest.y + 0.01, "{name}: {now} {rest}");
         let (first_n, largest_n) = (first.force_n, log.largest_force_n());
         let knows_forces = !matches!(solver, Method::Provot(_));

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 use tearmesh::{CutReport, Mesh, Point, Ray, Scissor, Vector};
+use tearmesh_cloth::Quality;
+use tearmesh_cloth::scene::TearEvent;
 use tearmesh_cloth::scene::ensemble::Ensemble;
 use tearmesh_cloth::statistics::Comparison;
 
@@ -89,44 +91,25 @@ pub(crate) struct Cut {
     /// Of a cut between two pixels: what to type for the same with rays.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) equivalent: Option<String>,
-    method: &'static str,
-    through: bool,
-    tips: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    snap: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    snap_move: Option<bool>,
+    #[serde(flatten)]
+    how: How,
     plane: PlaneEntry,
     /// Where each ray hit the layer that was cut, of a cut through the first layers alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     layers: Option<[Option<LayerEntry>; 2]>,
-    faces_crossed: usize,
-    splits: usize,
-    refused: usize,
-    ghost_pairs: usize,
-    separated: bool,
-    pieces_before: usize,
-    pieces: usize,
-    pieces_expected: usize,
-    crumbs: usize,
-    lost: usize,
-    seam_length: f64,
-    seam_length_ratio: f64,
-    seam_deviation_max: f64,
-    seam_deviation_max_edges: f64,
-    vertices_inserted: usize,
-    angle_min_deg: f64,
-    altitude_min: f64,
-    tip_overshoots: Vec<f64>,
+    #[serde(flatten)]
+    report: CutReport,
 }
 
 /// How a cut was made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct How {
     pub(crate) method: &'static str,
     pub(crate) through: bool,
     pub(crate) tips: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) snap: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) snap_move: Option<bool>,
 }
 
@@ -178,9 +161,7 @@ pub(crate) struct Tear {
     pub(crate) dt_s: f64,
     pub(crate) time_simulated_s: f64,
     pub(crate) time_planned_s: f64,
-    /// By tearing; those by cuts stand with the cuts.
     pub(crate) splits: u64,
-    /// Whether more edges would have torn in some step than the cap allows, and in how many.
     pub(crate) cap_hit: bool,
     pub(crate) steps_at_cap: u64,
     pub(crate) pieces_before: usize,
@@ -189,8 +170,7 @@ pub(crate) struct Tear {
     pub(crate) max_stretch: f64,
     pub(crate) momentum_drift: f64,
     pub(crate) energy_j: Energy,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) quality: Option<Quality>,
+    pub(crate) quality: Quality,
     pub(crate) counters: Counters,
     /// The largest force at a hold that is led about, or at any where none is: mean over 1/60 s.
     /// Not said by Provot's method.
@@ -213,23 +193,11 @@ pub(crate) struct Tear {
 pub(crate) struct FirstTear {
     pub(crate) time_s: f64,
     /// The middle of the edge with the largest load: where it was then, and at rest.
-    pub(crate) place: [f64; 3],
-    pub(crate) place_at_rest: [f64; 3],
+    pub(crate) place: Point,
+    pub(crate) place_at_rest: Point,
     /// The largest force at a hold then, as a mean over 1/60 s; not said by Provot's method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) force_n: Option<f64>,
-}
-
-/// A step in which something tore.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct TearEvent {
-    pub(crate) time_s: f64,
-    pub(crate) splits: usize,
-    pub(crate) torn_m: f64,
-    pub(crate) place: [f64; 3],
-    pub(crate) place_at_rest: [f64; 3],
-    /// The largest load over strength: 1 or more.
-    pub(crate) load: f64,
 }
 
 /// `--check-step`: the scene played with many seeds, at its step and at half of it.
@@ -286,40 +254,11 @@ pub(crate) struct EnergyGain {
     pub(crate) put_in_j: Option<f64>,
 }
 
-/// What the method says of its own steps; see [`tearmesh_cloth::Quality`].
-#[derive(Clone, Copy, Debug, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Quality {
-    Guarded {
-        carried: usize,
-    },
-    Limiter {
-        passes: u64,
-        steps_short: u64,
-        steps_infeasible: u64,
-        excess_max: f64,
-        steps_limited: u64,
-    },
-    StrainRms(f64),
-    ResidualN(f64),
-    Implicit {
-        indefinite: u64,
-        clamped: u64,
-        residual_max_m_per_s: f64,
-    },
-}
-
 /// What was computed.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Counters {
-    pub(crate) force_evaluations: u64,
-    pub(crate) matrix_products: u64,
-    pub(crate) wind_evaluations: u64,
-    pub(crate) collider_passes: u64,
-    pub(crate) substeps: u64,
-    pub(crate) overshoots: u64,
-    pub(crate) visits: Visits,
-    /// What the scene uses, and what it paid for each.
+    #[serde(flatten)]
+    pub(crate) counters: tearmesh_cloth::Counters,
     pub(crate) features: Vec<FeatureCost>,
 }
 
@@ -330,14 +269,6 @@ pub(crate) struct FeatureCost {
     pub(crate) name: &'static str,
     pub(crate) visits: u64,
     pub(crate) share: f64,
-}
-
-/// Visits of single constraints by what they were for.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Visits {
-    pub(crate) project: u64,
-    pub(crate) force: u64,
-    pub(crate) detect: u64,
 }
 
 /// Pieces that were written, each into a file of its own.
@@ -377,11 +308,7 @@ impl Cut {
                 })
             }),
             equivalent: None,
-            method: how.method,
-            through: how.through,
-            tips: how.tips,
-            snap: how.snap,
-            snap_move: how.snap_move,
+            how,
             plane: PlaneEntry {
                 point: point(plane.point()),
                 normal: numbers(plane.normal()),
@@ -394,24 +321,7 @@ impl Cut {
                     })
                 })
             }),
-            faces_crossed: report.faces_crossed,
-            splits: report.splits,
-            refused: report.refused,
-            ghost_pairs: report.ghost_pairs,
-            separated: report.separated,
-            pieces_before: report.pieces_before,
-            pieces: report.pieces,
-            pieces_expected: report.pieces_expected,
-            crumbs: report.crumbs,
-            lost: report.lost,
-            seam_length: report.seam_length,
-            seam_length_ratio: report.seam_length_ratio,
-            seam_deviation_max: report.seam_deviation_max,
-            seam_deviation_max_edges: report.seam_deviation_max_edges,
-            vertices_inserted: report.vertices_inserted,
-            angle_min_deg: report.angle_min_deg,
-            altitude_min: report.altitude_min,
-            tip_overshoots: report.tip_overshoots.clone(),
+            report: report.clone(),
         }
     }
 }

@@ -76,13 +76,6 @@ impl Fault {
         }
     }
 
-    pub(crate) fn note(code: &'static str, message: String) -> Fault {
-        Fault {
-            severity: Severity::Note,
-            ..Fault::error(code, message)
-        }
-    }
-
     pub(crate) fn help(self, help: impl Into<String>) -> Fault {
         Fault {
             help: Some(help.into()),
@@ -248,6 +241,28 @@ pub(crate) fn short(x: f64) -> String {
     }
 }
 
+/// Three digits or all of those before the point; nothing below a billionth.
+pub(crate) fn three_digits(x: f64) -> String {
+    if x.abs() < 1e-9 {
+        return "0".to_owned();
+    }
+    let mut scale = 1.0;
+    while (x * scale).abs() < 100.0 {
+        scale *= 10.0;
+    }
+    short((x * scale).round() / scale)
+}
+
+/// Two digits, rounded down: a step that is typed like this stays below its limit.
+pub(crate) fn two_digits(x: f64) -> String {
+    let mut scale = 1.0;
+    while x * scale < 10.0 && scale < 1e15 {
+        scale *= 10.0;
+    }
+    let rounded = (x * scale).floor() / scale;
+    rounded.to_string()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,6 +279,19 @@ mod tests {
             (1e300, "1e300"),
         ] {
             assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn steps_are_rounded_down() {
+        for (x, text) in [
+            (0.005_39, "0.0053"),
+            (0.0333, "0.033"),
+            (0.001_01, "0.001"),
+            (1.29e-5, "0.000012"),
+        ] {
+            assert_eq!(two_digits(x), text);
+            assert!(two_digits(x).parse::<f64>().expect("a number") <= x);
         }
     }
 }

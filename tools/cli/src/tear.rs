@@ -4,12 +4,9 @@ pub(crate) mod advice;
 mod check;
 mod film;
 mod frames;
-mod points;
 mod step;
 mod strength;
-mod times;
-mod told;
-mod words;
+mod summary;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -23,8 +20,7 @@ use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::{Document, TornDocument};
 
 use self::film::Film;
-use self::frames::Frames;
-use self::points::places;
+use self::frames::{Frames, places};
 use crate::args::{TearArgs, cut_name};
 use crate::cut::nothing::Obstacle;
 use crate::exit::{Exit, Stop};
@@ -64,7 +60,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let run = run.map_err(|error| check::refused(&error, &opened, &source))?;
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
-    session.faults.extend(times::warnings(&run, args));
+    session.faults.extend(advice::times(&run, args));
     session.warn_now(streams);
     let play = Play {
         name: source.name(),
@@ -167,7 +163,7 @@ impl Play<'_> {
         let clock = Clock::start();
         let ledger = run.cloth().masses().ledger();
         let unit = report::MassUnit::Kilogram;
-        let broken = words::momentum_broken(&run);
+        let broken = summary::momentum_broken(&run);
         let mass = session.verify(run.mesh(), &ledger, unit, broken)?;
         session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
 
@@ -196,12 +192,20 @@ impl Play<'_> {
             tear_length_m: run.torn_length_m() - torn_before_m,
             max_stretch: tally.stretch_ratio_max,
             momentum_drift: tally.momentum_drift,
-            energy_j: words::energy(&run),
-            quality: words::quality(&run),
-            counters: words::counters(&run),
+            energy_j: summary::energy(&run),
+            quality: run.quality(),
+            counters: report::Counters {
+                counters: run.cloth().system().counters(),
+                features: summary::features(&run),
+            },
             largest_force_n: tear_log.largest_force_n(),
-            first_tear: told::first(&tear_log),
-            tears: told::events(&tear_log),
+            first_tear: tear_log.first_tear().map(|first| report::FirstTear {
+                time_s: first.event.time_s,
+                place: first.event.place,
+                place_at_rest: first.event.place_at_rest,
+                force_n: first.force_n,
+            }),
+            tears: tear_log.events().to_vec(),
             step_check: match ended {
                 Ended::Done if self.args.check_step => Some(self.check_step(&run, streams)?),
                 _ => None,
@@ -210,14 +214,14 @@ impl Play<'_> {
             cache: None,
         };
         session.faults.extend(advice::after(&run));
-        session.words.push(words::simulation(&tear));
-        session.words.extend(told::first_tear(&tear_log));
-        session.words.push(words::balance(&run));
+        session.words.push(summary::simulation(&tear));
+        session.words.extend(summary::first_tear(&tear_log));
+        session.words.push(summary::balance(&run));
         if self.args.verbose {
-            session.words.push(words::cost(&tear.counters.features));
+            session.words.push(summary::cost(&tear.counters.features));
         }
         if let Some(check) = &tear.step_check {
-            session.words.extend(step::words(check));
+            session.words.extend(step::summary(check));
             session.faults.extend(step::warnings(check));
         }
         session.report.tear = Some(tear);
@@ -228,8 +232,7 @@ impl Play<'_> {
             Ended::Interrupted => session.exit = Exit::Interrupted,
             Ended::Failed(error) => {
                 session.exit = Exit::Simulation;
-                let fault = words::failure(&error, &run);
-                session.faults.push(fault);
+                session.faults.push(advice::failure(&error, &run));
                 if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                     session.words.clear();
                     self.play_page(film, &run, &tear_log, session)?;
@@ -247,7 +250,7 @@ impl Play<'_> {
             .as_ref()
             .filter(|_| !self.args.files.dry_run)
         {
-            files::write_beside(path, |out| told::write_forces(&run, &tear_log, out))?;
+            files::write_beside(path, |out| summary::write_forces(&run, &tear_log, out))?;
         }
         let mesh = run.mesh();
         let ending = files::ending(vertices_before, mesh, mass, &session.destination);

@@ -11,10 +11,12 @@ mod frame;
 mod presets;
 mod run;
 mod tear_log;
+mod warning;
 
 pub use frame::{Axis, Frame};
 pub use run::{CutMade, EnergyGain, Names, Run, RunError, RunTally};
 pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
+pub use warning::Warning;
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, VertexId};

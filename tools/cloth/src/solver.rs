@@ -114,18 +114,26 @@ impl Abilities {
 /// How far the steps of a method fell short of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Quality {
-    /// For Verlet: the number of particles that are too light for the step, and so are carried by
-    /// their neighbours at present.
-    Carried(usize),
+    /// For Verlet: the particles that are too light for the step, and so are carried by their
+    /// neighbours at present.
+    #[cfg_attr(feature = "serde", serde(rename = "guarded"))]
+    Carried {
+        /// The number of those particles.
+        carried: usize,
+    },
     /// For Provot's model: what its limiter did.
     Limiter(LimiterStats),
     /// For PBD: the root mean square of the present strains. PBD treats constraints as rigid, so
     /// all strain is an error that its sweeps left.
+    #[cfg_attr(feature = "serde", serde(rename = "strain_rms"))]
     Strain(f64),
     /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
     /// substep used and the one that the springs have now
     /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
+    #[cfg_attr(feature = "serde", serde(rename = "residual_n"))]
     Residual(f64),
     /// For an implicit method: what its linear solver did.
     Implicit(implicit::Stats),
@@ -135,6 +143,7 @@ pub enum Quality {
 
 /// What the limiter of [`Provot`](crate::Provot) did in all steps so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LimiterStats {
     /// The number of passes over all constraints.
     pub passes: u64,
@@ -294,6 +303,19 @@ pub enum StepError {
 impl StepError {
     /// The largest number of substeps into which a step is divided.
     pub const SUBSTEPS_MAX: u32 = 10_000;
+
+    /// Returns the code of this error, such as `E-SIM-UNSTABLE`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            StepError::Unstable { .. } | StepError::Air { .. } | StepError::Substeps { .. } => {
+                "E-SIM-UNSTABLE"
+            }
+            StepError::Implicit { .. } => "E-SIM-UNSOLVED",
+            StepError::Setting(_) => "E-SCENE-RANGE",
+            _ => "E-SIM-BLOWUP",
+        }
+    }
 }
 
 impl fmt::Display for StepError {

@@ -131,7 +131,8 @@ impl Solver for Verlet {
     }
 
     fn quality(&self, system: &System) -> Quality {
-        Quality::Carried(system.guard.carry().len())
+        let carried = system.guard.carry().len();
+        Quality::Carried { carried }
     }
 }
 

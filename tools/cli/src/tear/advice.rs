@@ -1,97 +1,438 @@
-//! What a user is told of a simulation beside what was asked for: before its first step, when it has ended,
-//! and where it failed.
+//! The table of what a user is told of a simulation beside what was asked for: before its first step, when
+//! it has ended, and where it failed. What each warning is about, and when it is due, is said by
+//! [`Warning`].
 
-use tearmesh_cloth::scene::{Frame, Run};
-use tearmesh_cloth::{Collider, StepError};
+use tearmesh_cloth::implicit;
+use tearmesh_cloth::scene::{Frame, Run, Warning};
+use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError};
 
-use super::words::two_digits;
-use super::{check, words};
-use crate::say::{Fault, count, short};
+use super::frames::RATE_PER_S;
+use crate::args::TearArgs;
+use crate::say::{Fault, Severity, count, short, three_digits, two_digits};
+use crate::scene::method_name;
 
 /// What is known before the first step. `number` is that of a vertex in its file.
 pub(crate) fn before(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) -> Vec<Fault> {
-    let warnings = check::warnings(run, frame, number).into_iter();
-    warnings.chain(too_coarse(run)).collect()
+    let warnings = Warning::before(run, frame).into_iter();
+    warnings
+        .map(|warning| fault(warning, run, number))
+        .collect()
 }
 
 /// What showed in the steps that were taken.
 pub(crate) fn after(run: &Run) -> Vec<Fault> {
-    let fell_short = words::infeasible(run).into_iter();
-    let energy = words::gain(run).into_iter().chain(words::damped(run));
-    fell_short.chain(passed(run)).chain(energy).collect()
+    let warnings = Warning::after(run).into_iter();
+    warnings
+        .map(|warning| fault(warning, run, &|v| v + 1))
+        .collect()
 }
 
-/// Why the simulation failed, with vertices counted as in OBJ, and what would help.
-pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
-    words::failure(error, run)
+/// A warning in words, and what would help.
+fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault {
+    let scene = run.scene();
+    let step = short(run.step_s());
+    let half = two_digits(run.step_s() / 2.0);
+    let (message, help) = match warning {
+        Warning::Size { size_m } => (
+            format!(
+                "the mesh is {} m across, and the fabric is one for garments and flags",
+                short(size_m)
+            ),
+            "units are metres: scale the mesh, or set [fabric] in a scene file".to_owned(),
+        ),
+        Warning::Endless { frequency } => {
+            let at = frequency.ends.map(|ends| {
+                let [a, b] = ends.map(number);
+                let omega = frequency.omega_rad_per_s;
+                format!(": the edge {a}-{b} may swing at {omega:.1e} rad/s, as it is stiff and its ends are light")
+            });
+            (
+                format!(
+                    "{:.1e} steps of {} s are planned{}",
+                    run.steps_planned() as f64,
+                    two_digits(run.step_s()),
+                    at.unwrap_or_default()
+                ),
+                "take a face without area out of the mesh, or use --solver implicit".to_owned(),
+            )
+        }
+        Warning::LateCut { at_s: time_s } | Warning::LateHold { from_s: time_s, .. } => {
+            let time = short(time_s);
+            let what = match warning {
+                Warning::LateHold { hold, .. } => format!("hold {} is never taken", hold + 1),
+                _ => format!("the cut at {time} s is never made"),
+            };
+            let over = short(run.steps_planned() as f64 * run.step_s());
+            (
+                format!("{what}: the scene is over after {over} s"),
+                format!("--seconds above {time}, or an earlier time"),
+            )
+        }
+        Warning::Soft(softness) => (
+            format!(
+                "xpbd with a step of {step} s leaves the cloth too soft: what hangs is stretched {} % \
+                 farther than its fabric would be, and some edges far more",
+                short((softness.extra * 100.0).round()),
+            ),
+            format!(
+                "--dt {} for {} %, or --solver verlet, which is exact at rest",
+                two_digits(softness.step_s),
+                short(Softness::TOLERABLE * 100.0),
+            ),
+        ),
+        Warning::Coarse { wanted_s } => {
+            let sweeps = match &scene.solver {
+                Method::Pbd(pbd) => pbd.sweeps as usize,
+                _ => 1,
+            };
+            let and = match scene.tearing {
+                Some(_) => ", and may tear",
+                None => "",
+            };
+            (
+                format!(
+                    "a step of {step} s with {} is {} times too long for a mesh so fine: what merely hangs \
+                     is stretched{and}",
+                    count(sweeps, "sweep", "sweeps"),
+                    short((run.step_s() / wanted_s * 10.0).round() / 10.0),
+                ),
+                format!("--dt {}, or --solver verlet", two_digits(wanted_s)),
+            )
+        }
+        Warning::Rigid => (
+            format!(
+                "pbd treats edges as rigid: how far they stretch depends on the step and the number of \
+                 sweeps, and not on the {} N/m of the fabric",
+                short(scene.fabric.stretch_n_per_m),
+            ),
+            "--solver verlet, or xpbd, whose edges are as stiff as the fabric's at short steps"
+                .to_owned(),
+        ),
+        Warning::Pinned { hold, pins } => {
+            let (what, they) = match pins {
+                1 => ("a single vertex, whose".to_owned(), "it"),
+                _ => (format!("{pins} single vertices, whose"), "they"),
+            };
+            (
+                format!(
+                    "hold {} pins {what} strain grows as the mesh gets finer: {they} may tear where a \
+                     clamp would not",
+                    hold + 1
+                ),
+                "give it a `radius`, such as 0.1".to_owned(),
+            )
+        }
+        Warning::SmallBall {
+            collider,
+            radius_m,
+            longest_m,
+        } => (
+            format!(
+                "collider {} is a ball {} m across, and edges are up to {} m long: only vertices are \
+                 pushed out, and it may pass between them",
+                collider + 1,
+                short(2.0 * radius_m),
+                two_digits(longest_m),
+            ),
+            "a finer mesh, or a larger ball".to_owned(),
+        ),
+        Warning::Strong { least } => (
+            format!(
+                "all {} are stronger than the cloth: nothing tears below {} times the threshold",
+                count(run.mesh().vertex_count(), "vertex", "vertices"),
+                short(least),
+            ),
+            "a finer mesh, or smaller regions of strength".to_owned(),
+        ),
+        Warning::Limiter(stats) => {
+            let limit = match &scene.solver {
+                Method::Provot(limiter) => limiter.stretch_ratio_max,
+                _ => 1.0,
+            };
+            (
+                format!(
+                    "in {} of {} what is held was too far apart for the limiter, and edges stayed up to \
+                     {} times as long as at rest, above its limit of {limit}",
+                    stats.steps_infeasible,
+                    of_steps(run),
+                    short(limit + stats.excess_max),
+                ),
+                "a larger limit_ratio in [solver] of a scene file, or --solver verlet".to_owned(),
+            )
+        }
+        Warning::PassedBall {
+            collider,
+            radius_m,
+            farthest_m,
+        } => (
+            format!(
+                "a vertex moved {} m in a step, and collider {} is a ball of radius {} m: it may have been \
+                 passed without a touch",
+                two_digits(farthest_m),
+                collider + 1,
+                short(radius_m),
+            ),
+            format!(
+                "--dt {}",
+                two_digits(run.step_s() * radius_m / farthest_m / 2.0)
+            ),
+        ),
+        Warning::Energy(gain) => {
+            let since = short(gain.since_s);
+            let much = if super::summary::has_limited(run) {
+                format!("energy out of nothing, from {since} s on")
+            } else {
+                let [made, put_in] = [gain.made_j, gain.put_in_j].map(three_digits);
+                format!("{made} J out of nothing, from {since} s on, where {put_in} J were put in")
+            };
+            let others = match scene.solver {
+                Method::Verlet => "--solver implicit",
+                Method::Implicit(_) => "--solver verlet",
+                _ => "--solver verlet or implicit",
+            };
+            (
+                format!("the method made {much}: what tore since then tore partly because of it"),
+                format!("{others}, --dt {half}, or a larger drag_per_s in a scene file"),
+            )
+        }
+        Warning::Damped { rate_per_s } => {
+            let rate = match rate_per_s {
+                rate if rate > 1000.0 => "more than 1000".to_owned(),
+                rate => three_digits(rate),
+            };
+            let beside = match scene.drag_per_s {
+                0.0 => "although the scene has none".to_owned(),
+                drag => format!("on top of the {} /s of the scene", short(drag)),
+            };
+            let order = match scene.solver {
+                Method::Implicit(_) => "`order = \"2\"` in [solver] of a scene file, ",
+                _ => "",
+            };
+            (
+                format!(
+                    "{} damped motion as much as a drag of {rate} /s would, {beside}: what swings comes to \
+                     rest too soon",
+                    method_name(&scene.solver)
+                ),
+                format!("--dt {half}, {order}or --solver verlet"),
+            )
+        }
+        _ => (warning.code().to_owned(), "none is known".to_owned()),
+    };
+    let severity = match warning {
+        Warning::Rigid | Warning::Strong { .. } | Warning::Damped { .. } => Severity::Note,
+        _ => Severity::Warning,
+    };
+    Fault {
+        severity,
+        ..Fault::error(warning.code(), message).help(help)
+    }
+}
+
+/// How many steps were taken; where they were divided, and the method had each part, how many parts.
+fn of_steps(run: &Run) -> String {
+    let substeps = run.cloth().system().counters().substeps;
+    let (one, many) = match substeps == run.tally().steps {
+        true => ("step", "steps"),
+        false => ("substep", "substeps"),
+    };
+    count(substeps as usize, one, many)
+}
+
+/// The part of the seconds that were asked for by which those simulated may differ unsaid: a step
+/// that is chosen for its stability hardly ever divides them, and the summary says them.
+const DIFFERENCE_MAX: f64 = 0.01;
+
+/// Times that steps do not make up: the whole, and that between frames, each of which shows the end of a step.
+pub(super) fn times(run: &Run, args: &TearArgs) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let (asked_s, step_s, steps) = (run.scene().duration_s, run.step_s(), run.steps_planned());
+    let made_s = steps as f64 * step_s;
+    let step = short(step_s);
+    if (made_s - asked_s).abs() > DIFFERENCE_MAX * asked_s {
+        let message = format!(
+            "{} s is not a whole number of steps of {step} s: {} s are simulated, in {}",
+            short(asked_s),
+            short(made_s),
+            count(steps as usize, "step", "steps"),
+        );
+        let help = format!("--dt {}", short(asked_s / (asked_s / step_s).ceil()));
+        faults.push(Fault::warning("W-SIM-SECONDS", message).help(help));
+    }
+    let has_frames = args.frames.is_some() || args.cache.is_some();
+    if has_frames && !args.files.dry_run && step_s * RATE_PER_S > 1.0 {
+        let message = format!(
+            "steps of {step} s make {} frames a second, not {RATE_PER_S}: a film of them runs too fast",
+            short(1.0 / step_s),
+        );
+        let help = format!("--dt {}", two_digits(1.0 / RATE_PER_S));
+        faults.push(Fault::warning("W-FRAMES-FEW", message).help(help));
+    }
+    faults
 }
 
 /// The code of a step that was not taken.
 pub(crate) fn code(error: &StepError) -> &'static str {
-    words::code(error)
+    error.code()
 }
 
-/// What the mesh is too coarse for: balls that slip between vertices, and strengths that leave nothing to
-/// tear.
-fn too_coarse(run: &Run) -> Vec<Fault> {
-    let edges = run.cloth().system().stretches();
-    let lengths = edges.iter().map(|id| edges.get(id).rest_length_m);
-    let longest_m = lengths.fold(0.0, f64::max);
-    let slips = |(number, radius_m): (usize, f64)| {
-        let message = format!(
-            "collider {number} is a ball {} m across, and edges are up to {} m long: only vertices are \
-             pushed out, and it may pass between them",
-            short(2.0 * radius_m),
-            two_digits(longest_m),
-        );
-        Fault::warning("W-SIM-COLLIDER", message).help("a finer mesh, or a larger ball")
+/// Why the simulation failed, with vertices counted as in OBJ, and what would help.
+pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
+    let edge = |[a, b]: [usize; 2]| format!(" at edge {}-{}", a + 1, b + 1);
+    let half = two_digits(run.step_s() / 2.0);
+    // What is torn later may need still shorter steps.
+    let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
+    let exceeds = |given_s: f64, limit_s: f64, why: String| {
+        let limit = two_digits(limit_s);
+        format!("dt {given_s} s exceeds the stability limit {limit} s ({why})")
     };
-    let small = balls(run).filter(|(_, radius_m)| 2.0 * radius_m < longest_m);
-    small.map(slips).chain(strong(run)).collect()
-}
-
-/// The balls that steps were too long for.
-fn passed(run: &Run) -> Vec<Fault> {
-    let farthest_m = run.tally().farthest_m;
-    let passes = |(number, radius_m): (usize, f64)| {
-        let message = format!(
-            "a vertex moved {} m in a step, and collider {number} is a ball of radius {} m: it may have \
-             been passed without a touch",
-            two_digits(farthest_m),
-            short(radius_m),
-        );
-        let slower_s = run.step_s() * radius_m / farthest_m / 2.0;
-        let help = format!("--dt {}", two_digits(slower_s));
-        Fault::warning("W-SIM-COLLIDER", message).help(help)
+    let (message, help) = match *error {
+        StepError::Unstable {
+            given_s,
+            limit_s,
+            frequency,
+        } => {
+            let at = frequency.ends.map(edge).unwrap_or_default();
+            let omega = short(frequency.omega_rad_per_s.round());
+            let why = format!("bound of frequencies {omega} rad/s{at}");
+            let or = match run.scene().solver {
+                Method::Verlet => "",
+                _ => ", or --solver verlet",
+            };
+            let help = format!("--dt {}{or}", two_digits(limit_s * part));
+            (exceeds(given_s, limit_s, why), help)
+        }
+        StepError::Air {
+            given_s,
+            limit_s,
+            rate,
+        } => {
+            let per_s = short(rate.rate_per_s.round());
+            let vertex = rate.particle + 1;
+            let why = format!("the air slows vertex {vertex} at a rate of {per_s} /s");
+            let help = format!("--dt {}", two_digits(limit_s * part));
+            (exceeds(given_s, limit_s, why), help)
+        }
+        StepError::Implicit { error, .. } => {
+            let (why, or) = unsolved(&error);
+            let dt = short(run.step_s());
+            (
+                format!("an implicit step of {dt} s {why}"),
+                format!("--dt {half}, --solver verlet{or}"),
+            )
+        }
+        _ => {
+            let message = match *error {
+                StepError::BlowUp { at, .. } => format!("the simulation blew up{}", place(at)),
+                ref other => other.to_string(),
+            };
+            let help = match run.scene().step_s {
+                Some(_) => format!("--dt {half}, or --solver implicit"),
+                None => "--solver implicit".to_owned(),
+            };
+            (message, help)
+        }
     };
-    let passed = balls(run).filter(|&(_, radius_m)| farthest_m > radius_m);
-    passed.map(passes).collect()
+    let after = match run.elapsed_s() {
+        0.0 => String::new(),
+        elapsed => format!("; the state after {} s is kept", short(elapsed)),
+    };
+    Fault::error(error.code(), message + &after).help(help)
 }
 
-/// The balls of a scene, by the numbers of colliders from 1, and their radii in metres.
-fn balls(run: &Run) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let numbered = (1..).zip(&run.scene().colliders);
-    numbered.filter_map(|(number, collider)| match *collider {
-        Collider::Sphere { radius_m, .. } => Some((number, radius_m)),
-        Collider::Plane(_) => None,
-    })
-}
-
-/// Strengths are those of vertices, and on a coarse mesh a small region may hold all that could
-/// tear.
-fn strong(run: &Run) -> Option<Fault> {
-    let tear = run.tear()?;
-    let mesh = run.mesh();
-    let strengths = mesh.vertices().map(|v| tear.strength(v));
-    let least = strengths.fold(f64::INFINITY, f64::min);
-    if !(least > 1.0 && least.is_finite()) {
-        return None;
+/// Where a simulation blew up.
+fn place(at: BlowUpSite) -> String {
+    let long =
+        |place: String, ratio| format!("{place}, which is {} times its rest length", short(ratio));
+    match at {
+        BlowUpSite::Constraint {
+            ends: [a, b],
+            stretch_ratio,
+        } => long(format!(" at edge {}-{}", a + 1, b + 1), stretch_ratio),
+        BlowUpSite::Bend {
+            ends: [a, b],
+            stretch_ratio,
+        } => {
+            let bend = format!(" at the bend between the vertices {} and {}", a + 1, b + 1);
+            long(bend, stretch_ratio)
+        }
+        BlowUpSite::Particle(particle) | BlowUpSite::Beyond(particle) => {
+            format!(": vertex {} has no finite position", particle + 1)
+        }
+        _ => String::new(),
     }
-    let message = format!(
-        "all {} are stronger than the cloth: nothing tears below {} times the threshold",
-        count(mesh.vertex_count(), "vertex", "vertices"),
-        short(least),
-    );
-    let help = "a finer mesh, or smaller regions of strength";
-    Some(Fault::note("W-SIM-STRONG", message).help(help))
+}
+
+/// What an implicit step left undone, and which key of a scene file can help beside a shorter step.
+fn unsolved(error: &implicit::StepError) -> (String, &'static str) {
+    match error {
+        implicit::StepError::NotConverged {
+            residual,
+            limit,
+            solver_iterations,
+        } => (
+            format!(
+                "leaves an error of {} m/s after {solver_iterations} iterations of the linear solver, and \
+                 the tolerance allows {} m/s",
+                short(*residual),
+                short(*limit)
+            ),
+            ", or a larger `tolerance` in [solver] of a scene file",
+        ),
+        _ => (format!("failed: {error}"), ""),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tearmesh::Positions;
+    use tearmesh_cloth::scene::{Axis, Scene};
+    use tearmesh_cloth::{Tearing, Xpbd};
+    use tearmesh_obj::Document;
+
+    use super::*;
+
+    #[test]
+    fn any_number_of_sweeps_is_judged() {
+        let (mesh, positions) = tearmesh::shapes::grid(2, 2);
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let scene = Scene {
+            solver: Method::Xpbd(Xpbd::new(100_000, 1)),
+            step_s: Some(1e12),
+            duration_s: 1e12,
+            tearing: Some(Tearing::default()),
+            ..Scene::hang(&frame)
+        };
+        let run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
+        let faults = before(&run, &frame, &|v| v);
+        assert!(faults.iter().all(|fault| fault.code != "W-SIM-COARSE"));
+        let soft = faults.iter().find(|fault| fault.code == "W-SIM-SOFT");
+        let help = soft.and_then(|fault| fault.help.clone()).expect("a step");
+        assert!(help.starts_with("--dt "), "{help}");
+    }
+
+    #[test]
+    fn steps_without_end_are_warned_of_with_the_edge() {
+        // The second face has no area, and a vertex of its own.
+        let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 -1 0\nf 1 2 3\nf 3 2 4\n";
+        let document = Document::read(&file[..]).expect("a file");
+        let mesh = document.mesh().expect("a strip");
+        let positions = Positions::new(document.positions().iter().copied()).expect("numbers");
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let warned = |solver| {
+            let scene = Scene {
+                solver,
+                ..Scene::hang(&frame)
+            };
+            let run = Run::new(mesh.clone(), &positions, scene, &frame).expect("a scene");
+            let faults = before(&run, &frame, &|v| document.number_of_vertex(v));
+            let endless = faults
+                .into_iter()
+                .find(|fault| fault.code == "W-SIM-ENDLESS");
+            endless.map(|fault| fault.message)
+        };
+        let message = warned(Method::Verlet).expect("a warning");
+        assert!(message.contains("the edge 4-3 may swing at "), "{message}");
+        assert_eq!(warned(Method::Implicit(Default::default())), None);
+    }
 }

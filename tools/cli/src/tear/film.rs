@@ -4,8 +4,7 @@ use tearmesh::geometry::length;
 use tearmesh_cloth::scene::{Run, TearLog};
 use tearmesh_view::{Moment, Page, Plot};
 
-use super::frames::RATE_PER_S;
-use super::points::places;
+use super::frames::{RATE_PER_S, places};
 use crate::exit::Stop;
 use crate::page;
 

@@ -16,7 +16,6 @@ use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 use tearmesh_view::{MOMENTS_PER_S, write_pc2};
 
-use super::points::places;
 use crate::args::{TearArgs, Topology};
 use crate::exit::{Exit, Stop};
 use crate::files::unwritable;
@@ -25,6 +24,18 @@ use crate::{files, output, report};
 
 /// How many frames a second.
 pub(super) const RATE_PER_S: f64 = MOMENTS_PER_S;
+
+/// Where the vertices of a run are; refused if one of them is nowhere.
+pub(super) fn places(run: &Run) -> Result<Positions, Stop> {
+    finite(run.cloth().positions().to_vec())
+}
+
+fn finite(points: Vec<Point>) -> Result<Positions, Stop> {
+    Positions::new(points).map_err(|error| {
+        let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
+        Stop::new(Exit::Simulation, fault)
+    })
+}
 
 /// The frames of a run, if any are wanted.
 pub(super) struct Frames {
@@ -175,10 +186,7 @@ impl Frames {
             }
             let (points, corners) = self.checked(number, shot, run.mesh())?;
             checked += corners;
-            let positions = Positions::new(points).map_err(|error| {
-                let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
-                Stop::new(Exit::Simulation, fault)
-            })?;
+            let positions = finite(points)?;
             self.write(number, |mut out| {
                 torn.write(run.mesh(), &positions, &mut out)
             })?;

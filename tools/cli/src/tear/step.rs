@@ -10,10 +10,9 @@ use tearmesh_cloth::scene::ensemble::{
 use tearmesh_cloth::statistics::{self, Verdict, compare};
 use tearmesh_lab::experiment::{side_by_side, workers};
 
-use super::words::{three_digits, two_digits};
 use crate::interrupt::Guard;
 use crate::report;
-use crate::say::{Fault, count, short};
+use crate::say::{Fault, count, short, three_digits, two_digits};
 
 /// Runs at each of the two steps.
 const SEEDS: u64 = 8;
@@ -68,7 +67,7 @@ fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQu
 }
 
 /// The lines of the summary: a head, and one for each number.
-pub(super) fn words(check: &report::StepCheck) -> Vec<String> {
+pub(super) fn summary(check: &report::StepCheck) -> Vec<String> {
     let [whole, half] = &check.ensembles[..] else {
         return Vec::new();
     };

@@ -40,10 +40,13 @@ pub enum Method {
 
 /// What an implicit method did in all steps so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stats {
     /// The number of steps, each part counted of one that was divided because it overshot.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub parts: u64,
     /// The number of parts by backward Euler: with BDF2, those that had no last step to go on from.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub first_order_parts: u64,
     /// The number of matrices that proved to be indefinite, which happens to cloth under
     /// compression.
@@ -52,6 +55,7 @@ pub struct Stats {
     /// matrix was indefinite.
     pub clamped: u64,
     /// The number of conjugate gradient iterations.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub solver_iterations: u64,
     /// The largest residual of a part, as a bound on the rms error of the velocity in m/s.
     pub residual_max_m_per_s: f64,

@@ -14,6 +14,7 @@ use crate::tearing::TearReport;
 
 /// A step in which something tore.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TearEvent {
     /// The time at the end of the step, in seconds.
     pub time_s: f64,
@@ -21,9 +22,10 @@ pub struct TearEvent {
     pub splits: usize,
     /// The total rest length of the edges that came apart, in metres.
     pub torn_m: f64,
-    /// The midpoint of the edge with the largest load divided by strength: its position at the end
-    /// of the step, and at rest.
-    pub place: [Point; 2],
+    /// The midpoint of the edge with the largest load divided by strength, at the end of the step.
+    pub place: Point,
+    /// The midpoint of that edge at rest.
+    pub place_at_rest: Point,
     /// The largest load divided by strength: 1 or more.
     pub load: f64,
 }
@@ -143,7 +145,8 @@ impl TearLog {
             time_s: run.elapsed_s(),
             splits: tear.splits,
             torn_m: tear.tear_length_m,
-            place: [middle(cloth.positions()), middle(rest)],
+            place: middle(cloth.positions()),
+            place_at_rest: middle(rest),
             load,
         });
     }

@@ -3,6 +3,7 @@
 /// Counts of the work done since the system was created. They measure the cost of a simulation
 /// without a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Counters {
     /// The number of evaluations of all forces.
     pub force_evaluations: u64,
@@ -19,11 +20,13 @@ pub struct Counters {
     /// Counts of visits to single constraints, by purpose.
     pub visits: Visits,
     /// Counts of visits to single elements, by the feature of the model that they belong to.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub features: FeatureVisits,
 }
 
 /// Counts of visits to single constraints (springs, bends and triangles alike), by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Visits {
     /// The number of visits to project or shorten a constraint.
     pub project: u64,

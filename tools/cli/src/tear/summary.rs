@@ -1,0 +1,170 @@
+//! The summary of a simulation: what tore, where the energy went, and at what cost.
+
+use std::io::{self, Write};
+
+use tearmesh_cloth::Quality;
+use tearmesh_cloth::scene::{Run, TearLog};
+
+use crate::report;
+use crate::say::{count, short, three_digits};
+
+/// The line of the summary.
+pub(super) fn simulation(tear: &report::Tear) -> String {
+    let cap = match tear.steps_at_cap {
+        0 => String::new(),
+        steps => format!(" (cap hit in {})", count(steps as usize, "step", "steps")),
+    };
+    let ended = match tear.status {
+        "done" => String::new(),
+        status => format!(", {status} before {} s", short(tear.time_planned_s)),
+    };
+    format!(
+        "tear: {} s in {} ({}){ended}, {} split{cap}, {} m torn, {} -> {}, stretched up to {}",
+        short(tear.time_simulated_s),
+        count(tear.steps as usize, "step", "steps"),
+        tear.solver,
+        count(tear.splits as usize, "vertex", "vertices"),
+        short(tear.tear_length_m),
+        count(tear.pieces_before, "piece", "pieces"),
+        count(tear.pieces, "piece", "pieces"),
+        short(tear.max_stretch),
+    )
+}
+
+/// Whether Provot's limiter has worked. Its work grows without bound as steps get shorter, on what is
+/// held as well: joules that it has a part in say nothing of the cloth.
+pub(super) fn has_limited(run: &Run) -> bool {
+    matches!(run.quality(), Quality::Limiter(limited) if limited.steps_limited > 0)
+}
+
+/// The line of the summary that says where the energy went. What neither loads nor hands took is the
+/// method's.
+pub(super) fn balance(run: &Run) -> String {
+    let balance = run.energy_balance();
+    if has_limited(run) {
+        return format!(
+            "energy: {} J stored; what was put in and lost is not known, because the limiter's work grows without bound as steps get shorter",
+            three_digits(balance.kinetic_j + balance.elastic_j)
+        );
+    }
+    let made_j = balance.made_j();
+    let how = if made_j > 0.0 {
+        "made by the method"
+    } else {
+        "of numerical dissipation"
+    };
+    format!(
+        "energy: {} J put in, {} J stored, {} J lost to drag, {} J {how}",
+        three_digits(balance.put_in_j()),
+        three_digits(balance.kinetic_j + balance.elastic_j),
+        three_digits(-balance.drag_j),
+        three_digits(made_j.abs()),
+    )
+}
+
+/// Momentum that edits made or lost beyond rounding: our bug.
+pub(super) fn momentum_broken(run: &Run) -> Option<String> {
+    let drift = run.tally().momentum_drift;
+    // Each of some millions of terms is rounded; a lost particle is far more.
+    (drift > 1e-6).then(|| format!("edits changed the momentum by the fraction {drift:e}"))
+}
+
+pub(super) fn energy(run: &Run) -> report::Energy {
+    let ledger = run.cloth().ledger();
+    let balance = run.energy_balance();
+    let said = |joules: f64| Some(joules).filter(|_| !has_limited(run));
+    report::Energy {
+        split_elastic: ledger.split_elastic_j,
+        insert_elastic: ledger.insert_elastic_j,
+        insert_kinetic: ledger.insert_kinetic_j,
+        torn_edges: run.tally().edge_energy_j,
+        began: balance.began_j,
+        kinetic: balance.kinetic_j,
+        elastic: balance.elastic_j,
+        gravity: balance.gravity_j,
+        held: said(balance.held_j),
+        wind: balance.wind_j,
+        drag: balance.drag_j,
+        colliders: balance.colliders_j,
+        edits: balance.edits_j,
+        numerical_dissipation: said(-balance.made_j()),
+        gain: run.energy_gain().map(|gain| report::EnergyGain {
+            since_s: gain.since_s,
+            made_j: said(gain.made_j),
+            put_in_j: said(gain.put_in_j),
+        }),
+    }
+}
+
+/// The features that a scene uses, and which part of the work each is.
+pub(super) fn features(run: &Run) -> Vec<report::FeatureCost> {
+    let (system, scene) = (run.cloth().system(), run.scene());
+    let counters = system.counters();
+    let cost = counters.features;
+    let features = [
+        ("springs", true, cost.stretch),
+        ("bending", !system.bends().is_empty(), cost.bend),
+        ("triangles", cost.triangle > 0, cost.triangle),
+        ("wind", scene.wind.is_some(), cost.wind),
+        ("colliders", !scene.colliders.is_empty(), cost.collider),
+        ("tearing", scene.tearing.is_some(), counters.visits.detect),
+    ];
+    let all: u64 = features.iter().map(|&(_, _, visits)| visits).sum();
+    let used = features.into_iter().filter(|&(_, is_used, _)| is_used);
+    used.map(|(name, _, visits)| report::FeatureCost {
+        name,
+        visits,
+        share: visits as f64 / all.max(1) as f64,
+    })
+    .collect()
+}
+
+/// The line of `--verbose` that says what the work was for.
+pub(super) fn cost(features: &[report::FeatureCost]) -> String {
+    let shares = features
+        .iter()
+        .map(|feature| format!("{} {:.0} %", feature.name, 100.0 * feature.share));
+    let visits: u64 = features.iter().map(|feature| feature.visits).sum();
+    let visits = match visits {
+        0..1_000_000 => visits.to_string(),
+        _ => format!("{:.1} million", visits as f64 / 1e6),
+    };
+    let shares = shares.collect::<Vec<_>>().join(", ");
+    format!("cost: {visits} element visits: {shares}")
+}
+
+/// The line of the summary; none where nothing tore.
+pub(super) fn first_tear(tear_log: &TearLog) -> Option<String> {
+    let first = tear_log.first_tear()?;
+    let rest: [f64; 3] = first.event.place_at_rest.into();
+    let forces = first.force_n.zip(tear_log.largest_force_n());
+    let forces = forces.map_or(String::new(), |(then_n, most_n)| {
+        format!(
+            ", where a hold bears {} N; at most {} N",
+            three_digits(then_n),
+            three_digits(most_n)
+        )
+    });
+    Some(format!(
+        "first tear: after {} s at {} of the cloth at rest{forces}",
+        short(first.event.time_s),
+        rest.map(three_digits).join(","),
+    ))
+}
+
+/// The table of forces: a line a frame, three columns a hold of the scene, in its order.
+pub(super) fn write_forces(run: &Run, tear_log: &TearLog, out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "end_s")?;
+    for hold in 1..=run.scene().holds.len() {
+        write!(out, ",hold_{hold}_x_n,hold_{hold}_y_n,hold_{hold}_z_n")?;
+    }
+    writeln!(out)?;
+    for frame in tear_log.hold_forces() {
+        write!(out, "{:.6}", frame.end_s)?;
+        for force in &frame.forces_n {
+            write!(out, ",{:.6e},{:.6e},{:.6e}", force.x, force.y, force.z)?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,236 @@
+//! Reasons to doubt a run: what is known before its first step, and what showed in the steps that it took.
+
+use super::run::EnergyGain;
+use super::{Frame, Run};
+use crate::guard::Frequency;
+use crate::load::Collider;
+use crate::method::{LimiterStats, Method, Quality};
+use crate::stability::frequency_bound;
+use crate::step_length::Softness;
+
+/// A reason to doubt what a run shows of its cloth.
+///
+/// ```
+/// use tearmesh_cloth::Method;
+/// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, Warning};
+/// use tearmesh::shapes;
+///
+/// let (mesh, positions) = shapes::grid(6, 6);
+/// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+/// let scene = Scene { solver: Method::pbd(), ..Scene::hang(&frame) };
+/// let run = Run::new(mesh, &positions, scene, &frame)?;
+/// let warnings = Warning::before(&run, &frame);
+/// assert!(warnings.contains(&Warning::Rigid));
+/// assert!(warnings.iter().any(|warning| warning.code() == "W-SIM-RIGID"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The mesh is far smaller or larger than the garments and flags for which the default fabric is made.
+    Size {
+        /// The diagonal of the mesh, in metres.
+        size_m: f64,
+    },
+    /// An explicit method needs so many steps that the run will hardly end.
+    Endless {
+        /// The frequency that asks for such short steps.
+        frequency: Frequency,
+    },
+    /// A cut comes after the last step.
+    LateCut {
+        /// The time of the cut, in seconds.
+        at_s: f64,
+    },
+    /// A hold begins after the last step.
+    LateHold {
+        /// The index of the hold, from 0.
+        hold: usize,
+        /// The time at which it begins, in seconds.
+        from_s: f64,
+    },
+    /// XPBD leaves the cloth softer than its fabric by more than [`Softness::TOLERABLE`].
+    Soft(Softness),
+    /// PBD takes steps that are too long for the mesh, so that cloth is stretched by its own weight.
+    Coarse {
+        /// The longest suitable step, in seconds.
+        wanted_s: f64,
+    },
+    /// PBD treats edges as rigid, whatever the fabric.
+    Rigid,
+    /// A hold pins single vertices, whose strain grows as the mesh gets finer.
+    Pinned {
+        /// The index of the hold, from 0.
+        hold: usize,
+        /// The number of vertices.
+        pins: usize,
+    },
+    /// A ball is smaller than the longest edge, and may slip through the cloth between vertices.
+    SmallBall {
+        /// The index of the collider, from 0.
+        collider: usize,
+        /// The radius of the ball, in metres.
+        radius_m: f64,
+        /// The rest length of the longest edge, in metres.
+        longest_m: f64,
+    },
+    /// All vertices are stronger than the cloth.
+    Strong {
+        /// The least strength of a vertex.
+        least: f64,
+    },
+    /// Provot's limiter could not hold its limit, since held vertices were too far apart.
+    Limiter(LimiterStats),
+    /// A vertex moved so far in one step that it may have passed through a ball.
+    PassedBall {
+        /// The index of the collider, from 0.
+        collider: usize,
+        /// The radius of the ball, in metres.
+        radius_m: f64,
+        /// The distance that the vertex moved, in metres.
+        farthest_m: f64,
+    },
+    /// The method made energy out of nothing.
+    Energy(EnergyGain),
+    /// The method damped motion more than the scene's own drag does, enough to show in the time that was
+    /// simulated.
+    Damped {
+        /// The rate at which velocities faded, per second.
+        rate_per_s: f64,
+    },
+}
+
+impl Warning {
+    /// Returns the code of this warning, such as `W-SIM-SOFT`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Warning::Size { .. } => "W-SIM-SIZE",
+            Warning::Endless { .. } => "W-SIM-ENDLESS",
+            Warning::LateCut { .. } | Warning::LateHold { .. } => "W-SCENE-LATE",
+            Warning::Soft(_) => "W-SIM-SOFT",
+            Warning::Coarse { .. } => "W-SIM-COARSE",
+            Warning::Rigid => "W-SIM-RIGID",
+            Warning::Pinned { .. } => "W-SIM-PIN",
+            Warning::SmallBall { .. } | Warning::PassedBall { .. } => "W-SIM-COLLIDER",
+            Warning::Strong { .. } => "W-SIM-STRONG",
+            Warning::Limiter(_) => "W-SIM-LIMIT",
+            Warning::Energy(_) => "W-SIM-ENERGY",
+            Warning::Damped { .. } => "W-SIM-DAMPED",
+        }
+    }
+
+    /// Returns the warnings about a run that has not begun. `frame` is that of its scene. Takes linear time.
+    #[must_use]
+    pub fn before(run: &Run, frame: &Frame) -> Vec<Warning> {
+        let scene = run.scene();
+        let size_m = frame.size_m();
+        let is_usual = (0.01..=8.0).contains(&size_m);
+        let mut warnings = Vec::new();
+        warnings.extend((!is_usual).then_some(Warning::Size { size_m }));
+        warnings.extend(endless(run));
+        warnings.extend(late(run));
+        let softness = run.softness();
+        let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE);
+        warnings.extend(softness.map(Warning::Soft));
+        if matches!(scene.solver, Method::Pbd(_)) {
+            let wanted_s = run.step_wanted_s();
+            let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s);
+            warnings.extend(wanted_s.map(|wanted_s| Warning::Coarse { wanted_s }));
+            warnings.push(Warning::Rigid);
+        }
+        if scene.tearing.is_some() {
+            let still = (0..scene.holds.len()).filter(|&hold| scene.holds[hold].moves.is_empty());
+            let pins = still.map(|hold| (hold, run.pins(hold)));
+            let pins = pins.filter(|&(_, pins)| pins > 0);
+            warnings.extend(pins.map(|(hold, pins)| Warning::Pinned { hold, pins }));
+        }
+        let edges = run.cloth().system().stretches();
+        let lengths = edges.iter().map(|id| edges.get(id).rest_length_m);
+        let longest_m = lengths.fold(0.0, f64::max);
+        let small = balls(run).filter(|(_, radius_m)| 2.0 * radius_m < longest_m);
+        warnings.extend(small.map(|(collider, radius_m)| Warning::SmallBall {
+            collider,
+            radius_m,
+            longest_m,
+        }));
+        warnings.extend(strong(run));
+        warnings
+    }
+
+    /// Returns the warnings about the steps that a run has taken.
+    #[must_use]
+    pub fn after(run: &Run) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        if let Quality::Limiter(stats) = run.quality()
+            && stats.steps_infeasible > 0
+        {
+            warnings.push(Warning::Limiter(stats));
+        }
+        let farthest_m = run.tally().farthest_m;
+        let passed = balls(run).filter(|&(_, radius_m)| farthest_m > radius_m);
+        warnings.extend(passed.map(|(collider, radius_m)| Warning::PassedBall {
+            collider,
+            radius_m,
+            farthest_m,
+        }));
+        warnings.extend(run.energy_gain().map(Warning::Energy));
+        warnings.extend(damped(run));
+        warnings
+    }
+}
+
+/// An explicit method takes steps as short as the stiffest edge between the lightest vertices
+/// asks for, and one face without area is enough for years of them.
+fn endless(run: &Run) -> Option<Warning> {
+    let is_explicit = matches!(run.scene().solver, Method::Verlet | Method::Provot(_));
+    (is_explicit && run.steps_planned() >= STEPS_MANY).then(|| Warning::Endless {
+        frequency: frequency_bound(&mut run.cloth().system().clone()),
+    })
+}
+
+/// Hours of a mesh of a few thousand vertices.
+const STEPS_MANY: u64 = 10_000_000;
+
+/// Events after the last step. Where no step is taken at all, nothing has to be held.
+fn late(run: &Run) -> impl Iterator<Item = Warning> {
+    let scene = run.scene();
+    let cuts = scene.cuts.iter().map(|cut| cut.at_s);
+    let cuts = cuts.filter(|&at_s| !run.reaches(at_s));
+    let holds = scene.holds.iter().map(|hold| hold.from_s).enumerate();
+    let holds = holds.filter(|&(_, from_s)| run.steps_planned() > 0 && !run.reaches(from_s));
+    let holds = holds.map(|(hold, from_s)| Warning::LateHold { hold, from_s });
+    cuts.map(|at_s| Warning::LateCut { at_s }).chain(holds)
+}
+
+/// The balls of a scene, by the indices of colliders, and their radii in metres.
+fn balls(run: &Run) -> impl Iterator<Item = (usize, f64)> {
+    let colliders = run.scene().colliders.iter().enumerate();
+    colliders.filter_map(|(index, collider)| match *collider {
+        Collider::Sphere { radius_m, .. } => Some((index, radius_m)),
+        Collider::Plane(_) => None,
+    })
+}
+
+/// Strengths are those of vertices, and on a coarse mesh a small region may hold all that could tear.
+fn strong(run: &Run) -> Option<Warning> {
+    let tear = run.tear()?;
+    let strengths = run.mesh().vertices().map(|v| tear.strength(v));
+    let least = strengths.fold(f64::INFINITY, f64::min);
+    (least > 1.0 && least.is_finite()).then_some(Warning::Strong { least })
+}
+
+/// What Verlet takes is from what is crushed alone, and nothing from what swings; nor do Provot's springs,
+/// and of what the limiter takes nothing is known.
+fn damped(run: &Run) -> Option<Warning> {
+    let scene = run.scene();
+    if matches!(scene.solver, Method::Verlet | Method::Provot(_)) {
+        return None;
+    }
+    let rate_per_s = run.damping_per_s()?;
+    let shows = rate_per_s > scene.drag_per_s && rate_per_s * run.elapsed_s() > FADED;
+    shows.then_some(Warning::Damped { rate_per_s })
+}
+
+/// By how much motion has to fade to be told: energy by two fifths.
+const FADED: f64 = 0.25;
