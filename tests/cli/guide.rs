@@ -301,20 +301,34 @@ fn the_guide_has_the_keys_of_the_report_and_no_others() {
 #[test]
 fn the_guide_has_the_keys_of_scene_files_and_no_others() {
     let folder = Folder::new();
-    let help = folder.run("tearmesh tear --help");
-    let help = String::from_utf8(help.stdout).expect("text");
-    let (_, schema) = help
-        .split_once("\n  at the top\n")
-        .expect("the keys of scenes");
+    let tables = [
+        "fabric",
+        "solver",
+        "wind",
+        "[collider]",
+        "[hold]",
+        "[cut]",
+        "tear",
+        "[strength]",
+    ];
     let mut taken = BTreeSet::new();
-    let mut table = String::new();
-    for line in schema.lines() {
-        if let Some(key) = line.strip_prefix("    ").filter(|line| line.contains("  ")) {
-            let key = key.split(' ').next().expect("a word");
-            taken.insert((table.clone(), key.to_owned()));
-        } else if let Some(title) = line.strip_prefix("  [") {
-            table = title.split(']').next().expect("a name").replace('[', "");
-        }
+    for table in tables.into_iter().chain([""]) {
+        let head = match table {
+            "" => String::new(),
+            table => format!("[{table}]\n"),
+        };
+        folder.write("s.toml", head + "unknown_to_all_of_them = 1\n");
+        // The answer lists all keys.
+        let answer = harness::seen(&folder.run("tearmesh tear sheet.obj --scene s.toml"));
+        let keys = answer.split_once("help: it has ").expect("the keys").1;
+        let keys = keys.lines().next().expect("a line").split(", ");
+        let table = table.replace(['[', ']'], "");
+        let keys = keys.filter(|key| {
+            tables
+                .iter()
+                .all(|table| table.replace(['[', ']'], "") != *key)
+        });
+        taken.extend(keys.map(|key| (table.clone(), key.to_owned())));
     }
 
     let mut told = BTreeSet::new();

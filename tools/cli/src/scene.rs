@@ -1,12 +1,10 @@
 //! Scenes: those that stand ready, and scene files.
 
 mod apply;
-mod axes;
 mod fabric;
-mod file;
+mod kinds;
 mod method;
 mod read;
-mod ready;
 mod schema;
 
 use std::io::Read as _;
@@ -14,10 +12,10 @@ use std::path::Path;
 
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
-pub(crate) use self::axes::axis;
-pub(crate) use self::file::SceneFile;
+pub(crate) use self::kinds::axis;
+use self::kinds::{READY, ready};
 pub(crate) use self::method::{SolverName, method_name};
-use self::ready::{NAMES, base};
+pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
 use crate::exit::{Exit, Stop};
 use crate::input::{Input, cannot_read};
@@ -35,7 +33,7 @@ pub(crate) enum Source {
 impl Source {
     /// Finds the scene, and reads it if it is a file.
     pub(crate) fn find(name: &str, streams: &mut Streams<'_>) -> Result<Source, Stop> {
-        if let Some(ready) = NAMES.iter().find(|ready| **ready == name) {
+        if let Some(ready) = READY.iter().find(|ready| **ready == name) {
             return Ok(Source::Ready(ready));
         }
         if !Path::new(name).exists() && !name.contains(['.', '/', '\\']) {
@@ -55,7 +53,7 @@ impl Source {
                 Fault::error("E-SCENE-SYNTAX", message),
             ));
         };
-        match read::file(&file.name, &text) {
+        match SceneFile::read(&file.name, &text) {
             Ok(file) => Ok(Source::File(Box::new(file))),
             Err(faults) => Err(Stop {
                 exit: Exit::Usage,
@@ -68,7 +66,7 @@ impl Source {
     pub(crate) fn name(&self) -> String {
         match self {
             Source::Ready(name) => (*name).to_owned(),
-            Source::File(file) => file.source.path.clone(),
+            Source::File(file) => file.text.path.clone(),
         }
     }
 
@@ -105,7 +103,7 @@ impl Source {
     /// The scene for a mesh with this frame; the method may be chosen on the command line.
     pub(crate) fn scene(&self, frame: &Frame, solver: Option<SolverName>) -> Result<Scene, Stop> {
         let mut scene = match self {
-            Source::Ready(name) => base(name, frame),
+            Source::Ready(name) => ready(name, frame),
             Source::File(file) => {
                 let refused = |faults| Stop {
                     exit: Exit::Usage,
@@ -125,7 +123,9 @@ impl Source {
 mod tests {
     use tearmesh::shapes;
 
-    use super::schema::{KEYS, Key, LISTS};
+    use std::collections::BTreeSet;
+
+    use super::schema::Section;
     use super::*;
 
     fn frame() -> Frame {
@@ -136,7 +136,7 @@ mod tests {
     /// What a file makes of the scene `fall`, in words; or the codes of its faults.
     fn read(text: &str) -> Result<String, Vec<&'static str>> {
         let codes = |faults: Vec<Fault>| faults.iter().map(|fault| fault.code).collect();
-        let file = read::file("test.toml", text).map_err(codes)?;
+        let file = SceneFile::read("test.toml", text).map_err(codes)?;
         let source = Source::File(Box::new(file));
         match source.scene(&frame(), None) {
             Ok(scene) => Ok(format!("{scene:?} {:?}", source.up())),
@@ -145,8 +145,8 @@ mod tests {
     }
 
     /// What has to stand beside a key so that it means something.
-    fn beside(key: &Key) -> &'static str {
-        match (key.table, key.name) {
+    fn beside(table: &str, key: &str) -> &'static str {
+        match (table, key) {
             ("solver", "substeps" | "sweeps") => "method = \"xpbd\"",
             ("solver", "stiffness" | "bend_stiffness") => "method = \"pbd\"",
             ("solver", "limit_ratio" | "limit_passes") => "method = \"provot\"",
@@ -177,83 +177,108 @@ mod tests {
         }
     }
 
-    /// Two values that are admitted, and differ from each other.
-    fn values(key: &Key) -> [&'static str; 2] {
-        use super::schema::Kind;
-        match key.kind {
-            Kind::Positive | Kind::NotNegative => ["0.375", "2"],
-            Kind::Ratio => ["1.375", "2"],
-            Kind::Part if key.name == "buckles_below" => ["0.625", "0.75"],
-            Kind::Part => ["0.375", "0.75"],
-            Kind::Count => ["3", "7"],
-            Kind::Bool => ["true", "false"],
-            Kind::Word(_) => match key.name {
-                "base" => ["\"hang\"", "\"rip\""],
-                "up" => ["\"z\"", "\"-x\""],
-                "copies" => ["\"whole\"", "\"halved\""],
-                "unbend" => ["\"vertex\"", "\"seam\""],
-                "bend_law" => ["\"buckling\"", "\"spring\""],
-                "order" => ["\"1\"", "\"2\""],
-                "method" if key.table == "solver" => ["\"verlet\"", "\"implicit\""],
-                _ => ["\"partition\"", "\"uniform\""],
-            },
-            Kind::Range => ["[0, 0.375]", "[0.5, 1]"],
-            Kind::Pair => ["[0, 0.375]", "[0.5, 1]"],
-            Kind::Vector => ["[0.5, 1, 0.375]", "[0, 0.25, 0.5]"],
-            Kind::NumberOrVector => ["0.375", "[0, 1, 0]"],
-            Kind::Rays => [
-                "[\"0,1,5:0,0,-1\", \"0,-1,5:0,0,-1\"]",
-                "[\"0.5,1,5:0,0,-1\", \"0.5,-1,5:0,0,-1\"]",
-            ],
-            Kind::Numbers => ["[1, 2]", "[3]"],
-            Kind::Moves => ["[[0, 0, 0, 0], [1, 0, 1, 0]]", "[[0, 0, 0, 1]]"],
+    /// All keys, with their tables, as the answer to an unknown one lists them.
+    fn keys() -> Vec<(&'static str, String)> {
+        let sections = Section::all();
+        let tables: Vec<&str> = sections.iter().map(|section| section.table).collect();
+        let mut keys = Vec::new();
+        for &table in &tables {
+            let text = head(table) + "unknown_to_all_of_them = 1\n";
+            let faults = SceneFile::read("test.toml", &text).expect_err("no such key");
+            let help = faults[0].help.as_deref().expect("the keys");
+            let names = help.strip_prefix("it has ").expect("the keys").split(", ");
+            let names = names.filter(|name| !tables.contains(name));
+            keys.extend(names.map(|name| (table, name.to_owned())));
+        }
+        assert_eq!(keys.len(), 71);
+        keys
+    }
+
+    /// The line with which a table begins.
+    fn head(table: &str) -> String {
+        let mut sections = Section::all().into_iter();
+        let section = sections.find(|section| section.table == table);
+        let title = section.map_or("", |section| section.title);
+        match table {
+            "" => String::new(),
+            _ => format!("{title}\n"),
         }
     }
 
-    fn file(key: &Key, value: &str) -> String {
-        let line = format!("{} = {value}\n", key.name);
+    /// Values of every kind.
+    const VALUES: &[&str] = &[
+        "0.375",
+        "0.625",
+        "0.75",
+        "1.375",
+        "2",
+        "3",
+        "true",
+        "false",
+        r#""hang""#,
+        r#""rip""#,
+        r#""z""#,
+        r#""-x""#,
+        r#""whole""#,
+        r#""halved""#,
+        r#""vertex""#,
+        r#""seam""#,
+        r#""buckling""#,
+        r#""spring""#,
+        r#""1""#,
+        r#""2""#,
+        r#""verlet""#,
+        r#""implicit""#,
+        r#""partition""#,
+        r#""uniform""#,
+        "[0, 0.375]",
+        "[0.5, 1]",
+        "[0.5, 1, 0.375]",
+        "[0, 0.25, 0.5]",
+        r#"["0,1,5:0,0,-1", "0,-1,5:0,0,-1"]"#,
+        r#"["0.5,1,5:0,0,-1", "0.5,-1,5:0,0,-1"]"#,
+        "[1, 2]",
+        "[3]",
+        "[[0, 0, 0, 0], [1, 0, 1, 0]]",
+        "[[0, 0, 0, 1]]",
+    ];
+
+    fn file(table: &str, key: &str, value: &str) -> String {
+        let line = format!("{key} = {value}\n");
+        let implicit = "[solver]\nmethod = \"implicit\"\n[fabric]\n";
         let woven = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
-        if key.table == "fabric" && woven.contains(&key.name) {
-            let others = woven[..2].iter().filter(|&&other| other != key.name);
-            let others: String = others.map(|other| format!("{other} = 300\n")).collect();
-            return format!("[solver]\nmethod = \"implicit\"\n[fabric]\n{others}{line}");
-        }
-        if key.table == "fabric" && ["flexural_n_m2", "buckles_below"].contains(&key.name) {
-            let other = match key.name {
-                "flexural_n_m2" => "",
-                _ => "flexural_n_m2 = 1e-6\n",
-            };
-            let fabric = format!("[fabric]\nbend_law = \"buckling\"\n{other}{line}");
-            return format!("[solver]\nmethod = \"implicit\"\n{fabric}");
-        }
-        // A law without a number is none.
-        if key.name == "bend_law" && value != "\"spring\"" {
-            let fabric = format!("[fabric]\nflexural_n_m2 = 1e-6\n{line}");
-            return format!("[solver]\nmethod = \"implicit\"\n{fabric}");
-        }
-        match key.table {
-            "" => line,
-            table if LISTS.contains(&table) => format!("[[{table}]]\n{}\n{line}", beside(key)),
-            table => format!("[{table}]\n{}\n{line}", beside(key)),
+        match (table, key) {
+            ("fabric", key) if woven.contains(&key) => {
+                let others = woven[..2].iter().filter(|&&other| other != key);
+                let others: String = others.map(|other| format!("{other} = 300\n")).collect();
+                format!("{implicit}{others}{line}")
+            }
+            ("fabric", "flexural_n_m2") => format!("{implicit}bend_law = \"buckling\"\n{line}"),
+            ("fabric", "buckles_below") => {
+                format!("{implicit}bend_law = \"buckling\"\nflexural_n_m2 = 1e-6\n{line}")
+            }
+            // A law without a number is none.
+            ("fabric", "bend_law") if value == "\"buckling\"" => {
+                format!("{implicit}flexural_n_m2 = 1e-6\n{line}")
+            }
+            _ => format!("{}{}\n{line}", head(table), beside(table, key)),
         }
     }
 
     #[test]
     fn every_key_is_read_and_means_something() {
-        for key in &KEYS {
-            let [one, other] = values(key).map(|value| {
-                let text = file(key, value);
-                read(&text).unwrap_or_else(|faults| panic!("{faults:?} in\n{text}"))
-            });
-            assert_ne!(one, other, "[{}] {} changes nothing", key.table, key.name);
+        for (table, key) in keys() {
+            let made = VALUES.iter().map(|value| read(&file(table, &key, value)));
+            let made: BTreeSet<String> = made.flatten().collect();
+            assert!(made.len() >= 2, "[{table}] {key} changes nothing: {made:?}");
         }
     }
 
     #[test]
     fn every_key_refuses_what_it_does_not_mean() {
-        for key in &KEYS {
+        for (table, key) in keys() {
             for value in ["1979-05-27", "{ a = 1 }", "[[[1]]]", "-0.5", "nan", "\"\""] {
-                let text = file(key, value);
+                let text = file(table, &key, value);
                 match read(&text) {
                     Err(codes) => assert!(codes[0].starts_with("E-"), "{text}"),
                     Ok(_) => panic!("accepted\n{text}"),
@@ -264,15 +289,25 @@ mod tests {
 
     #[test]
     fn a_key_in_the_wrong_table_is_unknown() {
-        for key in &KEYS {
-            let elsewhere = if key.table == "solver" {
+        for (table, key) in keys() {
+            let elsewhere = if table == "solver" {
                 "fabric"
             } else {
                 "solver"
             };
-            let text = format!("[{elsewhere}]\n{}x = 1\n", key.name);
+            let text = format!("[{elsewhere}]\n{key}x = 1\n");
             assert_eq!(read(&text), Err(vec!["E-SCENE-KEY"]), "{text}");
         }
+    }
+
+    /// So that whoever mends one finds no other behind it.
+    #[test]
+    fn all_faults_of_a_table_are_found() {
+        let text = "[fabric]\nstretch_n_per_m = 0\nwarp = 3\nwoof = 1\n[[cut]]\nat_s = -1\nrays = [\"1\"]\n";
+        let codes = ["RANGE", "TYPE", "KEY", "RANGE"].map(|code| format!("E-SCENE-{code}"));
+        let mut found = read(text).expect_err("faults");
+        assert_eq!(found.pop(), Some("E-RAY-SYNTAX"));
+        assert_eq!(found, codes);
     }
 
     #[test]

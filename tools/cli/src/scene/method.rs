@@ -2,11 +2,11 @@
 
 use clap::ValueEnum;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::implicit::{self, Settings};
+use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::Scene;
-use tearmesh_cloth::{Limiter, Pbd};
 
-use super::file::{SceneFile, Table};
+use super::apply::set;
+use super::read::SceneFile;
 use crate::say::Fault;
 
 impl SceneFile {
@@ -17,34 +17,48 @@ impl SceneFile {
         typed: Option<SolverName>,
         faults: &mut Vec<Fault>,
     ) {
-        let table = self.first("solver");
-        let word = table.and_then(|table| table.word("method"));
-        let method = word.unwrap_or(method_name(&scene.solver));
-        let named = word.and_then(typed_as);
+        let word = self.solver.as_ref().and_then(|table| table.method.as_ref());
+        let method = word.map_or(method_name(&scene.solver), |word| &*word.0);
+        let named = word.and_then(|word| typed_as(&word.0));
         if let Some(name) = typed.or(named) {
             scene.solver = name.method();
         }
-        let Some(table) = table else {
+        let Some(table) = &self.solver else {
             return;
         };
-        scene.step_s = table.number("dt_s").or(scene.step_s);
+        scene.step_s = table.dt_s.map(f64::from).or(scene.step_s);
         for (key, readers) in OF_METHODS {
             let is_read = |reader: &&str| *reader == method || typed_as(reader) == typed;
-            if table.values.contains_key(key) && !readers.iter().any(is_read) {
+            if table.place.values.contains_key(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");
-                faults.push(*self.fault(table, key, "E-SCENE-CLASH", message));
+                faults.push(*self.fault(&table.place, key, "E-SCENE-CLASH", message));
             }
         }
+        let count = |count: Option<super::kinds::Count>| count.map(|count| count.0);
         match &mut scene.solver {
-            Method::Provot(limiter) => provot(table, limiter),
-            Method::Pbd(pbd) => set_pbd(table, pbd),
+            Method::Provot(limiter) => {
+                set(&mut limiter.stretch_ratio_max, table.limit_ratio);
+                set(&mut limiter.passes_max, count(table.limit_passes));
+            }
+            Method::Pbd(pbd) => {
+                set(&mut pbd.sweeps, count(table.sweeps));
+                set(&mut pbd.stiffness, table.stiffness);
+                set(&mut pbd.bend_stiffness, table.bend_stiffness);
+            }
             Method::Verlet => {}
             Method::Xpbd(xpbd) => {
-                xpbd.substeps = table.count("substeps").unwrap_or(xpbd.substeps);
-                xpbd.sweeps = table.count("sweeps").unwrap_or(xpbd.sweeps);
+                set(&mut xpbd.substeps, count(table.substeps));
+                set(&mut xpbd.sweeps, count(table.sweeps));
             }
-            Method::Implicit(settings) => set_implicit(table, settings),
+            Method::Implicit(settings) => {
+                set(&mut settings.tolerance, table.tolerance);
+                let order = table.order.as_ref().map(|order| match &*order.0 {
+                    "2" => implicit::Method::Bdf2,
+                    _ => implicit::Method::BackwardEuler,
+                });
+                set(&mut settings.method, order);
+            }
         }
     }
 }
@@ -60,30 +74,6 @@ const OF_METHODS: [(&str, &[&str]); 8] = [
     ("order", &["implicit"]),
     ("tolerance", &["implicit"]),
 ];
-
-fn provot(table: &Table, limiter: &mut Limiter) {
-    if let Some(ratio) = table.number("limit_ratio") {
-        limiter.stretch_ratio_max = ratio;
-    }
-    if let Some(passes) = table.count("limit_passes") {
-        limiter.passes_max = passes;
-    }
-}
-
-fn set_pbd(table: &Table, pbd: &mut Pbd) {
-    pbd.sweeps = table.count("sweeps").unwrap_or(pbd.sweeps);
-    pbd.stiffness = table.number("stiffness").unwrap_or(pbd.stiffness);
-    pbd.bend_stiffness = table.number("bend_stiffness").unwrap_or(pbd.bend_stiffness);
-}
-
-fn set_implicit(table: &Table, settings: &mut Settings) {
-    settings.tolerance = table.number("tolerance").unwrap_or(settings.tolerance);
-    match table.word("order") {
-        Some("2") => settings.method = implicit::Method::Bdf2,
-        Some(_) => settings.method = implicit::Method::BackwardEuler,
-        None => {}
-    }
-}
 
 /// A method of simulation, as it is typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

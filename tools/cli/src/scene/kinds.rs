@@ -1,0 +1,272 @@
+//! The kinds of values that a scene file can hold. Each says what it admits: in the error of a value that it
+//! does not, behind the code of that error.
+
+use serde::de::{Deserialize, Deserializer, Error};
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::scene::{Axis, Frame, Scene};
+use toml::Spanned;
+
+/// A value of another type, and one out of range.
+const TYPE: &str = "E-SCENE-TYPE";
+const RANGE: &str = "E-SCENE-RANGE";
+
+/// Reads a value of any kind as a simpler one, which has to be admitted.
+fn admit<'de, D: Deserializer<'de>, R: Deserialize<'de>, T>(
+    from: D,
+    what: &str,
+    of: impl FnOnce(R) -> Result<T, &'static str>,
+) -> Result<T, D::Error> {
+    let raw = R::deserialize(from).map_err(|_| TYPE);
+    let admitted = raw.and_then(of);
+    admitted.map_err(|code| D::Error::custom(format_args!("{code} {what}")))
+}
+
+/// A finite number that follows one of the [`RULES`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Number<const RULE: usize>(f64);
+
+pub(super) type Positive = Number<0>;
+pub(super) type NotNegative = Number<1>;
+pub(super) type Ratio = Number<2>;
+pub(super) type Part = Number<3>;
+
+const RULES: [(&str, fn(f64) -> bool); 4] = [
+    ("a number above 0", |x| x > 0.0),
+    ("a number from 0 up", |x| x >= 0.0),
+    ("a number above 1", |x| x > 1.0),
+    ("a number from 0 to 1", |x| x <= 1.0 && x >= 0.0),
+];
+
+impl<'de, const RULE: usize> Deserialize<'de> for Number<RULE> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let (what, is_in) = RULES[RULE];
+        let in_range = |x: f64| x.is_finite() && is_in(x);
+        admit(from, what, |x| {
+            in_range(x).then_some(Number(x)).ok_or(RANGE)
+        })
+    }
+}
+
+impl<const RULE: usize> From<Number<RULE>> for f64 {
+    fn from(number: Number<RULE>) -> f64 {
+        number.0
+    }
+}
+
+/// A whole number from one up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Count(pub(super) u32);
+
+impl<'de> Deserialize<'de> for Count {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        admit(from, "a whole number from 1 up", |n: i64| {
+            count(n).map(Count)
+        })
+    }
+}
+
+fn count(n: i64) -> Result<u32, &'static str> {
+    u32::try_from(n).ok().filter(|&n| n > 0).ok_or(RANGE)
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flag(pub(super) bool);
+
+impl<'de> Deserialize<'de> for Flag {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        admit(from, "true or false", |flag| Ok(Flag(flag)))
+    }
+}
+
+/// One of the words of a set.
+#[derive(Clone, Debug)]
+pub(super) struct Word<const SET: usize>(pub(super) String);
+
+pub(super) type ReadyName = Word<0>;
+pub(super) type AxisName = Word<1>;
+pub(super) type MethodName = Word<2>;
+pub(super) type CutName = Word<3>;
+pub(super) type BendLaw = Word<4>;
+pub(super) type CopiesName = Word<5>;
+pub(super) type UnbendName = Word<6>;
+pub(super) type Order = Word<7>;
+
+const SETS: [&[&str]; 8] = [
+    &READY,
+    &["x", "y", "z", "-x", "-y", "-z"],
+    &["provot", "pbd", "verlet", "xpbd", "implicit"],
+    &["exact", "partition", "uniform", "alternating"],
+    &["spring", "buckling"],
+    &["halved", "whole"],
+    &["seam", "vertex"],
+    &["1", "2"],
+];
+
+impl<'de, const SET: usize> Deserialize<'de> for Word<SET> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = format!("one of {}", SETS[SET].join(", "));
+        admit(from, &what, |word: String| {
+            let is_one = SETS[SET].contains(&&*word);
+            is_one.then_some(Word(word)).ok_or(RANGE)
+        })
+    }
+}
+
+/// The scenes that stand ready; a scene file can start from each.
+pub(super) const READY: [&str; 5] = ["hang", "flag", "rip", "trouser", "fall"];
+
+/// The scene of this name, one of [`READY`], for a mesh with this frame.
+pub(super) fn ready(name: &str, frame: &Frame) -> Scene {
+    match name {
+        "hang" => Scene::hang(frame),
+        "flag" => Scene::flag(frame),
+        "rip" => Scene::rip(frame),
+        "trouser" => Scene::trouser(frame),
+        _ => Scene::fall(frame.up),
+    }
+}
+
+/// Reads an axis, as it is typed.
+pub(crate) fn axis(text: &str) -> Result<Axis, String> {
+    let axes = SETS[1];
+    let axis = match text.trim_start_matches('-') {
+        _ if !axes.contains(&text) => return Err(format!("expected one of {}", axes.join(", "))),
+        "x" => Axis::X,
+        "y" => Axis::Y,
+        _ => Axis::Z,
+    };
+    Ok(match text.len() {
+        1 => axis,
+        _ => axis.opposite(),
+    })
+}
+
+/// So many finite numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<const N: usize>([f64; N]);
+
+pub(super) type Pair = Row<2>;
+pub(super) type Triple = Row<3>;
+
+impl<'de, const N: usize> Deserialize<'de> for Row<N> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = match N {
+            2 => "two numbers, as in [0.5, 1]",
+            _ => "three numbers, as in [0, 1.5, 0]",
+        };
+        admit(from, what, |row| Ok(Row(finite(row)?)))
+    }
+}
+
+fn finite<const N: usize>(row: Vec<f64>) -> Result<[f64; N], &'static str> {
+    let row = row.try_into().ok();
+    let row = row.filter(|row: &[f64; N]| row.iter().all(|x| x.is_finite()));
+    row.ok_or(TYPE)
+}
+
+impl From<Pair> for [f64; 2] {
+    fn from(row: Pair) -> [f64; 2] {
+        row.0
+    }
+}
+
+impl From<Triple> for Vector {
+    fn from(row: Triple) -> Vector {
+        row.0.into()
+    }
+}
+
+impl From<Triple> for Point {
+    fn from(row: Triple) -> Point {
+        row.0.into()
+    }
+}
+
+/// Two numbers, the first not above the second.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interval(pub(super) [f64; 2]);
+
+impl<'de> Deserialize<'de> for Interval {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = "two ascending numbers, as in [0, 0.5]";
+        admit(from, what, |row| match finite(row)? {
+            row if row[0] <= row[1] => Ok(Interval(row)),
+            _ => Err(RANGE),
+        })
+    }
+}
+
+/// A number, which means that much downward, or a vector.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Gravity {
+    Down(f64),
+    Vector(Vector),
+}
+
+#[derive(serde::Deserialize)]
+#[serde(untagged)]
+enum NumberOrRow {
+    Number(f64),
+    Row(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for Gravity {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = "a number from 0 up, or three";
+        admit(from, what, |raw| match raw {
+            NumberOrRow::Number(x) if x >= 0.0 && x.is_finite() => Ok(Gravity::Down(x)),
+            NumberOrRow::Number(_) => Err(RANGE),
+            NumberOrRow::Row(row) => Ok(Gravity::Vector(finite::<3>(row)?.into())),
+        })
+    }
+}
+
+/// The texts of two rays as in `--rays`, and where each stands. What is wrong within one is said when it is
+/// read.
+#[derive(Clone, Debug)]
+pub(super) struct Rays(pub(super) Vec<Spanned<String>>);
+
+impl<'de> Deserialize<'de> for Rays {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = r#"two rays, as in ["0,2,5:0,0,-1", "0,-2,5:0,0,-1"]"#;
+        admit(from, what, |rays| Ok(Rays(rays)))
+    }
+}
+
+/// Numbers of vertices.
+#[derive(Clone, Debug)]
+pub(super) struct Numbers(pub(super) Vec<u32>);
+
+impl<'de> Deserialize<'de> for Numbers {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = "numbers of vertices from 1 up, as in [1, 33]";
+        admit(from, what, |numbers: Vec<i64>| {
+            let numbers: Vec<u32> = numbers.into_iter().map(count).collect::<Result<_, _>>()?;
+            match numbers.is_empty() {
+                true => Err(RANGE),
+                false => Ok(Numbers(numbers)),
+            }
+        })
+    }
+}
+
+/// Offsets at ascending times.
+#[derive(Clone, Debug)]
+pub(super) struct Moves(pub(super) Vec<(f64, Vector)>);
+
+impl<'de> Deserialize<'de> for Moves {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let what = "seconds and three metres each, seconds ascending, as in [[0, 0, 0, 0], [1, 0, -0.5, 0]]";
+        admit(from, what, |rows: Vec<Vec<f64>>| {
+            let rows: Vec<[f64; 4]> = rows.into_iter().map(finite).collect::<Result<_, _>>()?;
+            let ascend = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+            let moves = rows
+                .iter()
+                .map(|&[time_s, x, y, z]| (time_s, Vector::new(x, y, z)));
+            match ascend && !rows.is_empty() {
+                true => Ok(Moves(moves.collect())),
+                false => Err(RANGE),
+            }
+        })
+    }
+}
