@@ -14,7 +14,7 @@ use crate::input::Input;
 use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
 use crate::report::{Entry, File};
-use crate::say::{Fault, Screen, Severity, count, is_colored, place, short};
+use crate::say::{Fault, Severity, count, place, short};
 use crate::streams::Streams;
 use crate::{defects, output, session};
 
@@ -68,7 +68,7 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
             Err(fault) => return streams.fail(&fault, args.color, Exit::Output),
         }
         if args.verbose && args.format == Format::Text {
-            found.show(args, streams);
+            streams.show(&found.faults, args.color);
         }
     }
     match shown.map_or(Ok(()), Shown::write) {
@@ -79,10 +79,8 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
 
 /// Says why a page cannot be made.
 fn refuse(stop: &Stop, args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
-    let faults = stop.faults.iter();
-    faults.fold(stop.exit, |exit, fault| {
-        streams.fail(fault, args.color, exit)
-    })
+    streams.show(&stop.faults, args.color);
+    stop.exit
 }
 
 fn name(path: &Path) -> String {
@@ -254,19 +252,6 @@ impl Found {
         }
         let indented = lines.iter().map(|line| format!("\n{:width$}  {line}", ""));
         indented.collect()
-    }
-
-    fn show(&self, args: &CheckArgs, streams: &mut Streams<'_>) {
-        let colored = is_colored(args.color, streams.error_is_terminal);
-        let mut screen = Screen {
-            error: streams.error,
-            colored,
-        };
-        for fault in &self.faults {
-            if screen.show(fault).is_err() {
-                break; // Standard error is closed: nowhere is left to complain.
-            }
-        }
     }
 
     fn json(&self) -> String {

@@ -1,6 +1,5 @@
 //! Diagnostics, on a screen and in the report.
 
-use std::io::{self, Write};
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
@@ -136,7 +135,7 @@ impl Fault {
         format!("{place}{}  [{}]", self.message, self.code)
     }
 
-    fn render(&self, colored: bool) -> String {
+    pub(crate) fn render(&self, colored: bool) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
@@ -176,18 +175,6 @@ impl Fault {
             Renderer::plain()
         };
         renderer.render(&[group])
-    }
-}
-
-/// A screen for diagnostics.
-pub(crate) struct Screen<'a> {
-    pub(crate) error: &'a mut dyn Write,
-    pub(crate) colored: bool,
-}
-
-impl Screen<'_> {
-    pub(crate) fn show(&mut self, fault: &Fault) -> io::Result<()> {
-        writeln!(self.error, "{}", fault.render(self.colored))
     }
 }
 

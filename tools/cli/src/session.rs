@@ -14,7 +14,7 @@ use crate::exit::{Exit, Stop};
 use crate::files::Destination;
 use crate::input::Input;
 use crate::report::{self, Entry, Report};
-use crate::say::{Fault, Screen, Severity, count, is_colored};
+use crate::say::{Fault, Severity, count};
 use crate::streams::Streams;
 use crate::{bug, defects, files, output, page, picture};
 
@@ -252,16 +252,7 @@ impl<'a> Session<'a> {
     }
 
     fn show(&mut self, streams: &mut Streams<'_>) {
-        let colored = is_colored(self.files.color, streams.error_is_terminal);
-        let mut screen = Screen {
-            error: streams.error,
-            colored,
-        };
-        for fault in &self.faults[self.shown..] {
-            if screen.show(fault).is_err() {
-                break; // Standard error is closed: nowhere is left to complain.
-            }
-        }
+        streams.show(&self.faults[self.shown..], self.files.color);
         self.shown = self.faults.len();
     }
 

@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 
 use crate::exit::{Exit, Stop};
 use crate::output;
-use crate::say::{Color, Fault, Screen, is_colored};
+use crate::say::{Color, Fault, is_colored};
 
 /// The streams that the command reads and writes.
 pub struct Streams<'a> {
@@ -36,16 +36,7 @@ impl Streams<'_> {
                 (exit, String::new())
             }
         };
-        let colored = is_colored(color, self.error_is_terminal);
-        let mut screen = Screen {
-            error: self.error,
-            colored,
-        };
-        for fault in &faults {
-            if screen.show(fault).is_err() {
-                break; // Standard error is closed: nowhere is left to complain.
-            }
-        }
+        self.show(&faults, color);
         if words.is_empty() {
             return exit;
         }
@@ -57,14 +48,18 @@ impl Streams<'_> {
 
     /// Shows an error, and ends with this exit status.
     pub(crate) fn fail(&mut self, fault: &Fault, color: Color, exit: Exit) -> Exit {
-        let colored = is_colored(color, self.error_is_terminal);
-        let mut screen = Screen {
-            error: self.error,
-            colored,
-        };
-        // Nowhere is left to complain if standard error is closed.
-        let _ = screen.show(fault);
+        self.show(std::slice::from_ref(fault), color);
         exit
+    }
+
+    /// Shows diagnostics.
+    pub(crate) fn show(&mut self, faults: &[Fault], color: Color) {
+        let colored = is_colored(color, self.error_is_terminal);
+        for fault in faults {
+            if writeln!(self.error, "{}", fault.render(colored)).is_err() {
+                break; // Standard error is closed: nowhere is left to complain.
+            }
+        }
     }
 }
 
