@@ -149,3 +149,46 @@ fn on_a_terminal_it_is_said_first_that_no_mesh_will_be_written() {
         "a pipe takes the mesh"
     );
 }
+
+/// A bad mesh floods no terminal: what is said of it is still there for those who ask.
+#[test]
+fn three_of_a_kind_are_shown_and_all_are_reported() {
+    let folder = Folder::new();
+    let mut mesh = String::new();
+    for i in 0..9 {
+        let [a, b, c, d, e] = [1, 2, 3, 4, 5].map(|corner| 5 * i + corner);
+        mesh += &format!("v {i} 0 0\nv {i} 1 0\nv {i} 0 1\nv {i} 0 2\nv {i} 0 3\n");
+        mesh += &format!("f {a} {b} {c}\nf {a} {b} {d}\nf {a} {b} {e}\n");
+    }
+    folder.write("bad.obj", &mesh);
+    let cut = "tearmesh cut bad.obj --plane 0,0,0:0,1,0";
+    let answer = |options: &str| {
+        let output = folder.run(&format!("{cut} {options}"));
+        assert_eq!(output.status.code(), Some(3));
+        let said = String::from_utf8([output.stderr, output.stdout].concat());
+        said.expect("text")
+    };
+    let blocks = |said: &str| said.matches("error[E-MESH-EDGE]").count();
+    let few = answer("");
+    assert_eq!(blocks(&few), 3, "{few}");
+    assert_eq!(
+        few.matches("and 6 more of E-MESH-EDGE; -v shows all\n")
+            .count(),
+        1,
+        "{few}"
+    );
+    // What tells of all stands at the last one.
+    assert!(few.contains("or add --repair"), "{few}");
+    let all = answer("-v");
+    assert_eq!(
+        (blocks(&all), all.matches(" more of ").count()),
+        (9, 0),
+        "{all}"
+    );
+    let report = answer("--format json");
+    assert_eq!(
+        report.matches("\"code\": \"E-MESH-EDGE\"").count(),
+        9,
+        "{report}"
+    );
+}

@@ -68,7 +68,7 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
             Err(fault) => return streams.fail(&fault, args.color, Exit::Output),
         }
         if args.verbose && args.format == Format::Text {
-            streams.show(&found.faults, args.color);
+            streams.show(&found.faults, args.color, true);
         }
     }
     match shown.map_or(Ok(()), Shown::write) {
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
 
 /// Says why a page cannot be made.
 fn refuse(stop: &Stop, args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
-    streams.show(&stop.faults, args.color);
+    streams.show(&stop.faults, args.color, args.verbose);
     stop.exit
 }
 

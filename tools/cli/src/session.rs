@@ -252,7 +252,8 @@ impl<'a> Session<'a> {
     }
 
     fn show(&mut self, streams: &mut Streams<'_>) {
-        streams.show(&self.faults[self.shown..], self.files.color);
+        let files = self.files;
+        streams.show(&self.faults[self.shown..], files.color, files.verbose);
         self.shown = self.faults.len();
     }
 

@@ -1,7 +1,9 @@
 //! The input and output streams of a run, which need not be those of the process.
 
+use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
+use crate::args::LookArgs;
 use crate::exit::{Exit, Stop};
 use crate::output;
 use crate::say::{Color, Fault, is_colored};
@@ -21,13 +23,16 @@ pub struct Streams<'a> {
     pub error_is_terminal: bool,
 }
 
+/// How many diagnostics of a kind are shown, unless all are asked for.
+const SHOWN: usize = 3;
+
 impl Streams<'_> {
     /// Shows what there is to say of some work, and its summary if there is one; gives the exit status.
     pub(crate) fn conclude(
         &mut self,
         worked: Result<String, Stop>,
         mut faults: Vec<Fault>,
-        color: Color,
+        look: &LookArgs,
     ) -> Exit {
         let (exit, words) = match worked {
             Ok(words) => (Exit::Done, words),
@@ -36,27 +41,45 @@ impl Streams<'_> {
                 (exit, String::new())
             }
         };
-        self.show(&faults, color);
+        self.show(&faults, look.color, look.verbose);
         if words.is_empty() {
             return exit;
         }
         match output::print(self.output, |out| writeln!(out, "{words}")) {
             Ok(_) => exit,
-            Err(fault) => self.fail(&fault, color, Exit::Output),
+            Err(fault) => self.fail(&fault, look.color, Exit::Output),
         }
     }
 
     /// Shows an error, and ends with this exit status.
     pub(crate) fn fail(&mut self, fault: &Fault, color: Color, exit: Exit) -> Exit {
-        self.show(std::slice::from_ref(fault), color);
+        self.show(std::slice::from_ref(fault), color, true);
         exit
     }
 
-    /// Shows diagnostics.
-    pub(crate) fn show(&mut self, faults: &[Fault], color: Color) {
+    /// Shows diagnostics: all of them, or of each kind the first and the last, which can tell of all, and
+    /// how many there are between.
+    pub(crate) fn show(&mut self, faults: &[Fault], color: Color, all: bool) {
         let colored = is_colored(color, self.error_is_terminal);
+        let mut left = BTreeMap::new();
         for fault in faults {
-            if writeln!(self.error, "{}", fault.render(colored)).is_err() {
+            *left.entry(fault.code).or_insert(0) += 1;
+        }
+        let totals = left.clone();
+        for fault in faults {
+            let left = left.entry(fault.code).or_insert(1);
+            let (total, number) = (totals[fault.code], totals[fault.code] - *left + 1);
+            *left -= 1;
+            let is_shown = all || total <= SHOWN || number < SHOWN || number == total;
+            let shown = if is_shown {
+                writeln!(self.error, "{}", fault.render(colored))
+            } else if number == SHOWN {
+                let (more, code) = (total - SHOWN, fault.code);
+                writeln!(self.error, "and {more} more of {code}; -v shows all")
+            } else {
+                Ok(())
+            };
+            if shown.is_err() {
                 break; // Standard error is closed: nowhere is left to complain.
             }
         }

@@ -217,7 +217,7 @@ impl Play<'_> {
         session.words.push(summary::simulation(&tear));
         session.words.extend(summary::first_tear(&tear_log));
         session.words.push(summary::balance(&run));
-        if self.args.verbose {
+        if self.args.files.verbose {
             session.words.push(summary::cost(&tear.counters.features));
         }
         if let Some(check) = &tear.step_check {

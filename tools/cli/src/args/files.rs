@@ -54,12 +54,18 @@ pub(crate) struct FileArgs {
     pub(crate) no_timing: bool,
 
     /// When to use colours.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, hide_short_help = true)]
     pub(crate) color: Color,
 
     /// Print no summary.
     #[arg(short, long)]
     pub(crate) quiet: bool,
+
+    /// Show all errors and warnings, not only three of each kind.
+    ///
+    /// `tear` also prints what the simulation cost, in visits of elements.
+    #[arg(short, long)]
+    pub(crate) verbose: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -21,4 +21,8 @@ pub(crate) struct LookArgs {
     /// Print no summary.
     #[arg(short, long)]
     pub(crate) quiet: bool,
+
+    /// Show all errors and warnings, not only three of each kind.
+    #[arg(short, long)]
+    pub(crate) verbose: bool,
 }

@@ -108,10 +108,6 @@ pub(crate) struct TearArgs {
     #[arg(long)]
     pub(crate) check_step: bool,
 
-    /// Also print what the simulation cost, in visits of elements.
-    #[arg(short, long, conflicts_with = "quiet")]
-    pub(crate) verbose: bool,
-
     /// Write the force at each hold as a table, by frames of 1/60 s.
     #[arg(long, value_name = "F.csv")]
     pub(crate) forces: Option<PathBuf>,
