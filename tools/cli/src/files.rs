@@ -63,13 +63,10 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         let message = "standard input cannot be replaced".to_owned();
         return usage(message, "name the file to read, or leave out --in-place");
     }
-    if let Some((path, foreign)) = output.and_then(|path| Some((path, Foreign::of(path)?))) {
+    if let Some((path, (what, help))) = output.and_then(|path| Some((path, foreign(path)?))) {
         let name = path.display();
-        let message = format!(
-            "`{name}` is named like {}, and the mesh is written as OBJ",
-            foreign.what
-        );
-        return usage(message, foreign.help);
+        let message = format!("`{name}` is named like {what}, and the mesh is written as OBJ");
+        return usage(message, help);
     }
     if args.format == Format::Json && output.is_some_and(is_stream) {
         let message = "`-o -` and `--format json` both use standard output".to_owned();
@@ -108,43 +105,44 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
     Ok(())
 }
 
-/// The format that a file's name promises, and that is not what `-o` writes.
-struct Foreign {
-    what: &'static str,
-    help: &'static str,
+/// The format that a file's name promises and that is not what `-o` writes, and what to do instead.
+fn foreign(path: &Path) -> Option<(&'static str, &'static str)> {
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    let of = |(endings, ..): &&(&[&str], _, _)| endings.contains(&&*ending);
+    FOREIGN.iter().find(of).map(|&(_, what, help)| (what, help))
 }
 
-impl Foreign {
-    fn of(path: &Path) -> Option<Foreign> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        let foreign = |what, help| Some(Foreign { what, help });
-        match &*ending {
-            "png" => foreign(
-                "a picture",
-                "name it x.obj, and draw a picture with --picture F.png",
-            ),
-            "htm" | "html" => foreign(
-                "a page",
-                "name it x.obj, and show it on a page with --view F.html",
-            ),
-            "pc2" => foreign(
-                "a point cache",
-                "name it x.obj, and write the cache of `tear` with --cache F.pc2",
-            ),
-            "json" => foreign(
-                "JSON",
-                "name it x.obj, and write the report with --report F.json",
-            ),
-            "3ds" | "3mf" | "abc" | "blend" | "bmp" | "dae" | "dxf" | "fbx" | "glb" | "gltf"
-            | "jpeg" | "jpg" | "mdd" | "mtl" | "off" | "ply" | "step" | "stl" | "stp" | "svg"
-            | "usd" | "usda" | "usdc" | "usdz" | "vtk" | "vtp" | "vtu" | "wrl" | "x3d" => foreign(
-                "a file of another format",
-                "name it x.obj, and convert that, as with `assimp export x.obj x.ply`",
-            ),
-            _ => None,
-        }
-    }
-}
+const FOREIGN: [(&[&str], &str, &str); 5] = [
+    (
+        &["png"],
+        "a picture",
+        "name it x.obj, and draw a picture with --picture F.png",
+    ),
+    (
+        &["htm", "html"],
+        "a page",
+        "name it x.obj, and show it on a page with --view F.html",
+    ),
+    (
+        &["pc2"],
+        "a point cache",
+        "name it x.obj, and write the cache of `tear` with --cache F.pc2",
+    ),
+    (
+        &["json"],
+        "JSON",
+        "name it x.obj, and write the report with --report F.json",
+    ),
+    (
+        &[
+            "3ds", "3mf", "abc", "blend", "bmp", "dae", "dxf", "fbx", "glb", "gltf", "jpeg", "jpg",
+            "mdd", "mtl", "off", "ply", "step", "stl", "stp", "svg", "usd", "usda", "usdc", "usdz",
+            "vtk", "vtp", "vtu", "wrl", "x3d",
+        ],
+        "a file of another format",
+        "name it x.obj, and convert that, as with `assimp export x.obj x.ply`",
+    ),
+];
 
 /// What to say before anything is done, if a run writes no mesh and was not told so: it may take long.
 pub(crate) fn unwritten(args: &FileArgs, output_is_terminal: bool) -> Option<Fault> {

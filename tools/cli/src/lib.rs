@@ -53,34 +53,16 @@ use say::Color;
 /// status; all output, including errors, goes to the streams and to the files that the arguments name.
 pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -> Exit {
     let args: Vec<OsString> = args.into_iter().collect();
-    match Args::read(&args) {
-        Ok(Args {
-            verb: Verb::Cut(cut),
-        }) => cut::run(&cut, &args, &mut streams),
-        Ok(Args {
-            verb: Verb::Tear(tear),
-        }) => tear::run(&tear, &args, &mut streams),
-        Ok(Args {
-            verb: Verb::Mend(mend),
-        }) => mend::run(&mend, &args, &mut streams),
-        Ok(Args {
-            verb: Verb::Render(render),
-        }) => render::run(&render, &mut streams),
-        Ok(Args {
-            verb: Verb::View(view),
-        }) => view::run(&view, &mut streams),
-        Ok(Args {
-            verb: Verb::Check(check),
-        }) => check::run(&check, &mut streams),
-        Ok(Args {
-            verb: Verb::Chart(chart),
-        }) => chart::run(&chart, &mut streams),
-        Ok(Args {
-            verb: Verb::Completions(completions),
-        }) => shell::complete(&completions, &mut streams),
-        Ok(Args {
-            verb: Verb::Man(man),
-        }) => shell::man(&man, &mut streams),
+    match Args::read(&args).map(|args| args.verb) {
+        Ok(Verb::Cut(cut)) => cut::run(&cut, &args, &mut streams),
+        Ok(Verb::Tear(tear)) => tear::run(&tear, &args, &mut streams),
+        Ok(Verb::Mend(mend)) => mend::run(&mend, &args, &mut streams),
+        Ok(Verb::Render(render)) => render::run(&render, &mut streams),
+        Ok(Verb::View(view)) => view::run(&view, &mut streams),
+        Ok(Verb::Check(check)) => check::run(&check, &mut streams),
+        Ok(Verb::Chart(chart)) => chart::run(&chart, &mut streams),
+        Ok(Verb::Completions(shell)) => shell::complete(&shell, &mut streams),
+        Ok(Verb::Man(man)) => shell::man(&man, &mut streams),
         Err(help) if !help.use_stderr() => {
             let text = help.render();
             let is_terminal = streams.output_is_terminal;

@@ -9,7 +9,7 @@ use tearmesh_cloth::statistics::Comparison;
 
 use crate::say::{Fault, Severity};
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Report {
     pub(crate) schema: &'static str,
     pub(crate) version: &'static str,
@@ -43,19 +43,8 @@ impl Report {
             schema: "tearmesh.report/1",
             version: env!("CARGO_PKG_VERSION"),
             command,
-            ok: false,
-            exit: 0,
-            input: None,
-            output: None,
-            cuts: Vec::new(),
-            gap: None,
-            mend: None,
-            pieces: None,
-            tear: None,
-            mass: None,
-            invariants: Invariants::default(),
             timing_ms: Some(Timing::default()),
-            diagnostics: Vec::new(),
+            ..Report::default()
         }
     }
 }

@@ -192,26 +192,21 @@ impl<'a> Session<'a> {
         self.report.output = Some(report::File::of(self.destination.name(), mesh));
         if let Some(unspoken) = written.map(|one| one.unspoken).filter(|&count| count > 0) {
             let statements = count(unspoken, "statement", "statements");
-            self.faults.push(Fault {
-                severity: Severity::Warning,
-                code: "W-OBJ-FOREIGN",
-                message: format!(
-                    "copies of vertices do not have what `nl`, `ny`, `nv` or `vv` says of these \
-                     ({statements})"
-                ),
-                ..Fault::default()
-            });
+            let message = format!(
+                "copies of vertices do not have what `nl`, `ny`, `nv` or `vv` says of these \
+                 ({statements})"
+            );
+            self.faults.push(Fault::warning("W-OBJ-FOREIGN", message));
         }
         if let Some(separated) = written.map(|one| one.separated).filter(|&fans| fans > 0) {
             let copies = count(separated, "more vertex", "more vertices");
+            let message = format!(
+                "the file has {copies} than the mesh: a vertex whose faces share no edge is written \
+                 once for each fan"
+            );
             self.faults.push(Fault {
                 severity: Severity::Note,
-                code: "W-OBJ-FANS",
-                message: format!(
-                    "the file has {copies} than the mesh: a vertex whose faces share no edge is \
-                     written once for each fan"
-                ),
-                ..Fault::default()
+                ..Fault::error("W-OBJ-FANS", message)
             });
         }
         Ok(())
