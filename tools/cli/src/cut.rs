@@ -23,7 +23,6 @@ use crate::args::{CutArgs, Gap, Layers, Mass, Method, Tips};
 use crate::exit::{Exit, Stop};
 use crate::measure::Edges;
 use crate::rays::{self, Pair};
-use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
 use crate::{files, report};
@@ -240,10 +239,7 @@ fn how(args: &CutArgs) -> report::How {
 
 /// Refuses options that do not go together.
 fn check(args: &CutArgs) -> Result<(), Stop> {
-    let usage = |message: &str, help: &str| {
-        let fault = Fault::error("E-USAGE", message.to_owned()).help(help);
-        Err(Stop::new(Exit::Usage, fault))
-    };
+    let usage = |message: &str, help: &str| Err(Stop::usage(message, help));
     let is_exact = args.method == Method::Exact;
     if args.files.input == Path::new("-") && args.rays_file.as_deref() == Some(Path::new("-")) {
         return usage(

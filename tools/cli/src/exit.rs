@@ -47,4 +47,10 @@ impl Stop {
             faults: vec![fault],
         }
     }
+
+    /// A run that was asked for what cannot be done.
+    pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Stop {
+        let fault = Fault::error("E-USAGE", message.into());
+        Stop::new(Exit::Usage, fault.help(help))
+    }
 }

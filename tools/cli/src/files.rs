@@ -47,12 +47,7 @@ impl Destination {
 
 /// Refuses streams and files that are wanted twice.
 pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
-    let usage = |message: String, help: &str| {
-        Err(Stop::new(
-            Exit::Usage,
-            Fault::error("E-USAGE", message).help(help),
-        ))
-    };
+    let usage = |message: String, help: &str| Err(Stop::usage(message, help));
     let (input, output, report) = (
         Some(&args.input),
         args.output.as_ref(),
@@ -176,8 +171,7 @@ pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(
 /// That a file would be written over that is `what`.
 pub(crate) fn replaced(path: &Path, what: &str) -> Stop {
     let message = format!("`{}` is {what}, and would be replaced", path.display());
-    let fault = Fault::error("E-USAGE", message).help("write to another file");
-    Stop::new(Exit::Usage, fault)
+    Stop::usage(message, "write to another file")
 }
 
 /// Whether two names are of one file, which need not exist yet.
@@ -185,11 +179,25 @@ pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a != Path::new("-") && b != Path::new("-") && (a == b || output::is_same_place(a, b))
 }
 
-/// Whether a path is of a file in this folder by a name like this; neither need exist yet.
-pub(crate) fn is_in(folder: &Path, path: &Path, is_name: impl Fn(&str) -> bool) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let parent = path.parent().filter(|parent| *parent != Path::new(""));
-    is_name(&name) && output::is_same_file(folder, parent.unwrap_or(Path::new(".")))
+/// Refuses files, each with what it is, that the numbered ones of a folder would replace: those whose names
+/// are like this. None need exist yet.
+pub(crate) fn keep_from(
+    folder: &Path,
+    (one, many): (&str, &str),
+    is_name: impl Fn(&str) -> bool,
+    files: &[(Option<&Path>, &str)],
+) -> Result<(), Stop> {
+    for &(path, what) in files {
+        let Some(path) = path else { continue };
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let parent = path.parent().filter(|parent| *parent != Path::new(""));
+        if is_name(&name) && output::is_same_file(folder, parent.unwrap_or(Path::new("."))) {
+            let message = format!("{one} would replace {what}, `{}`", path.display());
+            let help = format!("write {many} into a folder of their own");
+            return Err(Stop::usage(message, help));
+        }
+    }
+    Ok(())
 }
 
 /// Writes a file beside the mesh.

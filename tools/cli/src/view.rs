@@ -86,7 +86,7 @@ fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     let files = files.map_err(|(_, fault)| Stop::new(Exit::Input, fault))?;
     if files.iter().filter(|path| *path == Path::new("-")).count() > 1 {
         let message = "two inputs both come from standard input".to_owned();
-        return Err(usage(message, "name a file for one of them"));
+        return Err(Stop::usage(message, "name a file for one of them"));
     }
     Ok(files)
 }
@@ -104,7 +104,7 @@ fn place(args: &ViewArgs, inputs: &[PathBuf]) -> Result<Option<PathBuf>, Stop> {
             "`{}` is named like a mesh, and would be a page",
             path.display()
         );
-        return Err(usage(message, "name it x.html"));
+        return Err(Stop::usage(message, "name it x.html"));
     }
     if inputs.iter().any(|input| files::is_same(input, &path)) {
         return Err(files::replaced(&path, "an input"));
@@ -121,7 +121,7 @@ fn named_like(input: &Path) -> Result<PathBuf, Stop> {
     let stem = whole.as_deref().unwrap_or(input).file_stem();
     let Some(stem) = stem.filter(|_| input != Path::new("-")) else {
         let message = "the page needs a name: the mesh has none".to_owned();
-        return Err(usage(message, "name it with -o F.html"));
+        return Err(Stop::usage(message, "name it with -o F.html"));
     };
     let mut name = stem.to_owned();
     name.push(".html");
@@ -129,7 +129,10 @@ fn named_like(input: &Path) -> Result<PathBuf, Stop> {
     if path.is_file() && !is_page_there(&path) {
         let name = path.display();
         let message = format!("`{name}` is there already, and is no page of tearmesh");
-        return Err(usage(message, &format!("to replace it, add -o {name}")));
+        return Err(Stop::usage(
+            message,
+            format!("to replace it, add -o {name}"),
+        ));
     }
     Ok(path)
 }
@@ -138,10 +141,6 @@ fn is_page_there(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = File::open(path).and_then(|file| file.take(1 << 12).read_to_end(&mut start));
     read.is_ok() && is_page(&start)
-}
-
-fn usage(message: String, help: &str) -> Stop {
-    Stop::new(Exit::Usage, Fault::error("E-USAGE", message).help(help))
 }
 
 /// How many there were of something: the fewest and the most.

@@ -24,10 +24,9 @@ impl Shown {
     ) -> Result<Shown, Stop> {
         let mut inputs = inputs.iter().flatten();
         if path == Path::new("-") || inputs.any(|input| is_same(input, path)) {
-            let message = "`--view` takes the name of a file of its own".to_owned();
-            let fault = Fault::error("E-USAGE", message);
-            let fault = fault.help("name a file that nothing else is read from or written to");
-            return Err(Stop::new(Exit::Usage, fault));
+            let message = "`--view` takes the name of a file of its own";
+            let help = "name a file that nothing else is read from or written to";
+            return Err(Stop::usage(message, help));
         }
         output::check(path).map_err(|error| unwritable(path, &error))?;
         Ok(Shown {

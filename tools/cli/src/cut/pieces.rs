@@ -9,7 +9,7 @@ use tearmesh::{DerivedMesh, ExactSum, Mesh, Positions};
 use tearmesh_obj::{PieceNames, PieceWriter, TornDocument};
 
 use crate::args::CutArgs;
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::files::unwritable;
 use crate::measure::area;
 use crate::say::{Fault, count};
@@ -49,22 +49,21 @@ impl Pieces {
             return Ok(None);
         };
         if folder == Path::new("-") {
-            let message = "`--pieces` takes the name of a folder".to_owned();
-            let fault = Fault::error("E-USAGE", message);
-            let fault = fault.help("name a folder that exists or can be created");
-            return Err(Stop::new(Exit::Usage, fault));
+            let help = "name a folder that exists or can be created";
+            return Err(Stop::usage("`--pieces` takes the name of a folder", help));
         }
         let files = &args.files;
-        for (path, what) in [
+        let is_piece = |name: &str| name.starts_with("piece_") && name.ends_with(".obj");
+        let is_ours = |name: &str| is_piece(name) || name == LIST;
+        let kept = [
             (Some(&*files.input), "the input"),
             (files.output.as_deref(), "the output"),
             (files.report.as_deref(), "the report"),
             (args.seam.as_deref(), "the seam"),
             (args.map.as_deref(), "the map"),
             (args.rays_file.as_deref(), "the rays"),
-        ] {
-            path.map_or(Ok(()), |path| refuse_replacing(&folder, path, what))?;
-        }
+        ];
+        files::keep_from(&folder, ("a piece", "pieces"), is_ours, &kept)?;
         Ok(Some(Pieces { folder }))
     }
 
@@ -147,16 +146,4 @@ fn area_of(piece: &DerivedMesh, positions: &Positions) -> f64 {
 
 fn name(number: usize) -> String {
     format!("piece_{number:05}.obj")
-}
-
-/// Refuses a file that a piece or the list would replace.
-fn refuse_replacing(folder: &Path, path: &Path, what: &str) -> Result<(), Stop> {
-    let is_piece = |name: &str| name.starts_with("piece_") && name.ends_with(".obj");
-    if files::is_in(folder, path, |name| is_piece(name) || name == LIST) {
-        let message = format!("a piece would replace {what}, `{}`", path.display());
-        let fault = Fault::error("E-USAGE", message);
-        let fault = fault.help("write pieces into a folder of their own");
-        return Err(Stop::new(Exit::Usage, fault));
-    }
-    Ok(())
 }

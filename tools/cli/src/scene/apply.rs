@@ -183,14 +183,14 @@ impl SceneFile {
         Ok(TimedCut {
             at_s: table.at_s.map_or(0.0, f64::from),
             rays,
-            through: table.through.is_some_and(|through| through.0),
+            through: table.through.unwrap_or(false),
             method: method.unwrap_or_default().of_library(),
         })
     }
 
     fn tear(&self, table: &Table<Tear>, frame: &Frame) -> Result<Option<Tearing>, Box<Fault>> {
         let place = &table.place;
-        if table.never.is_some_and(|never| never.0) {
+        if table.never == Some(true) {
             let others = place.values.iter().filter(|(key, _)| *key != "never");
             let Some((key, _)) = others.min_by_key(|(_, span)| span.start) else {
                 return Ok(None);

@@ -30,11 +30,13 @@ pub(super) type NotNegative = Number<1>;
 pub(super) type Ratio = Number<2>;
 pub(super) type Part = Number<3>;
 
-const RULES: [(&str, fn(f64) -> bool); 4] = [
+type Rule = (&'static str, fn(f64) -> bool);
+
+const RULES: [Rule; 4] = [
     ("a number above 0", |x| x > 0.0),
     ("a number from 0 up", |x| x >= 0.0),
     ("a number above 1", |x| x > 1.0),
-    ("a number from 0 to 1", |x| x <= 1.0 && x >= 0.0),
+    ("a number from 0 to 1", |x| (0.0..=1.0).contains(&x)),
 ];
 
 impl<'de, const RULE: usize> Deserialize<'de> for Number<RULE> {
@@ -67,15 +69,6 @@ impl<'de> Deserialize<'de> for Count {
 
 fn count(n: i64) -> Result<u32, &'static str> {
     u32::try_from(n).ok().filter(|&n| n > 0).ok_or(RANGE)
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Flag(pub(super) bool);
-
-impl<'de> Deserialize<'de> for Flag {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        admit(from, "true or false", |flag| Ok(Flag(flag)))
-    }
 }
 
 /// One of the words of a set.

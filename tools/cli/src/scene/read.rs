@@ -267,7 +267,11 @@ impl Reader<'_> {
 
     /// A value that its kind does not admit. `error` is its code, and what is admitted.
     fn refused(&mut self, key: &str, value: &Spanned<DeValue<'_>>, error: &str) {
-        let (code, what) = error.split_once(' ').unwrap_or_default();
+        // A boolean is serde's own, and its error has no code.
+        let (code, what) = match error.split_once(' ') {
+            Some((code, what)) if code.starts_with("E-") => (code, what),
+            _ => ("E-SCENE-TYPE", "true or false"),
+        };
         let (code, label) = match (code, value.get_ref()) {
             ("E-SCENE-RANGE", _) => ("E-SCENE-RANGE", "out of range".to_owned()),
             (_, DeValue::Array(_)) => ("E-SCENE-TYPE", "these are others".to_owned()),

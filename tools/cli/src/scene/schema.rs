@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 
 use super::kinds::{
-    AxisName, BendLaw, CopiesName, Count, CutName, Flag, Gravity, Interval, MethodName, Moves,
+    AxisName, BendLaw, CopiesName, Count, CutName, Gravity, Interval, MethodName, Moves,
     NotNegative, Numbers, Order, Pair, Part, Positive, Ratio, Rays, ReadyName, Triple, UnbendName,
 };
 
@@ -106,13 +106,13 @@ pub(super) struct Vertices {
 pub(super) struct Cut {
     pub(super) at_s: Option<NotNegative>,
     pub(super) rays: Option<Rays>,
-    pub(super) through: Option<Flag>,
+    pub(super) through: Option<bool>,
     pub(super) method: Option<CutName>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Tear {
-    pub(super) never: Option<Flag>,
+    pub(super) never: Option<bool>,
     pub(super) threshold: Option<Ratio>,
     pub(super) toughness_j_per_m: Option<Positive>,
     pub(super) threshold_n: Option<Positive>,

@@ -86,8 +86,7 @@ fn range(
 }
 
 fn refuse(message: String, help: &str) -> Result<(), Stop> {
-    let fault = Fault::error("E-USAGE", message).help(help);
-    Err(Stop::new(Exit::Usage, fault))
+    Err(Stop::usage(message, help))
 }
 
 /// The cuts that were typed.

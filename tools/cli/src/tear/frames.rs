@@ -86,7 +86,8 @@ impl Frames {
         };
         if let Some(folder) = &frames.folder {
             let files = &args.files;
-            for (path, what) in [
+            let is_frame = |name: &str| name.starts_with("frame_") && name.ends_with(".obj");
+            let kept = [
                 (Some(&*files.input), "the input"),
                 (files.output.as_deref(), "the output"),
                 (files.report.as_deref(), "the report"),
@@ -96,9 +97,8 @@ impl Frames {
                 (args.cache.as_deref(), "the point cache"),
                 (files.picture.as_deref(), "the picture"),
                 (files.view.as_deref(), "the page"),
-            ] {
-                path.map_or(Ok(()), |path| refuse_replacing(folder, path, what))?;
-            }
+            ];
+            files::keep_from(folder, ("a frame", "frames"), is_frame, &kept)?;
             if !folder.is_dir() {
                 fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
             }
@@ -309,16 +309,4 @@ fn interrupted(folder: &Path, written: usize, count: usize) -> Fault {
 
 fn name(number: usize) -> String {
     format!("frame_{number:05}.obj")
-}
-
-/// Refuses a file that a frame would replace.
-fn refuse_replacing(folder: &Path, path: &Path, what: &str) -> Result<(), Stop> {
-    let is_frame = |name: &str| name.starts_with("frame_") && name.ends_with(".obj");
-    if files::is_in(folder, path, is_frame) {
-        let message = format!("a frame would replace {what}, `{}`", path.display());
-        let fault = Fault::error("E-USAGE", message);
-        let fault = fault.help("write frames into a folder of their own");
-        return Err(Stop::new(Exit::Usage, fault));
-    }
-    Ok(())
 }
