@@ -10,10 +10,8 @@ mod schema;
 use std::io::Read as _;
 use std::path::Path;
 
-use tearmesh_cloth::scene::{Axis, Frame, Scene};
-
+use self::kinds::READY;
 pub(crate) use self::kinds::axis;
-use self::kinds::{READY, ready};
 pub(crate) use self::method::{SolverName, method_name};
 pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
@@ -22,19 +20,16 @@ use crate::input::{Input, cannot_read};
 use crate::say::Fault;
 use crate::streams::Streams;
 
-/// What `--scene` names.
-#[derive(Clone, Debug)]
-pub(crate) enum Source {
-    /// A scene that stands ready.
-    Ready(&'static str),
-    File(Box<SceneFile>),
-}
-
-impl Source {
-    /// Finds the scene, and reads it if it is a file.
-    pub(crate) fn find(name: &str, streams: &mut Streams<'_>) -> Result<Source, Stop> {
-        if let Some(ready) = READY.iter().find(|ready| **ready == name) {
-            return Ok(Source::Ready(ready));
+impl SceneFile {
+    /// Finds what `--scene` names: a scene that stands ready, which is that of a file with nothing but its name,
+    /// or a file.
+    pub(crate) fn find(name: &str, streams: &mut Streams<'_>) -> Result<SceneFile, Stop> {
+        let refused = |faults| Stop {
+            exit: Exit::Usage,
+            faults,
+        };
+        if READY.contains(&name) {
+            return SceneFile::read(name, &format!("base = \"{name}\"")).map_err(refused);
         }
         if !Path::new(name).exists() && !name.contains(['.', '/', '\\']) {
             let fault = Fault::error("E-SCENE-NAME", format!("there is no scene `{name}`"));
@@ -48,80 +43,26 @@ impl Source {
         read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
         let Ok(text) = String::from_utf8(bytes) else {
             let message = format!("`{name}` is not a text in UTF-8");
-            return Err(Stop::new(
-                Exit::Usage,
-                Fault::error("E-SCENE-SYNTAX", message),
-            ));
+            let fault = Fault::error("E-SCENE-SYNTAX", message);
+            return Err(Stop::new(Exit::Usage, fault));
         };
-        match SceneFile::read(&file.name, &text) {
-            Ok(file) => Ok(Source::File(Box::new(file))),
-            Err(faults) => Err(Stop {
-                exit: Exit::Usage,
-                faults,
-            }),
-        }
+        SceneFile::read(&file.name, &text).map_err(refused)
     }
 
     /// As it is called in the report.
-    pub(crate) fn name(&self) -> String {
-        match self {
-            Source::Ready(name) => (*name).to_owned(),
-            Source::File(file) => file.text.path.clone(),
-        }
+    pub(crate) fn name(&self) -> &str {
+        &self.text.path
     }
 
-    /// A fault of a part of the scene: with the line of a key, or of the table that lacks it, where
-    /// a file has such a table of this number.
-    pub(crate) fn blame(
-        &self,
-        (table, number, key): (&str, usize, &str),
-        code: &'static str,
-        message: String,
-    ) -> Fault {
-        match self {
-            Source::Ready(_) => Fault::error(code, message),
-            Source::File(file) => file.blame((table, number, key), code, message),
-        }
-    }
-
-    /// Whether it is a file that has such a key, or such a table where the key is empty.
-    pub(crate) fn has(&self, table: &str, key: &str) -> bool {
-        match self {
-            Source::Ready(_) => false,
-            Source::File(file) => file.has(table, key),
-        }
-    }
-
-    /// Which way is up, as the scene says.
-    pub(crate) fn up(&self) -> Axis {
-        match self {
-            Source::Ready(_) => Axis::Y,
-            Source::File(file) => file.up(),
-        }
-    }
-
-    /// The scene for a mesh with this frame; the method may be chosen on the command line.
-    pub(crate) fn scene(&self, frame: &Frame, solver: Option<SolverName>) -> Result<Scene, Stop> {
-        let mut scene = match self {
-            Source::Ready(name) => ready(name, frame),
-            Source::File(file) => {
-                let refused = |faults| Stop {
-                    exit: Exit::Usage,
-                    faults,
-                };
-                return file.scene(frame, solver).map_err(refused);
-            }
-        };
-        if let Some(solver) = solver {
-            scene.solver = solver.method();
-        }
-        Ok(scene)
+    pub(crate) fn is_ready(&self) -> bool {
+        READY.contains(&self.name())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use tearmesh::shapes;
+    use tearmesh_cloth::scene::{Axis, Frame};
 
     use std::collections::BTreeSet;
 
@@ -135,13 +76,12 @@ mod tests {
 
     /// What a file makes of the scene `fall`, in words; or the codes of its faults.
     fn read(text: &str) -> Result<String, Vec<&'static str>> {
-        let codes = |faults: Vec<Fault>| faults.iter().map(|fault| fault.code).collect();
+        let codes = |faults: Vec<Fault>| faults.iter().map(|fault| fault.code).collect::<Vec<_>>();
         let file = SceneFile::read("test.toml", text).map_err(codes)?;
-        let source = Source::File(Box::new(file));
-        match source.scene(&frame(), None) {
-            Ok(scene) => Ok(format!("{scene:?} {:?}", source.up())),
-            Err(stop) => Err(codes(stop.faults)),
-        }
+        let scene = file
+            .scene(&frame(), None)
+            .map_err(|stop| codes(stop.faults))?;
+        Ok(format!("{scene:?} {:?}", file.up()))
     }
 
     /// What has to stand beside a key so that it means something.

@@ -25,7 +25,7 @@ use crate::args::{TearArgs, cut_name};
 use crate::cut::nothing::Obstacle;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
-use crate::scene::{Source, method_name};
+use crate::scene::{SceneFile, method_name};
 use crate::session::{Clock, Opened, Session};
 use crate::streams::Streams;
 use crate::{files, report};
@@ -40,8 +40,8 @@ pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>
 
 fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
-    let source = Source::find(&args.scene, streams)?;
-    let scene = matches!(source, Source::File(_)).then_some(Path::new(&args.scene));
+    let source = SceneFile::find(&args.scene, streams)?;
+    let scene = (!source.is_ready()).then_some(Path::new(&args.scene));
     files::keep(&args.files, scene, "the scene")?;
     files::keep(&args.files, args.strength.as_deref(), "the strengths")?;
     let cuts = check::cuts(args, &mut session.faults)?;
@@ -63,7 +63,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     session.faults.extend(advice::times(&run, args));
     session.warn_now(streams);
     let play = Play {
-        name: source.name(),
+        name: source.name().to_owned(),
         args,
         opened: &opened,
         frame: &frame,

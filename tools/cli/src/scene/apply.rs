@@ -12,6 +12,7 @@ use super::method::SolverName;
 use super::read::{Place, SceneFile, Table, sorted};
 use super::schema::{ColliderKeys, Cut, Tear, Vertices};
 use crate::args::Method as CutMethod;
+use crate::exit::{Exit, Stop};
 use crate::say::Fault;
 
 /// Puts a value in the place of another, if a file has it.
@@ -22,17 +23,14 @@ pub(super) fn set<T>(place: &mut T, value: Option<impl Into<T>>) {
 }
 
 impl SceneFile {
-    pub(super) fn up(&self) -> Axis {
+    /// Which way is up.
+    pub(crate) fn up(&self) -> Axis {
         let up = self.top.up.as_ref();
         up.and_then(|up| axis(&up.0).ok()).unwrap_or(Axis::Y)
     }
 
-    /// The scene for a mesh with this frame, or all that is wrong.
-    pub(super) fn scene(
-        &self,
-        frame: &Frame,
-        solver: Option<SolverName>,
-    ) -> Result<Scene, Vec<Fault>> {
+    /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
+    pub(crate) fn scene(&self, frame: &Frame, solver: Option<SolverName>) -> Result<Scene, Stop> {
         let base = self.top.base.as_ref().map_or("fall", |base| &*base.0);
         let mut scene = ready(base, frame);
         let mut faults = Vec::new();
@@ -66,7 +64,10 @@ impl SceneFile {
         }
         match faults.is_empty() {
             true => Ok(scene),
-            false => Err(sorted(std::mem::take(faults))),
+            false => Err(Stop {
+                exit: Exit::Usage,
+                faults: sorted(std::mem::take(faults)),
+            }),
         }
     }
 

@@ -138,7 +138,7 @@ impl SceneFile {
     }
 
     /// Whether the file has such a key, or such a table where the key is empty.
-    pub(super) fn has(&self, table: &str, key: &str) -> bool {
+    pub(crate) fn has(&self, table: &str, key: &str) -> bool {
         let has = |place: &Place| key.is_empty() || place.values.contains_key(key);
         self.places
             .get(table)
@@ -146,7 +146,7 @@ impl SceneFile {
     }
 
     /// A fault with the place of a key in the table of this number, or of the table where it lacks the key.
-    pub(super) fn blame(
+    pub(crate) fn blame(
         &self,
         (table, number, key): (&str, usize, &str),
         code: &'static str,

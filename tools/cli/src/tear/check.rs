@@ -11,7 +11,7 @@ use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::{Exit, Stop};
 use crate::rays;
 use crate::say::Fault;
-use crate::scene::Source;
+use crate::scene::SceneFile;
 use crate::session::Opened;
 use crate::{files, output};
 
@@ -117,7 +117,7 @@ pub(super) fn known_forces(args: &TearArgs, scene: &Scene) -> Result<(), Stop> {
 }
 
 /// Refuses what would make no difference to how the scene tears.
-pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &Source) -> Result<(), Stop> {
+pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Result<(), Stop> {
     let blame = |at, message: &str, help: &str| {
         let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
         Err(Stop::new(Exit::Usage, fault.help(help)))
@@ -152,7 +152,7 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &Source) -> Result
 }
 
 /// Why a scene cannot be played with this mesh.
-pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Stop {
+pub(super) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
     let blame = |at, code, message, help: Option<&str>| {
         let mut fault = source.blame(at, code, message);
         fault.help = help.map(str::to_owned);
@@ -223,7 +223,7 @@ pub(super) fn refused(error: &RunError, opened: &Opened, source: &Source) -> Sto
 }
 
 /// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
-fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &Source) -> Stop {
+fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Stop {
     let corners = opened.mesh.face_vertices(face);
     let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
     let number = |v: VertexId| opened.document.number_of_vertex(v.index());
