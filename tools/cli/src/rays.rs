@@ -9,7 +9,7 @@ use std::ops::Range;
 use tearmesh::{Plane, PlaneError, Point, Ray, RayError, Vector};
 
 use crate::exit::{Exit, Stop};
-use crate::say::{Excerpt, Fault};
+use crate::say::Fault;
 
 /// The two rays of a cut.
 pub(crate) type Pair = [Ray; 2];
@@ -68,38 +68,20 @@ pub(crate) fn refused(fault: Fault) -> Stop {
 
 /// Reads two rays. `origin` names the place of the text in an error, and `line` its line.
 pub(crate) fn pair(text: &str, origin: &str, line: usize) -> Result<Pair, Fault> {
-    let fault = |code, message: String, span: Range<usize>, label: &str, help: &str| Fault {
-        code,
-        message,
-        excerpt: Some(Box::new(Excerpt {
-            path: origin.to_owned(),
-            line,
-            text: text.to_owned(),
-            first_column: 1,
-            span,
-            label: label.to_owned(),
-        })),
-        help: Some(help.to_owned()),
-        ..Fault::default()
-    };
+    let at = (origin, line);
     let spans: Vec<_> = split_pair(text).collect();
     let [a, b] = &spans[..] else {
         let (message, label) = miscounted(spans.len());
         let last = spans.last().cloned().unwrap_or(0..text.len());
-        return Err(fault("E-RAY-COUNT", message, last, label, PAIR_HELP));
+        let fault = Fault::error("E-RAY-COUNT", message).at(at, text, last, label);
+        return Err(fault.help(PAIR_HELP));
     };
     let read = |span: Range<usize>| {
-        ray(&text[span.clone()]).map_err(
-            |Unreadable {
-                 code,
-                 message,
-                 part,
-                 label,
-             }| {
-                let part = span.start + part.start..span.start + part.end;
-                fault(code, message, part, label, RAY_HELP)
-            },
-        )
+        ray(&text[span.clone()]).map_err(|wrong| {
+            let part = span.start + wrong.part.start..span.start + wrong.part.end;
+            let fault = Fault::error(wrong.code, wrong.message);
+            fault.at(at, text, part, wrong.label).help(RAY_HELP)
+        })
     };
     Ok([read(a.clone())?, read(b.clone())?])
 }
@@ -207,19 +189,10 @@ pub(crate) fn plane(text: &str, origin: &str) -> Result<Plane, Fault> {
             }
         })
     };
-    read().map_err(|unreadable| Fault {
-        code: unreadable.code,
-        message: unreadable.message,
-        excerpt: Some(Box::new(Excerpt {
-            path: origin.to_owned(),
-            line: 1,
-            text: text.to_owned(),
-            first_column: 1,
-            span: unreadable.part,
-            label: unreadable.label.to_owned(),
-        })),
-        help: Some("write point:normal, as in --plane 0,0.5,0:0,1,0".to_owned()),
-        ..Fault::default()
+    read().map_err(|wrong| {
+        let fault = Fault::error(wrong.code, wrong.message);
+        let fault = fault.at((origin, 1), text, wrong.part, wrong.label);
+        fault.help("write point:normal, as in --plane 0,0.5,0:0,1,0")
     })
 }
 

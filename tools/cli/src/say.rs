@@ -82,6 +82,27 @@ impl Fault {
         }
     }
 
+    /// With the place in a text that it is about: bytes of a whole line of a file, or of what was typed.
+    pub(crate) fn at(
+        self,
+        (path, line): (&str, usize),
+        text: &str,
+        span: Range<usize>,
+        label: impl Into<String>,
+    ) -> Fault {
+        Fault {
+            excerpt: Some(Box::new(Excerpt {
+                path: path.to_owned(),
+                line,
+                text: text.to_owned(),
+                first_column: 1,
+                span,
+                label: label.into(),
+            })),
+            ..self
+        }
+    }
+
     /// What the OBJ library says of a file, with the name of the file.
     pub(crate) fn of_file(path: &str, diagnostic: &Diagnostic) -> Fault {
         let excerpt = match (&diagnostic.location, &diagnostic.excerpt) {

@@ -11,7 +11,7 @@ use super::schema::{
     ColliderKeys, Cut, Fabric, REMOVED, Section, Solver, Tear, Top, Vertices, Wind,
 };
 use crate::rays;
-use crate::say::{Excerpt, Fault};
+use crate::say::Fault;
 
 /// A scene file in which every key is known and every value has the right kind.
 #[derive(Clone, Debug)]
@@ -366,19 +366,8 @@ impl Text {
         while !line_text.is_char_boundary(end) {
             end += 1;
         }
-        Fault {
-            code,
-            message,
-            excerpt: Some(Box::new(Excerpt {
-                path: self.path.clone(),
-                line: self.text[..line_start].matches('\n').count() + 1,
-                text: line_text.to_owned(),
-                first_column: 1,
-                span: at..end,
-                label: label.to_owned(),
-            })),
-            ..Fault::default()
-        }
+        let line = self.text[..line_start].matches('\n').count() + 1;
+        Fault::error(code, message).at((&self.path, line), line_text, at..end, label)
     }
 
     /// Where a part of a string stands; the whole string if it is written with escapes.

@@ -8,7 +8,7 @@ use tearmesh_obj::Document;
 
 use crate::exit::{Exit, Stop};
 use crate::input::Input;
-use crate::say::{Excerpt, Fault};
+use crate::say::Fault;
 use crate::streams::Streams;
 
 /// Reads the strengths of the vertices of a document; those that are not named have 1.
@@ -29,19 +29,10 @@ pub(super) fn read(
         match entry(words, document) {
             Ok((vertex, strength)) => strengths.push((Region::Vertices(vec![vertex]), strength)),
             Err(label) => {
-                let fault = Fault {
-                    code: "E-STRENGTH",
-                    message: "a line is not `vertex strength`".to_owned(),
-                    excerpt: Some(Box::new(Excerpt {
-                        path: file.name.clone(),
-                        line: i + 1,
-                        text: line.to_owned(),
-                        first_column: 1,
-                        span: 0..words.trim_end().len(),
-                        label,
-                    })),
-                    ..Fault::default()
-                };
+                let message = "a line is not `vertex strength`".to_owned();
+                let fault = Fault::error("E-STRENGTH", message);
+                let span = 0..words.trim_end().len();
+                let fault = fault.at((&file.name, i + 1), line, span, label);
                 let help = "as in `17 0.5`: vertex 17 bears half the threshold";
                 return Err(Stop::new(Exit::Usage, fault.help(help)));
             }
