@@ -70,13 +70,9 @@ pub(super) fn momentum_broken(run: &Run) -> Option<String> {
 }
 
 pub(super) fn energy(run: &Run) -> report::Energy {
-    let ledger = run.cloth().ledger();
     let balance = run.energy_balance();
     let said = |joules: f64| Some(joules).filter(|_| !has_limited(run));
     report::Energy {
-        split_elastic: ledger.split_elastic_j,
-        insert_elastic: ledger.insert_elastic_j,
-        insert_kinetic: ledger.insert_kinetic_j,
         torn_edges: run.tally().edge_energy_j,
         began: balance.began_j,
         kinetic: balance.kinetic_j,
