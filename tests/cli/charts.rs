@@ -101,7 +101,7 @@ impl Chart {
 fn guide() {
     let chart = Chart(
         ["guide", "--size 8 --seeds 2 --diagonals 2"],
-        253,
+        233,
         &[2],
         [
             "hang,8,|flag,8,|rip,8,|trouser,8,|aftermath,8,",

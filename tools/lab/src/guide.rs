@@ -20,9 +20,9 @@ use std::num::NonZero;
 use std::ops::RangeInclusive;
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
-use tearmesh_cloth::statistics::{Random, median, spread};
+use tearmesh_cloth::statistics::median;
 
-use self::play::{BDF2, Play, Stage, error};
+use self::play::{NEWTON, Play, Stage, error};
 use crate::experiment::{Bounds, Experiment};
 use crate::method::{DEFAULT, DEFAULTS};
 use crate::pareto::AMPLIFICATION_MAX;
@@ -32,7 +32,7 @@ use crate::pareto::AMPLIFICATION_MAX;
 pub struct Options {
     /// The number of cells along the longest side of the meshes, at least 8.
     pub cells: u32,
-    /// The number of seeds of ensembles.
+    /// The number of seeds of ensembles of a flag. Where runs are dear, half of them are taken.
     pub seeds: u64,
     /// The number of meshes with other diagonals.
     pub diagonals: u64,
@@ -88,9 +88,11 @@ impl Guide {
     /// The keys of a stage: all roles on the first mesh of a topic, and one on its other meshes.
     fn keys(&self, stage: &Stage) -> Vec<Row> {
         let topic = stage.topic;
-        let seeds = match topic {
-            Topic::Flag | Topic::Aftermath => self.options.seeds,
-            Topic::Hang | Topic::Rip | Topic::Trouser => 0,
+        let half = (self.options.seeds / 2).max(2);
+        let [seeds, second_seeds] = match topic {
+            Topic::Flag => [self.options.seeds, half],
+            Topic::Aftermath => [half; 2],
+            Topic::Hang | Topic::Rip | Topic::Trouser => [0; 2],
         };
         // Without an ensemble there is one run without noise.
         let first = seeds.min(1);
@@ -115,12 +117,13 @@ impl Guide {
         if topic != Topic::Aftermath {
             // Seeds of its own, as the same runs would have no error.
             let own = first * REFERENCE_SEEDS;
-            let own = own + first..=own + seeds;
-            let second = if topic == Topic::Hang { DEFAULT } else { BDF2 };
-            add(Role::Reference, DEFAULT, None, own.clone());
-            add(Role::Second, second, None, own);
+            add(Role::Reference, DEFAULT, None, own + first..=own + seeds);
+            add(Role::Second, NEWTON, None, own + first..=own + second_seeds);
             add(Role::Gate, DEFAULT, None, 0..=1);
-            multiples.extend(STEP_MULTIPLES.map(Some));
+            // The error of a flag is chance, which no shorter step changes.
+            let worth = STEP_MULTIPLES.into_iter();
+            let worth = worth.filter(|multiple| topic != Topic::Flag || *multiple > 1.0);
+            multiples.extend(worth.map(Some));
         }
         for method in &DEFAULTS {
             for &multiple in &multiples {
@@ -198,15 +201,10 @@ impl Experiment for Guide {
         let error_mesh = median(on_meshes.filter_map(error).collect());
         let ensembles = plays.chunk_by(|a, b| a.row.ensemble() == b.row.ensemble());
         let rows = ensembles.flat_map(|of| {
-            let done = of.iter().filter(|play| play.answer.is_some());
-            let errors = match of[0].row.role {
-                Role::Method => resampled(&done.collect::<Vec<_>>(), error),
-                _ => None,
-            };
+            let is_method = of[0].row.role == Role::Method;
+            let own = is_method.then(|| error(&of.iter().collect::<Vec<_>>()));
             of.iter().map(move |play| Row {
-                error: errors.map(|[_, middle, _]| middle),
-                error_low: errors.map(|[low, ..]| low),
-                error_high: errors.map(|[.., high]| high),
+                error: own.flatten(),
                 error_floor,
                 error_mesh,
                 error_noise,
@@ -216,23 +214,6 @@ impl Experiment for Guide {
         });
         rows.collect()
     }
-}
-
-/// The number of times that an ensemble is resampled.
-const DRAWS: usize = 200;
-
-/// The 10 %, 50 % and 90 % points of the error over resampled members of an ensemble; of one run, its error.
-fn resampled<T>(ensemble: &[&T], error: impl Fn(&[&T]) -> Option<f64>) -> Option<[f64; 3]> {
-    if ensemble.len() < 2 {
-        return error(ensemble).map(|error| [error; 3]);
-    }
-    let mut random = Random::new(2014);
-    let mut draw = || -> Vec<&T> {
-        let draw = (0..ensemble.len()).map(|_| ensemble[random.below(ensemble.len())]);
-        draw.collect()
-    };
-    let errors: Vec<f64> = (0..DRAWS).filter_map(|_| error(&draw())).collect();
-    (!errors.is_empty()).then(|| spread(&errors))
 }
 
 #[cfg(test)]

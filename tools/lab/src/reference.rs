@@ -10,7 +10,7 @@
 //! and steps after a tear are of backward Euler. Wind is taken at the end of the step.
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Abilities, Failure, Loads, Solver, System};
+use tearmesh_cloth::{Abilities, Failure, Solver, System};
 
 /// A solver of second order for motions, or of first order for states of rest.
 #[derive(Clone, Debug, Default)]
@@ -67,15 +67,10 @@ impl Solver for Reference {
         let goes_on = |last: &Last| !self.is_to_rest && last.ended == x && last.dt_s == dt_s;
         let last = self.last.take().filter(goes_on);
         let h = if last.is_some() { dt_s / 1.5 } else { dt_s };
-        let mut step = Step {
-            model: Model::new(system, &self.faces),
-            h,
-            start: x.clone(),
-            start_velocities: v.clone(),
-        };
+        let mut step = Step::new(system, &self.faces, h);
         let mut velocities = v.clone();
         for i in 0..x.len() {
-            if step.model.masses[i].is_none() {
+            if system.is_held(i) {
                 step.start[i] += v[i] * (dt_s - h);
             } else if let Some(Last { began, .. }) = &last {
                 step.start[i] += (x[i] - began.0[i]) / 3.0;
@@ -100,40 +95,50 @@ impl Solver for Reference {
 }
 
 /// The equation of a step.
-struct Step {
-    model: Model,
+struct Step<'a> {
+    system: &'a System,
+    /// Edges, and pairs across an edge.
+    springs: Vec<Spring>,
+    faces: &'a [u32],
     h: f64,
     start: Vec<Point>,
     start_velocities: Vec<Vector>,
 }
 
-impl Step {
+impl<'a> Step<'a> {
+    /// A step of backward Euler.
+    fn new(system: &'a System, faces: &'a [u32], h: f64) -> Step<'a> {
+        let families = [system.stretches(), system.bends()];
+        let springs = families.iter().flat_map(|family| {
+            let constraints = family.iter().map(|id| family.get(id));
+            constraints.map(|constraint| Spring {
+                ends: constraint.ends,
+                rest_m: constraint.rest_length_m,
+                n_per_m: constraint.stiffness_n_per_m,
+            })
+        });
+        Step {
+            springs: springs.collect(),
+            system,
+            faces,
+            h,
+            start: system.positions().to_vec(),
+            start_velocities: system.velocities().to_vec(),
+        }
+    }
+
     fn reached(&self, v: &[Vector]) -> Vec<Point> {
         let particles = self.start.iter().zip(v);
         particles.map(|(x, v)| x + v * self.h).collect()
     }
 
-    /// f − M ((1 + hc) v − v*)/h, of free particles.
-    fn residual(&self, v: &[Vector]) -> Vec<Vector> {
-        let mut residual = self.model.forces(&self.reached(v), v);
-        for (i, r) in residual.iter_mut().enumerate() {
-            *r = match self.model.masses[i] {
-                Some(m) => *r - (v[i] - self.start_velocities[i]) * (m / self.h),
-                None => Vector::zeros(),
-            };
-        }
-        residual
+    /// The indices and masses of free particles.
+    fn free(&self) -> impl Iterator<Item = (usize, f64)> {
+        let masses = self.system.masses().iter().copied().enumerate();
+        masses.filter(|(i, _)| !self.system.is_held(*i))
     }
 
-    /// The rms error of the velocity that a residual is.
-    fn error(&self, residual: &[Vector]) -> f64 {
-        let masses = self.model.masses.iter().flatten();
-        let squares = residual.iter().zip(&self.model.masses);
-        let squares = squares.filter_map(|(r, m)| Some(r.norm_squared() / (*m)?));
-        self.h * (squares.sum::<f64>() / masses.sum::<f64>().max(f64::MIN_POSITIVE)).sqrt()
-    }
-
-    /// Newton's method from these velocities, to convergence. Returns the error that is left.
+    /// Newton's method from these velocities, to convergence. Returns the rms error of them that is left.
     fn solve(&self, v: &mut Vec<Vector>) -> f64 {
         let mut residual = self.residual(v);
         let mut error = self.error(&residual);
@@ -141,8 +146,7 @@ impl Step {
             if error <= SOLVED {
                 break;
             }
-            let x = self.reached(v);
-            let moved = self.direction(&x, &residual);
+            let moved = self.direction(&self.reached(v), &residual);
             let along = |part: f64| {
                 let pairs = v.iter().zip(&moved);
                 let next: Vec<Vector> = pairs.map(|(v, d)| v + d * (part / self.h)).collect();
@@ -160,39 +164,47 @@ impl Step {
         error
     }
 
-    /// The change of positions that answers a residual, by conjugate gradients: with the exact stiffness, or
-    /// without its negative parts if the matrix is not definite.
-    fn direction(&self, x: &[Point], residual: &[Vector]) -> Vec<Vector> {
-        let exact = self.conjugate_gradients(x, residual, false);
-        exact.unwrap_or_else(|| {
-            let positive = self.conjugate_gradients(x, residual, true);
-            positive.expect("a matrix without negative parts is definite")
-        })
+    /// f − M ((1 + hc) v − v*)/h, of free particles.
+    fn residual(&self, v: &[Vector]) -> Vec<Vector> {
+        let forces = self.forces(&self.reached(v), v);
+        let mut residual = vec![Vector::zeros(); v.len()];
+        for (i, m) in self.free() {
+            residual[i] = forces[i] - (v[i] - self.start_velocities[i]) * (m / self.h);
+        }
+        residual
     }
 
-    /// `None` if the matrix shows that it is not definite.
-    fn conjugate_gradients(
-        &self,
-        x: &[Point],
-        residual: &[Vector],
-        is_clamped: bool,
-    ) -> Option<Vec<Vector>> {
+    /// The rms error of the velocity that a residual is.
+    fn error(&self, residual: &[Vector]) -> f64 {
+        let squares = self.free().map(|(i, m)| residual[i].norm_squared() / m);
+        let mass: f64 = self.free().map(|(_, m)| m).sum();
+        self.h * (squares.sum::<f64>() / mass.max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// The change of positions that answers a residual, by conjugate gradients. Where the matrix shows that it is
+    /// not definite they end, as what they found so far leads downhill too.
+    fn direction(&self, x: &[Point], residual: &[Vector]) -> Vec<Vector> {
+        let springs = self.springs.iter();
+        let springs = springs.map(|spring| {
+            (
+                spring.ends,
+                spring.stiffness(x[spring.ends[1]] - x[spring.ends[0]]),
+            )
+        });
+        let springs: Vec<([usize; 2], Stiffness)> = springs.collect();
         let mut solution = vec![Vector::zeros(); x.len()];
         let mut left = residual.to_vec();
         let mut direction = left.clone();
         let mut square = dot(&left, &left);
         // Much smaller than what Newton's method gains in an iteration.
         let enough = 1e-14 * square;
-        for _ in 0..20 * x.len() {
-            if square <= enough {
+        for i in 0..20 * x.len() {
+            let product = self.product(&springs, &direction);
+            let curvature = dot(&direction, &product);
+            if square <= enough || (curvature <= 0.0 && i > 0) {
                 break;
             }
-            let product = self.product(x, &direction, is_clamped);
-            let curvature = dot(&direction, &product);
-            if curvature <= 0.0 {
-                return None;
-            }
-            let far = square / curvature;
+            let far = square / curvature.abs();
             let before = square;
             for i in 0..x.len() {
                 solution[i] += direction[i] * far;
@@ -203,43 +215,61 @@ impl Step {
                 *p = r + *p * (square / before);
             }
         }
-        Some(solution)
+        solution
     }
 
     /// (M (1 + hc)/h² + K) u, of free particles.
-    fn product(&self, x: &[Point], u: &[Vector], is_clamped: bool) -> Vec<Vector> {
-        let inertia = (1.0 + self.h * self.model.drag_per_s) / (self.h * self.h);
-        let mut product = vec![Vector::zeros(); u.len()];
-        for spring in &self.model.springs {
-            let [a, b] = spring.ends;
-            let pull = spring.stiffness(x[b] - x[a], u[b] - u[a], is_clamped);
-            product[a] -= pull;
-            product[b] += pull;
+    fn product(&self, springs: &[([usize; 2], Stiffness)], u: &[Vector]) -> Vec<Vector> {
+        let drag = self.system.loads().drag_per_s.unwrap_or(0.0);
+        let inertia = (1.0 + self.h * drag) / (self.h * self.h);
+        let mut stiff = vec![Vector::zeros(); u.len()];
+        for ([a, b], spring) in springs.iter().copied() {
+            let pull = spring.pull(u[b] - u[a]);
+            stiff[a] -= pull;
+            stiff[b] += pull;
         }
-        for (i, p) in product.iter_mut().enumerate() {
-            *p = match self.model.masses[i] {
-                Some(m) => *p + u[i] * (m * inertia),
-                None => Vector::zeros(),
-            };
+        let mut product = vec![Vector::zeros(); u.len()];
+        for (i, m) in self.free() {
+            product[i] = stiff[i] + u[i] * (m * inertia);
         }
         product
+    }
+
+    /// All forces, with drag.
+    fn forces(&self, x: &[Point], v: &[Vector]) -> Vec<Vector> {
+        let loads = self.system.loads();
+        let gravity = loads.gravity_m_per_s2.unwrap_or_default();
+        let drag = loads.drag_per_s.unwrap_or(0.0);
+        let particles = self.system.masses().iter().zip(v);
+        let forces = particles.map(|(m, v)| (gravity - v * drag) * *m);
+        let mut forces: Vec<Vector> = forces.collect();
+        for spring in &self.springs {
+            let [a, b] = spring.ends;
+            let pull = spring.pull(x[b] - x[a]);
+            forces[a] += pull;
+            forces[b] -= pull;
+        }
+        let Some(wind) = loads.wind else {
+            return forces;
+        };
+        for face in self.faces.as_chunks().0 {
+            let corners = face.map(|corner| corner as usize);
+            let [a, b, c] = corners;
+            let normal = (x[b] - x[a]).cross(&(x[c] - x[a]));
+            let area = 0.5 * normal.norm();
+            if area > 0.0 {
+                let unit = normal / (2.0 * area);
+                let speed = unit.dot(&(wind.velocity_m_per_s - (v[a] + v[b] + v[c]) / 3.0));
+                let third = unit * (wind.coefficient * area * speed / 3.0);
+                corners.iter().for_each(|&corner| forces[corner] += third);
+            }
+        }
+        forces
     }
 }
 
 fn dot(a: &[Vector], b: &[Vector]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
-}
-
-/// What acts on the particles of a system.
-struct Model {
-    /// Edges, and pairs across an edge.
-    springs: Vec<Spring>,
-    /// `None` for a particle that is held.
-    masses: Vec<Option<f64>>,
-    weights: Vec<f64>,
-    faces: Vec<u32>,
-    loads: Loads,
-    drag_per_s: f64,
 }
 
 /// A spring along an edge, or one that resists bending.
@@ -257,77 +287,29 @@ impl Spring {
         d * (self.n_per_m * (length - self.rest_m) / length)
     }
 
-    /// The change of that force if `d` changes by `u`.
-    fn stiffness(self, d: Vector, u: Vector, is_clamped: bool) -> Vector {
+    fn stiffness(self, d: Vector) -> Stiffness {
         let length = d.norm();
-        let direction = d / length;
-        let along = direction * direction.dot(&u);
-        let tension = (length - self.rest_m) / length;
-        let across = if is_clamped {
-            tension.max(0.0)
-        } else {
-            tension
-        };
-        (along + (u - along) * across) * self.n_per_m
+        Stiffness {
+            direction: d / length,
+            across: (length - self.rest_m) / length,
+            n_per_m: self.n_per_m,
+        }
     }
 }
 
-impl Model {
-    fn new(system: &System, faces: &[u32]) -> Model {
-        let families = [system.stretches(), system.bends()];
-        let springs = families.iter().flat_map(|family| {
-            family.iter().map(|id| {
-                let constraint = family.get(id);
-                Spring {
-                    ends: constraint.ends,
-                    rest_m: constraint.rest_length_m,
-                    n_per_m: constraint.stiffness_n_per_m,
-                }
-            })
-        });
-        let weights = system.masses().to_vec();
-        let masses = weights.iter().enumerate();
-        Model {
-            springs: springs.collect(),
-            masses: masses
-                .map(|(i, m)| (!system.is_held(i)).then_some(*m))
-                .collect(),
-            weights,
-            faces: faces.to_vec(),
-            loads: system.loads().clone(),
-            drag_per_s: system.loads().drag_per_s.unwrap_or(0.0),
-        }
-    }
+/// The stiffness of a spring in a direction, and across it as a part of that.
+#[derive(Clone, Copy)]
+struct Stiffness {
+    direction: Vector,
+    across: f64,
+    n_per_m: f64,
+}
 
-    /// All forces, with drag.
-    fn forces(&self, x: &[Point], v: &[Vector]) -> Vec<Vector> {
-        let gravity = self.loads.gravity_m_per_s2.unwrap_or_default();
-        let particles = self.weights.iter().zip(v);
-        let mut forces: Vec<Vector> = particles
-            .map(|(m, v)| (gravity - v * self.drag_per_s) * *m)
-            .collect();
-        for spring in &self.springs {
-            let [a, b] = spring.ends;
-            let pull = spring.pull(x[b] - x[a]);
-            forces[a] += pull;
-            forces[b] -= pull;
-        }
-        let Some(wind) = self.loads.wind else {
-            return forces;
-        };
-        for face in self.faces.chunks_exact(3) {
-            let corners = [face[0], face[1], face[2]].map(|corner| corner as usize);
-            let [a, b, c] = corners;
-            let normal = (x[b] - x[a]).cross(&(x[c] - x[a]));
-            let area = 0.5 * normal.norm();
-            if area > 0.0 {
-                let unit = normal / (2.0 * area);
-                let speed = unit.dot(&(wind.velocity_m_per_s - (v[a] + v[b] + v[c]) / 3.0));
-                let third = unit * (wind.coefficient * area * speed / 3.0);
-                corners.iter().for_each(|&corner| forces[corner] += third);
-            }
-        }
-        forces
+impl Stiffness {
+    /// The change of the force on the first end if the difference to the second changes by `u`.
+    fn pull(self, u: Vector) -> Vector {
+        let along = self.direction * self.direction.dot(&u);
+        (along + (u - along) * self.across) * self.n_per_m
     }
 }
 
@@ -335,7 +317,7 @@ impl Model {
 mod tests {
     use tearmesh::{Masses, shapes};
     use tearmesh_cloth::implicit::{self, Settings};
-    use tearmesh_cloth::{Bending, Cloth, Fabric, Implicit, Wind, force};
+    use tearmesh_cloth::{Bending, Cloth, Fabric, Implicit, Loads, Wind, force};
 
     use super::*;
 
@@ -375,7 +357,7 @@ mod tests {
         let mut cloth = crumpled();
         let faces = cloth.indices().to_vec();
         let system = cloth.system_mut();
-        let own = Model::new(system, &faces).forces(system.positions(), system.velocities());
+        let own = Step::new(system, &faces, 1.0).forces(system.positions(), system.velocities());
         let mut accelerations = Vec::new();
         assert!(force::accelerations(system, &mut accelerations));
         let largest = own.iter().map(|f| f.norm()).fold(0.0, f64::max);
@@ -398,7 +380,7 @@ mod tests {
             let d = Vector::new(0.6, 0.64, -0.48) * scale;
             let h = 1e-5;
             let difference = (spring.pull(d + u * h) - spring.pull(d - u * h)) / (2.0 * h);
-            let apart = (difference - spring.stiffness(d, u, false)).norm();
+            let apart = (difference - spring.stiffness(d).pull(u)).norm();
             assert!(apart < 1e-7, "{scale}: {apart}");
         }
     }

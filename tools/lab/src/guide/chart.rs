@@ -44,9 +44,8 @@ const PANELS: [(Topic, &str, Quantity); 6] = [
 ];
 
 const ERROR: Quantity = ("error, %", |of| {
-    let row = of.first()?;
-    let [low, error, high] = [row.error_low?, row.error?, row.error_high?];
-    Some([low, error.max(1e-8), high].map(|error| 100.0 * error))
+    let error = of.first()?.error?;
+    Some([100.0 * error.max(1e-8); 3])
 });
 
 const TORN: Quantity = ("torn length, m", |of| spread_of(of, |row| row.torn_m));
@@ -84,7 +83,7 @@ struct Section<'a> {
 const READING: &str = "Large marks: a method at its default. Small marks: its default step four times and twice as \
      long and half as long; in the pink strip those that were refused, blew up or did not end. Grey band: below the \
      error that other diagonals of the mesh make; nothing in it is worth paying for. Hollow: below ten times the \
-     distance of two references, known no better. Bars: 10 to 90 % over seeds.";
+     distance of two references, known no better.";
 
 impl Chart for Guide {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {

@@ -12,8 +12,9 @@ use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{FRAME_S, Method, TearReport};
 
 use crate::experiment::{Bounds, Status};
-use crate::method::{self, DEFAULTS};
+use crate::method;
 use crate::pareto::{fastest_m_per_s, status_of};
+use crate::reference::Reference;
 use crate::tear::{STRIP_M, grid};
 
 /// The topic of a panel: a scene, and what is asked about it.
@@ -77,8 +78,8 @@ impl Topic {
 /// is compared.
 const REST_S: f64 = 3.0;
 
-/// The name in tables of the implicit method of second order, with each linear equation solved to about rounding.
-pub(super) const BDF2: &str = "bdf2";
+/// The name in tables of the method that shares no code with the others ([`Reference`]).
+pub(super) const NEWTON: &str = "newton";
 
 /// The purpose of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -108,7 +109,7 @@ pub struct Row {
     pub diagonals: u64,
     /// The purpose of the run.
     pub role: Role,
-    /// The method, as on the command line; `bdf2` for the implicit method of second order.
+    /// The method, as on the command line; `newton` for the second reference.
     pub method: String,
     /// The step as a multiple of the default step; `None` for the default.
     pub step_multiple: Option<f64>,
@@ -124,13 +125,8 @@ pub struct Row {
     pub torn_m: Option<f64>,
     /// The work of all holds until the end, in joules.
     pub work_j: Option<f64>,
-    /// The error relative to the reference; for a flag that of the whole ensemble, as its median over resampled
-    /// seeds.
+    /// The error relative to the reference; for a flag that of the whole ensemble.
     pub error: Option<f64>,
-    /// The 10 % and 90 % points of the error over resampled seeds.
-    pub error_low: Option<f64>,
-    /// See `error_low`.
-    pub error_high: Option<f64>,
     /// The distance between the references.
     pub error_floor: Option<f64>,
     /// The median error of the meshes with other diagonals.
@@ -335,28 +331,33 @@ impl Stage {
 
     /// The run of a key that is about to begin.
     fn begin(&self, key: &Row, rest: Option<&[Point]>) -> Result<Run, End> {
-        let (method, multiple) = match method::Method::named(&key.method) {
-            Some(method) => (method, key.step_multiple),
-            // BDF2 takes longer steps than Verlet's method by as much as its order allows.
-            None => (&DEFAULTS[0], Some(2.0)),
-        };
+        let method = method::Method::named(&key.method);
         let mut scene = self.topic.scene(&self.frame);
-        scene.solver = method.settings().unwrap_or(Method::Verlet);
+        scene.solver = method
+            .and_then(|method| method.settings())
+            .unwrap_or(Method::Verlet);
+        let (multiple, divisor) = match (key.role, self.topic) {
+            (Role::Second, Topic::Hang) => {
+                (scene.step_s, scene.duration_s) = (Some(REST_STEP_S), 1.0);
+                (None, 1)
+            }
+            // It takes longer steps than Verlet's method by as much as its order allows.
+            (Role::Second, _) => (Some(2.0), 1),
+            // For a flag chance is larger than what a shorter step changes.
+            (Role::Reference, Topic::Flag) => (None, 2),
+            (Role::Reference, _) => (None, 8),
+            _ => (key.step_multiple, 1),
+        };
         if let Some(multiple) = multiple {
             scene.step_s = Some(multiple * self.run(scene.clone(), 0, None)?.step_s());
         }
-        if key.method == BDF2 {
-            scene.solver = second_reference();
-        }
-        let divisor = match (key.role, self.topic) {
-            // For a flag chance is larger than what a shorter step changes. A shape at rest is kept by a method
-            // that did not find it.
-            (Role::Reference, Topic::Flag) | (Role::Second, Topic::Hang) => 2,
-            (Role::Reference, _) => 8,
-            _ => 1,
-        };
         let run = self.run(scene, key.seed, rest)?;
-        Ok(run.in_smaller_steps(NonZero::new(divisor).unwrap_or(NonZero::<u32>::MIN)))
+        let run = run.in_smaller_steps(NonZero::new(divisor).unwrap_or(NonZero::<u32>::MIN));
+        Ok(match (key.role, self.topic) {
+            (Role::Second, Topic::Hang) => run.with_solver(Reference::to_rest()),
+            (Role::Second, _) => run.with_solver(Reference::new(self.mesh.indices())),
+            _ => run,
+        })
     }
 
     /// A run that is about to begin: with noise unless the seed is 0, in a given shape if there is one.
@@ -427,14 +428,6 @@ const REST_STEP_S: f64 = 0.02;
 /// The speed of the fastest particle at which a sheet is at rest.
 const AT_REST_M_PER_S: f64 = 1e-7;
 
-/// The implicit method of second order, with each linear equation solved to about rounding.
-fn second_reference() -> Method {
-    Method::Implicit(implicit::Settings {
-        method: implicit::Method::Bdf2,
-        tolerance: 0.1,
-        ..implicit::Settings::default()
-    })
-}
 /// The CPU time per simulated second: the median of five equal parts of a run.
 fn cpu_s_per_s(steps_s: &[f64], dt_s: f64) -> Option<f64> {
     let parts = steps_s.chunks(steps_s.len().div_ceil(5).max(1));

@@ -71,17 +71,6 @@ fn an_interrupted_page_has_a_row_for_each_run() {
 }
 
 #[test]
-fn interval_of_equal_members_is_their_error_and_of_none_nothing() {
-    let members = vec![&(); 5];
-    assert_eq!(
-        resampled(&members, |of| Some(of.len() as f64)),
-        Some([5.0; 3])
-    );
-    assert_eq!(resampled(&members[..1], |_| Some(0.25)), Some([0.25; 3]));
-    assert_eq!(resampled(&members, |_| None), None);
-}
-
-#[test]
 fn error_is_the_largest_of_the_quantities_that_both_know() {
     let play = |answer: &[&[f64]]| Play {
         answer: Some(answer.iter().map(|numbers| numbers.to_vec()).collect()),

@@ -82,7 +82,6 @@ impl Theory {
                         method: method.family.name().to_owned(),
                         step_ratio: Some(step_ratio),
                         dt_s: Some(dt_s),
-                        theory_s,
                         measured: Some(measured),
                         watched: Some(watched),
                         codes: error.map_or("", |error| code(&error)).to_owned(),

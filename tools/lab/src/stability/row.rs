@@ -19,8 +19,6 @@ pub struct Row {
     pub step_ratio: Option<f64>,
     /// The step in seconds.
     pub dt_s: Option<f64>,
-    /// The longest stable step in theory, in seconds; `None` if every step is stable.
-    pub theory_s: Option<f64>,
     /// The expected outcome; `None` if theory makes no statement. For a step it is that without the guard.
     pub expected: Option<Status>,
     /// The measured outcome. For a step it is that without the guard.
