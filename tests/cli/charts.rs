@@ -124,7 +124,7 @@ fn pareto() {
         [
             "swing,grid,3,1000.0,1.0,verlet@default,verlet,|swing,grid,3,1000.0,1.0,rk4@2,|swing,grid,3,1000.0,1.0,gate,",
             "default|--scene swing",
-            "swing S2: |verlet    at its defaults: cost 1.00,",
+            "swing S2: |the cheapest run for each tolerance",
         ],
     );
     let (table, _) = chart.hold(&Folder::new());
@@ -238,7 +238,7 @@ fn cut() {
         &[1],
         [
             "uniform,128,ok,3,|exact .05 moved,288,ok,3,",
-            "exact .05 moved|Length of the seam",
+            "exact .05 moved|Stable step of springs",
             "uniform              128 |exact .2 moved       288 ",
         ],
     );

@@ -49,12 +49,6 @@ pub struct Row {
     pub step_ratio: Option<f64>,
     /// The smallest ratio of the stable step after a cut to that before it.
     pub step_ratio_least: Option<f64>,
-    /// The median of the length of the seam divided by that of the straight line.
-    pub length_ratio: Option<f64>,
-    /// The largest ratio of the length of a seam to that of its straight line.
-    pub length_ratio_most: Option<f64>,
-    /// The smallest angle of any face after any of the cuts, in degrees.
-    pub angle_min_deg: Option<f64>,
 }
 
 /// All methods and settings that are compared, in the order of tables: the name, the method, and the arguments
@@ -167,9 +161,6 @@ fn measured(row: Row, cuts: &[Measured]) -> Row {
         divided: Some(cuts.iter().filter(is_divided).count()),
         step_ratio: middle(|cut| cut.step_ratio),
         step_ratio_least: least(|cut| cut.step_ratio),
-        length_ratio: middle(|cut| cut.report.seam_length_ratio),
-        length_ratio_most: most(|cut| cut.report.seam_length_ratio),
-        angle_min_deg: least(|cut| cut.report.angle_min_deg),
         ..row
     }
 }

@@ -46,30 +46,30 @@ pub enum Family {
 
 /// The families in their order, their names, and what tells their marks from others: shape and colour each do.
 const STYLES: [(Family, &str, Shape, Colour); 9] = [
-    (Family::Verlet, "Verlet", Shape::Disc, COLOURS[0]),
+    (Family::Verlet, "Verlet", Shape::DISC, COLOURS[0]),
     (
         Family::PlainVerlet,
         "plain Verlet",
-        Shape::Square,
+        Shape::SQUARE,
         COLOURS[5],
     ),
-    (Family::Rk4, "RK4", Shape::Diamond, [0x22; 3]),
+    (Family::Rk4, "RK4", Shape::DIAMOND, [0x22; 3]),
     (
         Family::SymplecticEuler,
         "symplectic Euler",
-        Shape::Up,
+        Shape::UP,
         COLOURS[4],
     ),
-    (Family::Provot, "Provot", Shape::Down, [0x8a; 3]),
-    (Family::Pbd, "PBD", Shape::Cross, COLOURS[3]),
-    (Family::Xpbd, "XPBD", Shape::Plus, COLOURS[1]),
+    (Family::Provot, "Provot", Shape::DOWN, [0x8a; 3]),
+    (Family::Pbd, "PBD", Shape::CROSS, COLOURS[3]),
+    (Family::Xpbd, "XPBD", Shape::PLUS, COLOURS[1]),
     (
         Family::BackwardEuler,
         "backward Euler",
-        Shape::Left,
+        Shape::LEFT,
         COLOURS[2],
     ),
-    (Family::Bdf2, "BDF2", Shape::Right, [0x7b, 0x3f, 0xa0]),
+    (Family::Bdf2, "BDF2", Shape::RIGHT, [0x7b, 0x3f, 0xa0]),
 ];
 
 impl Family {

@@ -165,27 +165,30 @@ impl Mark {
     }
 }
 
-/// The shape of a mark.
+/// The shape of a mark: its outline around the origin, about as large as a disc of radius 1, and whether it is made
+/// of strokes alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub struct Shape(&'static str, bool);
+
+impl Shape {
     /// A disc.
-    Disc,
+    pub const DISC: Shape = Shape("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", false);
     /// A square.
-    Square,
+    pub const SQUARE: Shape = Shape("M-.9-.9H.9V.9H-.9Z", false);
     /// A square on its corner.
-    Diamond,
+    pub const DIAMOND: Shape = Shape("M0-1.3L1.1 0L0 1.3L-1.1 0Z", false);
     /// A triangle that points up.
-    Up,
+    pub const UP: Shape = Shape("M0-1.2L1.1.9H-1.1Z", false);
     /// A triangle that points down.
-    Down,
+    pub const DOWN: Shape = Shape("M0 1.2L1.1-.9H-1.1Z", false);
     /// A triangle that points to the left.
-    Left,
+    pub const LEFT: Shape = Shape("M-1.2 0L.9-1.1V1.1Z", false);
     /// A triangle that points to the right.
-    Right,
+    pub const RIGHT: Shape = Shape("M1.2 0L-.9-1.1V1.1Z", false);
     /// Two crossed diagonal strokes.
-    Cross,
+    pub const CROSS: Shape = Shape("M-1-1L1 1M-1 1L1-1", true);
     /// Two crossed strokes along the axes.
-    Plus,
+    pub const PLUS: Shape = Shape("M-1.2 0H1.2M0-1.2V1.2", true);
     /// A circle around another mark.
-    Ring,
+    pub const RING: Shape = Shape("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", true);
 }

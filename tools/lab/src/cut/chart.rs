@@ -18,7 +18,7 @@ type Measure = (
     fn(&Row) -> Option<[f64; 2]>,
 );
 
-const MEASURES: [Measure; 6] = [
+const MEASURES: [Measure; 4] = [
     (
         "ns/face",
         "CPU time of a cut per face of the sheet, ns",
@@ -45,18 +45,6 @@ const MEASURES: [Measure; 6] = [
         "Stable step of springs, after / before",
         Axis::log,
         |row| Some([row.step_ratio?, row.step_ratio_least?]),
-    ),
-    (
-        "length",
-        "Length of the seam / straight line",
-        Axis::linear,
-        |row| Some([row.length_ratio?, row.length_ratio_most?]),
-    ),
-    (
-        "angle",
-        "Smallest angle of all faces, degrees",
-        Axis::log,
-        |row| Some([row.angle_min_deg?; 2]),
     ),
 ];
 
@@ -123,11 +111,11 @@ fn title(rows: &[Row]) -> Option<String> {
 /// The mark of a row, larger for more faces. Snaps share a mark.
 fn mark(row: &Row) -> Mark {
     let mark = match row.method.as_str() {
-        "uniform" => Mark::new(Shape::Up, COLOURS[3]),
-        "alternating" => Mark::new(Shape::Down, COLOURS[4]),
-        "partition" => Mark::new(Shape::Square, COLOURS[1]),
-        name if name.ends_with("moved") => Mark::new(Shape::Diamond, COLOURS[2]),
-        _ => Mark::new(Shape::Disc, COLOURS[0]),
+        "uniform" => Mark::new(Shape::UP, COLOURS[3]),
+        "alternating" => Mark::new(Shape::DOWN, COLOURS[4]),
+        "partition" => Mark::new(Shape::SQUARE, COLOURS[1]),
+        name if name.ends_with("moved") => Mark::new(Shape::DIAMOND, COLOURS[2]),
+        _ => Mark::new(Shape::DISC, COLOURS[0]),
     };
     mark.sized((row.faces as f64).log10())
 }

@@ -47,23 +47,11 @@ fn snap_bounds_deviation_and_pieces_are_those_expected() {
         let ns = row.ns_per_face.expect("a time for each row");
         assert!((ns - 1000.0 / 1152.0).abs() < 1e-9, "{}: {ns}", row.method);
     }
-    let all = |names: [&str; 3], number| names.map(|name| of(name, number));
     // A smaller snap leaves thinner faces.
     let steps = ["partition", "exact .2", "exact .05", "exact 0"];
     let steps = steps.map(|name| of(name, |row| row.step_ratio));
     assert!(steps.is_sorted_by(|a, b| a > b), "{steps:?}");
     assert!(steps[0] > 0.5 && steps[0] <= 1.0 + 1e-6);
-    let angles = all(["exact .2", "exact .05", "exact 0"], |row| {
-        row.angle_min_deg
-    });
-    assert!(
-        angles.is_sorted_by(|a, b| a > b) && angles[0] > 1.0,
-        "{angles:?}"
-    );
-    // An exact seam is a straight line, seen from above; a partition goes along edges.
-    let lengths = all(["partition", "exact .2", "exact 0"], |row| row.length_ratio);
-    assert!(lengths.is_sorted_by(|a, b| a > b), "{lengths:?}");
-    assert!((lengths[2] - 1.0).abs() < 1e-9, "{lengths:?}");
 }
 
 #[test]

@@ -23,7 +23,7 @@ impl Chart for Fig7 {
         let names = IMPLEMENTATIONS[1..].iter().map(|(name, _)| *name);
         let (mut legend, mut layers) = (Vec::new(), Vec::new());
         for (name, colour) in names.zip([COLOURS[1], COLOURS[4], COLOURS[0]]) {
-            let mark = Mark::new(Shape::Disc, colour);
+            let mark = Mark::new(Shape::DISC, colour);
             legend.push((mark, name.to_owned()));
             let own = groups(rows).filter(|rounds| rounds[0].implementation == name);
             let points = own.filter_map(|rounds| Some((rounds[0].faces? as f64, sum_ms(rounds)?)));

@@ -59,7 +59,6 @@ impl Chart for Pareto {
                 let (name, line) = (group.observable.name(), group.tolerances());
                 text += &format!("  {name:<33} {line}\n");
             }
-            text += &defaults(case);
         }
         text
     }
@@ -159,7 +158,7 @@ impl Group<'_> {
         for &(Ranked { row, .. }, at) in defaults {
             let own = row.family.map_or(INK, |family| family.mark().colour);
             let colour = if row.is_default() { INK } else { own };
-            let ring = Mark::new(Shape::Ring, colour).sized(7.5);
+            let ring = Mark::new(Shape::RING, colour).sized(7.5);
             layers.push(Layer::Mark(at, ring, hover(row)));
             if row.is_default() {
                 layers.push(Layer::Label(at, "default".to_owned(), INK));
@@ -253,21 +252,10 @@ fn about(row: &Row) -> String {
     )
 }
 
-/// The front over all methods, as stairs.
+/// The front over all methods.
 fn front_line(shown: &[Drawn<'_>]) -> Layer {
     let on = shown.iter().filter(|(one, _)| one.is_on_front);
-    let mut points: Vec<[f64; 2]> = Vec::new();
-    for [cost, error] in ascending(on.map(|(_, at)| *at)) {
-        if let Some(&[_, least]) = points.last() {
-            if error >= least {
-                continue;
-            }
-            points.push([cost, least]);
-        }
-        points.push([cost, error]);
-    }
-    let end = shown.iter().map(|(_, at)| at[0]).fold(0.0, f64::max);
-    points.extend(points.last().map(|&[_, least]| [end, least]));
+    let points = ascending(on.map(|(_, at)| *at));
     Layer::Line(points, [0xcc; 3], 3.0)
 }
 
@@ -294,27 +282,4 @@ fn ascending(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = points.collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     points
-}
-
-/// A line for each method at its default settings: its cost as a multiple of that of the default, and its
-/// errors.
-fn defaults(case: &[Row]) -> String {
-    let unit = case.iter().find(|row| row.is_default());
-    let unit = unit.and_then(|row| row.cost(false)).unwrap_or(f64::NAN);
-    let named = |row: &&Row| row.family.is_some() && row.step_fraction.is_none();
-    let rows: Vec<&Row> = case.iter().filter(named).collect();
-    let lines = rows.chunk_by(|a, b| a.method == b.method).map(|of| {
-        let errors = of.iter().filter_map(|row| {
-            let error = percent(row.error_total?);
-            Some(format!("{} {error}", row.observable?.name()))
-        });
-        let errors = match of[0].status {
-            Status::Ok => errors.collect::<Vec<_>>().join(", "),
-            status => status.name().to_owned(),
-        };
-        let cost = of[0].cost(false).unwrap_or(f64::NAN) / unit;
-        let method = &of[0].method;
-        format!("  {method:<9} at its defaults: cost {cost:.2}, error {errors}\n")
-    });
-    lines.collect()
 }

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Solver, System, Threshold, energy, force};
+use tearmesh_cloth::{System, Threshold, energy, force};
 
 use super::scene::{Case, Held, Observable, TEAR_RATIO, TOUGHNESS_J_PER_M, Until};
 use crate::method::{Family, Method};
@@ -118,9 +118,6 @@ pub(super) struct Probe<'a> {
     reaction_every_s: f64,
     /// The work of the hand that pulls, in joules.
     hand_j: f64,
-    /// Whether the method moves particles by the forces at the end of a step, which then do its work; otherwise
-    /// the mean of the forces at both ends does.
-    moves_at_end: bool,
     /// The family of methods; `None` for a reference.
     family: Option<Family>,
     /// The energy in springs and of height at the start.
@@ -144,12 +141,7 @@ struct FirstTear {
 
 impl<'a> Probe<'a> {
     /// Creates a probe of a system that has not moved yet, for a method, or for a reference without one.
-    pub(super) fn new(
-        case: &'a Case,
-        system: &System,
-        solver: &dyn Solver,
-        method: Option<&Method>,
-    ) -> Probe<'a> {
+    pub(super) fn new(case: &'a Case, system: &System, method: Option<&Method>) -> Probe<'a> {
         let is_pulled = matches!(case.scene.held, Held::Pulled(_));
         let points = &case.sheet.points;
         let counts = |i: &usize| case.is_held(&points[*i]) && !(is_pulled && points[*i].y == 0.0);
@@ -168,7 +160,6 @@ impl<'a> Probe<'a> {
                 Until::Tears(_) => 0.0,
             },
             hand_j: 0.0,
-            moves_at_end: solver.abilities().frequency_limit.is_none(),
             family: method.map(|method| method.family),
             began_j: [energy::elastic_j(system), height_j(system)],
             put_in_j: 0.0,
@@ -189,11 +180,7 @@ impl<'a> Probe<'a> {
         if now_s >= self.reaction.last()[0] + self.reaction_every_s - 0.5 * dt_s {
             let now_n = self.reaction_n(system);
             if let Held::Pulled(speed) = self.case.scene.held {
-                let force_n = match self.moves_at_end {
-                    true => now_n,
-                    false => 0.5 * (self.reaction.last()[1] + now_n),
-                };
-                self.hand_j += force_n * speed * dt_s;
+                self.hand_j += 0.5 * (self.reaction.last()[1] + now_n) * speed * dt_s;
             }
             self.reaction.push(now_s, now_n);
         }

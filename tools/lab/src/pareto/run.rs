@@ -48,7 +48,7 @@ pub(super) fn run(
     let every = (steps_max / 400).max(1);
     let rest_every = ((0.01 / dt_s) as u64).max(1);
     let (mut system, mut solver) = planned.begin(case);
-    let mut probe = Probe::new(case, &system, &*solver, planned.method());
+    let mut probe = Probe::new(case, &system, planned.method());
     let (mut cpu, mut visits) = (Duration::ZERO, 0);
     let (mut status, mut why) = (Status::Restless, String::new());
     for number in 1..=steps_max {

@@ -96,8 +96,8 @@ impl Canvas {
         if !(x.is_finite() && y.is_finite()) {
             return;
         }
-        // Outlines and their strokes are drawn about as large as a disc of radius 1, and then scaled.
-        let (path, is_stroke) = outline(mark.shape);
+        // Outlines are drawn in the size that they have, and scaled with their strokes.
+        let Shape(path, is_stroke) = mark.shape;
         let colour = hex(mark.colour);
         let (fill, stroke, width) = match (is_stroke, mark.is_hollow) {
             (true, is_thin) => ("none", &*colour, if is_thin { 1.0 } else { 2.0 }),
@@ -114,22 +114,6 @@ impl Canvas {
              stroke=\"{stroke}\" stroke-width=\"{width:.2}\">{title}</path>",
             mark.size
         ));
-    }
-}
-
-/// The outline of a mark around the origin, and whether it is made of strokes alone.
-fn outline(shape: Shape) -> (&'static str, bool) {
-    match shape {
-        Shape::Disc => ("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", false),
-        Shape::Square => ("M-.9-.9H.9V.9H-.9Z", false),
-        Shape::Diamond => ("M0-1.3L1.1 0L0 1.3L-1.1 0Z", false),
-        Shape::Up => ("M0-1.2L1.1.9H-1.1Z", false),
-        Shape::Down => ("M0 1.2L1.1-.9H-1.1Z", false),
-        Shape::Left => ("M-1.2 0L.9-1.1V1.1Z", false),
-        Shape::Right => ("M1.2 0L-.9-1.1V1.1Z", false),
-        Shape::Cross => ("M-1-1L1 1M-1 1L1-1", true),
-        Shape::Plus => ("M-1.2 0H1.2M0-1.2V1.2", true),
-        Shape::Ring => ("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", true),
     }
 }
 

@@ -257,7 +257,7 @@ mod tests {
     /// the axes would be exact, so points at the ends of a range stand at the ends of the axes.
     #[test]
     fn points_at_the_ends_of_a_range_stand_at_the_ends_of_the_axes() {
-        let mark = |at| Layer::Mark(at, Mark::new(Shape::Disc, INK), String::new());
+        let mark = |at| Layer::Mark(at, Mark::new(Shape::DISC, INK), String::new());
         let figure = Figure {
             columns: 1,
             panel_size: [400.0, 300.0],

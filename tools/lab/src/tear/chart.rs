@@ -94,7 +94,7 @@ fn strips(rows: &[Row]) -> Panel {
             let text = format!("{name}: {slope:+.2}");
             panel.layers.push(Layer::Label(points[0], text, colour));
         }
-        let mark = Mark::new(Shape::Disc, colour);
+        let mark = Mark::new(Shape::DISC, colour);
         let marks = points.iter();
         let marks = marks.map(|&at| Layer::Mark(at, mark, String::new()));
         panel.layers.extend(marks);
@@ -215,7 +215,7 @@ impl Ensembles {
             for (j, (values, _)) in known.filter(|(_, (values, _))| !values.is_empty()) {
                 let y @ [low, _, high] = spread(values);
                 (least, most) = (low.min(least), high.max(most));
-                let mark = Mark::new(Shape::Disc, method.family.mark().colour);
+                let mark = Mark::new(Shape::DISC, method.family.mark().colour);
                 let x = i as f64 + 0.3 + 0.2 * j as f64;
                 panel
                     .layers
