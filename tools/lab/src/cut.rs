@@ -15,7 +15,7 @@ use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray,
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
-use crate::experiment::{Bounds, Experiment, Status, list};
+use crate::experiment::{Bounds, Experiment, Status, list, rows_or_keys};
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
 /// The experiment on cut methods.
@@ -131,9 +131,7 @@ impl Experiment for Cuts {
     }
 
     fn rows(&self, keys: &[Row], outcomes: Vec<Option<Row>>) -> Vec<Row> {
-        let rows = keys.iter().zip(outcomes);
-        let rows = rows.map(|(key, row)| row.unwrap_or_else(|| key.clone()));
-        rows.collect()
+        rows_or_keys(keys, outcomes)
     }
 }
 

@@ -174,6 +174,13 @@ pub fn side_by_side<J: Sync, R: Send>(
     })
 }
 
+/// The rows of an experiment whose keys are rows without a result. An interrupted run leaves its key.
+pub(crate) fn rows_or_keys<R: Clone>(keys: &[R], rows: Vec<Option<R>>) -> Vec<R> {
+    let rows = keys.iter().zip(rows);
+    rows.map(|(key, row)| row.unwrap_or_else(|| key.clone()))
+        .collect()
+}
+
 /// A list as it is typed in a command.
 pub(crate) fn list<T: ToString>(items: impl IntoIterator<Item = T>) -> String {
     let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();

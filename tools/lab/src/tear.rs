@@ -20,11 +20,11 @@ use std::num::NonZero;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, shapes};
-use tearmesh_cloth::scene::ensemble::{self, Member, MemberStatus, Subject};
+use tearmesh_cloth::scene::ensemble::{self, MemberStatus, Subject};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
-use crate::experiment::{Bounds, Experiment, Status, list};
+use crate::experiment::{Bounds, Experiment, Status, list, rows_or_keys};
 use crate::method::{DEFAULT, DEFAULTS, Method};
 
 /// The experiment on tearing, and its options.
@@ -179,7 +179,7 @@ impl Tear {
 
 impl Experiment for Tear {
     type Key = Row;
-    type Outcome = Member;
+    type Outcome = Row;
     type Row = Row;
 
     fn command(&self) -> String {
@@ -226,7 +226,7 @@ impl Experiment for Tear {
         at_default_s * finer.powf(2.5) * f64::from(key.step_divisor)
     }
 
-    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Member> {
+    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Row> {
         let (rows, size_m, weakening, ready): (_, _, _, fn(&Frame) -> Scene) = match key.scene {
             EnsembleScene::Trouser => (2 * key.cells, STRIP_M, Some(TIP), Scene::trouser),
             EnsembleScene::Rip => (key.cells, [1.0; 2], None, Scene::rip),
@@ -253,24 +253,20 @@ impl Experiment for Tear {
         };
         let step_divisor = NonZero::new(key.step_divisor)?;
         let member = ensemble::member(subject, step_divisor, key.seed, bounds.stop);
-        (member.status != MemberStatus::Interrupted).then_some(member)
+        let observed = member.observed;
+        (member.status != MemberStatus::Interrupted).then(|| Row {
+            status: observed.map_or(Status::Failed, |_| Status::Ok),
+            torn_m: observed.map(|one| one.torn_m),
+            pieces: observed.map(|one| one.pieces),
+            largest_force_n: observed.and_then(|one| one.largest_force_n),
+            work_j: observed.and_then(|one| one.work_j),
+            why: member.why,
+            ..key.clone()
+        })
     }
 
-    fn rows(&self, keys: &[Row], outcomes: Vec<Option<Member>>) -> Vec<Row> {
-        let row = |(key, member): (&Row, Option<Member>)| {
-            let observed = member.as_ref().and_then(|member| member.observed);
-            let end = observed.map_or(Status::Failed, |_| Status::Ok);
-            Row {
-                status: member.as_ref().map_or(Status::Interrupted, |_| end),
-                torn_m: observed.map(|one| one.torn_m),
-                pieces: observed.map(|one| one.pieces),
-                largest_force_n: observed.and_then(|one| one.largest_force_n),
-                work_j: observed.and_then(|one| one.work_j),
-                why: member.map_or(String::new(), |member| member.why),
-                ..key.clone()
-            }
-        };
-        keys.iter().zip(outcomes).map(row).collect()
+    fn rows(&self, keys: &[Row], outcomes: Vec<Option<Row>>) -> Vec<Row> {
+        rows_or_keys(keys, outcomes)
     }
 }
 

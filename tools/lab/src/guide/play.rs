@@ -237,18 +237,21 @@ impl Stage {
 
     /// An estimate of the CPU time of a run, in seconds, from those of sheets of 32 cells.
     pub(super) fn guess_s(&self, key: &Row) -> f64 {
+        let (method_s, second_s) = match self.topic {
+            Topic::Hang => (0.35, 8.0),
+            Topic::Flag => (0.6, 7.0),
+            Topic::Rip => (0.12, 1.5),
+            Topic::Trouser => (0.7, 8.0),
+            Topic::Aftermath => (1.6, 0.0),
+        };
+        let seconds = match (key.role, self.topic) {
+            (Role::Second, _) => second_s,
+            (Role::Reference, Topic::Flag) => 2.0 * method_s,
+            (Role::Reference, _) => 8.0 * method_s,
+            _ => method_s / key.step_multiple.unwrap_or(1.0),
+        };
         let finer = f64::from(self.cells) / 32.0;
-        let seconds = match self.topic {
-            Topic::Hang => 3.0,
-            Topic::Flag | Topic::Aftermath => 4.5,
-            Topic::Rip => 0.3,
-            Topic::Trouser => 8.0,
-        };
-        let a_second = match key.role {
-            Role::Reference | Role::Second => 1.3,
-            Role::Method | Role::Gate | Role::Mesh => 0.18,
-        };
-        a_second * seconds * finer.powi(3) / key.step_multiple.unwrap_or(1.0)
+        seconds * finer.powi(3)
     }
 
     /// Plays the scene. Returns `None` if it was interrupted.

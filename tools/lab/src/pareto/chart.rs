@@ -195,7 +195,7 @@ impl Group<'_> {
         meets.min_by(|a, b| a.cost.unwrap_or(0.0).total_cmp(&b.cost.unwrap_or(0.0)))
     }
 
-    /// The cheapest run for each tolerance, tolerances with the same answer together.
+    /// The cheapest run for each tolerance.
     fn tolerances(&self) -> String {
         let Some(floor) = self.floor else {
             return "no reference, or noise grows too much".to_owned();
@@ -217,13 +217,8 @@ impl Group<'_> {
             }
         };
         let answers = tolerances.iter();
-        let answers = answers.map(|&tolerance| (percent(tolerance), answer(tolerance)));
-        let answers: Vec<(String, String)> = answers.collect();
-        let lines = answers.chunk_by(|a, b| a.1 == b.1).map(|same| {
-            let percents: Vec<&str> = same.iter().map(|(percent, _)| percent.as_str()).collect();
-            format!("{}: {}", percents.join(", "), same[0].1)
-        });
-        lines.collect::<Vec<_>>().join(" · ")
+        let answers = answers.map(|&most| format!("{}: {}", percent(most), answer(most)));
+        answers.collect::<Vec<_>>().join(" · ")
     }
 }
 
