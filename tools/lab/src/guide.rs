@@ -1,7 +1,7 @@
 //! The page that answers which method to use for which scene.
 //!
 //! The ready scenes are played by every method at its default, and with a step four times and twice as long and
-//! half as long. The cost is CPU time per simulated second. The error is that of what the scene is about
+//! half as long (a flag not half as long). The cost is CPU time per simulated second. The error is that of what the scene is about
 //! ([`Topic`]): the shape at rest of a sheet that hangs by two corners, the mean place and the spread of the free
 //! corner of a flag, and the time and the force of the first tear of a rip and of a trouser test. What follows
 //! the first tear is chaotic, so for that there are distributions over many seeds and no error.
@@ -32,7 +32,7 @@ use crate::pareto::AMPLIFICATION_MAX;
 pub struct Options {
     /// The number of cells along the longest side of the meshes, at least 8.
     pub cells: u32,
-    /// The number of seeds of ensembles of a flag. Where runs are dear, half of them are taken.
+    /// The number of seeds of ensembles of a flag. Torn lengths take half of them.
     pub seeds: u64,
     /// The number of meshes with other diagonals.
     pub diagonals: u64,
@@ -43,8 +43,8 @@ pub struct Options {
 /// The multiples of its default step that each method is played with, beside the default.
 pub const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];
 
-/// The number of seeds of an ensemble on a mesh with other diagonals.
-const MESH_SEEDS: u64 = 4;
+/// The largest number of seeds of an ensemble on a mesh with other diagonals, and of the second reference.
+const FEW_SEEDS: u64 = 4;
 
 /// The difference between the seeds of references and those of methods.
 const REFERENCE_SEEDS: u64 = 1000;
@@ -88,11 +88,10 @@ impl Guide {
     /// The keys of a stage: all roles on the first mesh of a topic, and one on its other meshes.
     fn keys(&self, stage: &Stage) -> Vec<Row> {
         let topic = stage.topic;
-        let half = (self.options.seeds / 2).max(2);
-        let [seeds, second_seeds] = match topic {
-            Topic::Flag => [self.options.seeds, half],
-            Topic::Aftermath => [half; 2],
-            Topic::Hang | Topic::Rip | Topic::Trouser => [0; 2],
+        let seeds = match topic {
+            Topic::Flag => self.options.seeds,
+            Topic::Aftermath => (self.options.seeds / 2).max(2),
+            Topic::Hang | Topic::Rip | Topic::Trouser => 0,
         };
         // Without an ensemble there is one run without noise.
         let first = seeds.min(1);
@@ -110,7 +109,7 @@ impl Guide {
             }));
         };
         if stage.diagonals > 1 {
-            add(Role::Mesh, DEFAULT, None, first..=seeds.min(MESH_SEEDS));
+            add(Role::Mesh, DEFAULT, None, first..=seeds.min(FEW_SEEDS));
             return keys;
         }
         let mut multiples = vec![None];
@@ -118,7 +117,12 @@ impl Guide {
             // Seeds of its own, as the same runs would have no error.
             let own = first * REFERENCE_SEEDS;
             add(Role::Reference, DEFAULT, None, own + first..=own + seeds);
-            add(Role::Second, NEWTON, None, own + first..=own + second_seeds);
+            add(
+                Role::Second,
+                NEWTON,
+                None,
+                own + first..=own + seeds.min(FEW_SEEDS),
+            );
             add(Role::Gate, DEFAULT, None, 0..=1);
             // The error of a flag is chance, which no shorter step changes.
             let worth = STEP_MULTIPLES.into_iter();

@@ -94,7 +94,7 @@ pub(crate) struct GuideArgs {
         value_parser = clap::value_parser!(u32).range(8..=256))]
     pub(crate) size: u32,
 
-    /// Seeds of the ensembles of a flag; half of them where runs take long.
+    /// Seeds of the ensembles of a flag; torn lengths take half of them.
     #[arg(long, value_name = "N", default_value_t = 16,
         value_parser = clap::value_parser!(u64).range(2..=10_000))]
     pub(crate) seeds: u64,
