@@ -1,10 +1,10 @@
 //! The page that answers which method to use for which scene.
 //!
 //! The ready scenes are played by every method at its default, and with a step four times and twice as long and
-//! half as long (a flag not half as long). The cost is CPU time per simulated second. The error is that of what the scene is about
-//! ([`Topic`]): the shape at rest of a sheet that hangs by two corners, the mean place and the spread of the free
-//! corner of a flag, and the time and the force of the first tear of a rip and of a trouser test. What follows
-//! the first tear is chaotic, so for that there are distributions over many seeds and no error.
+//! half as long (a flag not half as long). The cost is CPU time per simulated second. The error is that of what the
+//! scene is about ([`Topic`]): the shape at rest of a sheet that hangs by two corners, the mean place and the spread
+//! of the free corner of a flag, and the time and the force of the first tear of a rip and of a trouser test. What
+//! follows the first tear is chaotic, so for that there are distributions over many seeds and no error.
 //!
 //! Errors are relative to a reference on the same mesh. A second reference, by a method that shares no stepping
 //! code, gives the *error floor*: no error below ten times their distance is told from zero. The *mesh error* is
