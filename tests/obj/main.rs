@@ -25,6 +25,7 @@ mod repair;
 mod round_trip;
 mod same_bytes;
 mod slides;
+mod spelling;
 mod torn;
 mod torn_damage;
 mod torn_record;

@@ -141,7 +141,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `document.rs`, `polygons.rs`, `store.rs` | the document, its faces, and its compact lists |
-//! | `read.rs`, `read/` | bytes to document: lines, tokens, numbers, faces, indices, the record, errors |
+//! | `read.rs`, `read/` | bytes to document: blocks of lines, one scanner, statements, faces, the record, faults |
 //! | `triangulate.rs`, `triangulate/` | polygons to triangles: ears, and diagonals that make angles larger |
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`), by way of a text |

@@ -58,9 +58,7 @@ impl Expected {
 pub(super) struct Widths {
     /// Behind the decimal point.
     pub(super) places: Expected,
-    pub(super) vertex: Expected,
-    pub(super) texture: Expected,
-    pub(super) normal: Expected,
+    pub(super) index: [Expected; 3],
 }
 
 /// Eight bytes of a text, the first one lowest, each without the bits of the digit 0.
@@ -103,6 +101,45 @@ impl Word {
         let fours = (pairs.wrapping_mul(1 + (100 << 16)) >> 16) & 0x0000_ffff_0000_ffff;
         fours.wrapping_mul(1 + (10_000 << 32)) >> 32
     }
+}
+
+/// Reads a number of at most 19 digits, and gives what comes behind; `None` if it takes more effort.
+#[inline(always)]
+pub(super) fn decimal<'b>(token: &'b [u8], expected: &mut Expected) -> Option<(f64, &'b [u8])> {
+    let (negative, bytes) = match token {
+        [b'-', rest @ ..] => (true, rest),
+        _ => (false, token),
+    };
+    let mut mantissa = 0;
+    let whole = digits(bytes, &mut mantissa);
+    let significant = if mantissa == 0 { 0 } else { whole };
+    let mut rest = &bytes[whole..];
+    let mut places = 0;
+    if let [b'.', behind @ ..] = rest {
+        places = many_digits(behind, &mut mantissa, expected);
+        rest = &behind[places..];
+    }
+    if whole + places == 0 || whole > 19 || significant + places > 19 {
+        return None;
+    }
+    let mut exponent = -(places as i32);
+    if let [b'e' | b'E', behind @ ..] = rest {
+        let (power, length) = power(behind)?;
+        exponent += power;
+        rest = &behind[length..];
+    }
+    let value = nearest(mantissa, exponent)?;
+    Some((if negative { -value } else { value }, rest))
+}
+
+/// The power of ten behind an `e`, and how long it is.
+fn power(bytes: &[u8]) -> Option<(i32, usize)> {
+    let signs = usize::from(matches!(bytes, [b'-' | b'+', ..]));
+    let mut power = 0;
+    let count = digits(&bytes[signs..], &mut power);
+    let power = (1..9).contains(&count).then_some(power as i32)?;
+    let is_negative = bytes.starts_with(b"-");
+    Some((if is_negative { -power } else { power }, signs + count))
 }
 
 /// The powers of ten up to that of a [`Word`].

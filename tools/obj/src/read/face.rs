@@ -4,112 +4,208 @@ use std::ops::Range;
 
 use tearmesh::Mesh;
 
-use super::fault::{Fault, Parsed};
-use super::index::{Element, absolute};
-use super::line::{Line, quoted};
-use super::reader::{Reader, limit};
+use super::Reader;
+use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
-use crate::store::{Kind, push};
+use super::statements::limit;
+use crate::store::{Kind, extend, push};
 
 /// The most corners of a polygon. The largest that are met in earnest are outlines of letters
 /// and maps with one or two thousand; cutting one of this size takes a few hundredths of
 /// a second at worst (the cost is its square), so that no file takes for ever.
 const ARITY_MAX: usize = 4096;
 
+/// The largest index: [`Mesh::MAX_VERTICES`].
+const INDEX_MAX: i64 = 1 << 31;
+
 impl Reader {
     /// Reads what follows the keyword `f` or `fo`.
-    pub(super) fn face(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
-        let keyword = *scan;
+    #[inline(always)]
+    pub(super) fn face(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let first = self.document.polygons.vertices.len();
-        let mut corner = first;
-        while scan.find_token() {
-            let start = scan.at;
-            if corner - first == ARITY_MAX {
-                return Err(too_many_corners(start..start + scan.token().len()));
+        let mut count = 0;
+        // Four at a time: to append three or four is a few instructions.
+        let mut vertices = [0; 4];
+        while !scan.at_line_end() {
+            if count > 0 && count % vertices.len() == 0 {
+                if count == ARITY_MAX && scan.find_token() {
+                    return Err(too_many_corners(*scan));
+                }
+                extend(&mut self.document.polygons.vertices, &vertices);
             }
-            let vertex = self.reference(line, scan, start, Element::Vertex)?;
-            push(&mut self.document.polygons.vertices, vertex);
+            let mut token = scan.at();
+            vertices[count % 4] = match self.usual_reference(scan, Element::Vertex) {
+                Some(vertex) => vertex,
+                None if !scan.find_token() => break,
+                None => {
+                    token = scan.at();
+                    let (vertex, behind) = self.any_reference(*scan, token, Element::Vertex)?;
+                    scan.go_to(behind);
+                    vertex
+                }
+            };
             if scan.peek() == Some(b'/') {
-                scan.at += 1;
+                scan.skip(1);
                 if scan.peek() != Some(b'/') && !scan.at_token_end() {
-                    let texture = self.reference(line, scan, start, Element::Texture)?;
-                    self.document.polygons.texture.set(corner, texture);
+                    let texture = self.reference(scan, token, Element::Texture)?;
+                    self.document.polygons.texture.set(first + count, texture);
                 }
                 if scan.peek() == Some(b'/') {
-                    scan.at += 1;
+                    scan.skip(1);
                     if !scan.at_token_end() {
-                        let normal = self.reference(line, scan, start, Element::Normal)?;
-                        self.document.polygons.normals.set(corner, normal);
+                        let normal = self.reference(scan, token, Element::Normal)?;
+                        self.document.polygons.normals.set(first + count, normal);
+                        if scan.peek() == Some(b'/') {
+                            return Err(malformed(scan.moved_to(token)));
+                        }
                     }
                 }
             }
-            if !scan.at_token_end() {
-                return Err(malformed(Scan { at: start, ..*scan }));
-            }
-            corner += 1;
-        }
-        let corners = &self.document.polygons.vertices[first..];
-        if corners.len() < 3 {
-            return Err(too_few_corners(keyword, corners.len()));
-        }
-        if let Some((earlier, later)) = repeated(corners) {
-            return Err(repeated_vertex(keyword, corners, earlier, later));
+            count += 1;
         }
         let triangles_before = first - 2 * self.document.polygons.len();
-        limit(
-            triangles_before + corners.len() - 3,
-            Mesh::MAX_FACES,
-            "triangles",
-        )?;
+        let all = &mut self.document.polygons.vertices;
+        match first + count - all.len() {
+            3 => extend(all, &vertices[..3]),
+            4 => extend(all, &vertices),
+            left => extend(all, &vertices[..left]),
+        }
+        let corners = &all[first..];
+        if corners.len() < 3 {
+            return Err(too_few_corners(*scan, corners.len()));
+        }
+        if let Some((earlier, later)) = repeated(corners) {
+            return Err(repeated_vertex(*scan, corners, earlier, later));
+        }
+        let triangles = triangles_before + corners.len() - 3;
+        limit(triangles, Mesh::MAX_FACES, "triangles")?;
         push(&mut self.document.polygons.starts, first as u32);
-        self.document.layout.push(Kind::Polygon, line.number);
+        self.document.layout.push(Kind::Polygon, scan.line.number);
         Ok(())
     }
 
-    /// Reads an index, and counts it from 0.
+    /// Reads an index of an element that is there, and counts it from 0.
     #[inline(always)]
-    fn reference(
-        &mut self,
-        line: &Line<'_>,
-        scan: &mut Scan<'_>,
-        token: usize,
-        element: Element,
-    ) -> Parsed<u32> {
-        let start = scan.at;
-        let Some(given) = scan.integer() else {
-            return Err(malformed(Scan { at: token, ..*scan }));
-        };
+    fn usual_reference(&mut self, scan: &mut Scan<'_>, element: Element) -> Option<u32> {
         let count = self.count(element);
-        if given > 0 && given as u64 <= count as u64 {
-            return Ok((given - 1) as u32);
-        }
-        if !(scan.at_token_end() || scan.peek() == Some(b'/')) {
-            return Err(malformed(Scan { at: token, ..*scan }));
-        }
-        self.unusual_reference(line, given, start..scan.at, element)
+        scan.usual_index(count, &mut self.widths.index[element as usize])
     }
 
-    /// An index that counts back, or to an element that is not there yet.
+    /// Reads an index of a corner, and counts it from 0; the corner ends behind it, or a `/` comes.
+    #[inline(always)]
+    fn reference(&mut self, scan: &mut Scan<'_>, corner: usize, element: Element) -> Parsed<u32> {
+        if let Some(index) = self.usual_reference(scan, element) {
+            return Ok(index);
+        }
+        let (index, behind) = self.any_reference(*scan, corner, element)?;
+        scan.go_to(behind);
+        Ok(index)
+    }
+
+    /// An index that counts back, or to an element that is not there yet; or none.
     #[cold]
-    fn unusual_reference(
+    #[inline(never)]
+    fn any_reference(
         &mut self,
-        line: &Line<'_>,
-        given: i64,
-        span: Range<usize>,
+        mut scan: Scan<'_>,
+        corner: usize,
         element: Element,
-    ) -> Parsed<u32> {
-        let count = self.count(element);
+    ) -> Parsed<(u32, usize)> {
+        let start = scan.at();
+        let given = scan.integer();
+        let is_whole = scan.at_token_end() || scan.peek() == Some(b'/');
+        let Some(given) = given.filter(|_| is_whole) else {
+            return Err(malformed(scan.moved_to(corner)));
+        };
+        let (count, span) = (self.count(element), start..scan.at());
         let absolute = absolute(given, count, element, &span)?;
         if absolute as usize > count {
-            self.forward[element as usize].note(absolute, count, line, span);
+            self.forward[element as usize].note(absolute, count, &scan.line, span);
         }
-        Ok(absolute - 1)
+        Ok((absolute - 1, scan.at()))
     }
+}
+
+/// What an index counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Element {
+    Vertex,
+    Texture,
+    Normal,
+}
+
+impl Element {
+    pub(super) const ALL: [Element; 3] = [Element::Vertex, Element::Texture, Element::Normal];
+
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Element::Vertex => "vertex",
+            Element::Texture => "texture coordinate",
+            Element::Normal => "normal",
+        }
+    }
+
+    pub(super) const fn plural(self) -> &'static str {
+        match self {
+            Element::Vertex => "vertices",
+            Element::Texture => "texture coordinates",
+            Element::Normal => "normals",
+        }
+    }
+}
+
+/// An index as counted from 1 from the start of the file, with `count` elements so far.
+/// It may lie beyond them.
+#[cold]
+pub(super) fn absolute(
+    given: i64,
+    count: usize,
+    element: Element,
+    span: &Range<usize>,
+) -> Parsed<u32> {
+    let what = element.name();
+    if given == 0 {
+        return Err(Fault::new(
+            "E-OBJ-ZERO",
+            span.clone(),
+            format!("{what} 0 does not exist: OBJ counts from 1"),
+            "expected 1 or more, or a negative index to count back",
+        )
+        .help("if the program that wrote this counts from 0, add 1 to every index"));
+    }
+    if given > INDEX_MAX {
+        return Err(Fault::new(
+            "E-OBJ-RANGE",
+            span.clone(),
+            format!("{what} index beyond the limit of {INDEX_MAX}"),
+            "too large",
+        ));
+    }
+    let absolute = if given > 0 {
+        given
+    } else {
+        given.saturating_add(count as i64 + 1)
+    };
+    if absolute > 0 {
+        return Ok(absolute as u32);
+    }
+    let (message, label) = match count {
+        0 => (
+            format!("{what} {given} does not exist: there are none before this line"),
+            "expected an index that does not count back".to_owned(),
+        ),
+        _ => (
+            format!("{what} {given} does not exist: there are {count} before this line"),
+            format!("expected -{count} to -1"),
+        ),
+    };
+    Err(Fault::new("E-OBJ-RANGE", span.clone(), message, label)
+        .help("a negative index counts back from its own statement"))
 }
 
 /// The first corner whose vertex an earlier corner has, after that one.
 #[inline(always)]
-pub(super) fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
+fn repeated(corners: &[u32]) -> Option<(usize, usize)> {
     match *corners {
         [a, b, c] if a != b && b != c && c != a => None,
         [a, b, c, d] if a != b && a != c && a != d && b != c && b != d && c != d => None,
@@ -131,7 +227,7 @@ fn repeated_in_many(corners: &[u32]) -> Option<(usize, usize)> {
 #[cold]
 fn malformed(scan: Scan<'_>) -> Box<Fault> {
     let token = scan.token();
-    let span = scan.at..scan.at + token.len();
+    let span = scan.at()..scan.at() + token.len();
     let text = quoted(token);
     let slashes = token.iter().filter(|&&byte| byte == b'/').count();
     let is_number = |part: &[u8]| {
@@ -158,7 +254,8 @@ fn malformed(scan: Scan<'_>) -> Box<Fault> {
 }
 
 #[cold]
-fn too_many_corners(span: Range<usize>) -> Box<Fault> {
+fn too_many_corners(scan: Scan<'_>) -> Box<Fault> {
+    let span = scan.at()..scan.at() + scan.token().len();
     let message = format!("this face has more than {ARITY_MAX} corners");
     Fault::new("E-OBJ-ARITY", span, message, "one too many")
         .help("triangulate this face in the program that made it")
@@ -181,18 +278,8 @@ fn too_few_corners(scan: Scan<'_>, count: usize) -> Box<Fault> {
 }
 
 #[cold]
-fn repeated_vertex(
-    mut scan: Scan<'_>,
-    corners: &[u32],
-    earlier: usize,
-    later: usize,
-) -> Box<Fault> {
-    for _ in 0..later {
-        scan.find_token();
-        scan.at += scan.token().len();
-    }
-    scan.find_token();
-    let span = scan.at..scan.at + scan.token().len();
+fn repeated_vertex(scan: Scan<'_>, corners: &[u32], earlier: usize, later: usize) -> Box<Fault> {
+    let span = scan.argument(later);
     let message = format!(
         "this face has vertex {} twice",
         u64::from(corners[later]) + 1

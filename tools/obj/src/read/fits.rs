@@ -1,7 +1,7 @@
 //! Whether a record fits its document, and what of it does.
 
+use super::fault::quoted;
 use super::items::Items;
-use super::line::quoted;
 use crate::diagnostic::{Diagnostic, Level, Location};
 use crate::document::Document;
 use crate::record::{Hash, Record, are_last, runs};

@@ -1,19 +1,17 @@
 //! Statements that are carried through as bytes.
 
-use super::fault::{Fault, Parsed};
-use super::index::{Element, absolute};
-use super::line::Line;
-use super::reader::Reader;
+use super::Reader;
+use super::face::{Element, absolute};
+use super::fault::{Fault, Line, Parsed};
 use super::scan::Scan;
+use super::source::first_line;
 use crate::keyword::{Class, tokens_before_indices};
 use crate::store::{extend, push};
 
 impl Reader {
-    /// Carries a line through that begins with none of `v`, `vt`, `vn`, `f` and `fo`; the cursor
-    /// stands at its keyword, if it has one.
-    pub(super) fn carry(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
-        let start = scan.at;
-        let keyword = scan.token();
+    /// Carries a line through that begins with none of `v`, `vt`, `vn`, `f` and `fo`; its keyword,
+    /// if it has one, starts there.
+    pub(super) fn carry(&mut self, line: &Line<'_>, start: usize, keyword: &[u8]) -> Parsed<()> {
         if let Some(control) = keyword.iter().position(|byte| byte.is_ascii_control()) {
             return Err(binary(start + control, keyword[control]));
         }
@@ -28,8 +26,8 @@ impl Reader {
             self.tally
                 .count(&keyword[..keyword.len().min(40)], line, start);
             if let Some(skipped) = tokens_before_indices(keyword) {
-                scan.at += keyword.len();
-                if let Some(bytes) = self.absolute_indices(*scan, skipped)? {
+                let scan = Scan::new(*line).moved_to(start + keyword.len());
+                if let Some(bytes) = self.absolute_indices(scan, skipped)? {
                     self.tally.count_relative(keyword, line, start);
                     return self.push_text(&bytes, line.number);
                 }
@@ -46,45 +44,47 @@ impl Reader {
         let mut copied = 0;
         let mut token_number = 0;
         while scan.find_token() {
-            let end = scan.at + scan.token().len();
+            let end = scan.at() + scan.token().len();
             let mut element = 0;
-            while token_number >= skipped && scan.at < end && element < 3 {
-                let start = scan.at;
+            while token_number >= skipped && scan.at() < end && element < 3 {
+                let start = scan.at();
                 let counted = Element::ALL[element];
                 if let Some(given @ ..0) = scan.integer()
                     && (scan.at_token_end() || scan.peek() == Some(b'/'))
                 {
-                    let index = absolute(given, self.count(counted), counted, &(start..scan.at))?;
-                    bytes.extend_from_slice(&scan.bytes[copied..start]);
+                    let index = absolute(given, self.count(counted), counted, &(start..scan.at()))?;
+                    bytes.extend_from_slice(&scan.line.bytes[copied..start]);
                     bytes.extend_from_slice(index.to_string().as_bytes());
-                    copied = scan.at;
+                    copied = scan.at();
                 }
                 if scan.peek() != Some(b'/') {
                     break;
                 }
-                scan.at += 1;
+                scan.skip(1);
                 element += 1;
             }
-            scan.at = end;
+            scan.go_to(end);
             token_number += 1;
         }
         if copied == 0 {
             return Ok(None);
         }
-        bytes.extend_from_slice(&scan.bytes[copied..]);
+        bytes.extend_from_slice(&scan.line.bytes[copied..]);
         Ok(Some(bytes))
     }
 
-    /// Keeps the comment at the end of a statement as a line of its own.
-    #[inline]
-    pub(super) fn carry_comment(&mut self, line: &Line<'_>, scan: &Scan<'_>) -> Parsed<()> {
-        match line.bytes.get(scan.at..) {
-            None | Some([]) => Ok(()),
-            Some(_) if self.record.takes(line, scan.at) => Ok(()),
-            Some(comment) => self
-                .push_text(comment, line.number)
-                .map_err(|fault| fault.after(scan.at)),
+    /// Keeps a comment behind a statement as a line of its own; where the next line starts.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn comment<'l>(&mut self, scan: Scan<'l>) -> Parsed<&'l [u8]> {
+        let (line, at) = (scan.line, scan.at());
+        let (length, behind, _) = first_line(scan.rest);
+        let bytes = &line.bytes[..at + length];
+        if length > 0 && !self.record.takes(&Line { bytes, ..line }, at) {
+            let kept = self.push_text(&bytes[at..], line.number);
+            kept.map_err(|fault| fault.after(at))?;
         }
+        Ok(&scan.rest[behind..])
     }
 
     /// Keeps bytes, with `\n` for every line end.

@@ -11,8 +11,8 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use super::fault::refuse;
-use super::line::{Line, locate};
+use super::fault::{Line, locate, refuse};
+use super::source::first_line;
 use crate::diagnostic::{Excerpt, Location, ReadError};
 
 /// The most bytes of text that are kept.
@@ -56,7 +56,8 @@ impl Forward {
         if self.steps.back().is_some_and(|step| step.index >= index) {
             return;
         }
-        if line.bytes.len() > LONG {
+        let (length, ..) = first_line(&line.bytes[..line.bytes.len().min(LONG + 1)]);
+        if length > LONG {
             let location = self.place_on_long_line(line, span.start);
             return self.push(index, location, None);
         }

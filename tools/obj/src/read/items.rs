@@ -2,8 +2,7 @@
 
 use tearmesh::{COORDINATE_MAX, Point};
 
-use super::fault::{Fault, Parsed};
-use super::line::quoted;
+use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
 use super::words::{CODE, DAMAGED, nothing_more, numbers, out_of_range, whole};
 use crate::families::Family;
@@ -73,8 +72,8 @@ impl Items {
             (b"again", 9),
         ];
         scan.find_token();
-        let (start, word) = (scan.at, scan.token());
-        scan.at += word.len();
+        let (start, word) = (scan.at(), scan.token());
+        scan.skip(word.len());
         let mut known = KINDS.iter().take(match self.counts.version {
             1 => 5,
             2 => 10,
@@ -85,7 +84,7 @@ impl Items {
             Some(&(_, rank)) if rank >= self.kind => self.kind = rank,
             _ => {
                 let message = format!("this record has no line {} here", quoted(word));
-                return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+                return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
             }
         }
         match word {
@@ -116,7 +115,7 @@ impl Items {
     fn fan(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let least = self.fans.last().map_or(1, |&[copy, _]| i64::from(copy) + 1);
         scan.find_token();
-        let start = scan.at;
+        let start = scan.at();
         let copy = whole(scan, least + 1, self.vertices())? - 1;
         let splits = &self.record.splits;
         if splits
@@ -124,14 +123,14 @@ impl Items {
             .is_ok()
         {
             let message = "a copy of this record was split off";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         scan.find_token();
-        let start = scan.at;
+        let start = scan.at();
         let of = whole(scan, 1, i64::from(copy))? - 1;
         if self.is_copy(of) {
             let message = "this record has a copy of a copy";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         push(&mut self.fans, [copy, of]);
         Ok(())
@@ -141,10 +140,10 @@ impl Items {
         let (vertex, cut) = self.inserted(scan)?;
         let ends = [self.root(scan)?, self.root(scan)?];
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         let t = scan.number()?;
         if !(t > 0.0 && t < 1.0) || ends[0] == ends[1] {
-            return Err(out_of_range(at..scan.at, 0, 1));
+            return Err(out_of_range(at..scan.at(), 0, 1));
         }
         let at = At::Edge { ends, t };
         push(&mut self.record.inserted, Inserted { vertex, cut, at });
@@ -157,10 +156,10 @@ impl Items {
         let mut weights = [0.0; 3];
         for weight in &mut weights {
             scan.find_token();
-            let at = scan.at;
+            let at = scan.at();
             *weight = scan.number()?;
             if !(*weight > 0.0 && *weight < 1.0) {
-                return Err(out_of_range(at..scan.at, 0, 1));
+                return Err(out_of_range(at..scan.at(), 0, 1));
             }
         }
         let at = At::Face { corners, weights };
@@ -186,11 +185,11 @@ impl Items {
     /// The roots at the corners of a face.
     fn corners(&self, scan: &mut Scan<'_>) -> Parsed<[u32; 3]> {
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         let corners @ [a, b, c] = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
         if a == b || b == c || c == a {
             let message = "a face of this record has a vertex twice";
-            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
         }
         Ok(corners)
     }
@@ -212,28 +211,28 @@ impl Items {
     /// A vertex that slid, with all numbers of its `v` before and then: to the end of the line.
     fn slide(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         let vertex = whole(scan, 1, self.vertices())? - 1;
         if self.is_copy(vertex) {
             let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
-            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
         }
         let slides = &mut self.record.slides;
         let last = slides.len().checked_sub(1).map(|last| slides.get(last).cut);
         let cut = whole(scan, i64::from(last.unwrap_or(1)), i64::from(u32::MAX) - 1)?;
         let mut row = [0.0; 2 * NUMBERS_MAX];
-        let start = scan.at;
+        let start = scan.at();
         let count = numbers(scan, &mut row)?;
         let half = count / 2;
         let places = || [0, half].into_iter().flat_map(|at| at..at + 3);
         if count % 2 != 0 || half < 3 || slides.is_full() {
             let message =
                 "this record has a slide with different counts of numbers before and after";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         if places().any(|at| row[at].abs() > COORDINATE_MAX) {
             let message = "this record has a coordinate that is too large";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         slides.push(vertex, cut, &row[..count]);
         Ok(())
@@ -243,7 +242,7 @@ impl Items {
     /// another, with what it names.
     fn exchange(&mut self, which: usize, scan: &mut Scan<'_>) -> Parsed<()> {
         let [_, all] = [self.counts.texture, self.counts.normals][which];
-        let start = scan.at;
+        let start = scan.at();
         let new = whole(scan, 1, i64::from(all))? - 1;
         let old = whole(scan, 1, i64::from(all))? - 1;
         let mut value = [0.0; 3];
@@ -251,7 +250,7 @@ impl Items {
         let slides = &mut self.record.slides;
         if slides.is_empty() || slides.is_full() || count == 0 || new == old {
             let message = "this record has corners here without a vertex that slid";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         slides.push_exchange(Exchange { which, new, old }, &value[..count]);
         Ok(())
@@ -261,23 +260,23 @@ impl Items {
     fn apart(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let last = self.record.apart.last().map_or(0, |last| last.vertex + 1);
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
         if self.is_copy(vertex) {
             let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
-            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
         }
-        let start = scan.at;
+        let start = scan.at();
         let mut row = [0.0; 6];
         let count = numbers(scan, &mut row)?;
         if count < row.len() || row.iter().any(|x| x.abs() > COORDINATE_MAX) {
             let message = "this record has a vertex without two usable points";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         let [is, shown] = [0, 3].map(|i| Point::new(row[i], row[i + 1], row[i + 2]));
         if is_same_point(is, shown) {
             let message = "this record writes a vertex apart at its own position";
-            return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
         }
         push(&mut self.record.apart, Apart { vertex, is, shown });
         Ok(())
@@ -291,12 +290,12 @@ impl Items {
         self.record.families.add(Family { corners, above });
         let mut least = 1;
         while scan.find_token() {
-            let start = scan.at;
+            let start = scan.at();
             let face = whole(scan, least, i64::from(self.counts.faces))?;
             least = i64::from(face) + 1;
             if self.record.families.of(face as usize - 1).is_some() {
                 let message = "this record has a face in two that were divided again";
-                return Err(Fault::new(CODE, start..scan.at, message, DAMAGED));
+                return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
             }
             self.record.families.give(face as usize - 1);
         }
@@ -306,12 +305,12 @@ impl Items {
     /// A vertex that was inserted, and by which cut.
     fn inserted(&self, scan: &mut Scan<'_>) -> Parsed<(u32, u32)> {
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         let vertex = self.root(scan)?;
         let last = self.record.inserted.last();
         if last.is_some_and(|last| last.vertex >= vertex) {
             let message = "vertices of this record are not in order";
-            return Err(Fault::new(CODE, at..scan.at, message, DAMAGED));
+            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
         }
         Ok((vertex, whole(scan, 1, i64::from(u32::MAX) - 1)?))
     }
@@ -319,11 +318,11 @@ impl Items {
     /// A vertex that was split from no other.
     fn root(&self, scan: &mut Scan<'_>) -> Parsed<u32> {
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         let vertex = whole(scan, 1, self.vertices())? - 1;
         if self.is_copy(vertex) {
             let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
-            return Err(Fault::new(CODE, at..scan.at, message, "expected a root"));
+            return Err(Fault::new(CODE, at..scan.at(), message, "expected a root"));
         }
         let splits = &self.record.splits;
         let split = splits.binary_search_by_key(&vertex, |split| split.vertex);
@@ -332,7 +331,7 @@ impl Items {
             Ok(split) => {
                 let from = u64::from(splits[split].from) + 1;
                 let message = format!("vertex {} was split from {from}", u64::from(vertex) + 1);
-                Err(Fault::new(CODE, at..scan.at, message, "expected a root"))
+                Err(Fault::new(CODE, at..scan.at(), message, "expected a root"))
             }
         }
     }

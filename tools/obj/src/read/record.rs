@@ -5,10 +5,10 @@
 
 use super::apart::put_in_place;
 use super::copies::join;
-use super::fault::{Fault, Parsed};
+use super::fault::{Fault, Line, Parsed, locate};
 use super::fits::{forget_corners, misfit, settle};
 use super::items::{Counts, Items};
-use super::line::{Line, locate};
+
 use super::scan::Scan;
 use super::words::{CODE, DAMAGED, exactly, hexadecimal, nothing_more, version, whole};
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
@@ -55,12 +55,12 @@ impl RecordReader {
         if !text.starts_with(b"#") || text.contains(&0) {
             return false;
         }
-        let mut scan = Scan::new(line.bytes);
+        let mut scan = Scan::new(*line);
         let read = if begins(HEADER) {
-            scan.at = offset + HEADER.len();
+            scan.go_to(offset + HEADER.len());
             self.header(line, &mut scan)
         } else if begins(END) {
-            scan.at = offset + END.len();
+            scan.go_to(offset + END.len());
             self.end(&mut scan)
         } else if begins(ITEM) && self.state != State::Outside {
             if self.state == State::Skipping {
@@ -69,7 +69,7 @@ impl RecordReader {
             self.lines += 1;
             self.hash.add(text);
             self.hash.add(b"\n");
-            scan.at = offset + ITEM.len();
+            scan.go_to(offset + ITEM.len());
             self.items.item(&mut scan)
         } else {
             return false;
@@ -100,11 +100,11 @@ impl RecordReader {
     }
 
     fn header(&mut self, line: &Line<'_>, scan: &mut Scan<'_>) -> Parsed<()> {
-        let start = scan.at - HEADER.len();
+        let start = scan.at() - HEADER.len();
         self.state = State::Skipping;
         if self.header.is_some() || self.warning.is_some() {
             let message = "this file has two records, and neither is used";
-            let fault = Fault::new(CODE, start..scan.at, message, "begins here");
+            let fault = Fault::new(CODE, start..scan.at(), message, "begins here");
             return Err(fault.help("after joining files, cut the joined file again"));
         }
         let version = version(scan)?;
@@ -136,32 +136,32 @@ impl RecordReader {
     }
 
     fn end(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let start = scan.at - END.len();
+        let start = scan.at() - END.len();
         match std::mem::take(&mut self.state) {
             State::Within => {}
             State::Skipping => return Ok(()),
             State::Outside => {
                 let message = "a record ends here that has not begun";
-                return Err(Fault::new(CODE, start..scan.at, message, "ends here"));
+                return Err(Fault::new(CODE, start..scan.at(), message, "ends here"));
             }
         }
         let damaged = |span, message: &str| Err(Fault::new(CODE, span, message, DAMAGED));
         if let Some(message) = self.items.wrong_counts() {
-            return damaged(start..scan.at, message);
+            return damaged(start..scan.at(), message);
         }
         let largest = i64::from(u32::MAX);
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         if whole(scan, 0, largest)? as usize != self.lines {
             return damaged(
-                at..scan.at,
+                at..scan.at(),
                 "lines of this record are missing or were added",
             );
         }
         scan.find_token();
-        let at = scan.at;
+        let at = scan.at();
         if hexadecimal(scan)? != self.hash.0 {
-            return damaged(at..scan.at, "a line of this record was changed");
+            return damaged(at..scan.at(), "a line of this record was changed");
         }
         nothing_more(scan)
     }

@@ -1,44 +1,120 @@
-//! A cursor over a logical line: blanks, tokens, numbers, indices.
+//! A cursor over a statement: blanks, tokens, numbers, indices.
+//!
+//! The cursor runs over the bytes of a block, in which the statement's line end is not known in
+//! advance. Digits, single blanks and line feeds are looked at where they are met; all
+//! else that a statement may have (continuations, comments, tabs) is set apart as cold.
 
-use super::decimal::{digits, nearest};
-use super::fault::{Fault, Parsed};
-use super::line::quoted;
+use std::ops::Range;
+
+use super::decimal::{Expected, Word, decimal, digits};
+use super::fault::{Fault, Line, Parsed, quoted};
 
 /// A cursor over a logical line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scan<'l> {
-    pub(super) bytes: &'l [u8],
-    pub(super) at: usize,
-}
-
-/// Whether a byte separates tokens. Line ends do, where a line is continued.
-#[inline]
-pub(super) const fn is_blank(byte: u8) -> bool {
-    matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0b | 0x0c)
+    /// The line, and perhaps more lines behind its end.
+    pub(super) line: Line<'l>,
+    /// What the cursor has not passed.
+    pub(super) rest: &'l [u8],
+    /// How many line ends the cursor has passed.
+    pub(super) continuations: u32,
 }
 
 impl<'l> Scan<'l> {
     #[inline]
-    pub(super) fn new(bytes: &'l [u8]) -> Self {
-        Scan { bytes, at: 0 }
+    pub(super) fn new(line: Line<'l>) -> Self {
+        Scan {
+            line,
+            rest: line.bytes,
+            continuations: 0,
+        }
     }
 
-    #[inline]
+    /// Moves to the start of the next line, where the cursor stands.
+    #[inline(always)]
+    pub(super) fn start_next_line(&mut self) {
+        *self = Scan::new(Line {
+            bytes: self.rest,
+            number: self.line.number + 1 + self.continuations,
+        });
+    }
+
+    /// The bytes of the line that the cursor has passed.
+    #[inline(always)]
+    pub(super) fn at(&self) -> usize {
+        self.line.bytes.len() - self.rest.len()
+    }
+
+    #[inline(always)]
+    pub(super) fn skip(&mut self, count: usize) {
+        self.rest = &self.rest[count..];
+    }
+
+    pub(super) fn go_to(&mut self, at: usize) {
+        self.rest = &self.line.bytes[at..];
+    }
+
+    /// This cursor at another place of its line.
+    pub(super) fn moved_to(mut self, at: usize) -> Self {
+        self.go_to(at);
+        self
+    }
+
+    #[inline(always)]
     pub(super) fn peek(&self) -> Option<u8> {
-        self.bytes.get(self.at).copied()
+        self.rest.first().copied()
+    }
+
+    /// Skips blanks; whether the line ends here. What else may be here is left to
+    /// [`Scan::find_token`].
+    #[inline(always)]
+    pub(super) fn at_line_end(&mut self) -> bool {
+        while let [b' ', rest @ ..] = self.rest {
+            self.rest = rest;
+        }
+        matches!(self.rest, [b'\n' | b'\r', ..])
     }
 
     /// Skips blanks and continuations; whether a token follows, and not the end of
     /// the line or a comment.
-    #[inline]
+    #[inline(always)]
     pub(super) fn find_token(&mut self) -> bool {
+        // By value, here and elsewhere: a cursor whose address is taken is no register.
+        *self = self.behind_blanks();
+        !matches!(self.peek(), None | Some(b'#' | b'\n' | b'\r'))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn behind_blanks(mut self) -> Self {
         loop {
             match self.peek() {
-                None | Some(b'#') => return false,
-                Some(b'\\') if self.is_continuation() => self.at += 1,
-                Some(byte) if is_blank(byte) => self.at += 1,
-                Some(_) => return true,
+                None => return self,
+                Some(b' ' | b'\t' | 0x0b | 0x0c) => self.skip(1),
+                Some(_) => match self.continuation() {
+                    Some(length) => {
+                        self.skip(length);
+                        self.continuations += 1;
+                    }
+                    None => return self,
+                },
             }
+        }
+    }
+
+    /// The length of a `\` with the line end behind it, if it is here and nothing but blanks
+    /// comes between.
+    #[cold]
+    fn continuation(self) -> Option<usize> {
+        let behind = self.rest.strip_prefix(b"\\")?;
+        let blanks = behind.iter();
+        let blanks = blanks.take_while(|byte| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c));
+        let blanks = blanks.count();
+        match behind[blanks..] {
+            [] => Some(1 + blanks),
+            [b'\r', b'\n', ..] => Some(3 + blanks),
+            [b'\r' | b'\n', ..] => Some(2 + blanks),
+            [..] => None,
         }
     }
 
@@ -46,133 +122,89 @@ impl<'l> Scan<'l> {
     #[inline]
     pub(super) fn token(&self) -> &'l [u8] {
         let mut end = *self;
-        while !end.at_token_end() {
-            end.at += 1;
+        while let [byte, rest @ ..] = end.rest
+            && (*byte > b'#' && *byte != b'\\' || !end.at_token_end())
+        {
+            end.rest = rest;
         }
-        &self.bytes[self.at..end.at]
+        &self.rest[..self.rest.len() - end.rest.len()]
     }
 
     /// Whether no token continues here.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at_token_end(&self) -> bool {
         match self.peek() {
-            None | Some(b'#') => true,
-            Some(b'\\') => self.is_continuation(),
-            Some(byte) => is_blank(byte),
+            None | Some(b' ' | b'\n' | b'\r' | b'\t' | 0x0b | 0x0c | b'#') => true,
+            Some(b'\\') => self.continuation().is_some(),
+            Some(_) => false,
         }
     }
 
-    /// Whether nothing but blanks comes between this `\` and the end of its line.
-    #[cold]
-    fn is_continuation(&self) -> bool {
-        let rest = &self.bytes[self.at + 1..];
-        let end = rest
-            .iter()
-            .position(|&byte| !is_blank(byte) || matches!(byte, b'\n' | b'\r'));
-        end.is_none_or(|end| is_blank(rest[end]))
-    }
-
     /// Where the tokens of the line end: behind the last one.
-    pub(super) fn end_of_tokens(mut self) -> usize {
-        let mut end = self.at;
-        while self.find_token() {
-            self.at += self.token().len();
-            end = self.at;
+    pub(super) fn end_of_tokens(&self) -> usize {
+        let mut scan = Scan::new(self.line);
+        let mut end = 0;
+        while scan.find_token() {
+            scan.skip(scan.token().len());
+            end = scan.at();
         }
         end
     }
 
-    /// Reads the number at the cursor, correctly rounded. What [`nearest`] does not find is left to
-    /// `str::parse`.
-    #[inline]
+    /// Where a token of the line is, counted from 0 behind the keyword.
+    pub(super) fn argument(&self, number: usize) -> Range<usize> {
+        let mut scan = Scan::new(self.line);
+        scan.find_token();
+        for _ in 0..=number {
+            scan.skip(scan.token().len());
+            scan.find_token();
+        }
+        scan.at()..scan.at() + scan.token().len()
+    }
+
+    /// Reads a number in front of a blank, correctly rounded, unless that takes more effort.
+    #[inline(always)]
+    pub(super) fn usual_number(&mut self, places: &mut Expected) -> Option<f64> {
+        let (value, rest) = decimal(self.rest, places)?;
+        matches!(rest, [b' ' | b'\n' | b'\r', ..]).then(|| {
+            self.rest = rest;
+            value
+        })
+    }
+
+    /// Reads the number at the cursor, correctly rounded.
     pub(super) fn number(&mut self) -> Parsed<f64> {
-        let start = self.at;
-        let negative = self.sign();
-        let mut mantissa = 0_u64;
-        let mut digits = self.digits(&mut mantissa);
-        let mut exponent = 0_i32;
-        if self.peek() == Some(b'.') {
-            self.at += 1;
-            let fraction = self.digits(&mut mantissa);
-            digits += fraction;
-            exponent = -(fraction.min(1 << 20) as i32);
-        }
-        if digits == 0 {
-            return Err(self.unreadable(start));
-        }
-        if let Some(b'e' | b'E') = self.peek() {
-            self.at += 1;
-            let negative = self.sign();
-            let mut power = 0;
-            let digits = self.digits(&mut power);
-            if digits == 0 {
-                return Err(self.unreadable(start));
-            }
-            let power = if digits < 9 { power as i32 } else { 1 << 20 };
-            exponent += if negative { -power } else { power };
-        }
-        match self.peek() {
-            None | Some(b' ') => {}
-            Some(b'#') if is_mark_of_a_non_number(&self.bytes[self.at..]) => {
-                return Err(self.unreadable(start));
-            }
-            _ if self.at_token_end() => {}
-            _ => return Err(self.unreadable(start)),
-        }
-        if digits <= 19
-            && let Some(value) = nearest(mantissa, exponent)
-        {
-            return Ok(if negative { -value } else { value });
-        }
-        self.number_by_library(start)
+        let (value, length) = self.any_number()?;
+        self.skip(length);
+        Ok(value)
     }
 
-    #[inline]
-    fn sign(&mut self) -> bool {
-        match self.peek() {
-            Some(b'-') => {
-                self.at += 1;
-                true
-            }
-            Some(b'+') => {
-                self.at += 1;
-                false
-            }
-            _ => false,
-        }
-    }
-
-    /// Appends digits to a number, and says how many; the number is right up to 19 of them.
-    #[inline]
-    fn digits(&mut self, value: &mut u64) -> usize {
-        let count = digits(&self.bytes[self.at..], value);
-        self.at += count;
-        count
-    }
-
-    fn number_by_library(&self, start: usize) -> Parsed<f64> {
-        let token = &self.bytes[start..self.at];
-        let text = std::str::from_utf8(token).expect("signs, digits, point and exponent are ASCII");
-        let value: f64 = text.parse().expect("this form was checked digit by digit");
-        if value.is_finite() {
-            Ok(value)
-        } else {
-            Err(self.unreadable(start))
+    #[cold]
+    #[inline(never)]
+    fn any_number(self) -> Parsed<(f64, usize)> {
+        let token = self.token();
+        let number = std::str::from_utf8(token).ok();
+        let number = number.and_then(|text| text.parse().ok());
+        let rest = &self.line.bytes[self.at() + token.len()..];
+        match number.filter(|value: &f64| value.is_finite()) {
+            Some(value) if !is_mark_of_a_non_number(rest) => Ok((value, token.len())),
+            _ => Err(self.unreadable()),
         }
     }
 
     /// What is wrong with the number that starts here.
     #[cold]
-    fn unreadable(&self, start: usize) -> Box<Fault> {
-        let mut scan = Scan { at: start, ..*self };
+    fn unreadable(self) -> Box<Fault> {
+        let start = self.at();
+        let mut scan = self;
         let mut token = scan.token();
-        scan.at += token.len();
-        if is_mark_of_a_non_number(&scan.bytes[scan.at..]) {
-            scan.at += 1;
-            scan.at += scan.token().len();
-            token = &scan.bytes[start..scan.at];
+        scan.skip(token.len());
+        if is_mark_of_a_non_number(&scan.line.bytes[scan.at()..]) {
+            scan.skip(1);
+            scan.skip(scan.token().len());
+            token = &scan.line.bytes[start..scan.at()];
         }
-        let span = start..scan.at;
+        let span = start..scan.at();
         if is_non_number(token) {
             let message = format!("{} is not a finite number", quoted(token));
             return Fault::new("E-OBJ-FINITE", span, message, "expected a finite number")
@@ -188,65 +220,65 @@ impl<'l> Scan<'l> {
             _ => "`0.5`".to_owned(),
         };
         let label = format!("expected a finite decimal number such as {example}");
-        let fault = Fault::new(
-            "E-OBJ-FLOAT",
-            span,
-            format!("cannot read number {}", quoted(token)),
-            label,
-        );
+        let message = format!("cannot read number {}", quoted(token));
+        let fault = Fault::new("E-OBJ-FLOAT", span, message, label);
         match comma {
             Some(_) => fault.help("OBJ uses `.` as the decimal mark; re-export with the C locale"),
             None => fault,
         }
     }
 
+    /// Reads an index in front of a blank or a slash, of one of `count` elements, and counts it from 0;
+    /// or nothing.
+    #[inline(always)]
+    pub(super) fn usual_index(&mut self, count: usize, expected: &mut Expected) -> Option<u32> {
+        let (given, length) = expected.digits(Word::new(*self.rest.first_chunk()?));
+        let rest = &self.rest[length..];
+        let index = given.wrapping_sub(1);
+        let is_usual = index < count as u64 && matches!(rest, [b' ' | b'/' | b'\n' | b'\r', ..]);
+        is_usual.then(|| {
+            self.rest = rest;
+            index as u32
+        })
+    }
+
     /// Reads a whole number with an optional sign, at most `i64::MAX` in size;
     /// `None` if there is no digit.
-    #[inline]
     pub(super) fn integer(&mut self) -> Option<i64> {
-        let negative = self.sign();
-        let start = self.at;
+        let is_negative = self.peek() == Some(b'-');
+        self.skip(usize::from(matches!(self.peek(), Some(b'-' | b'+'))));
         let mut value = 0;
-        let digits = self.digits(&mut value);
-        if digits == 0 {
-            return None;
-        }
-        let is_short = digits <= 18 || {
-            let digits = &self.bytes[start..self.at];
-            digits.iter().skip_while(|&&digit| digit == b'0').count() <= 18
+        let length = digits(self.rest, &mut value);
+        let zeros = || self.rest.iter().take_while(|&&digit| digit == b'0').count();
+        let value = match length {
+            0 => return None,
+            19.. if length - zeros() > 18 => i64::MAX,
+            _ => value as i64,
         };
-        let value = if is_short { value as i64 } else { i64::MAX };
-        Some(if negative { -value } else { value })
+        self.skip(length);
+        Some(if is_negative { -value } else { value })
     }
 }
 
 /// `nan`, `-inf`, `infinity`, `1.#IND` and the like.
 fn is_non_number(token: &[u8]) -> bool {
-    let word = token
-        .strip_prefix(b"-")
-        .or(token.strip_prefix(b"+"))
-        .unwrap_or(token);
-    let word = word.to_ascii_lowercase();
+    let word = token.strip_prefix(b"-").or(token.strip_prefix(b"+"));
+    let word = word.unwrap_or(token).to_ascii_lowercase();
+    let mark = word.iter().position(|&byte| byte == b'#');
     matches!(
         &word[..],
         b"nan" | b"inf" | b"infinity" | b"nan(ind)" | b"nan(snan)"
-    ) || word
-        .iter()
-        .position(|&byte| byte == b'#')
-        .is_some_and(|at| is_mark_of_a_non_number(&word[at..]))
+    ) || mark.is_some_and(|at| is_mark_of_a_non_number(&word[at..]))
 }
 
 /// Old Microsoft libraries print `1.#IND`, `1.#QNAN` and `1.#INF`; the `#` must not pass
 /// for a comment, or the number for 1.
-#[cold]
 fn is_mark_of_a_non_number(bytes: &[u8]) -> bool {
-    [&b"#ind"[..], b"#inf", b"#qnan", b"#snan", b"#nan"]
-        .iter()
-        .any(|mark| {
-            bytes
-                .get(..mark.len())
-                .is_some_and(|start| start.eq_ignore_ascii_case(mark))
-        })
+    let marks = [&b"#ind"[..], b"#inf", b"#qnan", b"#snan", b"#nan"];
+    marks.iter().any(|mark| {
+        let start = bytes.get(..mark.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(mark))
+    })
 }
 
 #[cfg(test)]
@@ -262,6 +294,7 @@ mod tests {
                 .wrapping_add(1);
             (state >> 33) % bound
         };
+        let mut usual_count = 0;
         for _ in 0..200_000 {
             let mut text = ["", "-", "+"][random(3) as usize].to_owned();
             let (whole, fraction) = (random(12), random(14));
@@ -277,10 +310,24 @@ mod tests {
                 text += ["e", "E", "e+", "e-"][random(4) as usize];
                 text += &random(40).to_string();
             }
-            let value = Scan::new(text.as_bytes()).number().expect(&text);
+            let line = Line {
+                bytes: text.as_bytes(),
+                number: 1,
+            };
+            let value = Scan::new(line).number().expect(&text);
             let truth: f64 = text.parse().expect("a number");
             assert_eq!(value.to_bits(), truth.to_bits(), "{text}");
+            let usual = decimal(text.as_bytes(), &mut Expected::default());
+            if let Some((value, rest)) = usual {
+                assert_eq!(
+                    (value.to_bits(), rest),
+                    (truth.to_bits(), &[][..]),
+                    "{text}"
+                );
+                usual_count += 1;
+            }
         }
+        assert!(usual_count > 100_000, "{usual_count}");
     }
 
     #[test]
@@ -295,12 +342,9 @@ mod tests {
             (b"a\\b", b"a\\b"),
             (b"a\\ b", b"a\\"),
         ] {
-            assert_eq!(
-                Scan::new(bytes).token(),
-                token,
-                "{:?}",
-                String::from_utf8_lossy(bytes)
-            );
+            let line = Line { bytes, number: 1 };
+            let shown = String::from_utf8_lossy(bytes);
+            assert_eq!(Scan::new(line).token(), token, "{shown:?}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What is said about statements that are carried through as bytes.
 
-use super::line::{Line, locate, quoted};
+use super::fault::{Line, locate, quoted};
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location};
 use crate::keyword::{Class, is_said_of_vertex};
 

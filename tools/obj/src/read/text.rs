@@ -1,7 +1,8 @@
 //! Text that was carried through, taken apart again into its statements.
 
-use super::lines::logical_line_length;
+use super::fault::Line;
 use super::scan::Scan;
+use super::source::first_line;
 use crate::document::Document;
 use crate::keyword::{Class, is_said_of_vertex};
 use crate::store::Kind;
@@ -9,19 +10,9 @@ use crate::store::Kind;
 /// How many bytes at the start of a text are foreign statements, which belong to the
 /// statement before it: whole lines, each with `\n` at its end.
 pub(crate) fn attached_length(text: &[u8]) -> usize {
-    let mut length = 0;
-    while length < text.len() {
-        let rest = &text[length..];
-        let mut scan = Scan::new(rest);
-        if !scan.find_token() || rest[..scan.at].contains(&b'\n') {
-            break;
-        }
-        if Class::of(scan.token()) != Class::Foreign {
-            break;
-        }
-        length += logical_line_length(rest);
-    }
-    length
+    let is_foreign = |keyword: &[u8]| !keyword.is_empty() && Class::of(keyword) == Class::Foreign;
+    let attached = statements(text).take_while(|&(keyword, _)| is_foreign(keyword));
+    attached.map(|(_, statement)| statement.len()).sum()
 }
 
 /// The statements of a text, each with its keyword (empty for a comment or a blank line) and its
@@ -31,11 +22,12 @@ pub(crate) fn statements(mut text: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])
         if text.is_empty() {
             return None;
         }
-        let (statement, rest) = text.split_at(logical_line_length(text));
+        let (_, length, _) = first_line(text);
+        let (bytes, rest) = text.split_at(length);
         text = rest;
-        let mut scan = Scan::new(statement);
+        let mut scan = Scan::new(Line { bytes, number: 1 });
         scan.find_token();
-        Some((scan.token(), statement))
+        Some((scan.token(), bytes))
     })
 }
 

@@ -1,7 +1,6 @@
 //! The words in the lines of a record.
 
-use super::fault::{Fault, Parsed};
-use super::line::quoted;
+use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
 use crate::record::VERSION;
 
@@ -12,17 +11,17 @@ pub(super) const DAMAGED: &str = "the record is damaged";
 /// The version of a record, which must be one that is known.
 pub(super) fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
     scan.find_token();
-    let start = scan.at;
+    let start = scan.at();
     match scan.integer().filter(|_| scan.at_token_end()) {
         Some(version @ 1..=VERSION) => Ok(version),
         Some(later) if later > VERSION => {
             let message = "this record is of a later version, and not used";
             let expected = format!("expected {VERSION} at most, not {later}");
-            let fault = Fault::new(CODE, start..scan.at, message, expected);
+            let fault = Fault::new(CODE, start..scan.at(), message, expected);
             Err(fault.help("a later tearmesh reads it"))
         }
         _ => {
-            scan.at = start;
+            scan.go_to(start);
             exactly(scan, "1").map(|()| 1)
         }
     }
@@ -31,8 +30,8 @@ pub(super) fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
 pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
     scan.find_token();
     let token = scan.token();
-    let start = scan.at;
-    scan.at += token.len();
+    let start = scan.at();
+    scan.skip(token.len());
     let digits = std::str::from_utf8(token)
         .ok()
         .filter(|text| text.len() == 16);
@@ -41,7 +40,7 @@ pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
         let message = format!("{} is no checksum", quoted(token));
         Fault::new(
             CODE,
-            start..scan.at,
+            start..scan.at(),
             message,
             "expected 16 hexadecimal digits",
         )
@@ -51,13 +50,13 @@ pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
 pub(super) fn exactly(scan: &mut Scan<'_>, word: &str) -> Parsed<()> {
     scan.find_token();
     let token = scan.token();
-    let start = scan.at;
-    scan.at += token.len();
+    let start = scan.at();
+    scan.skip(token.len());
     if token == word.as_bytes() {
         return Ok(());
     }
     let message = format!("this record has {} where `{word}` should be", quoted(token));
-    Err(Fault::new(CODE, start..scan.at, message, DAMAGED))
+    Err(Fault::new(CODE, start..scan.at(), message, DAMAGED))
 }
 
 pub(super) fn out_of_range(span: std::ops::Range<usize>, least: i64, most: i64) -> Box<Fault> {
@@ -78,23 +77,23 @@ pub(super) fn numbers(scan: &mut Scan<'_>, numbers: &mut [f64]) -> Parsed<usize>
 /// A whole number.
 pub(super) fn whole(scan: &mut Scan<'_>, least: i64, most: i64) -> Parsed<u32> {
     scan.find_token();
-    let start = scan.at;
+    let start = scan.at();
     match scan.integer() {
         Some(number) if scan.at_token_end() && least <= number && number <= most => {
             Ok(number as u32)
         }
         _ => {
-            scan.at = start;
+            scan.go_to(start);
             Err(out_of_range(start..start + scan.token().len(), least, most))
         }
     }
 }
 
 pub(super) fn nothing_more(scan: &mut Scan<'_>) -> Parsed<()> {
-    if !scan.find_token() && scan.at == scan.bytes.len() {
+    if !scan.find_token() && scan.at() == scan.line.bytes.len() {
         return Ok(());
     }
-    let end = scan.bytes.len();
+    let end = scan.line.bytes.len();
     let message = "this line of a record has extra words";
-    Err(Fault::new(CODE, scan.at..end, message, DAMAGED))
+    Err(Fault::new(CODE, scan.at()..end, message, DAMAGED))
 }
