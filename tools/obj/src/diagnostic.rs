@@ -60,6 +60,20 @@ pub struct Excerpt {
     pub label: String,
 }
 
+impl Diagnostic {
+    /// A warning about a line, which has no excerpt and no hint.
+    pub(crate) fn warning(code: &'static str, line: usize, message: String) -> Diagnostic {
+        Diagnostic {
+            level: Level::Warning,
+            code,
+            location: Some(Location { line, column: 1 }),
+            message,
+            excerpt: None,
+            help: None,
+        }
+    }
+}
+
 impl fmt::Display for Diagnostic {
     /// Writes one line without the code: ``line 3, column 5: cannot read number `0,5` ``.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

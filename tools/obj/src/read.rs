@@ -99,13 +99,10 @@ impl Reader {
     fn start(&mut self, source: &mut Source<impl Read>) -> Result<(), ReadError> {
         let mut opening = Opening::of(source.first()?);
         if opening == Opening::Mark {
+            let message = "the byte order mark at the start is dropped".to_owned();
             self.document.diagnostics.push(Diagnostic {
                 level: Level::Note,
-                code: "W-OBJ-BOM",
-                location: Some(Location { line: 1, column: 1 }),
-                message: "the byte order mark at the start is dropped".to_owned(),
-                excerpt: None,
-                help: None,
+                ..Diagnostic::warning("W-OBJ-BOM", 1, message)
             });
         }
         while opening == Opening::Mark {
@@ -290,17 +287,9 @@ impl Document {
                 "{count} faces with more than 3 corners are cut into {triangles} triangles (the first here)"
             ),
         };
-        self.diagnostics.push(Diagnostic {
-            level: Level::Warning,
-            code: "W-OBJ-QUAD",
-            location: Some(Location {
-                line: self.layout.line_of_polygon(first),
-                column: 1,
-            }),
-            message,
-            excerpt: None,
-            help: None,
-        });
+        let line = self.layout.line_of_polygon(first);
+        self.diagnostics
+            .push(Diagnostic::warning("W-OBJ-QUAD", line, message));
         self.triangulation = Some(triangulation);
     }
 }

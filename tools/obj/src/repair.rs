@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 
 use tearmesh::{BuildError, Defect, FaceId, Fans, Mesh, VertexId};
 
-use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::polygons::Polygons;
 use crate::read::text::attached_length;
@@ -232,14 +232,16 @@ impl Document {
                 let kept = self.line_of_triangle(drop.kept.index());
                 let (code, why, place) = drop.reason.words();
                 let message = format!("{what} is dropped: it {why} one on line {kept}{place}");
-                self.diagnostics.push(warning(code, line, message));
+                self.diagnostics
+                    .push(Diagnostic::warning(code, line, message));
             }
             if let Some(next) = first.values().nth(REPORTED) {
                 let line = self.line_of_triangle(next.face.index());
                 let more = count - REPORTED;
                 let message = format!("and {more} more faces are dropped (the first here)");
                 let (code, ..) = next.reason.words();
-                self.diagnostics.push(warning(code, line, message));
+                self.diagnostics
+                    .push(Diagnostic::warning(code, line, message));
             }
         }
     }
@@ -350,7 +352,7 @@ impl Document {
         );
         let line = self.line_of_vertex(first);
         self.diagnostics
-            .push(warning("W-OBJ-FOREIGN", line, message));
+            .push(Diagnostic::warning("W-OBJ-FOREIGN", line, message));
     }
 
     fn report_fans(&mut self, bow_ties: &[(VertexId, Fans<'_>)]) {
@@ -376,7 +378,8 @@ impl Document {
                 new.join(", ")
             );
             let line = self.line_of_vertex(vertex.index());
-            self.diagnostics.push(warning(CODE, line, message));
+            self.diagnostics
+                .push(Diagnostic::warning(CODE, line, message));
         }
         if let Some((next, _)) = bow_ties.get(REPORTED) {
             let line = self.line_of_vertex(next.index());
@@ -384,7 +387,8 @@ impl Document {
                 "and {} more vertices with several fans get new vertices (the first here)",
                 bow_ties.len() - REPORTED
             );
-            self.diagnostics.push(warning(CODE, line, message));
+            self.diagnostics
+                .push(Diagnostic::warning(CODE, line, message));
         }
     }
 }
@@ -474,16 +478,5 @@ impl Reason {
                 ),
             ),
         }
-    }
-}
-
-fn warning(code: &'static str, line: usize, message: String) -> Diagnostic {
-    Diagnostic {
-        level: Level::Warning,
-        code,
-        location: Some(Location { line, column: 1 }),
-        message,
-        excerpt: None,
-        help: None,
     }
 }

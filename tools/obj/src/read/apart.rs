@@ -1,6 +1,6 @@
 //! Vertices that stand apart from where they are, and are put there.
 
-use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::record::{Apart, Record, is_same_point};
 
@@ -40,15 +40,12 @@ fn tell_edited(document: &mut Document, edited: &[u32]) {
         many => format!(", and so do {} more such", many - 1),
     };
     let line = document.line_of_vertex(first as usize);
+    let message = format!(
+        "`v` {} was written apart from the other side of its cut and was edited since: it stays where it is now{more}",
+        first + 1
+    );
     document.diagnostics.push(Diagnostic {
-        level: Level::Warning,
-        code: "W-OBJ-RECORD-APART",
-        location: Some(Location { line, column: 1 }),
-        message: format!(
-            "`v` {} was written apart from the other side of its cut and was edited since: it stays where it is now{more}",
-            first + 1
-        ),
-        excerpt: None,
         help: Some("its part of the record will not be written again".to_owned()),
+        ..Diagnostic::warning("W-OBJ-RECORD-APART", line, message)
     });
 }

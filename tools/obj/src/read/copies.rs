@@ -1,7 +1,7 @@
 //! Vertices that were written several times, once a fan, and are one again.
 
 use super::text::without_statements_of_vertex;
-use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::record::{Record, SplitOff};
 use crate::store::Rows;
@@ -62,18 +62,13 @@ fn tell_moved(document: &mut Document, moved: &[[u32; 2]]) {
         many => format!(", and {} more such", many - 1),
     };
     let line = document.line_of_vertex(copy as usize);
-    document.diagnostics.push(Diagnostic {
-        level: Level::Warning,
-        code: "W-OBJ-RECORD-MOVED",
-        location: Some(Location { line, column: 1 }),
-        message: format!(
-            "`v` {} was a copy of {} and has moved away from it: it is now a separate vertex{more}",
-            copy + 1,
-            of + 1
-        ),
-        excerpt: None,
-        help: None,
-    });
+    let message = format!(
+        "`v` {} was a copy of {} and has moved away from it: it is now a separate vertex{more}",
+        copy + 1,
+        of + 1
+    );
+    let warning = Diagnostic::warning("W-OBJ-RECORD-MOVED", line, message);
+    document.diagnostics.push(warning);
 }
 
 impl Document {

@@ -2,7 +2,7 @@
 
 use super::fault::quoted;
 use super::items::Items;
-use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::diagnostic::{Diagnostic, Location};
 use crate::document::Document;
 use crate::record::{Hash, Record, are_last, runs};
 use crate::store::push;
@@ -138,12 +138,9 @@ pub(super) fn forget_corners(document: &mut Document, items: &mut Items, place: 
         many => format!("{many} vertices that slid stay where they are"),
     };
     let which = if is_known[0] { "vn" } else { "vt" };
+    let message = format!("{stay}: another program changed the number of `{which}`");
     document.diagnostics.push(Diagnostic {
-        level: Level::Warning,
-        code: "W-OBJ-RECORD-SLID",
         location: Some(place),
-        message: format!("{stay}: another program changed the number of `{which}`"),
-        excerpt: None,
-        help: None,
+        ..Diagnostic::warning("W-OBJ-RECORD-SLID", place.line, message)
     });
 }

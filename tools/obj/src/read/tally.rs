@@ -81,16 +81,11 @@ impl ForeignStatements {
             diagnostics.push(counted.warn(Level::Warning, code, message));
         }
         if self.others > 0 {
+            let others = self.others;
+            let message = format!("and {others} more statements that are not interpreted");
             diagnostics.push(Diagnostic {
-                level: Level::Warning,
-                code: "W-OBJ-FOREIGN",
                 location: None,
-                message: format!(
-                    "and {} more statements that are not interpreted",
-                    self.others
-                ),
-                excerpt: None,
-                help: None,
+                ..Diagnostic::warning("W-OBJ-FOREIGN", 1, message)
             });
         }
         if let Some(counted) = self.relative {
@@ -123,14 +118,11 @@ impl Counted {
     }
 
     fn warn(self, level: Level, code: &'static str, message: String) -> Diagnostic {
-        let (location, excerpt) = (Some(self.location), Some(self.excerpt));
         Diagnostic {
             level,
-            code,
-            location,
-            message,
-            excerpt,
-            help: None,
+            location: Some(self.location),
+            excerpt: Some(self.excerpt),
+            ..Diagnostic::warning(code, self.location.line, message)
         }
     }
 }
