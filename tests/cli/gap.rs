@@ -370,3 +370,30 @@ fn a_simulation_knows_no_gap() {
     }
     assert!(folder.read("plain.out") == folder.read("gapped.out"));
 }
+
+/// Beside the hub of a fan, each face that is brought back would have all be looked at again. With a
+/// square in it, the second file takes sixteen times as long as the first.
+#[test]
+fn a_gap_beside_a_hub_takes_time_linear_in_its_faces() {
+    let folder = Folder::new();
+    let seconds = |faces: u32| {
+        let name = format!("fan{faces}.obj");
+        let angles = (0..faces).map(|i| std::f64::consts::TAU * f64::from(i) / f64::from(faces));
+        let rim = angles.map(|angle| format!("v {:.9} {:.9} 0\n", angle.cos(), angle.sin()));
+        let next = |i: u32| (i + 1) % faces + 2;
+        let triangles = (0..faces).map(|i| format!("f 1 {} {}\n", i + 2, next(i)));
+        let text: String = rim.chain(triangles).collect();
+        folder.write(&name, format!("v 0 0 0\n{text}"));
+        let line = format!("tearmesh cut {name} --plane 0,0.1,0:0,1,0 --gap 0.01 -o cut{name}");
+        let start = std::time::Instant::now();
+        let text = seen(&folder.run(&line));
+        assert!(
+            text.contains("vertices of lips written up to 0.01 apart"),
+            "{text}"
+        );
+        start.elapsed().as_secs_f64()
+    };
+    let [few, many] = [5_000, 20_000].map(|faces| seconds(faces).min(seconds(faces)));
+    println!("{few} s, {many} s");
+    assert!(many < 9.0 * few, "{few} s, {many} s");
+}

@@ -1,7 +1,7 @@
 //! The lips of cuts, apart from each other: for the eye, and for programs that join what lies at one
 //! place.
 
-use tearmesh::{HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
+use tearmesh::{FaceId, HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
 
 use crate::measure::Edges;
 
@@ -22,7 +22,8 @@ const LEAST: f64 = 0.1;
 /// Moves both lips of everything that is torn half of `gap` away from each other: within the surface,
 /// square to the lip, and along the boundary where the lip ends there. A vertex that both lips
 /// share, as the tip of a slit, stays; so the gap opens over one edge. Where a face would turn over, or
-/// lose nearly all of its area, its vertices are brought back by halves. Linear, but for that.
+/// lose nearly all of its area, its vertices are brought back by halves. Linear: a vertex is brought back
+/// so often at most, and then only its own faces are looked at again.
 pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
     let away = directions(mesh, positions);
     let wanted = gap / 2.0;
@@ -39,7 +40,13 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
     let moving = mesh
         .faces()
         .filter(|&f| mesh.face_vertices(f).into_iter().any(moves));
-    let mut left: Vec<_> = moving.collect();
+    let mut left: Vec<FaceId> = moving.collect();
+    let mut faces_of = vec![Vec::new(); away.len()];
+    for &f in &left {
+        for v in mesh.face_vertices(f).into_iter().filter(|&v| moves(v)) {
+            faces_of[v.index()].push(f);
+        }
+    }
     // Each round brings a vertex back, which can be done so often.
     loop {
         let mut back = Vec::new();
@@ -64,11 +71,10 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
             halvings[v.index()] += 1;
         }
         // A face that keeps its shape may lose it when a neighbour is brought back.
-        let near = |v: &VertexId| back.binary_search(v).is_ok();
-        let faces = mesh
-            .faces()
-            .filter(|&f| mesh.face_vertices(f).iter().any(near));
-        left = faces.collect();
+        left.clear();
+        left.extend(back.iter().flat_map(|v| &faces_of[v.index()]));
+        left.sort_unstable();
+        left.dedup();
     }
     let points: Vec<Point> = mesh.vertices().map(|v| at(v, &halvings)).collect();
     let is_less = |v: &VertexId| moves(*v) && (halvings[v.index()] > 0 || far < wanted);
