@@ -250,3 +250,30 @@ fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
         "the same bytes"
     );
 }
+
+/// A sheet of one millimetre, wherever it lies: an inserted vertex is as far off the surface as its
+/// coordinates are rounded, and the check of the area knows that.
+#[test]
+fn a_small_sheet_far_from_the_origin_is_cut() {
+    let folder = Folder::new();
+    for far in [0.0, 1e3, 1e5, 1e6, 1e7] {
+        let mut sheet = String::new();
+        for (x, y) in (0..121).map(|i| (f64::from(i % 11), f64::from(i / 11))) {
+            let z = 3e-4 * (1.7 * x + 0.9 * y).sin();
+            sheet += &format!("v {} {} {}\n", far + 1e-4 * x, far + 1e-4 * y, far + z);
+        }
+        for a in (0..110).filter(|i| i % 11 < 10).map(|i| i + 1) {
+            let [b, c, d] = [a + 1, a + 11, a + 12];
+            sheet += &format!("f {a} {b} {c}\nf {b} {d} {c}\n");
+        }
+        folder.write("sheet.obj", sheet);
+        for slope in 0..20 {
+            let [y0, y1] = [3.3, 7.1 - 0.3 * f64::from(slope)].map(|y| far + 1e-4 * y);
+            let [x0, x1, z] = [far + 1e-4, far + 9e-4, far + 5.0];
+            let rays = format!("{x0},{y0},{z}:0,0,-1 {x1},{y1},{z}:0,0,-1");
+            let cut = format!("tearmesh cut sheet.obj --rays {rays} --dry-run");
+            let output = folder.run(&cut);
+            assert_eq!(output.status.code(), Some(0), "{cut}\n{}", seen(&output));
+        }
+    }
+}

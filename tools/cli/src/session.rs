@@ -391,8 +391,19 @@ pub(crate) fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> 
     let before: f64 = triangles.map(|t| area(t.map(|v| was[v as usize]))).sum();
     let faces = mesh.faces().map(|f| mesh.face_vertices(f));
     let after: f64 = faces.map(|t| area(t.map(|v| positions.at(v)))).sum();
-    // Each area and each sum is rounded; what is lost or twice there would be far more.
-    let bound = 1e-9 * before;
+    // Each area and each sum is rounded, and so are the coordinates of each vertex that was inserted: where
+    // they are large, it is off the surface by that. What is lost or twice there would be far more.
+    let rounding = |[a, b, c]: [Point; 3]| {
+        let around = (b - a).norm() + (c - b).norm() + (a - c).norm();
+        let largest = [a, b, c]
+            .map(|p| p.coords.amax())
+            .into_iter()
+            .fold(0.0, f64::max);
+        around * largest * f64::EPSILON
+    };
+    let faces = mesh.faces().map(|f| mesh.face_vertices(f));
+    let rounded: f64 = faces.map(|t| rounding(t.map(|v| positions.at(v)))).sum();
+    let bound = 1e-9 * before + 2.0 * rounded;
     ((after - before).abs() > bound).then(|| format!("I20 (area): {before:e} became {after:e}"))
 }
 
