@@ -16,6 +16,7 @@ mod fits;
 mod foreign;
 mod forward;
 mod items;
+mod reader;
 mod record;
 mod scan;
 mod source;
@@ -26,15 +27,12 @@ mod words;
 
 use std::io::Read;
 
-use self::decimal::Widths;
-use self::face::Element;
 use self::fault::{Fault, Line, Parsed, refuse};
 use self::foreign::binary;
-use self::forward::{Forward, beyond};
-use self::record::RecordReader;
+use self::forward::beyond;
+use self::reader::{Element, Reader};
 use self::scan::Scan;
 use self::source::{Source, first_line};
-use self::tally::ForeignStatements;
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::Document;
 use crate::opening::{MARK, Opening};
@@ -67,34 +65,7 @@ impl Document {
     }
 }
 
-/// What has been read so far.
-#[derive(Debug, Default)]
-struct Reader {
-    document: Document,
-    forward: [Forward; 3],
-    tally: ForeignStatements,
-    record: RecordReader,
-    widths: Widths,
-    /// How many lines were read.
-    lines: u32,
-}
-
 impl Reader {
-    /// How many elements of a kind there are so far.
-    #[inline(always)]
-    fn count(&self, element: Element) -> usize {
-        match element {
-            Element::Vertex => self.document.positions.len(),
-            Element::Texture => self.document.texture.len(),
-            Element::Normal => self.document.normals.len(),
-        }
-    }
-
-    /// The number of the next line.
-    fn number(&self) -> u32 {
-        self.lines.saturating_add(1)
-    }
-
     /// Drops a byte order mark, and recognises what is no OBJ file from its first bytes.
     fn start(&mut self, source: &mut Source<impl Read>) -> Result<(), ReadError> {
         let mut opening = Opening::of(source.first()?);

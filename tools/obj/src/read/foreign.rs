@@ -1,8 +1,7 @@
 //! Statements that are carried through as bytes.
 
-use super::Reader;
-use super::face::{Element, absolute};
 use super::fault::{Fault, Line, Parsed};
+use super::reader::{Element, Reader, absolute};
 use super::scan::Scan;
 use super::source::first_line;
 use crate::keyword::{Class, tokens_before_indices};

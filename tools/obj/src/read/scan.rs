@@ -89,15 +89,12 @@ impl<'l> Scan<'l> {
     fn behind_blanks(mut self) -> Self {
         loop {
             match self.peek() {
-                None => return self,
                 Some(b' ' | b'\t' | 0x0b | 0x0c) => self.skip(1),
-                Some(_) => match self.continuation() {
-                    Some(length) => {
-                        self.skip(length);
-                        self.continuations += 1;
-                    }
-                    None => return self,
-                },
+                Some(b'\\') if let Some(length) = self.continuation() => {
+                    self.skip(length);
+                    self.continuations += 1;
+                }
+                _ => return self,
             }
         }
     }

@@ -2,9 +2,9 @@
 
 use tearmesh::{COORDINATE_MAX, Mesh, Point};
 
-use super::Reader;
 use super::decimal::Expected;
 use super::fault::{Fault, Parsed, quoted};
+use super::reader::{Reader, limit};
 use super::scan::Scan;
 use crate::store::{Column, Kind, NUMBERS_MAX, Rows, push};
 
@@ -56,23 +56,6 @@ impl Reader {
         self.document.layout.push(Kind::Normal, scan.line.number);
         Ok(())
     }
-}
-
-/// Refuses what would be more than `most` of something.
-#[inline(always)]
-pub(super) fn limit(count: usize, most: usize, what: &str) -> Parsed<()> {
-    if count < most {
-        Ok(())
-    } else {
-        Err(over_limit(most, what))
-    }
-}
-
-#[cold]
-fn over_limit(most: usize, what: &str) -> Box<Fault> {
-    let message = format!("the file has more than {most} {what}");
-    Fault::new("E-OBJ-LIMIT", 0..1, message, "one too many")
-        .help("split the model into several files")
 }
 
 /// Reads the numbers of a statement, of which there must be `least` and may be as many as there
@@ -135,25 +118,4 @@ fn too_large(scan: Scan<'_>, numbers: &[f64; NUMBERS_MAX]) -> Box<Fault> {
         format!("expected at most {COORDINATE_MAX:e}"),
     )
     .help("scale the model: computations with larger numbers would overflow")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::fault::Line;
-    use super::*;
-
-    #[test]
-    fn a_limit_is_the_most_that_is_accepted() {
-        assert!(limit(2, 3, "vertices").is_ok());
-        let fault = limit(3, 3, "vertices").expect_err("over the limit");
-        let error = fault.at(&Line {
-            bytes: b"v 0 0 0",
-            number: 4,
-        });
-        assert_eq!(
-            error.to_string(),
-            "line 4, column 1: the file has more than 3 vertices"
-        );
-        assert_eq!(error.diagnostic().map(|d| d.code), Some("E-OBJ-LIMIT"));
-    }
 }
