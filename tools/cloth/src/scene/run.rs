@@ -27,7 +27,7 @@ use crate::load::{Collider, Loads};
 use crate::method::{Softness, speed_m_per_s};
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
-use crate::solver::{Quality, StepError};
+use crate::solver::{Quality, Solver, StepError};
 use crate::system::{System, Unstable};
 use crate::tearing::{Tear, TearReport};
 
@@ -226,6 +226,37 @@ impl Run {
         self.steps_planned = self.steps_planned.saturating_mul(parts.get().into());
         assert!(self.steps_planned <= Run::STEPS_MAX, "steps can be counted");
         self.watch = Watch::new(self.cloth().system(), self.step_s());
+        self
+    }
+
+    /// Has a solver of the caller's take the steps of a run that has not begun, in place of the
+    /// method of the scene. The step is still the scene's: [`Scene::step_s`], or one that suits its
+    /// method.
+    ///
+    /// ```
+    /// use tearmesh_cloth::Verlet;
+    /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+    /// use tearmesh::shapes;
+    ///
+    /// let (mesh, positions) = shapes::grid(4, 4);
+    /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    /// let run = || Run::new(mesh.clone(), &positions, Scene::hang(&frame), &frame);
+    /// let (mut one, mut other) = (run()?, run()?.with_solver(Verlet::new()));
+    /// for _ in 0..100 {
+    ///     one.step()?;
+    ///     other.step()?;
+    /// }
+    /// assert_eq!(one.cloth().positions(), other.cloth().positions());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If a step was taken already.
+    #[must_use]
+    pub fn with_solver(mut self, solver: impl Solver + Send + Sync + 'static) -> Run {
+        assert_eq!(self.tally.steps, 0, "the run has not begun");
+        self.sim.solver = Box::new(solver);
         self
     }
 

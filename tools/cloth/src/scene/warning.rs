@@ -4,9 +4,9 @@ use super::run::EnergyGain;
 use super::{Frame, Run};
 use crate::guard::Frequency;
 use crate::load::Collider;
-use crate::method::{LimiterStats, Method, Quality};
+use crate::method::{Method, Softness};
+use crate::solver::{LimiterStats, Quality};
 use crate::stability::frequency_bound;
-use crate::step_length::Softness;
 
 /// A reason to doubt what a run shows of its cloth.
 ///
