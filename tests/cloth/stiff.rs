@@ -412,7 +412,7 @@ fn the_work_of_a_refused_step_is_counted() {
 #[test]
 fn pushed_chains_never_have_more_energy_than_they_were_given() {
     let (k, m) = (100.0, 0.01);
-    let omega = 2.0 * (k / m as f64).sqrt();
+    let omega = 2.0 * f64::sqrt(k / m);
     let chains = (2..40).flat_map(|links| (1..4).map(move |seed| (links, seed)));
     for (links, seed) in chains {
         let mut pushed = row(links, m, k, 0.1, Vector::x() * 0.1);

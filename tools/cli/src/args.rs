@@ -22,7 +22,6 @@ pub(crate) use self::chart::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearCha
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name};
 pub(crate) use self::files::{FileArgs, Format};
-pub(crate) use self::look::LookArgs;
 pub(crate) use self::mend::MendArgs;
 pub(crate) use self::read::{Gap, numbers};
 pub(crate) use self::render::RenderArgs;

@@ -21,7 +21,7 @@ pub(crate) fn run(args: &RenderArgs, streams: &mut Streams<'_>) -> Exit {
     if args.look.quiet || args.output == Path::new("-") {
         worked = worked.map(|_| String::new());
     }
-    streams.conclude(worked, faults, &args.look)
+    streams.conclude(worked, faults, args.look.color, args.look.verbose)
 }
 
 /// Gives the summary.

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
-use crate::args::LookArgs;
 use crate::exit::{Exit, Stop};
 use crate::output;
 use crate::say::{Color, Fault, is_colored};
@@ -32,7 +31,8 @@ impl Streams<'_> {
         &mut self,
         worked: Result<String, Stop>,
         mut faults: Vec<Fault>,
-        look: &LookArgs,
+        color: Color,
+        shows_all: bool,
     ) -> Exit {
         let (exit, words) = match worked {
             Ok(words) => (Exit::Done, words),
@@ -41,13 +41,13 @@ impl Streams<'_> {
                 (exit, String::new())
             }
         };
-        self.show(&faults, look.color, look.verbose);
+        self.show(&faults, color, shows_all);
         if words.is_empty() {
             return exit;
         }
         match output::print(self.output, |out| writeln!(out, "{words}")) {
             Ok(_) => exit,
-            Err(fault) => self.fail(&fault, look.color, Exit::Output),
+            Err(fault) => self.fail(&fault, color, Exit::Output),
         }
     }
 

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &ViewArgs, streams: &mut Streams<'_>) -> Exit {
     if args.look.quiet {
         worked = worked.map(|_| String::new());
     }
-    streams.conclude(worked, faults, &args.look)
+    streams.conclude(worked, faults, args.look.color, args.look.verbose)
 }
 
 /// Gives the summary; none if the page is on standard output.

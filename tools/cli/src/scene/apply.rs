@@ -7,20 +7,13 @@ use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
 use tearmesh_cloth::{Collider, Tearing, Threshold};
 
-use super::kinds::{Gravity, axis, ready};
+use super::kinds::{Gravity, axis, ready, set};
 use super::method::SolverName;
 use super::read::{Place, SceneFile, Table, sorted};
 use super::schema::{ColliderKeys, Cut, Tear, Vertices};
 use crate::args::Method as CutMethod;
 use crate::exit::{Exit, Stop};
 use crate::say::Fault;
-
-/// Puts a value in the place of another, if a file has it.
-pub(super) fn set<T>(place: &mut T, value: Option<impl Into<T>>) {
-    if let Some(value) = value {
-        *place = value.into();
-    }
-}
 
 impl SceneFile {
     /// Which way is up.

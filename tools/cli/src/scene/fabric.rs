@@ -5,7 +5,7 @@ use tearmesh_cloth::Method;
 use tearmesh_cloth::scene::{Frame, Scene};
 use tearmesh_cloth::{Bending, Buckling, Copies, Unbend, Weave};
 
-use super::apply::set;
+use super::kinds::set;
 use super::read::{Place, SceneFile, Table};
 use super::schema::Fabric;
 use crate::say::Fault;

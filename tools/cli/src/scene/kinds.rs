@@ -263,3 +263,10 @@ impl<'de> Deserialize<'de> for Moves {
         })
     }
 }
+
+/// Puts a value in the place of another, if a file has it.
+pub(super) fn set<T>(place: &mut T, value: Option<impl Into<T>>) {
+    if let Some(value) = value {
+        *place = value.into();
+    }
+}

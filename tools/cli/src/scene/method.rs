@@ -5,7 +5,7 @@ use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::Scene;
 
-use super::apply::set;
+use super::kinds::{Count, set};
 use super::read::SceneFile;
 use crate::say::Fault;
 
@@ -35,7 +35,7 @@ impl SceneFile {
                 faults.push(*self.fault(&table.place, key, "E-SCENE-CLASH", message));
             }
         }
-        let count = |count: Option<super::kinds::Count>| count.map(|count| count.0);
+        let count = |count: Option<Count>| count.map(|count| count.0);
         match &mut scene.solver {
             Method::Provot(limiter) => {
                 set(&mut limiter.stretch_ratio_max, table.limit_ratio);
