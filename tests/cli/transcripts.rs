@@ -19,12 +19,12 @@ const NOTHING_DIGESTED: u64 = 0xcbf2_9ce4_8422_2325;
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
     ("README.md", 0x045a_d7e5_fce0_27a7),
-    ("tear.txt", 0x2270_f2a3_8599_c1b7),
+    ("tear.txt", 0x238e_1bd6_a390_d657),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0xbb7f_a49c_fb1b_17df;
+const DIGEST: u64 = 0xfbcc_a96e_7513_2f7d;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
