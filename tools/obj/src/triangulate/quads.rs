@@ -11,6 +11,7 @@ use tearmesh::Point;
 
 use super::ears::is_simple;
 use crate::polygons::Polygons;
+use crate::store::push;
 
 /// An edge by its ends, the lower first.
 type Edge = [u32; 2];
@@ -77,23 +78,26 @@ pub(super) fn avoid_edges(triangles: &mut [[u32; 3]], polygons: &Polygons, posit
     // The diagonals of quads that may have to go, and those that may come, with how often each is an
     // edge.
     let mut counts: BTreeMap<Edge, u32> = BTreeMap::new();
+    let both_of = |polygon: u32| match polygons.vertices[polygons.corners(polygon as usize)] {
+        [a, b, c, d] => [ends(a, c), ends(b, d)],
+        _ => unreachable!("a diagonal is that of a quad"),
+    };
     let mut quads = Vec::new();
     for_each_diagonal(triangles, polygons, |edge, polygon| {
-        if suspected.has(edge)
-            && let &[a, b, c, d] = &polygons.vertices[polygons.corners(polygon)]
-        {
-            let both = [ends(a, c), ends(b, d)];
-            quads.push((polygon, both, usize::from(edge != both[0])));
+        if suspected.has(edge) {
+            // A hostile file has nothing but such quads.
+            let polygon = polygon as u32;
+            push(&mut quads, (polygon, edge != both_of(polygon)[0]));
             *counts.entry(edge).or_default() += 1;
         }
     });
     sides.sort_unstable();
     let is_edge = |edge: &Edge| counts[edge] > 1 || sides.binary_search(edge).is_ok();
-    quads.retain(|(_, both, is)| !are_all || is_edge(&both[*is]));
+    quads.retain(|&(polygon, is)| !are_all || is_edge(&both_of(polygon)[usize::from(is)]));
     if quads.is_empty() {
         return;
     }
-    let both = quads.iter().flat_map(|(_, both, _)| *both);
+    let both = quads.iter().flat_map(|&(polygon, _)| both_of(polygon));
     counts = both.map(|diagonal| (diagonal, 0)).collect();
     counts.keys().for_each(|&edge| suspected.add(edge));
     let mut count = |edge| {
@@ -105,7 +109,9 @@ pub(super) fn avoid_edges(triangles: &mut [[u32; 3]], polygons: &Polygons, posit
     };
     for_each_diagonal(triangles, polygons, |edge, _| count(edge));
     for_each_side(polygons, count);
-    for (polygon, diagonals, is) in quads {
+    for (polygon, is) in quads {
+        let (diagonals, is) = (both_of(polygon), usize::from(is));
+        let polygon = polygon as usize;
         let cuts = [[[0_u16, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
         let other = cuts[1 - is];
         let vertices = &polygons.vertices[polygons.corners(polygon)];
