@@ -82,7 +82,7 @@ struct Part {
 }
 
 impl Halves {
-    /// Takes half of each part, and returns a vertex with the other half.
+    /// Halves this vertex's mass exactly; returns the record of the new vertex, which holds the other half.
     fn halve(&mut self) -> Halves {
         self.first.exponent += 1;
         self.more.iter_mut().for_each(|part| part.exponent += 1);

@@ -207,7 +207,7 @@ fn damping_and_stiffness_of_the_method_are_told() {
         said.contains("and not on the 1000 N/m of the fabric"),
         "{said}"
     );
-    let coarse = "times too long for a mesh so fine: what merely hangs is stretched\n";
+    let coarse = "times too long for so fine a mesh: hanging cloth stretches too far\n";
     assert!(
         said.contains("W-SIM-COARSE]") && said.contains(coarse),
         "{said}"

@@ -134,11 +134,11 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     );
     if taken_out > 0 {
         let taken_out = count(taken_out, "inserted vertex", "inserted vertices");
-        words += &format!(", {taken_out} taken out");
+        words += &format!(", {taken_out} removed");
     }
     if slid_back > 0 {
         let slid_back = count(slid_back, "vertex", "vertices");
-        words += &format!(", {slid_back} put back");
+        words += &format!(", {slid_back} moved back");
     }
     if cuts_left > 0 {
         words += &format!(", {} left", count(cuts_left, "cut", "cuts"));
@@ -157,7 +157,7 @@ fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
         let fault = Fault::error("E-USAGE", message.to_owned());
         return Err(Stop::new(
             Exit::Usage,
-            fault.help("leave it out: the record tells more"),
+            fault.help("leave it out: the record is more exact"),
         ));
     }
     let pairs = document.coincident(mesh);

@@ -193,17 +193,18 @@ impl<'a> Session<'a> {
         if let Some(unspoken) = written.map(|one| one.unspoken).filter(|&count| count > 0) {
             let statements = count(unspoken, "statement", "statements");
             let message = format!(
-                "copies of vertices do not have what `nl`, `ny`, `nv` or `vv` says of these \
+                "duplicates of vertices do not have the `nl`, `ny`, `nv` or `vv` data of their originals \
                  ({statements})"
             );
             self.faults.push(Fault::warning("W-OBJ-FOREIGN", message));
         }
         if let Some(separated) = written.map(|one| one.separated).filter(|&fans| fans > 0) {
-            let copies = count(separated, "more vertex", "more vertices");
-            let message = format!(
-                "the file has {copies} than the mesh: a vertex whose faces share no edge is written \
-                 once for each fan"
+            let copies = count(
+                separated,
+                "duplicate of a vertex was written, because its",
+                "duplicates of vertices were written, because their",
             );
+            let message = format!("{copies} faces no longer share an edge");
             self.faults.push(Fault {
                 severity: Severity::Note,
                 ..Fault::error("W-OBJ-FANS", message)

@@ -59,7 +59,7 @@ const PERCENTILE: f64 = 0.9;
 /// so that it seldom changes.
 const PARTS: f64 = 32.0;
 
-/// The products of a measurement at most, and the change at which it ends.
+/// Power iteration: the most matrix–vector products, and the relative change at which it stops.
 const PRODUCTS: u32 = 100;
 const SETTLED: f64 = 1e-3;
 

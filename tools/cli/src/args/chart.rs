@@ -36,7 +36,7 @@ pub(crate) struct ChartArgs {
 /// An experiment.
 #[derive(Debug, Subcommand)]
 pub(crate) enum What {
-    /// Which method to use for which scene: cost against error in the ready scenes.
+    /// Which method to use for which scene: cost against error in the built-in scenes.
     Guide(GuideArgs),
     /// Work against precision: the cost and the error of every method over many steps.
     Pareto(ParetoArgs),
@@ -138,7 +138,7 @@ pub(crate) struct ParetoArgs {
     #[arg(long, value_name = "R", value_delimiter = ',', value_parser = ratio)]
     pub(crate) mass_ratio: Vec<f64>,
 
-    /// Give up a run after this many visits of edges.
+    /// Give up a run after this many edge visits.
     #[arg(long, value_name = "N", default_value_t = VISITS_MAX)]
     pub(crate) visits_max: u64,
 

@@ -1,4 +1,4 @@
-//! What `check` takes.
+//! The arguments of `check`.
 
 use std::path::PathBuf;
 
@@ -10,30 +10,29 @@ use crate::say::Color;
 const EXAMPLES: &str = "\
 Examples:
   tearmesh check models/*.obj
-      a line for each file: ok, or the first thing that is wrong, with its line
+      a line for each file: ok, or the first defect, with its line
   tearmesh check -v shirt.obj
-      everything that is wrong, with the text of the lines, and how large the mesh is";
+      every defect, with the text of its line, and the size of the mesh";
 
-/// Check OBJ files: whether they can be read and are meshes that can be cut.
+/// Check that OBJ files can be read and cut.
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct CheckArgs {
     /// The OBJ files; `-` is standard input.
     ///
-    /// `*` and `?` in a name stand for any text and any character, where the shell has not put
-    /// the names of files for them.
+    /// `*` and `?` in a name stand for any text and any character, if the shell has not expanded them.
     #[arg(value_name = "IN", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
 
-    /// Look into folders, and check all files `.obj` there.
+    /// Check all `.obj` files in folders, too.
     #[arg(short, long)]
     pub(crate) recursive: bool,
 
-    /// Print a line of words for each file, or a line of JSON.
+    /// Print a line of text for each file, or a line of JSON.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 
-    /// Show the meshes on a page for a browser, as HTML, those that can be cut.
+    /// Write a page for a browser that shows the meshes that can be cut, as HTML.
     #[arg(long, value_name = "F.html")]
     pub(crate) view: Option<PathBuf>,
 

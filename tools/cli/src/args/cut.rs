@@ -1,4 +1,4 @@
-//! What `cut` takes.
+//! The arguments of `cut`.
 
 use std::path::PathBuf;
 
@@ -11,9 +11,9 @@ use super::read::Gap;
 const EXAMPLES: &str = "\
 Examples:
   tearmesh cut flag.obj --rays 0,2,5:0,0,-1 0,-2,5:0,0,-1 -o torn.obj
-      cuts a flag along x = 0, looking down the z-axis
+      cuts a flag along x = 0, seen along the z-axis
   tearmesh cut flag.obj --rays 0,0,9@-1,0.2,0 0,0,9@1,0.2,0 --format json
-      cuts between two points seen from the eye 0,0,9, and prints the report only";
+      cuts between two points as seen from 0,0,9, and prints only the report";
 
 /// Cut a mesh along the plane between two rays, or along a plane.
 #[derive(Debug, Parser)]
@@ -21,25 +21,24 @@ Examples:
 pub(crate) struct CutArgs {
     /// Two rays, as origin:direction or origin@target; may be given repeatedly.
     ///
-    /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or
-    /// `ox,oy,oz@tx,ty,tz` (origin and a point that it is aimed at). The cut
-    /// follows the plane through both rays, and ends at the rays unless --through is given; it goes
-    /// through all that lies between them, front and back, unless --layers first is given.
-    /// Several pairs are cuts one after another; where one begins with the ray with which the one
-    /// before ended, both are parts of one polyline.
+    /// A ray is `ox,oy,oz:dx,dy,dz` (origin and direction, of any length) or `ox,oy,oz@tx,ty,tz`
+    /// (origin and target). The cut follows the plane through both rays, and goes through everything
+    /// between them, front and back. --through extends it beyond the rays; --layers first limits it
+    /// to the surface that they hit first. Several pairs are several cuts, made in order. A pair that
+    /// begins with the last ray of the pair before continues its cut, as a polyline.
     #[arg(long, value_name = "A B")]
     pub(crate) rays: Vec<String>,
 
-    /// A file of rays: two a line, `#` begins a comment.
+    /// Read rays from a file: two per line, `#` begins a comment.
     #[arg(long, value_name = "FILE")]
     pub(crate) rays_file: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
 
-    /// A plane in the place of rays, as point:normal; may be given repeatedly.
+    /// Cut along a plane, as point:normal; may be given repeatedly.
     ///
-    /// `px,py,pz:nx,ny,nz`, the normal of any length. The mesh is cut wherever the plane goes.
+    /// `px,py,pz:nx,ny,nz`; the normal may have any length. The mesh is cut wherever it crosses the plane.
     #[arg(
         long,
         value_name = "P:N",
@@ -48,11 +47,10 @@ pub(crate) struct CutArgs {
     )]
     pub(crate) plane: Vec<String>,
 
-    /// Cut all layers between the rays, or those that the rays meet first.
+    /// Cut all layers between the rays, or only the first.
     ///
-    /// first: of what hangs together where the plane meets the mesh, the part that the first ray
-    /// hits first, and that of the second; where a ray misses, the part that comes next to it. A slit
-    /// in the front of a garment leaves its back whole.
+    /// first: cut only the connected strip of surface that the rays hit first. The back of a garment
+    /// stays whole. If a ray misses the mesh, the strip nearest to it is cut.
     #[arg(
         long,
         value_enum,
@@ -63,84 +61,85 @@ pub(crate) struct CutArgs {
     )]
     pub(crate) layers: Layers,
 
-    /// Show the lips of cuts this far apart: a length, or N% of an edge.
+    /// Write the two sides of a cut this far apart: a length, or N% of the mean edge.
     ///
-    /// A percentage is of the mean edge. The two sides of a cut coincide, so the cut is invisible,
-    /// and programs that join coincident points close it. With this option each lip is written half
-    /// the gap away from the other, within the surface, and not at all at a tip; where a face would turn
-    /// over, less. The file has the true places too: `mend`, another `cut` and the masses go by
-    /// these. Without it a gap stays as it is, and --gap 0 closes it.
+    /// The two sides coincide, so a cut is invisible, and programs that merge coincident points close
+    /// it. This option moves each side half the gap away from the other, within the surface. The tips
+    /// of a cut stay in place, and a vertex moves less if a face would flip. The file records the true
+    /// positions too: `mend`, later cuts and masses use those. Without this option, a gap stays as it
+    /// is; --gap 0 closes it.
     #[arg(long, value_name = "D", value_parser = super::read::gap, allow_hyphen_values = true)]
     pub(crate) gap: Option<Gap>,
 
-    /// Write the seam into this file, as lines of OBJ.
+    /// Write the seam to this file, as OBJ lines.
     ///
-    /// For each cut an object of `v` and `l` statements: the edges that it tore, in order.
+    /// Each cut is an object of `v` and `l` statements: the edges that it tore, in order.
     #[arg(long, value_name = "FILE")]
     pub(crate) seam: Option<PathBuf>,
 
-    /// Write where each vertex, corner and face comes from, as JSON.
+    /// Write the source of each vertex, corner and face, as JSON.
     ///
-    /// For each `v` of the output and each corner of its faces, those of the input that it lies
-    /// between, with weights; for each face the one that it was part of. All are counted from 0, corners
-    /// through all faces. So weights, bones and materials of other programs can follow.
+    /// For each `v` of the output and each corner of its faces: the ones of the input that it lies
+    /// between, with weights. For each face: the face that it was part of. All count from 0, and corners
+    /// count through all faces. Use it to carry over weights, bones and materials.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["repair", "separate_fans"])]
     pub(crate) map: Option<PathBuf>,
 
-    /// Write each piece into a file of its own in this folder.
+    /// Write each piece to a file of its own in this folder.
     ///
-    /// `piece_00000.obj`, the largest, and so on, with the objects, groups, materials, texture
-    /// coordinates and normals of its faces, and `pieces.json`, which lists them with these names. A
-    /// piece by itself has no record of the cut and no gap: to mend, keep the whole as well, with -o.
+    /// `piece_00000.obj` is the largest. A piece has the objects, groups, materials, texture
+    /// coordinates and normals of its faces; `pieces.json` lists all pieces, with these names. Pieces
+    /// have no record of the cut, and no gap: to mend, keep the whole mesh as well, with -o. A folder
+    /// that has other pieces is refused.
     #[arg(long, value_name = "DIR")]
     pub(crate) pieces: Option<PathBuf>,
 
-    /// How to cut.
+    /// The cutting method.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: Method,
 
-    /// How near the end of an edge, as a fraction of it, a crossing is moved to that end.
+    /// Snap a crossing to an edge's endpoint if it is closer than this fraction of the edge.
     ///
-    /// 0 gives a seam straight to the last digit and may give thin faces; with R, the altitude of
-    /// no new face is below R(1-R) of that of the face it was part of. An end of the cut moves
-    /// within its face where it would leave a thinner one. Up to 0.49; for the method exact.
+    /// For the method exact; from 0 to 0.49. 0 makes the seam straight to the last digit, and may
+    /// leave thin faces. With R, each new face keeps at least R(1-R) of the altitude of the face that
+    /// it was part of; an end of the cut moves within its face to avoid a thinner one.
     #[arg(long, value_name = "R", allow_negative_numbers = true, default_value_t = tearmesh::Scissor::SNAP)]
     pub(crate) snap: f64,
 
-    /// Move a vertex taken for a crossing onto the plane, along its edge.
+    /// Move a vertex that a crossing snapped to onto the plane, along its edge.
     ///
-    /// `tearmesh mend --simplify` puts it back.
+    /// `tearmesh mend --simplify` moves it back.
     #[arg(long)]
     pub(crate) snap_move: bool,
 
-    /// Cut wherever the plane goes, not only between the rays.
+    /// Cut along the whole plane, not only between the rays.
     #[arg(long)]
     pub(crate) through: bool,
 
-    /// Where a cut ends: at vertices between the rays, or at edges whose midpoint is.
+    /// End a cut at vertices between the rays, or at edges with their midpoint between the rays.
     #[arg(long, hide_short_help = true, value_enum, default_value_t)]
     pub(crate) tips: Tips,
 
-    /// How a split divides mass: by the area of the faces, or by half.
+    /// Divide the mass of a split vertex by the area of its faces, or in half.
     #[arg(long, hide_short_help = true, value_enum, default_value_t)]
     pub(crate) mass: Mass,
 
-    /// Repair the input: also drop duplicate and superfluous faces.
+    /// Repair the input: drop duplicate and superfluous faces, and separate fans.
     ///
-    /// Of faces on the same three vertices the first stays, and of those on an edge the first two
-    /// that run in opposite directions; then fans are separated as by --separate-fans. Each
-    /// repair is a warning with its line. A flipped face is never repaired.
+    /// Of the faces on the same three vertices, the first stays. Of the faces on one edge, the first
+    /// two with opposite directions stay. Then fans are separated, as by --separate-fans. Each repair
+    /// is a warning with its line. Flipped faces are never repaired.
     #[arg(long)]
     pub(crate) repair: bool,
 
     /// Give each fan of an input vertex a vertex of its own.
     ///
-    /// A fan is a set of faces round the vertex that are joined by shared edges. The
-    /// first keeps the vertex, and the others get new ones at the same place.
+    /// A fan is a set of faces around a vertex that are joined by shared edges. The first fan keeps
+    /// the vertex; the others get new ones at the same place.
     #[arg(long, hide_short_help = true)]
     pub(crate) separate_fans: bool,
 
-    /// Succeed, and write the mesh, even if nothing was cut.
+    /// Succeed and write the mesh even if nothing was cut.
     #[arg(long)]
     pub(crate) allow_miss: bool,
 
@@ -148,12 +147,12 @@ pub(crate) struct CutArgs {
     pub(crate) files: FileArgs,
 }
 
-/// Points of a picture in the place of rays.
+/// Points of a picture instead of rays.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CameraArgs {
-    /// A camera in the place of rays, with --fov, --viewport and --points.
+    /// Cut between points of a picture, with --fov, --viewport and --points.
     ///
-    /// eye@target: what it looks at is in the middle of the picture, which shows it in perspective, as in
+    /// eye@target: the target is in the middle of the picture, which is in perspective. For example,
     /// --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250.
     #[arg(
         long,
@@ -165,12 +164,12 @@ pub(crate) struct CameraArgs {
     )]
     pub(crate) camera: Option<[Point; 2]>,
 
-    /// What is upright in the picture.
+    /// The direction that is up in the picture.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
         default_value = "0,1,0", hide_short_help = true)]
     pub(crate) up: Point,
 
-    /// The angle of view, from the lower edge to the upper one, in degrees.
+    /// The vertical angle of view, in degrees.
     #[arg(
         long,
         hide_short_help = true,
@@ -184,10 +183,10 @@ pub(crate) struct CameraArgs {
     #[arg(long, hide_short_help = true, value_name = "WxH", value_parser = super::read::size, requires = "camera")]
     pub(crate) viewport: Option<[f64; 2]>,
 
-    /// Two pixels of its picture, from the top left; may be given repeatedly.
+    /// Two pixels of the picture, from the top left; may be given repeatedly.
     ///
-    /// Fractions are places in a pixel: the middle of the first one is 0.5,0.5. A pair that begins
-    /// where the one before ended goes on from there. The report says which --rays they are.
+    /// Fractions are allowed: the middle of the first pixel is 0.5,0.5. A pair that begins with the
+    /// last point of the pair before continues its cut. The report has the same cut as --rays.
     #[arg(long, value_name = "X,Y X,Y", requires = "camera")]
     pub(crate) points: Vec<String>,
 }
@@ -197,11 +196,11 @@ pub(crate) enum Method {
     /// Insert vertices where the plane crosses edges: a straight seam.
     #[default]
     Exact,
-    /// Label the faces by side and unshare the seam; adds no face.
+    /// Split the edges between the faces of either side; adds no face.
     Partition,
-    /// The paper's first form: leaves irregular meshes undivided.
+    /// The paper's first method: leaves irregular meshes undivided.
     Uniform,
-    /// The paper's better form: leaves crumbs, and a long seam.
+    /// The paper's better method: leaves crumbs, and a long seam.
     Alternating,
 }
 

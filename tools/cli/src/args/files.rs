@@ -1,4 +1,4 @@
-//! What the verbs that change a mesh have in common.
+//! The arguments of all verbs that change a mesh.
 
 use std::path::PathBuf;
 
@@ -15,8 +15,8 @@ pub(crate) struct FileArgs {
 
     /// Where to write the mesh; `-` is standard output.
     ///
-    /// Without it the mesh goes to standard output if that is a pipe or a file. What is written is OBJ:
-    /// a name that ends like that of another format is refused.
+    /// Without it, the mesh goes to standard output if that is a pipe or a file. Only OBJ is written:
+    /// names of other formats are refused.
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 
@@ -24,11 +24,11 @@ pub(crate) struct FileArgs {
     #[arg(long)]
     pub(crate) in_place: bool,
 
-    /// Do everything but write.
+    /// Do everything, but write only --report and --forces.
     #[arg(long)]
     pub(crate) dry_run: bool,
 
-    /// Print words, or the report as JSON.
+    /// Print a summary, or the report as JSON.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 
@@ -38,14 +38,15 @@ pub(crate) struct FileArgs {
 
     /// Draw a picture of the resulting mesh, as PNG.
     ///
-    /// All of it, from its broad side: pieces in colours, torn edges red. `tearmesh render` draws others.
+    /// The whole mesh, from its broad side: pieces in colours, torn edges red. `tearmesh render` draws
+    /// other views.
     #[arg(long, value_name = "F.png")]
     pub(crate) picture: Option<PathBuf>,
 
-    /// Show the mesh on a page for a browser, as HTML.
+    /// Write a page for a browser that shows the mesh, as HTML.
     ///
-    /// One file that needs no network: turn it, and click two points to plan a cut. `tear` shows all of the
-    /// simulation. `tearmesh view` makes pages of other files.
+    /// One file that needs no network: turn the mesh, and click two points to plan a cut. The page of
+    /// `tear` plays the simulation. `tearmesh view` makes pages of other files.
     #[arg(long, value_name = "F.html")]
     pub(crate) view: Option<PathBuf>,
 
@@ -61,9 +62,9 @@ pub(crate) struct FileArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
 
-    /// Show all errors and warnings, not only three of each kind.
+    /// Show all diagnostics, not only three of each kind, and less important notes.
     ///
-    /// `tear` also prints what the simulation cost, in visits of elements.
+    /// `tear` also prints the cost of the simulation, in element visits.
     #[arg(short, long)]
     pub(crate) verbose: bool,
 }

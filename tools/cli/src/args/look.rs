@@ -1,4 +1,4 @@
-//! What the verbs take that look at a mesh and change nothing.
+//! The arguments of the verbs that show a mesh and change nothing.
 
 use clap::Args;
 

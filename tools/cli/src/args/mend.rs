@@ -1,4 +1,4 @@
-//! What `mend` takes.
+//! The arguments of `mend`.
 
 use std::num::NonZeroUsize;
 
@@ -12,9 +12,9 @@ Examples:
   tearmesh mend torn.obj -o whole.obj
       sews everything that was torn
   tearmesh mend torn.obj --last 1 --simplify -o before.obj
-      undoes the last cut, and takes out the vertices that it inserted";
+      undoes the last cut, and removes the vertices that it inserted";
 
-/// Sew what was torn, from the record that the file has of it.
+/// Sew cuts and tears again, by the record of them in the file.
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct MendArgs {
@@ -22,18 +22,18 @@ pub(crate) struct MendArgs {
     #[arg(long, value_name = "N", conflicts_with = "near")]
     pub(crate) last: Option<NonZeroUsize>,
 
-    /// Sew only what lies near this point: within --radius of it.
+    /// Sew only within --radius of this point.
     #[arg(long, value_name = "X,Y,Z", requires = "radius", allow_hyphen_values = true, value_parser = super::read::point)]
     pub(crate) near: Option<Point>,
 
-    /// Sew boundary edges that lie on each other, in a file without a record.
+    /// Sew boundary edges that coincide, in a file without a record.
     ///
-    /// For a file whose record of cuts another program dropped. Edges are sewn that
-    /// have bit-equal ends, with no third edge at the same place; inserted vertices stay.
+    /// Use this if another program dropped the record of cuts. Two edges are sewn if their ends are
+    /// bit-equal and no third edge is at the same place. Inserted vertices stay.
     #[arg(long, conflicts_with = "last")]
     pub(crate) coincident: bool,
 
-    /// How near.
+    /// The distance from --near up to which cuts are sewn.
     #[arg(
         long,
         value_name = "R",
@@ -42,16 +42,17 @@ pub(crate) struct MendArgs {
     )]
     pub(crate) radius: Option<f64>,
 
-    /// Sew nothing if two vertices that belong together are farther apart than this.
+    /// Sew nothing if two vertices to be joined are farther apart than this.
     ///
-    /// What moved apart is otherwise joined at the mean, by mass.
+    /// Without it, vertices that moved apart are joined at their mean, weighted by mass.
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     pub(crate) max_distance: Option<f64>,
 
-    /// Take out inserted vertices that no longer separate anything.
+    /// Remove inserted vertices that no longer separate anything.
     ///
-    /// And put back, to the bit, those that a cut with --snap-move moved. Without this option both
-    /// stay, and another `mend --simplify` can still do it. What was edited since is kept.
+    /// Also moves the vertices back, to the bit, that a cut with --snap-move moved. Without this
+    /// option both stay as they are, and a later `mend --simplify` can still do this. Vertices that
+    /// were edited since the cut are kept.
     #[arg(long)]
     pub(crate) simplify: bool,
 

@@ -1,4 +1,4 @@
-//! What `render` takes.
+//! The arguments of `render`.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ Examples:
   tearmesh render torn.obj -o torn.png
       the whole mesh, from its broad side: pieces in colours, torn edges red
   tearmesh render flag.obj --rays 0.3,2,5:0,0,-1 0.3,-2,5:0,0,-1 --edges -o cut.png
-      where the mesh would be cut between two rays, and its edges";
+      the cut between two rays, and the edges of the mesh";
 
 /// Draw a picture of a mesh, as PNG.
 ///
@@ -34,34 +34,34 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "WxH", value_parser = super::read::picture_size, default_value = "960x720")]
     pub(crate) size: PictureSize,
 
-    /// From where to look, and at which point: eye@target.
+    /// The eye, and the point that it looks at: eye@target.
     ///
-    /// As `cut --camera`: two pixels of the picture are where it cuts with --points, with the same
-    /// --camera, --up and --fov, and with --viewport as --size here. Without it all of the mesh is seen from
+    /// `cut --camera` cuts between two pixels of this picture (--points) if it gets the same --camera,
+    /// --up and --fov, and this --size as --viewport. Without a camera, the picture shows the whole mesh from
     /// its broad side, a little from above.
     #[arg(long, value_name = "EYE@AT", allow_hyphen_values = true, value_parser = super::read::look)]
     pub(crate) camera: Option<[Point; 2]>,
 
-    /// What is upright in the picture.
+    /// The direction that is up in the picture.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
         default_value = "0,1,0")]
     pub(crate) up: Point,
 
-    /// The angle of view, from the lower edge to the upper one, in degrees.
+    /// The vertical angle of view, in degrees.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, default_value_t = tearmesh_view::ANGLE_OF_VIEW)]
     pub(crate) fov: f64,
 
-    /// Draw two rays and where they would cut; may be given repeatedly.
+    /// Draw two rays, and the cut between them; may be given repeatedly.
     ///
-    /// As `cut --rays` takes them.
+    /// Written as for `cut --rays`.
     #[arg(long, value_name = "A B")]
     pub(crate) rays: Vec<String>,
 
-    /// Draw where a plane would cut, as point:normal; may be given repeatedly.
+    /// Draw the cut along a plane, as point:normal; may be given repeatedly.
     #[arg(long, value_name = "P:N", allow_hyphen_values = true)]
     pub(crate) plane: Vec<String>,
 
-    /// Draw the box round the mesh.
+    /// Draw the bounding box of the mesh.
     #[arg(long = "box")]
     pub(crate) bounding_box: bool,
 

@@ -1,4 +1,4 @@
-//! What `completions` and `man` take.
+//! The arguments of `completions` and `man`.
 
 use clap::Parser;
 use clap_complete::Shell;
@@ -8,7 +8,7 @@ Examples:
   tearmesh completions bash > ~/.local/share/bash-completion/completions/tearmesh
   tearmesh completions zsh > \"${fpath[1]}/_tearmesh\"";
 
-/// Print what a shell needs to complete commands and options
+/// Print a script that completes commands and options in a shell.
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct CompletionsArgs {
@@ -22,7 +22,7 @@ Examples:
   tearmesh man | man -l -
   tearmesh man cut > tearmesh-cut.1";
 
-/// Print a page of the manual, of the command or of one verb.
+/// Print the manual page of the command or of one verb.
 #[derive(Debug, Parser)]
 #[command(after_long_help = MAN_EXAMPLES)]
 pub(crate) struct ManArgs {

@@ -1,4 +1,4 @@
-//! What `tear` takes.
+//! The arguments of `tear`.
 
 use std::path::PathBuf;
 
@@ -10,24 +10,24 @@ use crate::scene::SolverName;
 const EXAMPLES: &str = "\
 Examples:
   tearmesh tear flag.obj --scene rip -o torn.obj
-      hangs a patch by its upper edge, grabs its middle, and drags it down until it rips
+      hangs a patch by its upper edge, and drags its middle down until it rips
   tearmesh tear flag.obj --scene flag --frames frames --frames-topology final
-      a flag in the wind, cut in two while it waves: 30 OBJ files a second
+      a flag in the wind, cut in two while it waves: 30 OBJ files per second
 
 ";
 
 /// Simulate a cloth, and tear it.
 ///
-/// The mesh is the cloth at rest, in metres; y is up unless --up says otherwise. Upright, its
-/// height is up and its width the longer of the other two axes; one that lies flat is seen from
-/// above. Corners and edges of scenes are those of its bounding box.
+/// The mesh is the cloth at rest, in metres; y is up unless --up is given. Height is measured up,
+/// and width along the longer of the other two axes. Cloth that lies flat is seen from above.
+/// The corners and edges of scenes are those of the bounding box.
 #[derive(Debug, Parser)]
 #[command(after_long_help = format!("{EXAMPLES}{}", crate::scene::schema()))]
 pub(crate) struct TearArgs {
     /// hang, flag, rip, trouser, fall, or a scene file in TOML.
     ///
-    /// `hang`: two corners are clamped. `flag`: wind, and after 1.5 s a cut. `rip`: hung by its
-    /// upper edge, one vertex is grabbed and dragged down. `trouser`: a slit strip, its legs pulled
+    /// `hang`: two corners are held. `flag`: wind, and a cut after 1.5 s. `rip`: the cloth hangs by its
+    /// upper edge while one vertex is dragged down. `trouser`: a strip with a slit, its legs pulled
     /// apart. `fall`: nothing is held. A scene file can start from one of these; its keys are listed below.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: String,
@@ -36,16 +36,15 @@ pub(crate) struct TearArgs {
     #[arg(long, value_enum, value_name = "METHOD", hide_possible_values = true)]
     pub(crate) solver: Option<SolverName>,
 
-    /// Tear edges at this many times their rest length (1.5).
+    /// Tear edges at this many times their rest length (default: 1.5).
     ///
-    /// The paper's rule. The finer the mesh, the easier it tears: compare forces only with
-    /// --toughness.
+    /// The paper's rule. Finer meshes tear more easily: to compare forces, use --toughness.
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true, conflicts_with_all = ["toughness", "threshold_newton"])]
     pub(crate) threshold: Option<f64>,
 
     /// Tear by energy, in joules per metre of tear.
     ///
-    /// Nearly the same mean force on every mesh.
+    /// The force depends much less on the mesh: `chart tear` measures it.
     #[arg(
         long,
         value_name = "J_PER_M",
@@ -54,44 +53,44 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) toughness: Option<f64>,
 
-    /// Tear edges that pull harder than this, in newtons.
+    /// Tear edges that pull with more than this force, in newtons.
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     pub(crate) threshold_newton: Option<f64>,
 
-    /// A file of lines `vertex strength`.
+    /// Read the strengths of vertices from a file of lines `vertex strength`.
     ///
-    /// A vertex tears at this multiple of the threshold. Vertices count from 1, as in OBJ; those
-    /// not named have strength 1. `#` begins a comment. In a torn file a `v` that is written for
-    /// another fan of a vertex (its comments `#~ fan` name it first) is that vertex.
+    /// A vertex tears at this multiple of the threshold. Vertices count from 1, as in OBJ; the
+    /// others have strength 1. `#` begins a comment. In a torn file, a duplicate of a vertex (named
+    /// first in a comment `#~ fan`) stands for that vertex.
     #[arg(long, value_name = "FILE")]
     pub(crate) strength: Option<PathBuf>,
 
-    /// How long, in seconds (default: as the scene says).
+    /// The duration in seconds (default: that of the scene).
     ///
-    /// hang and fall 2, flag and rip 3, trouser 4.
+    /// hang and fall: 2; flag and rip: 3; trouser: 4.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) seconds: Option<f64>,
 
-    /// The step in seconds (default: one that suits).
+    /// The time step in seconds (default: chosen for the method).
     ///
-    /// Verlet: the one at which a tenth of the vertices have to be carried by their neighbours;
-    /// provot: 0.7 of the stability limit; xpbd: h/c, the time in which a pull travels an edge; pbd:
-    /// 3.2 of that; implicit: 1/240; at most 1/120. A step given here is refused where it is not
-    /// stable: for verlet beyond twice its own.
+    /// verlet: the step at which neighbours have to help a tenth of the vertices; provot: 0.7 of the
+    /// stability limit; xpbd: h/c, the time that a pull takes along an edge; pbd: 3.2 h/c; implicit:
+    /// 1/240; at most 1/120. A step that is not stable is refused: for verlet, one of more than twice
+    /// the default.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) dt: Option<f64>,
 
-    /// Which way is up: x, y, z, -x, -y or -z (default y).
+    /// The direction that is up: x, y, z, -x, -y or -z (default: y).
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
     pub(crate) up: Option<tearmesh_cloth::scene::Axis>,
 
-    /// Cut between two rays, at the time --cut-at.
+    /// Cut between two rays, at the time --cut-at; may be given repeatedly.
     ///
-    /// In the place of what the scene cuts; may be given repeatedly.
+    /// Replaces the cuts of the scene.
     #[arg(long, value_name = "A B", requires = "cut_at")]
     pub(crate) rays: Vec<String>,
 
-    /// When to cut, in seconds.
+    /// The time of the cut, in seconds.
     #[arg(
         long,
         value_name = "S",
@@ -100,29 +99,31 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) cut_at: Option<f64>,
 
-    /// Play the scene again with 8 seeds, and with 8 at half the step: does the step decide?
+    /// Check whether the result depends on the time step: 8 reruns with different seeds, and 8 at half the step.
     ///
-    /// What tears is chaotic: each run begins with its vertices off by up to a nanometre and its faces in
-    /// another order. First tear, torn length, pieces, forces and work are compared by their medians:
-    /// the same, different, or one cannot tell. Takes some 24 times as long, on all processors.
+    /// Tearing is chaotic. Each rerun moves the vertices by up to a nanometre, and stores the faces in
+    /// another order. The medians of first tear, torn length, pieces, forces and work are compared: same,
+    /// different, or unknown. This takes about 24 times the CPU time, on all processors.
     #[arg(long)]
     pub(crate) check_step: bool,
 
-    /// Write the force at each hold as a table, by frames of 1/60 s.
+    /// Write a table of the force at each hold, per frame of 1/60 s.
+    ///
+    /// Also with --dry-run.
     #[arg(long, value_name = "F.csv")]
     pub(crate) forces: Option<PathBuf>,
 
-    /// Write frames into this folder, 30 a second.
+    /// Write frames into this folder, 30 per second.
     ///
-    /// `frame_00000.obj` and so on; vertices keep their order, and new ones are appended: what is
-    /// said of a vertex while the scene is played names it by its number there.
+    /// `frame_00000.obj` and so on. Vertices keep their order, and new ones are appended. Messages about
+    /// vertices use these numbers.
     #[arg(long, value_name = "DIR")]
     pub(crate) frames: Option<PathBuf>,
 
-    /// Whether frames have their own faces, or the last one's.
+    /// Give each frame its own faces, or those of the last frame.
     ///
-    /// final: a vertex that is not yet born stands where its ancestor is, or where it will be
-    /// inserted on its edge, so one index buffer serves all frames.
+    /// final: one index buffer serves all frames. A vertex that does not exist yet is where its source is,
+    /// or where it will be inserted on its edge.
     #[arg(
         long,
         value_enum,
@@ -133,11 +134,11 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) frames_topology: Topology,
 
-    /// Write a point cache (PC2), 30 samples a second, for the mesh of -o.
+    /// Write a point cache (PC2) for the mesh of -o, 30 samples per second.
     ///
-    /// Blender: import OUT, add the modifier Mesh Cache, and choose this file; the scene at 30 frames a
-    /// second. It has the last one's faces, as with --frames-topology final: a vertex that is not yet born
-    /// stands where it will come from. Coordinates are as in OUT, so axes stay as they are imported.
+    /// In Blender, import OUT, add the modifier Mesh Cache, and choose this file; set the scene to 30 frames
+    /// per second. The faces are those of the last frame, as with --frames-topology final. Coordinates are as
+    /// in OUT, so axes stay as imported.
     #[arg(long, value_name = "F.pc2")]
     pub(crate) cache: Option<PathBuf>,
 

@@ -1,4 +1,4 @@
-//! What `view` takes.
+//! The arguments of `view`.
 
 use std::path::PathBuf;
 
@@ -10,32 +10,32 @@ use super::look::LookArgs;
 const EXAMPLES: &str = "\
 Examples:
   tearmesh view torn.obj
-      writes torn.html: open it in a browser, turn the mesh, click two points, and copy the line that cuts
+      writes torn.html: open it in a browser, turn the mesh, click two points, and copy the command
   tearmesh view frames -o rip.html
       plays all OBJ files in the folder `frames`, 30 a second";
 
 /// Show meshes on a page for a browser: one HTML file that needs no network.
 ///
-/// Each piece has a colour, torn edges are red, and the boundary is dark. Two points that are clicked show where
-/// a cut between them would go, and the `tearmesh cut` line to type for it.
+/// Each piece has a colour, torn edges are red, and the boundary is dark. Click two points: the page shows the
+/// cut between them, and the `tearmesh cut` command that makes it.
 #[derive(Debug, Parser)]
 #[command(after_long_help = EXAMPLES)]
 pub(crate) struct ViewArgs {
     /// The OBJ files to show, or folders of them; `-` is standard input.
     ///
-    /// Several are played in the order in which they are named, and those of a folder by their names: 30 a
-    /// second, or fewer than a dozen one a second. They may have faces of their own each.
+    /// Several meshes are played in the order given, and those of a folder by name: 30 per second, or one
+    /// per second if there are fewer than a dozen. Each may have its own faces.
     #[arg(value_name = "IN", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
 
     /// Where to write the page; `-` is standard output.
     ///
-    /// Without it the page is written here, and named like the first input, but with `.html`. That replaces
-    /// pages alone.
+    /// Without it, the page is written to the current folder and named after the first input, with the
+    /// ending `.html`. Only a page of tearmesh is replaced then.
     #[arg(short, long, value_name = "F.html")]
     pub(crate) output: Option<PathBuf>,
 
-    /// What is upright on the page.
+    /// The direction that is up on the page.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
         default_value = "0,1,0")]
     pub(crate) up: Point,

@@ -55,8 +55,8 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
     if pairs.is_empty() {
         return Err(refused(Fault {
             code: "E-RAY-COUNT",
-            message: "a cut takes two rays, but none was given".to_owned(),
-            help: Some("add --rays A B, as in --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1".to_owned()),
+            message: "nothing to cut with: give --rays A B, --plane P:N or --camera".to_owned(),
+            help: Some("for example --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1".to_owned()),
             ..Fault::default()
         }));
     }

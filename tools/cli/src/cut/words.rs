@@ -23,24 +23,20 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
     )
 }
 
-/// The line of the summary on lips that stand apart.
+/// The line of the summary on a gap.
 pub(crate) fn gap(gap: f64, gapped: &Gapped) -> String {
     let vertices = count(gapped.moved, "vertex", "vertices");
     let up_to = if gapped.clamped > 0 { "up to " } else { "" };
     format!(
-        "gap: {vertices} of lips written {up_to}{} apart",
+        "gap: {vertices} along the cut moved apart by {up_to}{}",
         short(gap)
     )
 }
 
-/// That some lips stand less apart than was asked for.
+/// That the gap is narrower somewhere than was asked for.
 pub(crate) fn of_gap(gapped: &Gapped) -> Option<Fault> {
-    let moved = count(
-        gapped.clamped,
-        "vertex of a lip was",
-        "vertices of lips were",
-    );
-    let message = format!("{moved} moved by less than half the gap: a face would turn over");
+    let vertices = count(gapped.clamped, "vertex", "vertices");
+    let message = format!("{vertices} moved less than half the gap, to keep faces from flipping");
     (gapped.clamped > 0).then(|| Fault::warning("W-CUT-GAP", message))
 }
 
@@ -83,7 +79,7 @@ pub(crate) fn warnings(
         let why = match obstacle {
             Obstacle::Seam => "but it is already cut there",
             Obstacle::Touch => "it only touches the mesh",
-            Obstacle::Snap => "but is shorter than the snap: --snap 0 makes it",
+            Obstacle::Snap => "but is shorter than the snap: use --snap 0",
             Obstacle::Elsewhere { .. } | Obstacle::Unknown => "but no vertex could be split",
         };
         let faces = count(cut.faces_crossed, "face", "faces");
@@ -99,7 +95,7 @@ pub(crate) fn warnings(
         if cut.lost > 0 {
             let lost = count(cut.lost, "piece", "pieces");
             let why = if is_exact {
-                "what the plane cuts off is less than the snap"
+                "the part to cut off is smaller than the snap"
             } else {
                 "the mesh has no edges for the cut to follow"
             };
@@ -108,7 +104,7 @@ pub(crate) fn warnings(
         if !cut.separated {
             warn(
                 "W-CUT-JOINED",
-                "the sides still share a vertex between the rays".to_owned(),
+                "the two sides still share a vertex between the rays".to_owned(),
             );
         }
     }

@@ -164,10 +164,10 @@ impl Section {
 /// All keys in plain text, for `--help`.
 pub(crate) fn schema() -> String {
     let mut text = String::from(
-        "Scene files (TOML). All keys are optional but those that are required. Any [[hold]], [[cut]],\n\
-         [[strength]] or [[collider]] replace all of that kind that the base has, and any [tear] lets\n\
-         the scene tear, also base = \"flag\", but for never = true. Vertices count from 1 as in OBJ,\n\
-         without the last ones that lines `#~ fan` of a torn file name.",
+        "Scene files (TOML). Keys are optional unless marked as required. Any [[hold]], [[cut]],\n\
+         [[strength]] or [[collider]] replaces all entries of its kind in the base. A [tear] section\n\
+         enables tearing, even with base = \"flag\", unless it says never = true. Vertices count from 1,\n\
+         as in OBJ, without duplicates (named in comments `#~ fan` of a torn file).",
     );
     for section in Section::all() {
         let many = if section.is_list() {

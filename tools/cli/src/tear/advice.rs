@@ -35,7 +35,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
     let (message, help) = match warning {
         Warning::Size { size_m } => (
             format!(
-                "the mesh is {} m across, and the fabric is one for garments and flags",
+                "the mesh is {} m across, and the fabric suits garments and flags",
                 short(size_m)
             ),
             "units are metres: scale the mesh, or set [fabric] in a scene file".to_owned(),
@@ -44,7 +44,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             let at = frequency.ends.map(|ends| {
                 let [a, b] = ends.map(number);
                 let omega = frequency.omega_rad_per_s;
-                format!(": the edge {a}-{b} may swing at {omega:.1e} rad/s, as it is stiff and its ends are light")
+                format!(": the edge {a}-{b} may swing at {omega:.1e} rad/s, because it is stiff and its ends are light")
             });
             (
                 format!(
@@ -70,8 +70,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
         }
         Warning::Soft(softness) => (
             format!(
-                "xpbd with a step of {step} s leaves the cloth too soft: what hangs is stretched {} % \
-                 farther than its fabric would be, and some edges far more",
+                "xpbd with a step of {step} s leaves the cloth too soft: hanging cloth stretches {} % too \
+                 far, and some edges far more",
                 short((softness.extra * 100.0).round()),
             ),
             format!(
@@ -91,8 +91,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             };
             (
                 format!(
-                    "a step of {step} s with {} is {} times too long for a mesh so fine: what merely hangs \
-                     is stretched{and}",
+                    "a step of {step} s with {} is {} times too long for so fine a mesh: hanging cloth \
+                     stretches too far{and}",
                     count(sweeps, "sweep", "sweeps"),
                     short((run.step_s() / wanted_s * 10.0).round() / 10.0),
                 ),
@@ -101,8 +101,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
         }
         Warning::Rigid => (
             format!(
-                "pbd treats edges as rigid: how far they stretch depends on the step and the number of \
-                 sweeps, and not on the {} N/m of the fabric",
+                "pbd treats edges as rigid: their stretch depends on the step and the number of sweeps, not \
+                 on the {} N/m of the fabric",
                 short(scene.fabric.stretch_n_per_m),
             ),
             "--solver verlet, or xpbd, whose edges are as stiff as the fabric's at short steps"
@@ -128,8 +128,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             longest_m,
         } => (
             format!(
-                "collider {} is a ball {} m across, and edges are up to {} m long: only vertices are \
-                 pushed out, and it may pass between them",
+                "collider {} is a ball {} m across, and edges are up to {} m long: only vertices collide, \
+                 so the ball may pass between them",
                 collider + 1,
                 short(2.0 * radius_m),
                 two_digits(longest_m),
@@ -151,8 +151,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             };
             (
                 format!(
-                    "in {} of {} what is held was too far apart for the limiter, and edges stayed up to \
-                     {} times as long as at rest, above its limit of {limit}",
+                    "in {} of {}, the holds were too far apart for the limiter: edges stayed up to {} \
+                     times their rest length, above its limit of {limit}",
                     stats.steps_infeasible,
                     of_steps(run),
                     short(limit + stats.excess_max),
@@ -166,8 +166,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             farthest_m,
         } => (
             format!(
-                "a vertex moved {} m in a step, and collider {} is a ball of radius {} m: it may have been \
-                 passed without a touch",
+                "a vertex moved {} m in a step, and collider {} is a ball of radius {} m: the vertex may \
+                 have passed through it",
                 two_digits(farthest_m),
                 collider + 1,
                 short(radius_m),
@@ -210,8 +210,8 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             };
             (
                 format!(
-                    "{} damped motion as much as a drag of {rate} /s would, {beside}: what swings comes to \
-                     rest too soon",
+                    "{} damped motion as much as a drag of {rate} /s would, {beside}: swinging cloth comes \
+                     to rest too soon",
                     method_name(&scene.solver)
                 ),
                 format!("--dt {half}, {order}or --solver verlet"),
@@ -262,7 +262,7 @@ pub(super) fn times(run: &Run, args: &TearArgs) -> Vec<Fault> {
     let has_frames = args.frames.is_some() || args.cache.is_some();
     if has_frames && !args.files.dry_run && step_s * RATE_PER_S > 1.0 {
         let message = format!(
-            "steps of {step} s make {} frames a second, not {RATE_PER_S}: a film of them runs too fast",
+            "steps of {step} s make {} frames per second, not {RATE_PER_S}: they play too fast",
             short(1.0 / step_s),
         );
         let help = format!("--dt {}", two_digits(1.0 / RATE_PER_S));

@@ -124,7 +124,7 @@ pub(super) fn warnings(check: &report::StepCheck) -> Vec<Fault> {
     let half_s = check.ensembles.last().map_or(0.0, |half| half.step_s);
     if !names.is_empty() {
         let message = format!(
-            "at half the step it is another tear, beyond what chance does ({}): the step decides",
+            "the result depends on the time step: at half the step, these differ by more than chance: {}",
             names.join(", ")
         );
         let help = format!("--dt {} --check-step", two_digits(half_s));

@@ -93,7 +93,7 @@ impl Chart for Guide {
             title: title(&sections),
             about: format!(
                 "CPU seconds per simulated second on meshes of {cells} cells a side (thin lines: {}), against the \
-                 error of what the scene is about. Down and to the left is better.",
+                 error of the scene's main results. Down and to the left is better.",
                 cells / 2
             ),
             columns: 2,

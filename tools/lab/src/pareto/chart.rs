@@ -30,7 +30,7 @@ impl Chart for Pareto {
         let by_time = rows.iter().any(|row| row.cpu_median_s.is_some());
         let unit = match by_time {
             true => "CPU time, s",
-            false => "visits of edges",
+            false => "edge visits",
         };
         let groups = groups(rows, by_time);
         let is_there = |family: &Family| rows.iter().any(|row| row.family == Some(*family));
@@ -52,7 +52,7 @@ impl Chart for Pareto {
     }
 
     fn summary(&self, rows: &[Row]) -> String {
-        let mut text = String::from("the cheapest run for each tolerance, by visits of edges\n");
+        let mut text = String::from("the cheapest run for each tolerance, by edge visits\n");
         for case in cases(rows) {
             text += &format!("{} {}\n", case[0].scene, about(&case[0]));
             for group in groups(case, false) {
