@@ -31,5 +31,6 @@ mod step;
 mod tear;
 mod through;
 mod transcripts;
+mod traps;
 mod units;
 mod words;

@@ -16,8 +16,8 @@ pub(crate) enum Obstacle {
     Touch,
     /// Its crossings are all within the snap of vertices; without a snap it splits some.
     Snap,
-    /// The plane crosses this many faces of the mesh, but none between the rays.
-    Elsewhere { faces: usize },
+    /// Beyond the rays, the plane crosses this many faces and splits this many vertices.
+    Elsewhere { faces: usize, splits: usize },
     /// None that is known: what the report says is all.
     Unknown,
 }
@@ -53,7 +53,10 @@ pub(super) fn obstacle(
         // Copies take memory, and most cuts that miss do so by far.
         let is_met = !through && mesh.faces().any(|f| slit.meets(f));
         let elsewhere = is_met.then(elsewhere).flatten();
-        elsewhere.map_or(Obstacle::Unknown, |faces| Obstacle::Elsewhere { faces })
+        elsewhere.map_or(Obstacle::Unknown, |[faces, splits]| Obstacle::Elsewhere {
+            faces,
+            splits,
+        })
     } else if is_exact
         && snap > 0.0
         && tried(&scissor.clone().snap(0.0), method, mesh, positions).is_some()
@@ -69,7 +72,11 @@ pub(super) fn advice(obstacle: Obstacle, mesh: &Mesh, positions: &Positions) -> 
     let elsewhere = match obstacle {
         Obstacle::Seam | Obstacle::Touch | Obstacle::Snap => return None,
         Obstacle::Unknown => String::new(),
-        Obstacle::Elsewhere { faces } => {
+        Obstacle::Elsewhere { faces: 0, splits } => {
+            let vertices = count(splits, "vertex", "vertices");
+            format!("; the plane runs along edges elsewhere: --through splits {vertices} there")
+        }
+        Obstacle::Elsewhere { faces, .. } => {
             let faces = count(faces, "face", "faces");
             format!("; the plane crosses {faces} elsewhere: --through cuts there")
         }
@@ -84,19 +91,19 @@ pub(super) fn advice(obstacle: Obstacle, mesh: &Mesh, positions: &Positions) -> 
 /// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses words.
 const ROUNDING: f64 = 1e-6;
 
-/// How many faces a cut would cross that split something; `None` if it splits nothing either.
+/// The faces crossed and the vertices split by another cut; `None` if it splits nothing either.
 fn tried(
     scissor: &Scissor,
     method: CutMethod,
     mesh: &Mesh,
     positions: &Positions,
-) -> Option<usize> {
+) -> Option<[usize; 2]> {
     // A scissor that goes on from a cut knows the place in the log.
     let mut edits = Edits::starting_at(positions.seen());
     let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
     let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
     let (_, done) = made.ok()?;
-    (done.splits > 0).then_some(done.faces_crossed)
+    (done.splits > 0).then_some([done.faces_crossed, done.splits])
 }
 
 /// Where the cut was to go.

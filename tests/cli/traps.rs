@@ -1,0 +1,39 @@
+//! What a first hour trips over: advice, refusals that say why, and one number for one thing.
+
+use crate::harness::{Folder, seen};
+
+/// Runs a command, which ends with this status, and gives what is said.
+fn said(folder: &Folder, line: &str, exit: i32) -> String {
+    let output = folder.run(line);
+    let said = seen(&output);
+    assert_eq!(output.status.code(), Some(exit), "{line}\n{said}");
+    said
+}
+
+/// The edges of the sheet lie on the plane x = 0, so that a cut there crosses no face.
+#[test]
+fn regression_advice_to_cut_through_counts_splits_where_edges_lie_on_the_plane() {
+    let folder = Folder::new();
+    let mut mesh = String::new();
+    for y in 0..4 {
+        mesh += &format!("v -1 {y} 0\nv 0 {y} 0\nv 1 {y} 0\n");
+    }
+    for y in 0..3 {
+        for x in 1..3 {
+            let [a, b] = [3 * y + x, 3 * y + x + 3];
+            mesh += &format!("f {a} {} {}\nf {a} {} {b}\n", a + 1, b + 1, b + 1);
+        }
+    }
+    folder.write("strip.obj", mesh);
+    let line = "tearmesh cut strip.obj --rays 0,9,5:0,0,-1 0,5,5:0,0,-1 -o x.obj";
+    let advice = said(&folder, line, 1);
+    let through = said(&folder, &format!("{line} --through"), 0);
+    assert!(
+        through.contains("0 faces crossed, 4 vertices split"),
+        "{through}"
+    );
+    assert!(
+        advice.contains("along edges elsewhere: --through splits 4 vertices there"),
+        "{advice}"
+    );
+}
