@@ -37,3 +37,12 @@ fn regression_advice_to_cut_through_counts_splits_where_edges_lie_on_the_plane()
         "{advice}"
     );
 }
+
+#[test]
+fn layers_of_a_plane_are_refused_with_the_reason() {
+    let folder = Folder::new();
+    let line = "tearmesh cut sheet.obj --plane 0.3,0,0:1,0,0 -o x.obj --layers";
+    let why = said(&folder, &format!("{line} first"), 2);
+    assert!(why.contains("no ray hits a layer first"), "{why}");
+    said(&folder, &format!("{line} all"), 0);
+}

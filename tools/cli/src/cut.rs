@@ -264,6 +264,12 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
             );
         }
         files::keep(&args.files, Some(path), what)?;
+    if args.layers == Layers::First && !args.plane.is_empty() {
+        return usage(
+            "`--layers first` is for rays: with a plane, no ray hits a layer first",
+            "cut with --rays or --camera, or leave out --layers",
+        );
+    }
     }
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(

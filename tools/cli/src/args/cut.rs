@@ -56,8 +56,7 @@ pub(crate) struct CutArgs {
         value_enum,
         value_name = "all|first",
         hide_possible_values = true,
-        default_value_t,
-        conflicts_with = "plane"
+        default_value_t
     )]
     pub(crate) layers: Layers,
 
