@@ -247,7 +247,7 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
 }
 
 #[test]
-fn a_piece_replaces_no_other_file_and_those_of_an_earlier_run_are_warned_of() {
+fn a_piece_replaces_no_other_file() {
     let folder = Folder::new();
     fs::create_dir(folder.path("p")).expect("a folder");
     let line = format!("tearmesh cut flag.obj {CROSS} --pieces");
@@ -278,13 +278,6 @@ fn a_piece_replaces_no_other_file_and_those_of_an_earlier_run_are_warned_of() {
         assert!(output.status.success(), "{}", seen(&output));
         assert_eq!(folder.path("new").is_dir(), is_there);
     }
-    let output = folder.run("tearmesh cut flag.obj --plane 0,0.1,0:0,1,0 --pieces new -o x.obj");
-    assert!(
-        seen(&output).contains("[W-PIECES-OLD]")
-            && seen(&output).contains("from piece_00002.obj on"),
-        "{}",
-        seen(&output)
-    );
     let output = folder.run("tearmesh cut flag.obj --plane 0,9,0:0,1,0 --pieces none -o x.obj");
     assert_eq!(output.status.code(), Some(1), "{}", seen(&output));
     assert!(!folder.path("none").exists(), "nothing was cut");

@@ -149,10 +149,9 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         files::write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
     }
     if let Some(pieces) = pieces {
-        let (written, left_over) = pieces.write(&torn, &mesh, &positions)?;
+        let written = pieces.write(&torn, &mesh, &positions)?;
         session.words.push(pieces::words(&written));
         session.report.pieces = Some(written);
-        session.faults.extend(left_over);
     }
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
@@ -264,12 +263,12 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
             );
         }
         files::keep(&args.files, Some(path), what)?;
+    }
     if args.layers == Layers::First && !args.plane.is_empty() {
         return usage(
             "`--layers first` is for rays: with a plane, no ray hits a layer first",
             "cut with --rays or --camera, or leave out --layers",
         );
-    }
     }
     if args.tips == Tips::Midpoint && args.method != Method::Partition {
         let message = format!(

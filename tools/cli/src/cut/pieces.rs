@@ -12,7 +12,7 @@ use crate::args::CutArgs;
 use crate::exit::Stop;
 use crate::files::unwritable;
 use crate::measure::area;
-use crate::say::{Fault, count};
+use crate::say::count;
 use crate::{files, output, report};
 
 /// Where pieces go.
@@ -64,6 +64,15 @@ impl Pieces {
             (args.rays_file.as_deref(), "the rays"),
         ];
         files::keep_from(&folder, ("a piece", "pieces"), is_ours, &kept)?;
+        // Those of two runs in one folder could not be told apart.
+        let mut entries = fs::read_dir(&folder).into_iter().flatten().flatten();
+        if entries.any(|entry| is_piece(&entry.file_name().to_string_lossy())) {
+            let message = format!("`{}` already has pieces", folder.display());
+            return Err(Stop::usage(
+                message,
+                "name another folder, or remove them first",
+            ));
+        }
         Ok(Some(Pieces { folder }))
     }
 
@@ -74,7 +83,7 @@ impl Pieces {
         torn: &TornDocument<'_>,
         mesh: &Mesh,
         positions: &Positions,
-    ) -> Result<(report::Pieces, Option<Fault>), Stop> {
+    ) -> Result<report::Pieces, Stop> {
         let folder = &self.folder;
         if !folder.is_dir() {
             fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
@@ -114,17 +123,7 @@ impl Pieces {
             .map_err(|error| unwritable(&path, &error))?;
         let count = pieces.len();
         let folder = self.folder.display().to_string();
-        Ok((report::Pieces { folder, count }, self.left_over(count)))
-    }
-
-    /// Says that an earlier run left more pieces than this one made.
-    fn left_over(&self, count: usize) -> Option<Fault> {
-        let next = name(count);
-        self.folder.join(&next).exists().then(|| {
-            let folder = self.folder.display();
-            let message = format!("`{folder}` has pieces of an earlier run, from {next} on");
-            Fault::warning("W-PIECES-OLD", message).help("write pieces into a folder of their own")
-        })
+        Ok(report::Pieces { folder, count })
     }
 }
 
