@@ -41,6 +41,18 @@ fn regression_advice_to_cut_through_counts_splits_where_edges_lie_on_the_plane()
 }
 
 #[test]
+fn a_dry_run_writes_the_forces_and_no_mesh() {
+    let folder = Folder::new();
+    let line = "tearmesh tear sheet.obj --scene hang --seconds 0.1 --forces f.csv";
+    let words = said(&folder, &format!("{line} --dry-run -o x.obj"), 0);
+    assert!(words.contains("dry run, no mesh written"), "{words}");
+    assert!(!folder.path("x.obj").exists());
+    let dry = folder.read("f.csv");
+    said(&folder, &format!("{line} -o x.obj"), 0);
+    assert_eq!(dry, folder.read("f.csv"));
+}
+
+#[test]
 fn layers_of_a_plane_are_refused_with_the_reason() {
     let folder = Folder::new();
     let line = "tearmesh cut sheet.obj --plane 0.3,0,0:1,0,0 -o x.obj --layers";

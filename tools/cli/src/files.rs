@@ -22,7 +22,7 @@ impl Destination {
     pub(crate) fn of(args: &FileArgs, output_is_terminal: bool) -> Destination {
         match &args.output {
             _ if args.dry_run => Destination::Nowhere {
-                why: "dry run, nothing written",
+                why: "dry run, no mesh written",
             },
             Some(path) if path == Path::new("-") => Destination::Output,
             Some(path) => Destination::File(path.clone()),

@@ -244,12 +244,8 @@ impl Play<'_> {
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
         session.show_mesh(run.mesh(), &positions, self.frame.up.vector())?;
-        if let Some(path) = self
-            .args
-            .forces
-            .as_ref()
-            .filter(|_| !self.args.files.dry_run)
-        {
+        // A measurement, like the report: a dry run is often made for it.
+        if let Some(path) = &self.args.forces {
             files::write_beside(path, |out| summary::write_forces(&run, &tear_log, out))?;
         }
         let mesh = run.mesh();
