@@ -41,6 +41,39 @@ fn regression_advice_to_cut_through_counts_splits_where_edges_lie_on_the_plane()
 }
 
 #[test]
+fn a_picture_is_png_and_a_page_is_html() {
+    let folder = Folder::new();
+    let cut = "tearmesh cut sheet.obj --plane 0.3,0,0:1,0,0 -o x.obj";
+    for (line, name, format) in [
+        ("tearmesh render sheet.obj -o a.jpg", "a.jpg", "PNG"),
+        ("tearmesh render sheet.obj -o a.obj", "a.obj", "PNG"),
+        (&format!("{cut} --picture a.svg"), "a.svg", "PNG"),
+        ("tearmesh view sheet.obj -o x.txt", "x.txt", "HTML"),
+        ("tearmesh view sheet.obj -o x.obj", "x.obj", "HTML"),
+        (&format!("{cut} --view x.pdf"), "x.pdf", "HTML"),
+        ("tearmesh check sheet.obj --view x.txt", "x.txt", "HTML"),
+        (
+            "tearmesh cut sheet.obj --plane 0.3,0,0:1,0,0 -o x.stl",
+            "x.stl",
+            "OBJ",
+        ),
+    ] {
+        let before = folder.names();
+        let why = said(&folder, line, 2);
+        let expected = format!("cannot write `{name}`: only {format} output is supported");
+        assert!(why.contains(&expected), "{line}\n{why}");
+        assert_eq!(folder.names(), before, "{line}");
+    }
+    for line in [
+        "render sheet.obj -o A.PNG",
+        "view sheet.obj -o page.htm",
+        "view sheet.obj -o page",
+    ] {
+        said(&folder, &format!("tearmesh {line}"), 0);
+    }
+}
+
+#[test]
 fn a_dry_run_writes_the_forces_and_no_mesh() {
     let folder = Folder::new();
     let line = "tearmesh tear sheet.obj --scene hang --seconds 0.1 --forces f.csv";

@@ -58,11 +58,11 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         let message = "standard input cannot be replaced".to_owned();
         return usage(message, "name the file to read, or leave out --in-place");
     }
-    if let Some((path, (what, help))) = output.and_then(|path| Some((path, foreign(path)?))) {
-        let name = path.display();
-        let message = format!("`{name}` is named like {what}, and the mesh is written as OBJ");
-        return usage(message, help);
+    if let Some((path, help)) = output.and_then(|path| Some((path, foreign(path)?))) {
+        return Err(only("OBJ", path, help));
     }
+    args.picture.as_deref().map_or(Ok(()), check_picture)?;
+    args.view.as_deref().map_or(Ok(()), check_page)?;
     if args.format == Format::Json && output.is_some_and(is_stream) {
         let message = "`-o -` and `--format json` both use standard output".to_owned();
         return usage(
@@ -100,32 +100,58 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
     Ok(())
 }
 
-/// The format that a file's name promises and that is not what `-o` writes, and what to do instead.
-fn foreign(path: &Path) -> Option<(&'static str, &'static str)> {
-    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-    let of = |(endings, ..): &&(&[&str], _, _)| endings.contains(&&*ending);
-    FOREIGN.iter().find(of).map(|&(_, what, help)| (what, help))
+/// That a file is named like one of another format than the only one that is written.
+fn only(format: &str, path: &Path, help: &str) -> Stop {
+    let name = path.display();
+    let message = format!("cannot write `{name}`: only {format} output is supported");
+    Stop::usage(message, help)
 }
 
-const FOREIGN: [(&[&str], &str, &str); 5] = [
+/// Refuses a picture that is named like a file of another format.
+pub(crate) fn check_picture(path: &Path) -> Result<(), Stop> {
+    match has_ending(path, &["png"]) {
+        true => Ok(()),
+        false => Err(only("PNG", path, "name it x.png")),
+    }
+}
+
+/// Refuses a page that is named like a file of another format.
+pub(crate) fn check_page(path: &Path) -> Result<(), Stop> {
+    match has_ending(path, &["html", "htm"]) {
+        true => Ok(()),
+        false => Err(only("HTML", path, "name it x.html")),
+    }
+}
+
+/// Whether a name has one of these endings, or none, as the names of streams and devices.
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    let is_one =
+        |ending: &std::ffi::OsStr| endings.iter().any(|one| ending.eq_ignore_ascii_case(one));
+    path.extension().is_none_or(is_one)
+}
+
+/// What to do instead, if a file's name promises a format that is not OBJ.
+fn foreign(path: &Path) -> Option<&'static str> {
+    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+    let of = |(endings, _): &&(&[&str], _)| endings.contains(&&*ending);
+    FOREIGN.iter().find(of).map(|&(_, help)| help)
+}
+
+const FOREIGN: [(&[&str], &str); 5] = [
     (
         &["png"],
-        "a picture",
         "name it x.obj, and draw a picture with --picture F.png",
     ),
     (
         &["htm", "html"],
-        "a page",
         "name it x.obj, and show it on a page with --view F.html",
     ),
     (
         &["pc2"],
-        "a point cache",
         "name it x.obj, and write the cache of `tear` with --cache F.pc2",
     ),
     (
         &["json"],
-        "JSON",
         "name it x.obj, and write the report with --report F.json",
     ),
     (
@@ -134,7 +160,6 @@ const FOREIGN: [(&[&str], &str, &str); 5] = [
             "mdd", "mtl", "off", "ply", "step", "stl", "stp", "svg", "usd", "usda", "usdc", "usdz",
             "vtk", "vtp", "vtu", "wrl", "x3d",
         ],
-        "a file of another format",
         "name it x.obj, and convert that, as with `assimp export x.obj x.ply`",
     ),
 ];

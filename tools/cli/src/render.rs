@@ -32,6 +32,7 @@ fn work(
 ) -> Result<String, Stop> {
     // What was typed is refused before a large file is read.
     let to_file = args.output != Path::new("-");
+    files::check_picture(&args.output)?;
     if files::is_same(&args.input, &args.output) {
         return Err(files::replaced(&args.output, "the input"));
     }

@@ -98,14 +98,7 @@ fn place(args: &ViewArgs, inputs: &[PathBuf]) -> Result<Option<PathBuf>, Stop> {
         Some(path) => path.clone(),
         None => named_like(&args.inputs[0])?,
     };
-    let ending = path.extension().unwrap_or_default();
-    if ending.eq_ignore_ascii_case("obj") {
-        let message = format!(
-            "`{}` is named like a mesh, and would be a page",
-            path.display()
-        );
-        return Err(Stop::usage(message, "name it x.html"));
-    }
+    files::check_page(&path)?;
     if inputs.iter().any(|input| files::is_same(input, &path)) {
         return Err(files::replaced(&path, "an input"));
     }

@@ -6,7 +6,7 @@ use tearmesh::{Mesh, Positions, Vector};
 use tearmesh_view::Page;
 
 use crate::exit::{Exit, Stop};
-use crate::files::{is_same, unwritable};
+use crate::files::{check_page, is_same, unwritable};
 use crate::say::Fault;
 use crate::{output, page};
 
@@ -28,6 +28,7 @@ impl Shown {
             let help = "name a file that nothing else is read from or written to";
             return Err(Stop::usage(message, help));
         }
+        check_page(path)?;
         output::check(path).map_err(|error| unwritable(path, &error))?;
         Ok(Shown {
             page: Page::new("checked", Vector::y()),
