@@ -231,7 +231,7 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
     ] {
         for method in ["uniform", "alternating", "partition", "exact"] {
             let name = format!("{file}_{method}");
-            let line = format!("tearmesh cut {file}.obj {rays} --method {method}");
+            let line = format!("tearmesh cut {file}.obj {rays} --method {method} -v");
             let output = folder.run(&format!("{line} --pieces {name} -o {name}.obj"));
             assert!(output.status.success(), "{}", seen(&output));
             fans += usize::from(seen(&output).contains("[W-OBJ-FANS]"));

@@ -106,3 +106,16 @@ fn pieces_go_into_no_folder_that_has_pieces() {
     assert_eq!(folder.read("p/piece_00000.obj"), "of an earlier run\n");
     assert!(!folder.path("x.obj").exists());
 }
+
+/// A note that nothing has to be done about is for those who ask, and for the report.
+#[test]
+fn duplicates_of_vertices_are_noted_for_those_who_ask() {
+    let folder = Folder::new();
+    let line = "tearmesh tear sheet.obj --scene rip --seconds 0.8 -o x.obj --report r.json";
+    let quiet = said(&folder, line, 0);
+    let report = folder.read("r.json");
+    let loud = said(&folder, &format!("{line} -v"), 0);
+    assert!(loud.contains("note[W-OBJ-FANS]"), "{loud}");
+    assert!(!quiet.contains("W-OBJ-FANS"), "{quiet}");
+    assert!(report.contains("W-OBJ-FANS"), "{report}");
+}

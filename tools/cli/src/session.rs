@@ -249,7 +249,10 @@ impl<'a> Session<'a> {
 
     fn show(&mut self, streams: &mut Streams<'_>) {
         let files = self.files;
-        streams.show(&self.faults[self.shown..], files.color, files.verbose);
+        let is_shown = |fault: &&Fault| files.verbose || fault.code != "W-OBJ-FANS";
+        let new = self.faults[self.shown..].iter().filter(is_shown);
+        let new: Vec<Fault> = new.cloned().collect();
+        streams.show(&new, files.color, files.verbose);
         self.shown = self.faults.len();
     }
 
