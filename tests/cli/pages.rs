@@ -295,3 +295,21 @@ fn a_page_replaces_nothing_else_and_is_not_begun_where_it_cannot_be_written() {
     let output = folder.run("tearmesh check bad.obj --view none.html");
     assert!(seen(&output).contains("E-VIEW-EMPTY"), "{}", seen(&output));
 }
+
+/// The page of a simulation and its summary speak of one length: that at rest.
+#[test]
+fn a_tear_has_one_length() {
+    let folder = Folder::new();
+    let scene = "tearmesh tear sheet.obj --scene rip --seconds 0.8 --report r.json";
+    let words = done(&folder, &format!("{scene} -o x.obj --view x.html"));
+    let report: Value = serde_json::from_str(&folder.read("r.json")).expect("JSON");
+    let rest_m = report["tear_length_m"].as_f64().expect("a length");
+    assert!(rest_m > 0.1, "{rest_m}");
+    assert!(words.contains(" m torn (at rest), "), "{words}");
+    let page = text(&folder.read("x.html"));
+    let last = page["moments"].as_array().and_then(|all| all.last());
+    let last = last.expect("a moment");
+    let shown = last["torn"].as_f64().expect("a length");
+    assert!((shown - rest_m).abs() < 1e-9 * rest_m, "{shown} {rest_m}");
+    assert_eq!(last["torn_at_rest"], true);
+}

@@ -18,13 +18,13 @@ const NOTHING_DIGESTED: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0xfb86_62fc_02d7_de8d),
-    ("tear.txt", 0x006f_db3e_63e1_8649),
+    ("README.md", 0xc186_6bd1_e8e7_3bd5),
+    ("tear.txt", 0x0e02_39fe_a1ec_ed96),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x0118_33d5_7ae7_9d19;
+const DIGEST: u64 = 0x28fa_ea7c_8903_e50b;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

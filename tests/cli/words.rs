@@ -120,7 +120,7 @@ fn cuts_on_a_lattice_say_what_is_so() {
                 }
                 twice += 1;
                 let is_said = said.contains("it is already cut there");
-                let is_advised = said.contains("--snap 0 makes it");
+                let is_advised = said.contains("use --snap 0");
                 assert!(is_said || is_advised, "{cases}: {cut}\n{said}");
                 let mut again = format!("{rays}|--snap={snap}\n").into_bytes();
                 again.extend(torn);

@@ -365,6 +365,7 @@ fn no_text_breaks_out_of_a_page() {
         label: bad.to_owned(),
         time_s: Some(0.0),
         cut: Some(cut),
+        torn_at_rest_m: None,
     };
     page.add(&mesh, &positions, moment).expect("it has a face");
     page.tell(bad, bad);

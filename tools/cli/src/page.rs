@@ -59,6 +59,7 @@ pub(crate) fn moment(name: Option<&str>) -> Moment {
         label: title(name),
         time_s: None,
         cut: name.map(|name| cut_line(name, "")),
+        torn_at_rest_m: None,
     }
 }
 

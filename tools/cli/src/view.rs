@@ -55,6 +55,7 @@ fn work(
             label: page::title(Some(&input.name)),
             time_s: None,
             cut: Some(page::cut_line(&input.name, options)),
+            torn_at_rest_m: None,
         };
         page::add(&mut shown, &mesh, &positions, moment)?;
         vertices.note(mesh.vertex_count());

@@ -71,6 +71,9 @@ pub struct Moment {
     pub time_s: Option<f64>,
     /// The parts of the command that cuts this mesh; `None` if the mesh is not in a file.
     pub cut: Option<CutLine>,
+    /// The length at rest of all torn edges, each counted once, in metres. If it is `None`, the page shows
+    /// their length in this mesh.
+    pub torn_at_rest_m: Option<f64>,
 }
 
 /// The parts of the command `tearmesh cut` that a page suggests. The page shows them as given, so names
@@ -145,7 +148,7 @@ struct Shot {
     /// The index of its faces among all states.
     state: usize,
     points: Vec<Point>,
-    /// The lengths of all torn edges, each counted once.
+    /// The lengths of all torn edges, each counted once: at rest where that is known.
     torn: f64,
     loops: usize,
 }
@@ -232,11 +235,12 @@ impl Page {
         }
         let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
         let torn = torn.map(|h| length(place.at(mesh.target(h)) - place.at(mesh.origin(h))));
+        let at_rest = moment.torn_at_rest_m;
         self.shots.push(Shot {
             moment,
             state: self.states.len() - 1,
             points: mesh.vertices().map(|v| place.at(v)).collect(),
-            torn: torn.sum::<f64>() / 2.0,
+            torn: at_rest.unwrap_or(torn.sum::<f64>() / 2.0),
             loops: mesh.boundary_loops().len(),
         });
         Ok(())
@@ -320,7 +324,12 @@ impl Page {
 
     fn moments(&self) -> Vec<Value> {
         let told = |shot: &Shot| {
-            let Moment { label, time_s, cut } = &shot.moment;
+            let Moment {
+                label,
+                time_s,
+                cut,
+                torn_at_rest_m,
+            } = &shot.moment;
             json!({
                 "label": label,
                 "time": time_s,
@@ -328,6 +337,7 @@ impl Page {
                 "state": shot.state,
                 "vertices": shot.points.len(),
                 "torn": shot.torn,
+                "torn_at_rest": torn_at_rest_m.is_some(),
                 "loops": shot.loops,
             })
         };

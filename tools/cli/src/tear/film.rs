@@ -40,6 +40,7 @@ impl Film {
             label: String::new(),
             time_s: Some(run.elapsed_s()),
             cut: None,
+            torn_at_rest_m: Some(run.torn_length_m()),
         };
         page::add(&mut self.page, run.mesh(), &places(run)?, moment)?;
         self.stretch.push([run.elapsed_s(), largest_stretch(run)]);

@@ -19,7 +19,7 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
         status => format!(", {status} before {} s", short(tear.time_planned_s)),
     };
     format!(
-        "tear: {} s in {} ({}){ended}, {} split{cap}, {} m torn, {} -> {}, stretched up to {}",
+        "tear: {} s in {} ({}){ended}, {} split{cap}, {} m torn (at rest), {} -> {}, stretched up to {}",
         short(tear.time_simulated_s),
         count(tear.steps as usize, "step", "steps"),
         tear.solver,

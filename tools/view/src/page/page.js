@@ -102,7 +102,7 @@ async function open() {
     const rows = [
       ...(isPlayed && moment.label ? [["shown", moment.label]] : []),
       ["vertices", moment.vertices], ["faces", corners.length / 3], ["pieces", pieces[moment.state]],
-      ["boundary loops", moment.loops], ["torn", moment.torn ? `${short(moment.torn)} long` : "nothing"],
+      ["boundary loops", moment.loops], ["torn", moment.torn ? `${short(moment.torn)} long${moment.torn_at_rest ? " at rest" : ""}` : "nothing"],
       ["from", from(box.least)], ["to", from(box.most)],
       ...data.facts,
     ];
