@@ -68,7 +68,7 @@ fn what_is_no_plane_is_told() {
         ("--plane 1,2:0,0,1", "error[E-PLANE-SYNTAX]"),
         ("--plane 1,2,3:0,0,0", "error[E-PLANE-ZERO]"),
         ("--plane 0,0,0:1,0,0 --through", "cannot be used with"),
-        ("--plane 0,0,0:1,0,0 --layers first", "cannot be used with"),
+        ("--plane 0,0,0:1,0,0 --layers first", "is for rays"),
         (
             "--plane 0,0,0:1,0,0 --rays 0,0,1:0,0,1 1,0,1:0,0,1",
             "cannot be used with",

@@ -57,7 +57,7 @@ fn steps_longer_than_a_frame_are_warned_of() {
         assert_eq!(count(&folder, name), frames);
         let said = seen(&output);
         assert_eq!(said.contains("W-FRAMES-FEW"), is_warned, "{said}");
-        assert_eq!(said.contains("10 frames a second"), is_warned, "{said}");
+        assert_eq!(said.contains("10 frames per second"), is_warned, "{said}");
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct FileArgs {
     #[arg(long)]
     pub(crate) in_place: bool,
 
-    /// Do everything, but write only --report and --forces.
+    /// Do everything, but write no file except reports.
     #[arg(long)]
     pub(crate) dry_run: bool,
 
@@ -62,8 +62,9 @@ pub(crate) struct FileArgs {
     #[arg(short, long)]
     pub(crate) quiet: bool,
 
-    /// Show all diagnostics, not only three of each kind, and less important notes.
+    /// Show all diagnostics, also minor notes.
     ///
+    /// Without it, at most three diagnostics of each kind are shown.
     /// `tear` also prints the cost of the simulation, in element visits.
     #[arg(short, long)]
     pub(crate) verbose: bool,

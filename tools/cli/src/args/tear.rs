@@ -57,7 +57,7 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     pub(crate) threshold_newton: Option<f64>,
 
-    /// Read the strengths of vertices from a file of lines `vertex strength`.
+    /// Read strengths from a file of lines `vertex strength`.
     ///
     /// A vertex tears at this multiple of the threshold. Vertices count from 1, as in OBJ; the
     /// others have strength 1. `#` begins a comment. In a torn file, a duplicate of a vertex (named
@@ -84,7 +84,7 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
     pub(crate) up: Option<tearmesh_cloth::scene::Axis>,
 
-    /// Cut between two rays, at the time --cut-at; may be given repeatedly.
+    /// Cut between two rays at --cut-at; may be given repeatedly.
     ///
     /// Replaces the cuts of the scene.
     #[arg(long, value_name = "A B", requires = "cut_at")]
@@ -134,9 +134,9 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) frames_topology: Topology,
 
-    /// Write a point cache (PC2) for the mesh of -o, 30 samples per second.
+    /// Write a point cache (PC2) for the mesh of -o.
     ///
-    /// In Blender, import OUT, add the modifier Mesh Cache, and choose this file; set the scene to 30 frames
+    /// It has 30 samples per second. In Blender, import OUT, add the modifier Mesh Cache, and choose this file; set the scene to 30 frames
     /// per second. The faces are those of the last frame, as with --frames-topology final. Coordinates are as
     /// in OUT, so axes stay as imported.
     #[arg(long, value_name = "F.pc2")]
