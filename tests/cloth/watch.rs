@@ -258,6 +258,49 @@ impl Solver for Late {
     }
 }
 
+/// A method of the caller's, which changes something and gives up.
+struct Rash(fn(&mut System, f64));
+
+impl Solver for Rash {
+    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        (self.0)(system, dt_s);
+        Err(Failure::BlowUp)
+    }
+}
+
+#[test]
+fn whatever_a_step_that_gave_up_had_changed_is_as_it_was() {
+    let ways: [fn(&mut System, f64); 9] = [
+        |_, _| {},
+        |system, _| system.state_mut().0[7].x += 1.0,
+        |system, _| system.state_mut().1[7].x += 1.0,
+        |system, _| system.hold(7),
+        |system, _| system.release(0),
+        |system, _| system.grab(7, Path::new([(0.0, Point::origin())]).expect("a path")),
+        |system, dt_s| {
+            // Once beside where the step began, and once more.
+            Verlet::new().advance(system, dt_s).expect("a step");
+            Verlet::new().advance(system, dt_s).expect("a step");
+        },
+        |system, dt_s| Xpbd::default().advance(system, dt_s).expect("a step"),
+        |system, dt_s| Implicit::default().advance(system, dt_s).expect("a step"),
+    ];
+    for (number, way) in ways.into_iter().enumerate() {
+        let (_, mut cloth, _) = blown();
+        let system = cloth.system_mut();
+        for _ in 0..8 {
+            system.step(&mut Verlet::new(), 3e-4).expect("a step");
+        }
+        // As if the one who is led had been pushed.
+        system.state_mut().1[0].z = 0.25;
+        let state = |system: &System| (system.positions().to_vec(), system.velocities().to_vec());
+        let before = state(system);
+        let refused = system.step(&mut Rash(way), 3e-4);
+        refused.expect_err("a blow-up");
+        assert!(state(system) == before, "way {number}");
+    }
+}
+
 #[test]
 fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
     let mut refused: Vec<(Box<dyn Solver>, &str, f64)> = Vec::new();

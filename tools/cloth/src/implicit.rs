@@ -456,6 +456,7 @@ impl Solver for Implicit {
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
+        system.keep();
         system.scratch.is_fresh = false;
         // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first_bad(&system.positions, &system.velocities).is_none())?;

@@ -41,15 +41,35 @@ pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Opt
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
 /// divides them; then all fly for `dt_s` seconds.
 pub(crate) fn kick_and_drift(system: &mut System, kick_s: f64, dt_s: f64) {
-    let fade = 1.0 + kick_s * system.model.drag_per_s();
-    let accelerations = &system.scratch.accelerations;
-    let particles = system.positions.iter_mut().zip(&mut system.velocities);
-    let particles = particles.zip(accelerations);
-    for (((x, v), a), &w) in particles.zip(&system.model.inverse_masses) {
-        if w > 0.0 {
-            *v = (*v + a * kick_s) / fade;
+    let System {
+        positions,
+        velocities,
+        model,
+        scratch,
+        ..
+    } = system;
+    let fade = 1.0 + kick_s * model.drag_per_s();
+    let moved = |x: Point, v: Vector, a: Vector, w: f64| {
+        let v = if w > 0.0 { (v + a * kick_s) / fade } else { v };
+        (x + v * dt_s, v)
+    };
+    let pulled = scratch.accelerations.iter().zip(&model.inverse_masses);
+    if !std::mem::take(&mut scratch.is_beginning) {
+        let particles = positions.iter_mut().zip(velocities);
+        for ((x, v), (&a, &w)) in particles.zip(pulled) {
+            (*x, *v) = moved(*x, *v, a, w);
         }
-        *x += *v * dt_s;
+        return;
+    }
+    // Where the step began stays where it is: to copy it would be a tenth of a step.
+    scratch.positions.resize(positions.len(), Point::origin());
+    scratch.velocities.resize(positions.len(), Vector::zeros());
+    std::mem::swap(positions, &mut scratch.positions);
+    std::mem::swap(velocities, &mut scratch.velocities);
+    let began = scratch.positions.iter().zip(&scratch.velocities);
+    let particles = positions.iter_mut().zip(velocities);
+    for (((x, v), (&began, &sped)), (&a, &w)) in particles.zip(began).zip(pulled) {
+        (*x, *v) = moved(began, sped, a, w);
     }
 }
 
@@ -77,6 +97,7 @@ pub(crate) fn force_scale(model: &Model, dt_s: f64) -> f64 {
 /// Moves all particles as if there were no constraint, and keeps where they were, for a method that
 /// projects. Velocities stay those of before: [`finish`] takes new ones from the positions.
 pub(crate) fn predict(system: &mut System, dt_s: f64) {
+    system.keep();
     let System {
         positions,
         velocities,
@@ -142,6 +163,7 @@ pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
 /// Pushes the particles out of the colliders. Where someone keeps a balance of energy, what that
 /// makes is summed up, which takes the valence of each particle in contact.
 pub(crate) fn push_out(system: &mut System) {
+    system.keep();
     let mut made_j = 0.0;
     for i in 0..system.model.loads.colliders.len() {
         system.counters.collider_passes += 1;

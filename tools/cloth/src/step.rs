@@ -2,7 +2,9 @@
 //!
 //! [`System::step`] is the only way to advance a system. It checks the stability limit of an
 //! explicit method before the step and looks for blow-up after it. If anything fails, the last good
-//! state is kept.
+//! state is kept. Nothing is copied for that as a step begins: explicit methods write where particles
+//! go beside where they were ([`kick_and_drift`](motion::kick_and_drift)), and for all others, whoever
+//! changes the state first copies it ([`System::keep`]).
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
@@ -51,8 +53,7 @@ impl System {
         check(self, solver, dt_s)?;
         let admitted = admit(self, solver, dt_s);
         let report = admitted.map_err(|error| unless_broken(self, error))?;
-        self.scratch.positions.clone_from(&self.positions);
-        self.scratch.velocities.clone_from(&self.velocities);
+        begin(self);
         let (began_s, contact_j) = (self.elapsed_s, self.contact_j);
         let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
@@ -68,6 +69,17 @@ impl System {
         }
         self.elapsed_s = began_s + dt_s;
         Ok(report)
+    }
+}
+
+/// Notes that a step begins. Positions and velocities are kept once the method changes them; those who
+/// are led are given new velocities before that.
+fn begin(system: &mut System) {
+    system.scratch.is_beginning = true;
+    system.scratch.led.clear();
+    for (particle, _) in &system.model.grabbed {
+        let velocity = system.velocities[*particle as usize];
+        system.scratch.led.push((*particle, velocity));
     }
 }
 
@@ -138,7 +150,11 @@ fn unless_broken(system: &System, error: StepError) -> StepError {
 /// Puts the system back to the state in which the step began, and says why the step was not taken.
 fn go_back(system: &mut System, failure: Failure) -> StepError {
     let elapsed_s = system.elapsed_s;
-    let scratch = &system.scratch;
+    system.keep();
+    let scratch = &mut system.scratch;
+    for &(particle, velocity) in &scratch.led {
+        scratch.velocities[particle as usize] = velocity;
+    }
     let began = (&scratch.positions[..], &scratch.velocities[..]);
     let now = (&system.positions[..], &system.velocities[..]);
     let error = match failure {

@@ -74,9 +74,13 @@ pub(crate) struct Scratch {
     pub(crate) guarded_s: f64,
     /// The part of a step's limit that wind takes in a second, as a step found it.
     pub(crate) air_per_s: f64,
-    /// Where the step began: the last good state.
+    /// Whether a step began, and positions and velocities are still those of then.
+    pub(crate) is_beginning: bool,
+    /// Where the step began, once it is no longer there: the last good state.
     pub(crate) positions: Vec<Point>,
     pub(crate) velocities: Vec<Vector>,
+    /// Those who were led where the step began, and their velocities then.
+    pub(crate) led: Vec<(u32, Vector)>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
     /// The velocities that wind blows at, where they are predicted.
@@ -402,6 +406,7 @@ impl System {
     ///
     /// If there is no such particle.
     pub fn hold(&mut self, particle: usize) {
+        self.keep();
         self.model.held[particle] = true;
         self.velocities[particle] = Vector::zeros();
         self.weigh(particle);
@@ -430,6 +435,7 @@ impl System {
         let from = path.at(self.elapsed_s);
         self.positions[particle] = from;
         self.model.grabbed.push((particle as u32, path));
+        room_for(&mut self.scratch.led, self.model.grabbed.capacity());
     }
 
     /// Brings the inverse mass up to date with the mass and with who is held.
@@ -483,6 +489,7 @@ impl System {
     /// ([`force_n`](crate::force::force_n), [`System::unlimited_ratio`]) are discarded.
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
+        self.keep();
         self.scratch.is_fresh = false;
         self.model.recorded = Recorded::Nothing;
         self.changes += 1;
@@ -602,6 +609,16 @@ impl System {
             strain * strain
         });
         (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
+    }
+
+    /// Keeps the state in which a step began, if it is still there. Who changes positions or velocities
+    /// calls this first.
+    pub(crate) fn keep(&mut self) {
+        let scratch = &mut self.scratch;
+        if std::mem::take(&mut scratch.is_beginning) {
+            scratch.positions.clone_from(&self.positions);
+            scratch.velocities.clone_from(&self.velocities);
+        }
     }
 
     /// Gives the grabbed particles the velocity that leads them along their paths.
