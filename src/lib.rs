@@ -142,8 +142,8 @@ pub use nalgebra;
 pub use pick::RayHit;
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{
-    Cut, CutEnd, CutError, CutLayers, CutMethod, CutPieces, CutReport, CutTips, LayerHit, Scissor,
-    ScissorError, SeamLine,
+    Cut, CutEnd, CutError, CutLayers, CutMethod, CutNeck, CutPieces, CutReport, CutTips, LayerHit,
+    Scissor, ScissorError, SeamLine,
 };
 pub use sets::DisjointSets;
 pub use slide::SlideRefusal;

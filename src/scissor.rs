@@ -11,6 +11,7 @@
 mod cut;
 mod exact;
 mod measure;
+mod neck;
 mod offsets;
 mod outcome;
 mod paper;
@@ -27,6 +28,7 @@ use std::fmt;
 pub use cut::{Cut, CutEnd, CutPieces, SeamLine};
 pub use exact::layers::{CutLayers, LayerHit};
 pub use measure::CutReport;
+pub use neck::CutNeck;
 pub use partition::CutTips;
 
 use crate::edit::{Cursor, Edits};

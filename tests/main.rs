@@ -22,6 +22,7 @@ mod layers;
 mod lockstep;
 mod mass;
 mod methods;
+mod necks;
 mod oracle;
 mod pick;
 mod pieces;

@@ -34,7 +34,7 @@ mod tracer;
 
 use super::offsets::Offsets;
 use super::outcome::{Judged, Outcome, Sides, faces_at};
-use super::pieces::Census;
+use super::pieces::{Census, Pinch};
 use super::strip::Strip;
 use super::unshare;
 use crate::edit::{Cursor, Edit, Edits};
@@ -106,20 +106,23 @@ impl Way<'_> {
     }
 
     /// The pieces that a cut along a trace should leave: those of the slit as it is, or more where
-    /// the trace ends nearer than the snap to a boundary, which it opens.
+    /// the trace ends nearer than the snap to a boundary, which it opens. And the necks that it
+    /// severs although the slit does not.
     pub(super) fn pieces_expected(
         &self,
         trace: &Trace,
         census: &Census,
         mesh: &Mesh,
         positions: &Positions,
-    ) -> usize {
+    ) -> (usize, Vec<Pinch>) {
         let unsnapped = self.trace_of_plane(mesh, positions);
-        let pieces = |trace: &Trace| self.pieces_of(trace, census, mesh);
-        pieces(&unsnapped).max(pieces(trace))
+        let (whole, _) = self.pieces_of(&unsnapped, census, mesh);
+        let (pieces, pinches) = self.pieces_of(trace, census, mesh);
+        let more: usize = pinches.iter().map(|pinch| pinch.at.len()).sum();
+        (whole.max(pieces - more), pinches)
     }
 
-    fn pieces_of(&self, trace: &Trace, census: &Census, mesh: &Mesh) -> usize {
+    fn pieces_of(&self, trace: &Trace, census: &Census, mesh: &Mesh) -> (usize, Vec<Pinch>) {
         let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
         on_plane.extend(self.joints.iter().flatten());
         on_plane.sort_unstable();
@@ -142,7 +145,11 @@ impl Way<'_> {
             let pair = mesh.pair(h).unwrap_or(h);
             edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
         };
-        census.expected(mesh, sign, is_slit, is_slit_along)
+        let passed = |v: VertexId| match on_plane.binary_search(&v) {
+            Ok(_) => self.offsets.of(v),
+            Err(_) => 0.0,
+        };
+        census.expected(mesh, sign, is_slit, is_slit_along, passed)
     }
 
     /// Cuts along a trace.
@@ -308,7 +315,11 @@ impl Slit {
 }
 
 /// Vertices of the slit, and those that they were split into by the edits from `first` on.
-fn with_copies(mut vertices: Vec<VertexId>, edits: &Edits, first: Cursor) -> Vec<VertexId> {
+pub(super) fn with_copies(
+    mut vertices: Vec<VertexId>,
+    edits: &Edits,
+    first: Cursor,
+) -> Vec<VertexId> {
     for edit in edits.since(first) {
         if let Edit::Split(split) = edit
             && vertices.contains(&split.old)

@@ -6,9 +6,10 @@
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
-use super::exact::Way;
+use super::exact::{Way, with_copies};
+use super::neck::{self, CutNeck};
 use super::outcome::{Outcome, side_of};
-use super::pieces::Census;
+use super::pieces::{Census, Pinch};
 use super::quality::{MARGIN, Quality, squares_of_sides};
 use super::seam::Nodes;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
@@ -46,6 +47,8 @@ pub struct CutReport {
     pub pieces_expected: usize,
     /// The number of pieces in excess of `pieces_expected`, which is 0 for a perfect cut.
     pub crumbs: usize,
+    /// The pieces that came off because the neck on which each hung is narrower than the snap.
+    pub necks: Vec<CutNeck>,
     /// The number of pieces missing from `pieces_expected`, which is 0 for a perfect cut.
     pub lost: usize,
     /// The sum of the lengths of all edges of the seam, each counted once.
@@ -87,6 +90,7 @@ pub(super) struct Survey<'w> {
     slit_length: f64,
     pieces_before: usize,
     pieces_expected: usize,
+    pinches: Vec<Pinch>,
     mean_edge: f64,
     /// Of the faces that no cut changes: those far from the plane.
     quality_far_away: Quality,
@@ -99,7 +103,7 @@ impl<'w> Survey<'w> {
         way: &'w Way<'w>,
         mesh: &Mesh,
         positions: &Positions,
-        pieces_expected: Option<&dyn Fn(&Census) -> usize>,
+        pieces_expected: Option<&dyn Fn(&Census) -> (usize, Vec<Pinch>)>,
     ) -> Survey<'w> {
         let mut touched = way.offsets.touched().to_vec();
         let joints = way.joints.iter().flatten();
@@ -114,14 +118,15 @@ impl<'w> Survey<'w> {
             faces_crossed: 0,
             slit_length: 0.0,
             pieces_expected: 0,
+            pinches: Vec::new(),
             mean_edge,
             quality_far_away,
             nearest_vertex: nearest_vertex(way, mesh, positions),
         };
         survey.follow_slit(mesh, positions);
-        survey.pieces_expected = match pieces_expected {
+        (survey.pieces_expected, survey.pinches) = match pieces_expected {
             Some(expected) => expected(&survey.census),
-            None => survey.pieces_expected(mesh, positions),
+            None => (survey.pieces_expected(mesh, positions), Vec::new()),
         };
         survey
     }
@@ -177,8 +182,10 @@ impl<'w> Survey<'w> {
                 .is_some_and(|faces| faces.into_iter().all(is_met))
                 && is_whole(ends_of(mesh, positions, h))
         };
-        self.census
-            .expected(mesh, |v| self.way.offsets.of(v), is_slit, is_slit_along)
+        let sign = |v| self.way.offsets.of(v);
+        let census = &self.census;
+        let (pieces, _) = census.expected(mesh, sign, is_slit, is_slit_along, |_| 0.0);
+        pieces
     }
 
     /// The faces that the slit meets and the children of those, once they are inserted; ascending.
@@ -298,6 +305,10 @@ impl<'w> Survey<'w> {
             pieces_expected: self.pieces_expected,
             crumbs: pieces.saturating_sub(self.pieces_expected),
             lost: self.pieces_expected.saturating_sub(pieces),
+            necks: {
+                let copies = |of: &[VertexId]| with_copies(of.to_vec(), edits, first_edit);
+                neck::severed(&self.pinches, copies, self.way, (mesh, positions), outcome)
+            },
             separated: {
                 let slit = self.slit_now(edits, first_edit);
                 self.separated(mesh, positions, &slit, outcome)

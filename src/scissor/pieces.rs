@@ -26,6 +26,15 @@ pub(super) struct Census {
     near: Vec<FaceId>,
 }
 
+/// Vertices of one side, joined by edges, that count as on the plane.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pinch {
+    /// With repetitions.
+    pub(super) chain: Vec<VertexId>,
+    /// Where parts hang together that count as apart, once for each piece more that there are for that.
+    pub(super) at: Vec<VertexId>,
+}
+
 const NEAR: u32 = u32::MAX;
 const UNSEEN: u32 = u32::MAX - 1;
 
@@ -131,14 +140,18 @@ impl Census {
     /// The pieces that there should be, asked before the cut. `sign` is zero for a vertex on the
     /// plane; `is_slit` says of a face with vertices on both sides whether the slit crosses it from
     /// node to node, `is_slit_along` of an edge on the plane, by either half-edge, whether it is slit
-    /// from end to end.
+    /// from end to end. `passed` is the side of a vertex that counts as on the plane although it is
+    /// not, and zero for any other.
+    ///
+    /// The second result are the vertices at which parts hang together that count as apart.
     pub(super) fn expected(
         &self,
         mesh: &Mesh,
         sign: impl Fn(VertexId) -> f64,
         is_slit: impl Fn(FaceId) -> bool,
         is_slit_along: impl Fn(HalfEdgeId) -> bool,
-    ) -> usize {
+        passed: impl Fn(VertexId) -> f64,
+    ) -> (usize, Vec<Pinch>) {
         let signs = |f: FaceId| mesh.face_vertices(f).map(&sign);
         // Of a face that is not crossed; one that lies on the plane is in front.
         let lone_side = |signs: [f64; 3]| Side::of(signs.into_iter().fold(0.0, f64::min));
@@ -170,7 +183,53 @@ impl Census {
                 }
             }
         }
-        sets.count() - missing
+        let pieces = sets.count() - missing;
+        (pieces, self.pinched(mesh, &mut sets, signs, passed))
+    }
+
+    /// Joins the parts round the vertices that the plane was taken to pass through: as far as they are
+    /// on the side of the vertex, they hang together there, and along the edge between two vertices
+    /// of one side.
+    fn pinched(
+        &self,
+        mesh: &Mesh,
+        sets: &mut DisjointSets,
+        signs: impl Fn(FaceId) -> [f64; 3],
+        passed: impl Fn(VertexId) -> f64,
+    ) -> Vec<Pinch> {
+        let corners = self.near.iter().flat_map(|f| f.half_edges());
+        let corners: Vec<HalfEdgeId> = corners.filter(|&h| passed(mesh.origin(h)) != 0.0).collect();
+        let side = |h: HalfEdgeId| Side::of(passed(mesh.origin(h)));
+        let mut chains = DisjointSets::new(corners.len() as u32);
+        for (&h, i) in corners.iter().zip(0..) {
+            let in_face = [h.next(), h.prev()].map(Some);
+            let round = mesh.pair(h).map(HalfEdgeId::next);
+            for other in in_face.into_iter().chain([round]).flatten() {
+                if let Ok(at) = corners.binary_search(&other)
+                    && side(h) == side(other)
+                {
+                    chains.join(i, at as u32);
+                }
+            }
+        }
+        let mut parts: Vec<Option<u32>> = vec![None; corners.len()];
+        let mut pinches: Vec<Pinch> = vec![Pinch::default(); corners.len()];
+        for (&h, &chain) in corners.iter().zip(chains.leaders()) {
+            let pinch = &mut pinches[chain as usize];
+            pinch.chain.push(mesh.origin(h));
+            let is_there = |d: f64| d != 0.0 && Side::of(d) == side(h);
+            if !signs(h.face()).into_iter().any(is_there) {
+                continue;
+            }
+            let part = self.node(h.face(), 2, side(h) as u32);
+            let other = *parts[chain as usize].get_or_insert(part);
+            if sets.leader(part) != sets.leader(other) {
+                sets.join(part, other);
+                pinch.at.push(mesh.origin(h));
+            }
+        }
+        pinches.retain(|pinch| !pinch.at.is_empty());
+        pinches
     }
 }
 

@@ -231,6 +231,7 @@ const REPORTS: &[&str] = &[
     "cut flag.obj --rays 0,0,9@-0.5,0.2,0 0,0,9@0.5,0.1,0 --layers first --gap 5% --pieces p -o a.obj",
     "cut flag.obj --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250 -o b.obj",
     "cut three.obj --plane 0.5,0,0:1,0,0 -o c.obj",
+    "cut notch.obj --plane 0,0,0:0,1,0 -o c.obj",
     "mend b.obj --simplify -o d.obj",
     "tear sheet.obj --scene rip --seconds 0.8 --frames f --frames-topology final --cache c.pc2 -o e.obj",
     "tear sheet.obj --scene hang --seconds 0.02 --solver xpbd -o e.obj",
@@ -249,6 +250,10 @@ fn the_guide_has_the_keys_of_the_report_and_no_others() {
         (
             "three.obj",
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n",
+        ),
+        (
+            "notch.obj",
+            "v 0 0.02 0\nv -1 -1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 5\n",
         ),
         (
             "wild.toml",

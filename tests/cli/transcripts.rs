@@ -239,6 +239,10 @@ fn bad_inputs(folder: &Folder) {
             "hopeless.obj",
             format!("{square}v 2 2 0\nf 1 2 3\nf 1 4 3\nf 2 4 5\n"),
         ),
+        (
+            "notch.obj",
+            "v 0 0.02 0\nv -1 -1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 5\n".to_owned(),
+        ),
         ("pillow.obj", format!("{square}f 1 2 3\nf 3 2 1\n")),
         (
             "flat.obj",

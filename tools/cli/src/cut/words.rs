@@ -4,7 +4,7 @@ use tearmesh::{Cut, CutReport};
 
 use super::gap::Gapped;
 use super::nothing::Obstacle;
-use crate::say::{Fault, count, short};
+use crate::say::{Fault, count, place, short};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
 pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
@@ -63,7 +63,7 @@ pub(crate) fn warnings(
         warnings.push(Fault::warning(code, format!("{of}{message}")));
     };
     if cut.missed {
-        let place = if through {
+        let where_to = if through {
             "on the plane"
         } else {
             "between the rays"
@@ -74,7 +74,7 @@ pub(crate) fn warnings(
             _ if cut.nearest_vertex == 0.0 => ": the cut only touches the mesh".to_owned(),
             _ => format!("; the nearest vertex is {} away", short(cut.nearest_vertex)),
         };
-        warn("W-CUT-MISS", format!("no face lies {place}{why}"));
+        warn("W-CUT-MISS", format!("no face lies {where_to}{why}"));
     } else if cut.splits == 0 {
         let why = match obstacle {
             Obstacle::Seam => "but it is already cut there",
@@ -85,8 +85,21 @@ pub(crate) fn warnings(
         let faces = count(cut.faces_crossed, "face", "faces");
         warn("W-CUT-NONE", format!("the cut crosses {faces}, {why}"));
     } else {
-        if cut.crumbs > 0 {
-            let crumbs = count(cut.crumbs, "piece", "pieces");
+        for neck in &cut.necks {
+            let at = place(neck.at.into());
+            let faces = count(neck.faces, "face", "faces");
+            let width = short(neck.width);
+            warn(
+                "W-CUT-NECK",
+                format!(
+                    "a piece of {faces} came off at {at}: it hung on a neck {width} wide, which \
+                     is narrower than the snap"
+                ),
+            );
+        }
+        let crumbs = cut.crumbs.saturating_sub(cut.necks.len());
+        if crumbs > 0 {
+            let crumbs = count(crumbs, "piece", "pieces");
             warn(
                 "W-CUT-CRUMBS",
                 format!("{crumbs} came loose beside the cut"),
