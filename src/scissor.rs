@@ -10,6 +10,7 @@
 
 mod cut;
 mod exact;
+mod hub;
 mod measure;
 mod neck;
 mod offsets;

@@ -107,6 +107,18 @@ pub fn vertex<'e>(
 pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &mut Edits) {
     let stays = mesh.half_edge_of(v);
     let stays = stays.expect("I9: a vertex with a face has a half-edge");
+    into(mesh, v, moving, stays, edits);
+}
+
+/// Splits these corners off a vertex: some of its own in the order of a walk. `stays` is the smallest
+/// of the others. Linear in those that move.
+pub(crate) fn into(
+    mesh: &mut Mesh,
+    v: VertexId,
+    moving: &[HalfEdgeId],
+    stays: HalfEdgeId,
+    edits: &mut Edits,
+) {
     debug_assert!(moving.iter().all(|&h| mesh.origin(h) == v && h != stays));
     moving.iter().for_each(|&h| edits.note_corner(h));
     commit(mesh, v, stays, edits);

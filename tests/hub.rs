@@ -6,8 +6,8 @@
 use std::time::Instant;
 
 use tearmesh::{
-    CutMethod, Edits, FaceId, Masses, Mesh, Point, Positions, Ray, Scissor, Vector, VertexId, mend,
-    shapes, split,
+    CutMethod, Edits, FaceId, Masses, Mesh, Plane, Point, Positions, Ray, Scissor, Vector,
+    VertexId, mend, shapes, split,
 };
 
 use crate::random::Random;
@@ -81,10 +81,17 @@ fn scissor(a: [f64; 2], b: [f64; 2]) -> Scissor {
     Scissor::new(ray(a), ray(b)).expect("two rays")
 }
 
+const METHODS: [CutMethod; 4] = [
+    CutMethod::Exact,
+    CutMethod::Partition,
+    CutMethod::Uniform,
+    CutMethod::Alternating,
+];
+
 /// Cuts a fan in all ways, and mends it.
 fn cut(faces: u32, closed: bool, clock: &mut Clock) {
     let (mesh, positions) = clock.time("build", || shapes::fan(faces, closed));
-    for method in [CutMethod::Exact, CutMethod::Partition] {
+    for method in METHODS {
         for (place, y) in [("the hub", 0.0), ("near", 0.001), ("beside", 0.1)] {
             for (extent, x) in [("finite", 0.5), ("through", 2.0)] {
                 let what = format!("{method:?}, {place}, {extent}");
@@ -122,7 +129,7 @@ fn crown(faces: u32, closed: bool, clock: &mut Clock) {
     let scissor = Scissor::new(ray(-3.0), ray(3.0))
         .expect("two rays")
         .through(true);
-    for method in [CutMethod::Exact, CutMethod::Partition] {
+    for method in METHODS {
         let what = format!("{method:?}, a crown");
         let mut sheet = Sheet::new(&mesh, &positions);
         let Sheet {
@@ -134,10 +141,9 @@ fn crown(faces: u32, closed: bool, clock: &mut Clock) {
         let report = clock.time(what.clone(), || {
             scissor.cut_measured(method, cut, positions, edits)
         });
-        assert!(
-            report.expect("all is in step").1.splits as u32 > faces / 5,
-            "{what}"
-        );
+        let splits = report.expect("all is in step").1.splits as u32;
+        let is_uniform = method == CutMethod::Uniform;
+        assert!(splits > faces / 5 || is_uniform, "{what}: {splits}");
         sheet.check_and_sew(&what, clock);
     }
 }
@@ -203,6 +209,115 @@ fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
             []
         );
     }
+}
+
+/// The paper's methods by [`split::by_plane`] alone, which looks at all faces of a vertex each time.
+fn cut_by_paper(
+    (point, normal): (Point, Vector),
+    is_alternating: bool,
+    sheet: &mut Sheet,
+) -> [usize; 2] {
+    let Sheet {
+        mesh,
+        positions,
+        edits,
+        ..
+    } = sheet;
+    let plane = Plane::new(point, normal).expect("a plane");
+    let is_positive = |at: Point| plane.offset(at) >= 0.0;
+    let count = |mesh: &Mesh, positions: &Positions, f| {
+        let corners = mesh.face_vertices(f).into_iter();
+        corners.filter(|&v| is_positive(positions.at(v))).count()
+    };
+    let faces = mesh.faces();
+    let crossed = faces.filter(|&f| [1, 2].contains(&count(mesh, positions, f)));
+    let crossed: Vec<FaceId> = crossed.collect();
+    let [mut splits, mut refused] = [0; 2];
+    for f in crossed {
+        let corners = mesh.face_vertices(f).map(|v| positions.at(v));
+        let negative = (0..3).find(|&i| !is_positive(corners[i]));
+        let along_edge = (is_alternating && count(mesh, positions, f) == 2).then(|| {
+            let [c, d, e] = [1, 2, 3].map(|i| corners[(negative.expect("one") + i) % 3]);
+            (d - c).cross(&(e - c)).cross(&(d - c))
+        });
+        for h in f.half_edges() {
+            let v = mesh.origin(h);
+            let at = positions.at(v);
+            if !is_positive(at) {
+                continue;
+            }
+            let plane = Plane::new(at, along_edge.unwrap_or(normal)).expect("it has an area");
+            let split = split::by_plane(mesh, v, &plane, &*positions, edits).is_some();
+            if split {
+                splits += 1;
+                edits.replay(positions);
+            } else {
+                refused += 1;
+            }
+        }
+    }
+    [splits, refused]
+}
+
+/// Fans of any number of faces with rims of any height, flat on the plane here and there, and torn
+/// before or not.
+#[test]
+fn the_papers_methods_at_a_hub_are_those_of_by_plane() {
+    let mut random = Random(31);
+    let mut splits_of_all = 0;
+    for case in 0..600 {
+        let faces = [12, 64, 65, 66, 150, 400][case % 6];
+        let (mesh, flat) = shapes::fan(faces, case % 4 < 2);
+        let mut points = flat.as_slice().to_vec();
+        let steps = [0.0, 2.0, 1000.0][case / 6 % 3];
+        for p in &mut points[1..] {
+            p.z = (steps * (random.next() - 0.5)).round() / f64::max(steps, 1.0);
+        }
+        let positions = Positions::new(points).expect("they are finite");
+        let mut sheet = Sheet::new(&mesh, &positions);
+        let hub = VertexId::new(0).expect("an id");
+        if case % 5 == 0 {
+            for _ in 0..10 {
+                let f = mesh
+                    .faces()
+                    .nth((random.next() * f64::from(faces)) as usize);
+                let f = f.expect("a face");
+                let _refused = split::vertex(&mut sheet.mesh, hub, &[f], &mut sheet.edits);
+            }
+            sheet.edits.replay(&mut sheet.positions);
+        }
+        let mut part = |scale: f64| scale * (random.next() - 0.5);
+        let point = Point::new(0.0, [0.0, part(0.4)][case / 18 % 2], 0.0);
+        let normal = match case / 36 % 3 {
+            0 => Vector::z(),
+            1 => Vector::new(part(1.0), part(1.0), part(1.0)),
+            _ => Vector::new(part(1.0), part(1.0), 0.0),
+        };
+        for method in [CutMethod::Uniform, CutMethod::Alternating] {
+            let copy = || Sheet {
+                mesh: sheet.mesh.clone(),
+                positions: sheet.positions.clone(),
+                masses: sheet.masses.clone(),
+                edits: sheet.edits.clone(),
+            };
+            let (mut one, mut other) = (copy(), copy());
+            let counts = cut_by_paper((point, normal), method == CutMethod::Alternating, &mut one);
+            let scissor = Scissor::by_plane(Plane::new(point, normal).expect("a plane"));
+            let made = scissor.cut_measured(
+                method,
+                &mut other.mesh,
+                &mut other.positions,
+                &mut other.edits,
+            );
+            let (_, report) = made.expect("all is in step");
+            let what = format!("case {case}, {method:?}");
+            assert_eq!([report.splits, report.refused], counts, "{what}");
+            assert!(one.mesh == other.mesh, "{what}");
+            assert!(one.edits.iter().eq(other.edits.iter()), "{what}");
+            splits_of_all += report.splits;
+        }
+    }
+    assert!(splits_of_all > 5000, "{splits_of_all}");
 }
 
 const ORDERS: [&str; 3] = ["ascending", "descending", "shuffled"];

@@ -13,18 +13,19 @@
 //!
 //! Neither method promises to divide. On irregular meshes `uniform` leaves bridges ("the mesh not
 //! being completely divided"); `alternating` mostly divides, and leaves crumbs and a longer seam,
-//! because it may split the same vertex several times. They are offered for comparison. Use
+//! because it may split the same vertex several times: at a vertex with very many faces by way of a
+//! tree of them (`scissor/hub.rs`). They are offered for comparison. Use
 //! [`CutMethod::Exact`](super::CutMethod::Exact), or
 //! [`CutMethod::Partition`](super::CutMethod::Partition) for a cut that adds no faces.
 
 use super::exact::Way;
+use super::hub::Hubs;
 use super::outcome::{Judged, Outcome, faces_at};
 use crate::edit::Edits;
 use crate::geometry::{Plane, Side, Vector, cross};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::split;
 
 /// Which of the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +72,7 @@ pub(super) fn cut(
         judged: labelled(judged(mesh, edits)),
         ..Outcome::default()
     };
+    let mut hubs = Hubs::default();
     for f in crossed {
         let corners = f.half_edges();
         let along_edge = match form {
@@ -92,9 +94,13 @@ pub(super) fn cut(
                 Some(normal) => Plane::new(at, normal).ok(),
                 None => Some(way.strip.plane.through(at)),
             };
-            match plane.and_then(|plane| split::by_plane(mesh, v, &plane, &*positions, edits)) {
-                Some(_) => edits.replay(positions),
-                None => outcome.refused += 1,
+            let is_split = plane.is_some_and(|plane| {
+                let plane = (&plane, along_edge.is_none());
+                hubs.split(mesh, v, plane, positions, edits)
+            });
+            match is_split {
+                true => edits.replay(positions),
+                false => outcome.refused += 1,
             }
         }
     }
