@@ -80,6 +80,9 @@ pub struct CutReport {
     pub tip_overshoots: Vec<f64>,
 }
 
+/// How many pieces a cut will leave, and where it pinches some off, by a census of the mesh before.
+pub(super) type Expected<'a> = &'a dyn Fn(&Census) -> (usize, Vec<Pinch>);
+
 /// The mesh before a cut, as the slit sees it.
 pub(super) struct Survey<'w> {
     way: &'w Way<'w>,
@@ -103,7 +106,7 @@ impl<'w> Survey<'w> {
         way: &'w Way<'w>,
         mesh: &Mesh,
         positions: &Positions,
-        pieces_expected: Option<&dyn Fn(&Census) -> (usize, Vec<Pinch>)>,
+        pieces_expected: Option<Expected<'_>>,
     ) -> Survey<'w> {
         let mut touched = way.offsets.touched().to_vec();
         let joints = way.joints.iter().flatten();

@@ -24,7 +24,7 @@ const CHAOTIC: [(&str, u64); 2] = [
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x28fa_ea7c_8903_e50b;
+const DIGEST: u64 = 0xf617_239b_d503_1ff9;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
