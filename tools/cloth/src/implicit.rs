@@ -32,7 +32,7 @@
 //! where something is pushed together the matrix may be all but singular, and the step as long as
 //! one likes. Both show in a length that no linearised force has felt: an edge ends longer than it
 //! is at rest, was before, and would be if its ends had moved along it. And they make energy: there is
-//! more at the end than there was and than loads and hands put in. A step in which an edge does so by
+//! more at the end than there was and than loads and hands put in. A step in which an edge is longer by
 //! 15 % of its rest length, or that makes .3 % of the energy in motion and exchange, is divided in two
 //! halves, and these again. (Without the first, ready scenes make 2 to 3100 J where 1 to 17 J were put
 //! in. Without the second, chains that were pushed once come to 300 times their energy by steps a
@@ -139,7 +139,7 @@ const OVERSHOOT: f64 = 0.15;
 
 /// The energy that a step may make, as a part of what moves and changes hands in it. (At .005 chains that
 /// were pushed once come to twice their energy by steps of a thousand times the explicit limit; at .002
-/// some of their steps are divided without end.)
+/// more of these are divided into the shortest parts.)
 const MADE: f64 = 0.003;
 
 impl Implicit {
@@ -226,7 +226,8 @@ impl Implicit {
         if let Some(particle) = first_bad(&self.reached, &self.velocities) {
             return Err(Failure::Implicit(StepError::NotFinite { particle }));
         }
-        // The shortest part makes little energy, and no less if it is solved no better.
+        // The shortest part is taken also if it makes energy: what is left then is the solver's error, which
+        // no shorter one would lower.
         if overstretches(model, x, &self.reached)
             || !is_last && self.makes_energy(model, weights, (x, v), counters)
         {
