@@ -6,8 +6,6 @@ use std::path::{Path, PathBuf};
 use cpu_time::ThreadTime;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
-use tearmesh_cloth::StepError;
-use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_lab::cut::Cuts;
 use tearmesh_lab::experiment::{
     Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table, workers,
@@ -27,7 +25,6 @@ use crate::interrupt::Guard;
 use crate::output;
 use crate::say::Fault;
 use crate::streams::Streams;
-use crate::tear::advice;
 
 /// How a part of the work ended.
 type Ended<T> = Result<T, (Exit, Fault)>;
@@ -41,8 +38,6 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
             let stability = Stability {
                 stiffness_n_per_m: args.stiffness.clone(),
                 threads: threads(&args.draw),
-                step_code: advice::code,
-                run_codes,
             };
             (&args.draw, work(&stability, &args.draw, streams))
         }
@@ -349,13 +344,4 @@ fn bug(message: &str) -> (Exit, Fault) {
 
 fn unwritable(path: &Path, error: &std::io::Error) -> (Exit, Fault) {
     (Exit::Output, output::cannot_write(path, error))
-}
-
-/// Returns the codes of the messages that `tear` prints about a run, with the warnings from before its first
-/// step. `error` is the error that ended it; `None` if it reached its end.
-fn run_codes(run: &Run, frame: &Frame, error: Option<&StepError>) -> Vec<&'static str> {
-    let before = advice::before(run, frame, &|vertex| vertex + 1).into_iter();
-    let failure = error.map(|error| advice::failure(error, run));
-    let all = before.chain(advice::after(run)).chain(failure);
-    all.map(|fault| fault.code).collect()
 }

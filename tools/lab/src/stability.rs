@@ -19,28 +19,19 @@ mod trial;
 
 pub use self::limit::{LIMITS, STIFFNESS_N_PER_M, Theory};
 pub use self::row::Row;
-pub use self::trial::{RunCodes, TRIALS, Trial};
+pub use self::trial::{TRIALS, Trial};
 
 use std::num::NonZero;
-
-use tearmesh_cloth::StepError;
 
 use crate::experiment::{Bounds, Experiment, list};
 
 /// The experiment on stability.
-///
-/// The codes of messages come from the command, whose wording is not part of this crate.
 #[derive(Clone, Debug)]
 pub struct Stability {
     /// The stiffness values of the springs, in N/m. Each method is tried on each net at each of them.
     pub stiffness_n_per_m: Vec<f64>,
     /// The number of runs that may go on at a time.
     pub threads: NonZero<usize>,
-    /// The function that returns the code of the message about a step that failed, for a user who steps a
-    /// system, such as `E-SIM-UNSTABLE`; empty for no message.
-    pub step_code: fn(&StepError) -> &'static str,
-    /// The function that returns the codes of the messages about a run.
-    pub run_codes: RunCodes,
 }
 
 /// A part of the experiment.
@@ -88,9 +79,9 @@ impl Experiment for Stability {
         match key {
             Key::Limit(method, theory) => {
                 let stiffness = &self.stiffness_n_per_m;
-                theory.rows(method, stiffness, self.step_code, bounds.stop)
+                theory.rows(method, stiffness, bounds.stop)
             }
-            Key::Trial(trial) => trial.rows(self.run_codes, bounds.stop),
+            Key::Trial(trial) => trial.rows(bounds.stop),
         }
     }
 
@@ -118,16 +109,10 @@ mod tests {
     use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
     use crate::method::DEFAULTS;
 
-    /// The experiment with one word about what failed, or with none.
-    fn experiment(is_mute: bool) -> Stability {
+    fn experiment() -> Stability {
         Stability {
             stiffness_n_per_m: vec![1e3],
             threads: NonZero::<usize>::MIN,
-            step_code: |_| "E",
-            run_codes: match is_mute {
-                true => |_, _, _| Vec::new(),
-                false => |_, _, error| error.map(|_| "E <and> \"W\"").into_iter().collect(),
-            },
         }
     }
 
@@ -154,24 +139,30 @@ mod tests {
 
     #[test]
     fn a_run_that_failed_without_a_message_is_silent() {
-        for is_mute in [false, true] {
-            let rows = rows_of(&experiment(is_mute), &["free fall", "wind"]);
-            let silent = rows
-                .iter()
-                .map(|row| (&*row.place, &*row.method, row.is_silent));
-            let expected = [("free fall", false), ("wind", is_mute)];
-            let expected = expected.into_iter().flat_map(|(place, is_silent)| {
-                DEFAULTS.map(|method| (place, method.name, Some(is_silent)))
-            });
-            assert!(silent.eq(expected), "{rows:?}");
+        for (measured, codes, expected) in [
+            (Status::Wrong, &[][..], true),
+            (Status::Wrong, &["W"][..], false),
+            (Status::Ok, &[][..], false),
+        ] {
+            assert_eq!(trial::is_silent(measured, codes), expected);
+        }
+        let rows = rows_of(&experiment(), &["free fall", "wind"]);
+        assert_eq!(rows.len(), 2 * DEFAULTS.len());
+        for row in rows {
+            let is_refused = row.place == "wind";
+            assert_eq!(row.codes.contains("E-SIM-UNSTABLE"), is_refused, "{row:?}");
+            assert_eq!(row.is_silent, Some(false), "{row:?}");
         }
     }
 
     #[test]
     fn the_figure_of_a_table_that_was_read_back_is_the_same() {
-        let experiment = experiment(false);
+        let experiment = experiment();
         let names = ["rk4", "pbd-10", "wind"];
-        let rows = rows_of(&experiment, &names);
+        let mut rows = rows_of(&experiment, &names);
+        for row in &mut rows {
+            row.codes = row.codes.replace("E-SIM", "E <and> \"SIM\"");
+        }
         assert_eq!(rows.len(), 4 * 8 + 4 * 8 + 5);
         let text = table(&rows).expect("a table");
         let read: Vec<Row> = read_table(&text).expect("the same table");
@@ -184,7 +175,7 @@ mod tests {
 
     #[test]
     fn an_interrupted_table_has_a_row_for_each_part() {
-        let experiment = experiment(false);
+        let experiment = experiment();
         let count = AtomicUsize::new(0);
         let stop = || count.fetch_add(1, Ordering::Relaxed) > 10;
         let bounds = Bounds {

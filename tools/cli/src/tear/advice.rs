@@ -217,7 +217,6 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
                 format!("--dt {half}, {order}or --solver verlet"),
             )
         }
-        _ => (warning.code().to_owned(), "none is known".to_owned()),
     };
     let severity = match warning {
         Warning::Rigid | Warning::Strong { .. } | Warning::Damped { .. } => Severity::Note,
@@ -269,11 +268,6 @@ pub(super) fn times(run: &Run, args: &TearArgs) -> Vec<Fault> {
         faults.push(Fault::warning("W-FRAMES-FEW", message).help(help));
     }
     faults
-}
-
-/// The code of a step that was not taken.
-pub(crate) fn code(error: &StepError) -> &'static str {
-    error.code()
 }
 
 /// Why the simulation failed, with vertices counted as in OBJ, and what would help.

@@ -25,7 +25,6 @@ use crate::stability::frequency_bound;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum Warning {
     /// The mesh is far smaller or larger than the garments and flags for which the default fabric is made.
     Size {

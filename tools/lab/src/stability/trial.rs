@@ -1,7 +1,9 @@
 //! Trials: scenes in which some method fails, each played by all methods.
 
 use tearmesh::{CutMethod, Point, Ray, Vector, shapes};
-use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut};
+use tearmesh_cloth::scene::{
+    Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut, Warning,
+};
 use tearmesh_cloth::{FRAME_S, Method, StepError, Wind, energy};
 
 use super::row::Row;
@@ -188,9 +190,6 @@ pub static TRIALS: [Trial; 9] = [
     },
 ];
 
-/// The function that returns the codes of the messages about a run that has ended, for a user who plays scenes.
-pub type RunCodes = fn(&Run, &Frame, Option<&StepError>) -> Vec<&'static str>;
-
 /// A scene that was played.
 struct Played {
     run: Run,
@@ -203,9 +202,26 @@ struct Played {
     energy: f64,
 }
 
+impl Played {
+    /// The codes of the messages that a user gets who plays this scene.
+    fn codes(&self) -> Vec<&'static str> {
+        let before = Warning::before(&self.run, &self.frame).into_iter();
+        let warnings = before.chain(Warning::after(&self.run));
+        let codes = warnings.map(|warning| warning.code());
+        codes
+            .chain(self.error.as_ref().map(StepError::code))
+            .collect()
+    }
+}
+
+/// Whether a run failed without a message.
+pub(super) fn is_silent(measured: Status, codes: &[&str]) -> bool {
+    measured != Fine && codes.is_empty()
+}
+
 impl Trial {
     /// Plays the scene by each method, and returns a row for each. `None` if it was interrupted.
-    pub(super) fn rows(&self, codes: RunCodes, stop: &dyn Fn() -> bool) -> Option<Vec<Row>> {
+    pub(super) fn rows(&self, stop: &dyn Fn() -> bool) -> Option<Vec<Row>> {
         let reference = self.play(None, stop)?;
         let methods = DEFAULTS.iter().zip(self.expected);
         let rows = methods.map(|(method, expected)| {
@@ -219,7 +235,7 @@ impl Trial {
                 None if judged.is_none_or(|(measure, most)| measure <= most) => Fine,
                 None => Wrong,
             };
-            let codes = codes(&played.run, &played.frame, error);
+            let codes = played.codes();
             Some(Row {
                 place: self.name.to_owned(),
                 method: method.name.to_owned(),
@@ -228,7 +244,7 @@ impl Trial {
                 measured: Some(measured),
                 measure: judged.map(|(measure, _)| measure),
                 agrees: Some(measured == expected),
-                is_silent: Some(measured != Fine && codes.is_empty()),
+                is_silent: Some(is_silent(measured, &codes)),
                 codes: codes.join(" | "),
                 status: Fine,
                 ..Row::default()
