@@ -24,7 +24,7 @@ const CHAOTIC: [(&str, u64); 2] = [
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0xf617_239b_d503_1ff9;
+const DIGEST: u64 = 0x541a_29fd_3492_25ce;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

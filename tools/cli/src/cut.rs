@@ -129,6 +129,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
             length: gap,
             vertices_moved: gapped.moved,
             vertices_clamped: gapped.clamped,
+            pieces_moved: gapped.pieces,
         });
         shown = Some(gapped.points.clone());
         torn.set_apart(gapped.points);

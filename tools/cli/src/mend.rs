@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::Write;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
-use tearmesh::{Edits, Masses, Mesh, Positions, Vector};
+use tearmesh::{Edit, Edits, Masses, Mesh, Positions, Vector, VertexId};
 use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 
 use crate::args::MendArgs;
@@ -46,6 +46,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     )
     .map_err(|error| too_far(&error, &document))?;
     edits.replay(&mut (&mut positions, &mut masses, &mut torn));
+    close_gaps(&mut torn, &mesh, &edits, vertices_before);
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
     let clock = Clock::start();
@@ -147,6 +148,29 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
     session.words.push(ending);
     Ok(())
+}
+
+/// Writes pieces where they are that something was sewn to. Each part of one may have been written apart
+/// from where it is by another way.
+fn close_gaps(torn: &mut TornDocument<'_>, mesh: &Mesh, edits: &Edits, vertices_before: usize) {
+    let mut is_sewn = vec![false; vertices_before];
+    for edit in edits.iter() {
+        for op in edit.vertex_ops() {
+            op.apply(&mut is_sewn, |_| false);
+        }
+        if let Edit::Merge(merge) = edit {
+            is_sewn[merge.kept.index()] = true;
+        }
+    }
+    let components = mesh.components();
+    let piece = |v: VertexId| Some(components.of(mesh.half_edge_of(v)?.face()));
+    let mut is_closed = vec![false; components.count()];
+    for v in mesh.vertices().filter(|v| is_sewn[v.index()]) {
+        piece(v)
+            .into_iter()
+            .for_each(|piece| is_closed[piece] = true);
+    }
+    torn.set_in_place(|v| piece(v).is_some_and(|piece| is_closed[piece]));
 }
 
 /// The document and its mesh, torn where its boundary lies on itself.

@@ -109,6 +109,7 @@ pub(crate) struct Gap {
     pub(crate) vertices_moved: usize,
     /// Those that moved by less than half of it, so that no face turns over.
     pub(crate) vertices_clamped: usize,
+    pub(crate) pieces_moved: usize,
 }
 
 /// The point cache of a simulation.

@@ -260,6 +260,11 @@ impl<'d> TornDocument<'d> {
     /// let text = String::from_utf8(out)?;
     /// assert!(text.contains("\nv 1 0.125 0\n") && text.contains("\n#~ apart 5 1 0 0 1 0.125 0\n"));
     /// assert_eq!(Document::read(text.as_bytes())?.positions(), positions.as_slice());
+    ///
+    /// torn.set_in_place(|v| v.index() == 4);
+    /// let mut out = Vec::new();
+    /// torn.write(&mesh, &positions, &mut out)?;
+    /// assert!(!String::from_utf8(out)?.contains("#~ apart"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_apart(&mut self, points: Vec<Point>) {
@@ -269,6 +274,18 @@ impl<'d> TornDocument<'d> {
             "there is a point for each vertex"
         );
         self.shown = Some(points);
+    }
+
+    /// Writes vertices where they are, although they were to be written apart.
+    pub fn set_in_place(&mut self, is_in_place: impl Fn(VertexId) -> bool) {
+        let places = self.places.as_ref().map(Positions::as_slice);
+        let places = places.unwrap_or(&self.document.positions).iter();
+        let shown = self.shown.iter_mut().flatten().zip(places).enumerate();
+        for (v, (shown, place)) in shown {
+            if VertexId::new(v).is_some_and(&is_in_place) {
+                *shown = *place;
+            }
+        }
     }
 
     /// The vertices that are written apart, ascending: none if anything but the log moved a vertex.

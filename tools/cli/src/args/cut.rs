@@ -63,10 +63,10 @@ pub(crate) struct CutArgs {
     /// Write the two sides of a cut this far apart: a length, or N% of the mean edge.
     ///
     /// The two sides coincide, so a cut is invisible, and programs that merge coincident points close
-    /// it. This option moves each side half the gap away from the other, within the surface. The tips
-    /// of a cut stay in place, and a vertex moves less if a face would flip. The file records the true
-    /// positions too: `mend`, later cuts and masses use those. Without this option, a gap stays as it
-    /// is; --gap 0 closes it.
+    /// it. This option moves the pieces that a cut separates, each by half the gap. Along a slit, it
+    /// moves the vertices of each side by half the gap, within the surface: the tips stay in place, and
+    /// a vertex moves less if a face would flip. The file records the true positions too: `mend`,
+    /// later cuts and masses use those. Without this option, a gap stays as it is; --gap 0 closes it.
     #[arg(long, value_name = "D", value_parser = super::read::gap, allow_hyphen_values = true)]
     pub(crate) gap: Option<Gap>,
 

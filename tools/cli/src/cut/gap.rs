@@ -1,7 +1,9 @@
-//! The lips of cuts, apart from each other: for the eye, and for programs that join what lies at one
+//! Pieces, and the lips of slits, apart from each other: for the eye, and for programs that join what lies at one
 //! place.
 
-use tearmesh::{FaceId, HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
+use std::collections::BTreeMap;
+
+use tearmesh::{Components, FaceId, HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
 
 use crate::measure::Edges;
 
@@ -11,6 +13,10 @@ pub(crate) struct Gapped {
     /// How many are shown apart from where they are, and how many of these by less than was asked for.
     pub(crate) moved: usize,
     pub(crate) clamped: usize,
+    /// How many pieces are moved as a whole.
+    pub(crate) pieces: usize,
+    /// How many vertices of lips move within their piece.
+    pub(crate) lips: usize,
 }
 
 /// How often a vertex is brought half way back before it is left where it is.
@@ -19,13 +25,22 @@ const HALVINGS: u32 = 40;
 /// What is left of a face at least, by area.
 const LEAST: f64 = 0.1;
 
-/// Moves both lips of everything that is torn half of `gap` away from each other: within the surface,
-/// square to the lip, and along the boundary where the lip ends there. A vertex that both lips
+/// What is left of the length of a seam at least, added up square to it, where its two pieces move as a
+/// whole: one that goes round a piece leaves nothing.
+const STRAIGHT: f64 = 0.5;
+
+/// What is left of a gap at least where pieces round a vertex move by what each two of them need.
+const AGREED: f64 = 0.9;
+
+/// Moves everything that is torn `gap` apart. Pieces that part wholly move as they are, each by half of
+/// it. Where both lips are of one piece, or the seam goes round a piece, each lip moves by half of it:
+/// within the surface, square to the lip, and along the boundary where the lip ends there. A vertex that both lips
 /// share, as the tip of a slit, stays; so the gap opens over one edge. Where a face would turn over, or
 /// lose nearly all of its area, its vertices are brought back by halves. Linear: a vertex is brought back
 /// so often at most, and then only its own faces are looked at again.
 pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
-    let away = directions(mesh, positions);
+    let pieces = Pieces::new(mesh, positions);
+    let away = directions(mesh, positions, &pieces);
     let wanted = gap / 2.0;
     let far = wanted.min(Edges::of(mesh, positions).longest);
     let mut halvings = vec![0_u32; away.len()];
@@ -76,23 +91,137 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
         left.sort_unstable();
         left.dedup();
     }
-    let points: Vec<Point> = mesh.vertices().map(|v| at(v, &halvings)).collect();
+    let with_piece = |v: VertexId| match pieces.shift(mesh, v).filter(|_| gap > 0.0) {
+        Some(shift) => at(v, &halvings) + shift * gap,
+        None => at(v, &halvings),
+    };
+    let points: Vec<Point> = mesh.vertices().map(with_piece).collect();
     let is_less = |v: &VertexId| moves(*v) && (halvings[v.index()] > 0 || far < wanted);
     let is_apart = |v: &VertexId| points[v.index()] != positions.at(*v);
     Gapped {
         moved: mesh.vertices().filter(is_apart).count(),
         clamped: mesh.vertices().filter(is_less).count(),
+        pieces: match gap > 0.0 {
+            true => pieces.shifts.iter().flatten().count(),
+            false => 0,
+        },
+        lips: mesh.vertices().filter(|&v| moves(v)).count(),
         points,
     }
 }
 
+/// The pieces of a mesh, and how they part.
+struct Pieces {
+    of: Components,
+    /// By how much of the gap each piece moves as a whole, if it does.
+    shifts: Vec<Option<Vector>>,
+}
+
+impl Pieces {
+    fn new(mesh: &Mesh, positions: &Positions) -> Pieces {
+        let of = mesh.components();
+        let mut is_stuck = vec![false; of.count()];
+        let mut of_vertex: Vec<Option<usize>> = vec![None; mesh.vertex_count()];
+        // Between two pieces: the way from the first to the second, and the length of their seam.
+        let mut seams: BTreeMap<[usize; 2], (Vector, f64)> = BTreeMap::new();
+        for h in mesh.half_edges() {
+            let piece = of.of(h.face());
+            let known = *of_vertex[mesh.origin(h).index()].get_or_insert(piece);
+            if known != piece {
+                is_stuck[piece] = true;
+                is_stuck[known] = true;
+            }
+            let Some(across) = mesh.ghost_pair(h).map(|across| of.of(across.face())) else {
+                continue;
+            };
+            let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+            let away = inward(mesh, positions, h) * (b - a).norm();
+            if across != piece {
+                let seam = seams.entry([piece.min(across), piece.max(across)]);
+                let (way, length) = seam.or_insert((Vector::zeros(), 0.0));
+                *way += if piece > across { away } else { -away };
+                *length += (b - a).norm();
+            }
+        }
+        let mut beside: Vec<Vec<(usize, Vector)>> = vec![Vec::new(); of.count()];
+        for (&[one, other], &(way, length)) in &seams {
+            if way.norm() < STRAIGHT * length || length == 0.0 {
+                is_stuck[one] = true;
+            }
+            beside[one].push((other, unit(way)));
+            beside[other].push((one, -unit(way)));
+        }
+        let mut pieces = Pieces {
+            shifts: vec![None; of.count()],
+            of,
+        };
+        let mut is_seen = vec![false; beside.len()];
+        for first in 0..beside.len() {
+            if !is_seen[first] && !beside[first].is_empty() {
+                pieces.part(first, &beside, &is_stuck, &mut is_seen);
+            }
+        }
+        pieces
+    }
+
+    /// Finds how far all pieces that hang together by seams move, unless one of them cannot move as a
+    /// whole.
+    fn part(
+        &mut self,
+        first: usize,
+        beside: &[Vec<(usize, Vector)>],
+        is_stuck: &[bool],
+        is_seen: &mut [bool],
+    ) {
+        let mut together = vec![first];
+        self.shifts[first] = Some(Vector::zeros());
+        is_seen[first] = true;
+        let mut next = 0;
+        while let Some(&piece) = together.get(next) {
+            next += 1;
+            let shift = self.shifts[piece].expect("it was reached");
+            for &(other, way) in &beside[piece] {
+                if !std::mem::replace(&mut is_seen[other], true) {
+                    self.shifts[other] = Some(shift + way);
+                    together.push(other);
+                }
+            }
+        }
+        let at = |piece: usize| self.shifts[piece].expect("it was reached");
+        let parts = |&piece: &usize| {
+            let mut ways = beside[piece].iter();
+            !is_stuck[piece]
+                && ways.all(|&(other, way)| (at(other) - at(piece)).dot(&way) >= AGREED)
+        };
+        let all_part = together.iter().all(parts);
+        let sum: Vector = together.iter().map(|&piece| at(piece)).sum();
+        let middle = sum / together.len() as f64;
+        for piece in together {
+            let shift = &mut self.shifts[piece];
+            *shift = shift.filter(|_| all_part).map(|shift| shift - middle);
+        }
+    }
+
+    /// By how much of the gap a vertex moves with its piece.
+    fn shift(&self, mesh: &Mesh, v: VertexId) -> Option<Vector> {
+        self.shifts[self.of.of(mesh.half_edge_of(v)?.face())]
+    }
+
+    /// What is across a torn edge, unless the two sides move apart as a whole.
+    fn across(&self, mesh: &Mesh, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        let across = mesh.ghost_pair(h)?;
+        let [one, other] = [h, across].map(|h| self.of.of(h.face()));
+        (one == other || self.shifts[one].is_none()).then_some(across)
+    }
+}
+
 /// In which direction each vertex moves away from the other lip, if it does.
-fn directions(mesh: &Mesh, positions: &Positions) -> Vec<Option<Vector>> {
+fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option<Vector>> {
     let mut away = vec![Vector::zeros(); mesh.vertex_count()];
     let mut is_lip = vec![false; away.len()];
     let mut is_shared = vec![false; away.len()];
     for h in mesh.half_edges() {
-        let Some(other) = mesh.ghost_pair(h) else {
+        let Some(other) = pieces.across(mesh, h) else {
             continue;
         };
         let inward = inward(mesh, positions, h);
@@ -105,11 +234,11 @@ fn directions(mesh: &Mesh, positions: &Positions) -> Vec<Option<Vector>> {
             is_shared[v.index()] |= v == across;
         }
     }
-    // What a lip ends at is the boundary that was there before the cut.
+    // What a lip ends at is the boundary that was there before the cut, or another piece.
     let mut along = vec![Vector::zeros(); away.len()];
     for h in mesh
         .half_edges()
-        .filter(|&h| mesh.pair_or_ghost(h).is_none())
+        .filter(|&h| mesh.pair(h).is_none() && pieces.across(mesh, h).is_none())
     {
         let [a, b] = [mesh.origin(h), mesh.target(h)];
         let edge = positions.at(b) - positions.at(a);

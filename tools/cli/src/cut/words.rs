@@ -25,12 +25,15 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
 
 /// The line of the summary on a gap.
 pub(crate) fn gap(gap: f64, gapped: &Gapped) -> String {
-    let vertices = count(gapped.moved, "vertex", "vertices");
+    let pieces = count(gapped.pieces, "piece", "pieces");
+    let vertices = count(gapped.lips, "vertex", "vertices") + " along the cut";
+    let what = match (gapped.pieces, gapped.lips) {
+        (0, _) => vertices,
+        (_, 0) => pieces,
+        _ => format!("{pieces} and {vertices}"),
+    };
     let up_to = if gapped.clamped > 0 { "up to " } else { "" };
-    format!(
-        "gap: {vertices} along the cut moved apart by {up_to}{}",
-        short(gap)
-    )
+    format!("gap: {what} moved apart by {up_to}{}", short(gap))
 }
 
 /// That the gap is narrower somewhere than was asked for.
