@@ -78,3 +78,82 @@ fn a_picture_replaces_nothing_and_is_not_begun_where_it_cannot_be_written() {
     assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
     assert!(!folder.path("x.png").exists());
 }
+
+#[test]
+fn a_strip_shows_moments_of_a_scene_beside_each_other() {
+    let folder = Folder::new();
+    folder.write("s.toml", "base = \"rip\"\nseconds = 1\n");
+    let strip = "tearmesh render sheet.obj --scene s.toml --strip 3 --size 80x60";
+    for line in [
+        format!("{strip} -o one.png"),
+        format!("{strip} --seconds 1 -o other.png"),
+        format!("{strip} --finer 2 --fringe -o fine.png"),
+    ] {
+        let output = folder.run(&line);
+        assert_eq!(output.status.code(), Some(0), "{line}\n{}", seen(&output));
+    }
+    let read = |name| fs::read(folder.path(name)).expect("a file");
+    assert_eq!(size(&folder, "one.png"), [240, 60]);
+    assert!(read("one.png") == read("other.png"));
+    assert!(read("one.png") != read("fine.png"));
+    for wrong in [
+        "--scene rip",
+        "--strip 3",
+        "--scene none --strip 3",
+        "--scene rip --strip 0",
+        "--crease 200",
+        "--crease 40 --flat",
+        "--finer 9",
+    ] {
+        let output = folder.run(&format!("tearmesh render sheet.obj {wrong} -o x.png"));
+        assert_eq!(output.status.code(), Some(2), "{wrong}\n{}", seen(&output));
+    }
+    folder.write("bad.toml", "base = \"rip\"\nsolver.dt = 0.1\n");
+    let line = "tearmesh render sheet.obj --scene bad.toml --strip 2 -o x.png";
+    assert_ne!(folder.run(line).status.code(), Some(0));
+    assert!(!folder.path("x.png").exists());
+}
+
+#[test]
+fn a_picture_of_a_run_shows_the_moment_when_most_was_torn_or_that_was_asked_for() {
+    let folder = Folder::new();
+    folder.write("s.toml", "base = \"rip\"\nseconds = 1\n");
+    let tear = "tearmesh tear sheet.obj --scene s.toml";
+    for (options, picture) in [
+        ("", "most.png"),
+        (" --picture-at 0", "first.png"),
+        (" --picture-at 1", "last.png"),
+    ] {
+        let output = folder.run(&format!("{tear} -o t.obj --picture {picture}{options}"));
+        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    }
+    let output = folder.run("tearmesh render t.obj -o again.png");
+    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
+    let read = |name| fs::read(folder.path(name)).expect("a file");
+    assert!(read("last.png") == read("again.png"));
+    assert!(read("most.png") != read("last.png") && read("first.png") != read("most.png"));
+}
+
+#[test]
+fn a_file_whose_normals_differ_at_a_vertex_has_creases() {
+    let folder = Folder::new();
+    let faces = "f 1//1 2//1 3//1\nf 1//2 3//2 4//2\n";
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\n";
+    folder.write("sharp.obj", format!("{corners}vn 0 0 1\nvn 0 1 0\n{faces}"));
+    folder.write(
+        "smooth.obj",
+        format!("{corners}vn 0 0 1\nvn 0 0 1\n{faces}"),
+    );
+    for line in [
+        "tearmesh render sharp.obj -o sharp.png",
+        "tearmesh render sharp.obj --crease 40 -o crease.png",
+        "tearmesh render smooth.obj -o smooth.png",
+        "tearmesh render smooth.obj --flat -o flat.png",
+    ] {
+        let output = folder.run(line);
+        assert_eq!(output.status.code(), Some(0), "{line}\n{}", seen(&output));
+    }
+    let read = |name| fs::read(folder.path(name)).expect("a file");
+    assert!(read("sharp.png") == read("crease.png"));
+    assert!(read("sharp.png") != read("smooth.png") && read("smooth.png") != read("flat.png"));
+}

@@ -137,7 +137,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
     let shown = shown.as_deref().unwrap_or(positions.as_slice());
-    session.show_mesh(&mesh, shown, Vector::y())?;
+    session.show_mesh(&document, &mesh, shown, Vector::y())?;
     session.show_page(&mesh, shown, Vector::y())?;
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
         files::write_beside(path, |out| seam::write(&seams, out))?;

@@ -112,7 +112,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let torn = simple.as_ref().unwrap_or(&torn);
     let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
-    session.show_mesh(&mesh, &positions, Vector::y())?;
+    session.show_mesh(&document, &mesh, &positions, Vector::y())?;
     session.show_page(&mesh, &positions, Vector::y())?;
     let taken_out = vertices_mended - mesh.vertex_count();
     let pieces = mesh.components().count();

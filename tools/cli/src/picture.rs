@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use tearmesh::{Mesh, Place, Vector};
+use tearmesh_obj::Document;
 use tearmesh_view::{
     ANGLE_OF_VIEW, Camera, CameraError, Picture, PictureSize, RenderOptions, fit, render,
 };
@@ -44,12 +45,48 @@ pub(crate) fn write_beside(
     mesh: &Mesh,
     place: &(impl Place + ?Sized),
     up: Vector,
+    crease_deg: Option<f64>,
 ) -> Result<(), Stop> {
     let size = PictureSize::default();
     let camera = camera(mesh, place, up, ANGLE_OF_VIEW, size)?;
-    let picture = render(mesh, place, &camera, size, &RenderOptions::default());
+    let options = RenderOptions {
+        crease_deg,
+        ground: Some(up),
+        ..RenderOptions::default()
+    };
+    let picture = render(mesh, place, &camera, size, &options);
     write(path, &picture)
 }
+
+/// The texture coordinates of each corner of a document's triangles; empty if a corner has none.
+pub(crate) fn texture(document: &Document) -> Vec<[f64; 2]> {
+    let triangles = 0..document.triangles().len();
+    let corners = triangles.flat_map(|triangle| [0, 1, 2].map(|i| document.corner(triangle, i)));
+    let texture = corners.map(|corner| match document.texture(corner.texture? as usize) {
+        &[u, v, ..] => Some([u, v]),
+        _ => None,
+    });
+    texture.collect::<Option<Vec<_>>>().unwrap_or_default()
+}
+
+/// The angle from which on a mesh has creases: those of a file whose normals differ at a vertex.
+pub(crate) fn crease(document: &Document) -> Option<f64> {
+    let mut of_vertex = vec![None; document.positions().len()];
+    let triangles = 0..document.triangles().len();
+    let mut corners =
+        triangles.flat_map(|triangle| [0, 1, 2].map(|i| document.corner(triangle, i)));
+    let differs = corners.any(|corner| {
+        let Some(normal) = corner.normal else {
+            return false;
+        };
+        let normal = document.normals()[normal as usize];
+        *of_vertex[corner.vertex as usize].get_or_insert(normal) != normal
+    });
+    differs.then_some(CREASE)
+}
+
+/// In degrees.
+const CREASE: f64 = 40.0;
 
 /// Writes a picture into a file.
 pub(crate) fn write(path: &Path, picture: &Picture) -> Result<(), Stop> {

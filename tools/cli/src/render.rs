@@ -1,5 +1,7 @@
 //! The verb `render`.
 
+mod strip;
+
 use std::path::Path;
 
 use tearmesh::{Ray, Scissor};
@@ -45,20 +47,32 @@ fn work(
         .map(|look| Camera::new(look, args.up.coords, args.fov, size));
     let given = given.transpose();
     let given = given.map_err(|error| Stop::new(Exit::Usage, picture::no_camera(error)))?;
-    let options = options(args, faults)?;
+    let mut options = options(args, faults)?;
 
     let input = Input::find(&args.input, streams.input);
     let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
     let mut timing = report::Timing::default();
     let repair = session::repair(args.look.repair, args.look.separate_fans);
+    let opened = session::open(&input, repair, faults, &mut timing)?;
     let Opened {
-        mesh, positions, ..
-    } = session::open(&input, repair, faults, &mut timing)?;
-    let camera = match given {
-        Some(camera) => camera,
-        None => picture::camera(&mesh, &positions, args.up.coords, args.fov, args.size)?,
+        document,
+        mesh,
+        positions,
+    } = &opened;
+    options.texture = picture::texture(document);
+    options.crease_deg = match args.flat {
+        true => Some(0.0),
+        false => args.crease.or_else(|| picture::crease(document)),
     };
-    let drawn = tearmesh_view::render(&mesh, &positions, &camera, args.size, &options);
+    let drawn = match args.strip {
+        Some(count) => strip::draw(count, &opened, given, &options, args, streams)?,
+        None => {
+            let up = args.up.coords;
+            let fitted = || picture::camera(mesh, positions, up, args.fov, args.size);
+            let camera = given.map_or_else(fitted, Ok)?;
+            tearmesh_view::render(mesh, positions, &camera, args.size, &options)
+        }
+    };
     if to_file {
         picture::write(&args.output, &drawn)?;
     } else {
@@ -70,8 +84,8 @@ fn work(
         count(mesh.vertex_count(), "vertex", "vertices"),
         count(mesh.face_count(), "face", "faces"),
         count(mesh.components().count(), "piece", "pieces"),
-        args.size.width(),
-        args.size.height(),
+        drawn.width(),
+        drawn.height(),
         args.output.display(),
     ))
 }
@@ -81,6 +95,9 @@ fn options(args: &RenderArgs, faults: &mut Vec<Fault>) -> Result<RenderOptions, 
     let mut options = RenderOptions {
         edges: args.edges,
         bounding_box: args.bounding_box,
+        finer: args.finer,
+        fringe: args.fringe,
+        ground: Some(args.up.coords),
         ..RenderOptions::default()
     };
     for text in &args.rays {

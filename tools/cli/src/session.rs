@@ -213,15 +213,16 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Draws the picture of the mesh as it is in the end, if one is wanted.
+    /// Draws the picture of a mesh that came from a document, if one is wanted.
     pub(crate) fn show_mesh(
         &self,
+        document: &Document,
         mesh: &Mesh,
         place: &(impl Place + ?Sized),
         up: Vector,
     ) -> Result<(), Stop> {
         match self.files.picture.as_ref().filter(|_| !self.files.dry_run) {
-            Some(path) => picture::write_beside(path, mesh, place, up),
+            Some(path) => picture::write_beside(path, mesh, place, up, picture::crease(document)),
             None => Ok(()),
         }
     }

@@ -1,10 +1,11 @@
 //! The verb `tear`.
 
 pub(crate) mod advice;
-mod check;
+pub(crate) mod check;
 mod film;
 mod frames;
 mod step;
+mod still;
 mod strength;
 mod summary;
 
@@ -21,6 +22,7 @@ use tearmesh_obj::{Document, TornDocument};
 
 use self::film::Film;
 use self::frames::{Frames, places};
+use self::still::Still;
 use crate::args::{TearArgs, cut_name};
 use crate::cut::nothing::Obstacle;
 use crate::exit::{Exit, Stop};
@@ -89,7 +91,7 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
 
 /// A scene names vertices by their numbers in the file, among which copies for fans may be. A number
 /// that no `v` has stays one that no vertex has.
-fn name_vertices(scene: &mut Scene, document: &Document) {
+pub(crate) fn name_vertices(scene: &mut Scene, document: &Document) {
     let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
     let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
     for region in holds.chain(strengths) {
@@ -130,6 +132,7 @@ type Followers<'f, 'd> = (
     &'f mut Frames,
     &'f mut TearLog,
     &'f mut Option<Film>,
+    Option<&'f mut Still>,
 );
 
 /// How the steps ended.
@@ -155,7 +158,9 @@ impl Play<'_> {
         let clock = Clock::start();
         let mut tear_log = TearLog::new(&run);
         let mut film = self.film();
-        let followers = (&mut torn, &mut frames, &mut tear_log, &mut film);
+        let mut still = Still::new(self.args.picture_at);
+        let watching = self.args.files.picture.is_some().then_some(&mut still);
+        let followers = (&mut torn, &mut frames, &mut tear_log, &mut film, watching);
         let ended = self.steps(&mut run, followers, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
@@ -243,7 +248,10 @@ impl Play<'_> {
         let positions = places(&run)?;
         let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
-        session.show_mesh(run.mesh(), &positions, self.frame.up.vector())?;
+        let end = (run.mesh(), positions.as_slice());
+        let (mesh, points) = still.kept().unwrap_or(end);
+        let document = &self.opened.document;
+        session.show_mesh(document, mesh, points, self.frame.up.vector())?;
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
             files::write_beside(path, |out| summary::write_forces(&run, &tear_log, out))?;
@@ -318,7 +326,7 @@ impl Play<'_> {
     fn steps(
         &self,
         run: &mut Run,
-        (torn, frames, tear_log, film): Followers<'_, '_>,
+        (torn, frames, tear_log, film, mut still): Followers<'_, '_>,
         session: &mut Session<'_>,
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
@@ -343,6 +351,7 @@ impl Play<'_> {
                     tear_log.note(run, &step);
                     frames.shoot(run, torn)?;
                     film.as_mut().map_or(Ok(()), |film| film.shoot(run))?;
+                    still.iter_mut().for_each(|still| still.follow(run));
                 }
                 Err(error) => {
                     ended = Ended::Failed(error);

@@ -143,6 +143,14 @@ impl Camera {
         ]
     }
 
+    /// The eye, and the direction in which a line of sight goes that [`Camera::seen`] gives as this.
+    pub(crate) fn sight(&self, seen: Vector) -> (Point, Vector) {
+        (
+            self.eye,
+            self.right * seen.x + self.up * seen.y + self.middle * seen.z,
+        )
+    }
+
     /// The direction from the surface to the eye and those of the picture, each of length one: backward,
     /// right and up.
     pub(crate) fn axes(&self) -> [Vector; 3] {

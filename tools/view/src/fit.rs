@@ -1,6 +1,6 @@
 //! A camera that nobody had to place: it has all of the mesh in its picture, as large as it can be.
 
-use tearmesh::geometry::{check_point, cross, dot, max_abs};
+use tearmesh::geometry::{check_point, cross, dot, length, max_abs};
 use tearmesh::{Mesh, Place, Point, Vector};
 
 use crate::camera::{Camera, CameraError, tangent, unit};
@@ -21,8 +21,9 @@ struct Sides {
     halves: [f64; 3],
 }
 
-/// Places a camera so that all faces of a mesh fit into its picture. The camera looks at the broad side of
-/// the mesh and a little from above. It looks from higher up at a mesh that lies flat, and from a corner at
+/// Places a camera so that the pieces of a mesh fit into its picture. Small pieces may be left out, so that
+/// the crumbs of a tear that fly away do not decide what is seen: the largest pieces that hold nine tenths
+/// of the area fit. The camera looks at the broad side of the mesh and a little from above. It looks from higher up at a mesh that lies flat, and from a corner at
 /// a deep mesh. The result is `None` if the mesh has no face.
 ///
 /// `up` is upright in the picture, `degrees` is the angle of view from the lower edge to the upper edge, and
@@ -53,6 +54,24 @@ pub fn fit(
     degrees: f64,
     size: [f64; 2],
 ) -> Result<Option<Camera>, CameraError> {
+    fit_all([(mesh, place)], up, degrees, size)
+}
+
+/// Places one camera for several moments of a mesh, as [`fit`] does for one.
+///
+/// # Errors
+///
+/// As for [`fit`].
+///
+/// # Panics
+///
+/// If a vertex of a mesh is unknown to its places.
+pub fn fit_all<'m, P: Place + ?Sized + 'm>(
+    moments: impl IntoIterator<Item = (&'m Mesh, &'m P)>,
+    up: Vector,
+    degrees: f64,
+    size: [f64; 2],
+) -> Result<Option<Camera>, CameraError> {
     let up = unit(up).ok_or(CameraError::Up)?;
     let across = match up.x.abs() < 0.9 {
         true => Vector::x() - up * up.x,
@@ -60,12 +79,9 @@ pub fn fit(
     };
     let across = unit(across).ok_or(CameraError::Up)?;
     let axes = [across, up, cross(across, up)];
-    let shown: Vec<Point> = mesh
-        .vertices()
-        .filter(|&v| mesh.half_edge_of(v).is_some())
-        .map(|v| place.at(v))
-        .filter(|&p| check_point(p).is_ok())
-        .collect();
+    let moments = moments.into_iter();
+    let shown = moments.flat_map(|(mesh, place)| large_pieces(mesh, place));
+    let shown: Vec<Point> = shown.collect();
     let Some(sides) = Sides::of(&shown, axes) else {
         return Ok(None);
     };
@@ -98,6 +114,39 @@ pub fn fit(
     let far = far.max(least * 0.1 - nearest);
     let at = sides.middle + right * ((r - l) / 2.0) + upward * ((t - b) / 2.0);
     Camera::new([at + backward * far, at], up, degrees, size).map(Some)
+}
+
+/// The part of the area that has to be in the picture.
+const SHOWN: f64 = 0.9;
+
+/// The vertices of the largest pieces that hold enough of the area.
+fn large_pieces(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Vec<Point> {
+    let components = mesh.components();
+    let mut areas = vec![0.0; components.count()];
+    for f in mesh.faces() {
+        let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
+        let area = length(cross(b - a, c - a));
+        areas[components.of(f)] += if area.is_finite() { area } else { 0.0 };
+    }
+    let mut by_area: Vec<usize> = (0..areas.len()).collect();
+    by_area.sort_by(|&one, &other| areas[other].total_cmp(&areas[one]));
+    let wanted = areas.iter().sum::<f64>() * SHOWN;
+    let mut is_shown = vec![false; areas.len()];
+    let mut sum = 0.0;
+    for piece in by_area {
+        // Pieces of no area, as all are if the mesh is a line, hide nothing.
+        if sum > 0.0 && sum >= wanted {
+            break;
+        }
+        is_shown[piece] = true;
+        sum += areas[piece];
+    }
+    let vertices = mesh.vertices().filter(|&v| {
+        let corner = mesh.half_edge_of(v);
+        corner.is_some_and(|h| is_shown[components.of(h.face())])
+    });
+    let points = vertices.map(|v| place.at(v));
+    points.filter(|&p| check_point(p).is_ok()).collect()
 }
 
 /// From what is looked at towards the eye, if half of the box along these axes is so long.

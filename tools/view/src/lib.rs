@@ -15,6 +15,7 @@
 
 mod bounds;
 mod camera;
+mod figure;
 mod fit;
 mod page;
 pub mod palette;
@@ -22,13 +23,14 @@ mod pc2;
 mod picture;
 mod render;
 mod shade;
+mod sky;
 mod strokes;
 mod surface;
 mod trace;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraError};
-pub use fit::{ANGLE_OF_VIEW, fit};
+pub use fit::{ANGLE_OF_VIEW, fit, fit_all};
 pub use page::{CutLine, MOMENTS_PER_S, Moment, Page, PageError, Plot, is_page};
 pub use pc2::write_pc2;
 pub use picture::{PIXELS_MAX, Picture, PictureSize};

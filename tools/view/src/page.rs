@@ -23,6 +23,7 @@ use tearmesh::{HalfEdgeId, Mesh, Place, Point, Scissor, Vector};
 use self::pieces::Pieces;
 use crate::bounds::Bounds;
 use crate::camera::CameraError;
+use crate::figure::crease_cosine;
 use crate::fit::{ANGLE_OF_VIEW, fit};
 use crate::palette::{self, Color};
 use crate::shade;
@@ -316,7 +317,7 @@ impl Page {
             "plots": self.plots.iter().map(plot).collect::<Vec<_>>(),
             "colors": colors(),
             "light": shade::LIGHT,
-            "crease": shade::CREASE,
+            "crease": crease_cosine(None),
             "snap": Scissor::SNAP,
         });
         (text.to_string(), [faces, places].concat())

@@ -85,6 +85,31 @@ impl Picture {
         }
     }
 
+    /// Puts pictures of the same height beside each other, from left to right.
+    ///
+    /// # Panics
+    ///
+    /// If there is no picture, or if their heights differ.
+    #[must_use]
+    pub fn beside(pictures: &[Picture]) -> Picture {
+        let height = pictures[0].height;
+        assert!(
+            pictures.iter().all(|one| one.height == height),
+            "of one height"
+        );
+        let rows = (0..height as usize).flat_map(|row| {
+            pictures.iter().flat_map(move |one| {
+                let length = 3 * one.width as usize;
+                &one.pixels[row * length..(row + 1) * length]
+            })
+        });
+        Picture {
+            width: pictures.iter().map(|one| one.width).sum(),
+            height,
+            pixels: rows.copied().collect(),
+        }
+    }
+
     /// Returns the width, in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {

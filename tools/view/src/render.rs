@@ -5,16 +5,32 @@ use tearmesh::{FaceId, Mesh, Place, Point, Scissor, Vector};
 
 use crate::bounds::Bounds;
 use crate::camera::Camera;
+use crate::figure::{Figure, crease_cosine};
 use crate::palette::{self, Color};
 use crate::picture::{Picture, PictureSize};
-use crate::shade::{Light, corner_normals};
+use crate::shade::Light;
+use crate::sky::Sky;
 use crate::strokes::{Kind, Stroke, Strokes};
 use crate::surface::{Facing, Lattice, Surface};
 use crate::trace::trace;
 
-/// The lines that a picture shows in addition to the faces, torn edges and the boundary.
+/// How a mesh is drawn, and what is drawn beside its faces, torn edges and boundary.
 #[derive(Clone, Debug, Default)]
 pub struct RenderOptions {
+    /// The angle between two faces, in degrees, from which on their common edge is drawn as a crease. 0
+    /// draws each face flat, and `None` draws every surface smooth, as cloth is.
+    pub crease_deg: Option<f64>,
+    /// Into how many parts each edge is divided for the picture. Each face becomes the square of that number,
+    /// bent between the normals of its corners. 0 and 1 draw the faces as they are.
+    pub finer: u32,
+    /// Whether short threads hang out of tears that gape.
+    pub fringe: bool,
+    /// The upward direction, if the picture has a ground, with the shadow of the mesh on it. The ground is
+    /// just below the mesh.
+    pub ground: Option<Vector>,
+    /// The texture coordinates of each corner, by the index of its half-edge, on which a weave is drawn; empty
+    /// draws none.
+    pub texture: Vec<[f64; 2]>,
     /// Whether the edges between two faces are drawn.
     pub edges: bool,
     /// Whether the box around all faces is drawn.
@@ -72,13 +88,22 @@ fn in_bands(
     options: &RenderOptions,
     band: usize,
 ) -> Picture {
-    let view = View::new(mesh, place, camera, size, SIDE);
+    let crease = crease_cosine(options.crease_deg);
+    let mut figure = Figure::new(mesh, place, crease, &options.texture, options.edges);
+    if options.fringe {
+        figure.fringe(mesh, place);
+    }
+    if options.finer > 1 {
+        figure = figure.finer(options.finer);
+    }
+    let view = View::new(figure.points.iter().copied(), camera, size, SIDE);
     let scene = Scene {
         view: &view,
         light: Light::of(camera),
-        normals: corner_normals(mesh, place),
-        colors: piece_colors(mesh),
-        strokes: strokes(mesh, place, &view, options),
+        sky: Sky::new(&figure, options.ground),
+        weave: Weave::new(&figure.texture),
+        strokes: strokes(mesh, place, &figure, &view, options),
+        figure: &figure,
     };
     // Lines at the edge of a band look at the surface beside it.
     let margin = (SIDE * 4) as usize;
@@ -90,7 +115,7 @@ fn in_bands(
     for from in (0..rows).step_by(step) {
         let to = (from + step).min(rows);
         let around = from.saturating_sub(margin)..(to + margin).min(rows);
-        let surface = Surface::of(mesh, &view.seen, view.lattice, around);
+        let surface = Surface::of(&figure.faces, &view.seen, view.lattice, around);
         scene.draw(&surface, from..to, &mut pixels);
     }
     Picture::new(size, pixels)
@@ -109,43 +134,41 @@ pub fn faces_seen(
     camera: &Camera,
     size: PictureSize,
 ) -> Vec<Option<FaceId>> {
-    let view = View::new(mesh, place, camera, size, 1);
+    let points = mesh.vertices().map(|v| place.at(v));
+    let view = View::new(points, camera, size, 1);
     let Lattice { columns, rows } = view.lattice;
-    let surface = Surface::of(mesh, &view.seen, view.lattice, 0..rows);
+    let (faces, _) = mesh.indices().as_chunks();
+    let surface = Surface::of(faces, &view.seen, view.lattice, 0..rows);
     let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
     let faces = places.map(|(column, row)| surface.face(column, row));
     faces.map(|face| face.and_then(FaceId::new)).collect()
 }
 
-/// A mesh as its camera sees it.
-struct View<'m> {
-    mesh: &'m Mesh,
+/// Points as a camera sees them.
+struct View {
     camera: Camera,
     lattice: Lattice,
-    /// Each vertex, as the camera sees it, times the scale.
+    /// Each point, as the camera sees it, times the scale.
     seen: Vec<Vector>,
     /// A power of two, so that products of what is seen neither vanish nor run over.
     scale: f64,
 }
 
-impl<'m> View<'m> {
+impl View {
     fn new(
-        mesh: &'m Mesh,
-        place: &(impl Place + ?Sized),
+        points: impl Iterator<Item = Point>,
         camera: &Camera,
         size: PictureSize,
         side: u32,
-    ) -> View<'m> {
-        let mut seen: Vec<Vector> = mesh.vertices().map(|v| camera.seen(place.at(v))).collect();
-        let shown = mesh.indices().iter().map(|&v| max_abs(seen[v as usize]));
-        let largest = shown.fold(0.0, f64::max);
+    ) -> View {
+        let mut seen: Vec<Vector> = points.map(|p| camera.seen(p)).collect();
+        let largest = seen.iter().map(|&p| max_abs(p)).fold(0.0, f64::max);
         let scale = match largest > 0.0 && largest.is_finite() {
             true => power_of_two_below(1.0 / largest),
             false => 1.0,
         };
         seen.iter_mut().for_each(|p| *p *= scale);
         View {
-            mesh,
             camera: *camera,
             lattice: Lattice::new(size.width(), size.height(), side),
             seen,
@@ -166,11 +189,11 @@ fn power_of_two_below(x: f64) -> f64 {
 
 /// All that is drawn.
 struct Scene<'v> {
-    view: &'v View<'v>,
+    figure: &'v Figure,
+    view: &'v View,
     light: Light,
-    normals: Vec<[Vector; 3]>,
-    /// Of each face.
-    colors: Vec<Color>,
+    sky: Sky,
+    weave: Option<Weave>,
     strokes: Vec<Stroke>,
 }
 
@@ -203,21 +226,80 @@ impl Scene<'_> {
 
     /// What is seen along a line of sight, but for lines.
     fn color(&self, surface: &Surface, column: usize, row: usize) -> [f64; 3] {
+        let sight = self.view.lattice.sight(column, row);
         let seen = surface.face(column, row).and_then(|face| {
-            let corners = &self.view.mesh.indices()[3 * face..3 * face + 3];
-            let corners = [0, 1, 2].map(|i| self.view.seen[corners[i] as usize]);
-            Some((face, Facing::new(corners)?))
+            let corners = self.figure.faces[face].map(|at| at as usize);
+            let facing = Facing::new(corners.map(|at| self.view.seen[at]))?;
+            Some((face, corners, facing))
         });
-        let Some((face, facing)) = seen else {
-            return palette::LIGHT.background.map(f64::from);
+        let Some((face, corners, facing)) = seen else {
+            return self.ground(sight);
         };
-        let weights = facing.weights(self.view.lattice.sight(column, row));
+        let weights = facing.weights(sight);
         let sum: f64 = weights.iter().sum();
-        let normals = self.normals[face].iter().zip(weights);
-        let normal = normals.fold(Vector::zeros(), |normal, (corner, weight)| {
-            normal + corner * (weight / sum)
+        let (mut normal, mut sky, mut texture) = (Vector::zeros(), 0.0, [0.0; 2]);
+        for (at, weight) in corners.into_iter().zip(weights.map(|weight| weight / sum)) {
+            normal += self.figure.normals[at] * weight;
+            sky += self.sky.seen[at][usize::from(!facing.is_front)] * weight;
+            if let Some(at) = self.figure.texture.get(at) {
+                texture = [0, 1].map(|i| texture[i] + at[i] * weight);
+            }
+        }
+        let woven = self.weave.as_ref().map_or(1.0, |weave| weave.at(texture));
+        let color = self.figure.colors[face].map(|part| f64::from(part) * woven);
+        self.light.shade(color, normal, facing.is_front, sky)
+    }
+
+    /// What is seen where there is no face.
+    fn ground(&self, sight: Vector) -> [f64; 3] {
+        let background = palette::LIGHT.background.map(f64::from);
+        let (eye, direction) = self.view.camera.sight(sight);
+        let ground = self.sky.ground.as_ref();
+        match ground.and_then(|ground| ground.seen(eye, direction)) {
+            Some(sky) => background.map(|part| part * (1.0 - SHADOW * (1.0 - sky))),
+            None => background,
+        }
+    }
+}
+
+/// How much darker the ground is that sees no sky.
+const SHADOW: f64 = 0.7;
+
+/// Two threads that cross, over and under each other in turn, on a surface with texture coordinates.
+struct Weave {
+    origin: [f64; 2],
+    /// The width of a thread.
+    thread: f64,
+}
+
+/// How many threads lie beside each other, along the longer side of the texture.
+const THREADS: f64 = 64.0;
+
+/// How much of the light the lower thread keeps.
+const UNDER: f64 = 0.93;
+
+impl Weave {
+    /// None if there is no texture, or no part of it.
+    fn new(texture: &[[f64; 2]]) -> Option<Weave> {
+        let [u, v] = [0, 1].map(|axis| {
+            let along = texture.iter().map(|at| at[axis]);
+            along.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
+                [least.min(x), most.max(x)]
+            })
         });
-        self.light.shade(self.colors[face], normal, facing.is_front)
+        let thread = (u[1] - u[0]).max(v[1] - v[0]) / THREADS;
+        (thread > 0.0 && thread.is_finite()).then_some(Weave {
+            origin: [u[0], v[0]],
+            thread,
+        })
+    }
+
+    fn at(&self, texture: [f64; 2]) -> f64 {
+        let [across, along] = [0, 1].map(|i| ((texture[i] - self.origin[i]) / self.thread).floor());
+        match (across + along).rem_euclid(2.0) {
+            0.0 => 1.0,
+            _ => UNDER,
+        }
     }
 }
 
@@ -234,7 +316,9 @@ fn look(kind: Kind) -> Look {
     let (color, width, cover) = match kind {
         Kind::Edge => (palette::LIGHT.edge, 0.7, 0.45),
         Kind::Box => (palette::LIGHT.bounding_box, 1.0, 1.0),
-        Kind::Boundary => (palette::LIGHT.boundary, 1.7, 1.0),
+        Kind::Boundary => (palette::LIGHT.boundary, 1.0, 0.7),
+        Kind::Thread => (palette::LIGHT.edge, 0.6, 0.55),
+        Kind::Slit => (palette::LIGHT.seam, 1.5, 1.0),
         Kind::Seam => (palette::LIGHT.seam, 2.4, 1.0),
         Kind::Trace => (palette::LIGHT.trace, 2.4, 1.0),
     };
@@ -252,39 +336,19 @@ fn drawn_over(below: [f64; 3], line: Option<Kind>) -> [f64; 3] {
     [0, 1, 2].map(|i| below[i] + cover * (f64::from(color[i]) - below[i]))
 }
 
-/// The colour of each face: that of its piece. The largest piece has the first.
-fn piece_colors(mesh: &Mesh) -> Vec<Color> {
-    let components = mesh.components();
-    let mut sizes = vec![0usize; components.count()];
-    mesh.faces().for_each(|f| sizes[components.of(f)] += 1);
-    let mut by_size: Vec<usize> = (0..sizes.len()).collect();
-    by_size.sort_by_key(|&piece| std::cmp::Reverse(sizes[piece]));
-    let mut rank = vec![0; sizes.len()];
-    for (number, &piece) in by_size.iter().enumerate() {
-        rank[piece] = number;
-    }
-    let color = |f| palette::piece(rank[components.of(f)]);
-    mesh.faces().map(color).collect()
-}
-
 /// All lines of a picture, in the order in which they are drawn.
 fn strokes(
     mesh: &Mesh,
     place: &(impl Place + ?Sized),
-    view: &View<'_>,
+    figure: &Figure,
+    view: &View,
     options: &RenderOptions,
 ) -> Vec<Stroke> {
-    let mut strokes = Vec::new();
-    for h in mesh.half_edges() {
-        let kind = match (mesh.pair(h), mesh.ghost_pair(h)) {
-            (Some(pair), _) if options.edges && h < pair => Kind::Edge,
-            (Some(_), _) => continue,
-            (None, Some(_)) => Kind::Seam,
-            (None, None) => Kind::Boundary,
-        };
-        let ends = [mesh.origin(h), mesh.target(h)].map(|v| view.seen[v.index()]);
-        strokes.push(Stroke { kind, ends });
-    }
+    let line = |&(kind, ends): &(Kind, [u32; 2])| {
+        let ends = ends.map(|at| view.seen[at as usize]);
+        Stroke { kind, ends }
+    };
+    let mut strokes: Vec<Stroke> = figure.lines.iter().map(line).collect();
     let bounds = Bounds::of(mesh, place);
     let mut add = |kind, segment: [Point; 2]| {
         let ends = segment.map(|p| view.point(p));

@@ -14,6 +14,11 @@ pub(crate) enum Kind {
     Edge,
     Box,
     Boundary,
+    /// A thread that hangs out of a tear.
+    Thread,
+    /// A torn edge whose two sides lie on each other.
+    Slit,
+    /// A side of a torn edge that gapes.
     Seam,
     Trace,
 }

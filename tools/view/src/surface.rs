@@ -8,8 +8,8 @@
 
 use std::ops::Range;
 
+use tearmesh::Vector;
 use tearmesh::geometry::{cross, dot};
-use tearmesh::{Mesh, Vector};
 
 /// The lines of sight of a picture: a lattice of them in each pixel.
 #[derive(Clone, Copy, Debug)]
@@ -103,10 +103,10 @@ pub(crate) struct Surface {
 const NOTHING: u32 = u32::MAX;
 
 impl Surface {
-    /// Looks at a mesh whose vertices are seen there ([`crate::Camera::seen`]). Of faces that are equally
-    /// near, the one with the lowest id is seen.
+    /// Looks at faces whose points are seen there ([`crate::Camera::seen`]). Of faces that are equally near, the
+    /// first one is seen.
     pub(crate) fn of(
-        mesh: &Mesh,
+        faces: &[[u32; 3]],
         seen: &[Vector],
         lattice: Lattice,
         rows: Range<usize>,
@@ -118,7 +118,7 @@ impl Surface {
             nearness: vec![0.0; count],
             faces: vec![NOTHING; count],
         };
-        for (number, corners) in mesh.indices().as_chunks::<3>().0.iter().enumerate() {
+        for (number, corners) in faces.iter().enumerate() {
             let corners = corners.map(|v| seen[v as usize]);
             surface.add(number as u32, corners, lattice);
         }

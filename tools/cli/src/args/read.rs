@@ -27,6 +27,22 @@ pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// Reads an angle between two faces, in degrees.
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok();
+    number
+        .filter(|degrees| (0.0..=180.0).contains(degrees))
+        .ok_or_else(|| "expected degrees from 0 to 180".to_owned())
+}
+
+/// Reads a duration in seconds.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok();
+    number
+        .filter(|seconds: &f64| *seconds >= 0.0 && seconds.is_finite())
+        .ok_or_else(|| "expected seconds, as in 2.5".to_owned())
+}
+
 /// Reads the size of a picture that is drawn.
 pub(super) fn picture_size(text: &str) -> Result<PictureSize, String> {
     let (width, height) = text

@@ -12,6 +12,8 @@ const EXAMPLES: &str = "\
 Examples:
   tearmesh render torn.obj -o torn.png
       the whole mesh, from its broad side: pieces in colours, torn edges red
+  tearmesh render flag.obj --scene rip --strip 4 -o strip.png
+      four moments of the scene, from the first tear on
   tearmesh render flag.obj --rays 0.3,2,5:0,0,-1 0.3,-2,5:0,0,-1 --edges -o cut.png
       the cut between two rays, and the edges of the mesh";
 
@@ -68,6 +70,40 @@ pub(crate) struct RenderArgs {
     /// Draw the edges between faces.
     #[arg(long)]
     pub(crate) edges: bool,
+
+    /// Draw each face flat.
+    #[arg(long, conflicts_with = "crease")]
+    pub(crate) flat: bool,
+
+    /// Draw edges as creases where two faces meet at this angle or more, in degrees.
+    ///
+    /// Without it, a mesh is drawn smooth, as cloth is, unless the file has normals that differ at a
+    /// vertex; then the angle is 40 degrees.
+    #[arg(long, value_name = "DEG", value_parser = super::read::angle)]
+    pub(crate) crease: Option<f64>,
+
+    /// Draw each face divided into N² faces, and bent as its normals say.
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["flat", "crease"],
+        value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub(crate) finer: u32,
+
+    /// Draw threads that hang out of tears.
+    #[arg(long)]
+    pub(crate) fringe: bool,
+
+    /// Play a scene, and draw N moments of it beside each other, from the first tear to the end.
+    ///
+    /// Each moment has the width and height of --size.
+    #[arg(long, value_name = "N", requires = "scene", value_parser = clap::value_parser!(u32).range(1..=12))]
+    pub(crate) strip: Option<u32>,
+
+    /// The scene to play for --strip: hang, flag, rip, trouser, fall, or a scene file, as for `tear`.
+    #[arg(long, value_name = "S", requires = "strip")]
+    pub(crate) scene: Option<String>,
+
+    /// How long to play it, in seconds.
+    #[arg(long, value_name = "S", requires = "strip", value_parser = super::read::seconds)]
+    pub(crate) seconds: Option<f64>,
 
     #[command(flatten)]
     pub(crate) look: LookArgs,

@@ -113,6 +113,10 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "F.csv")]
     pub(crate) forces: Option<PathBuf>,
 
+    /// The moment of --picture, in seconds (default: after the frame of 1/30 s in which most was torn).
+    #[arg(long, value_name = "S", requires = "picture", value_parser = super::read::seconds)]
+    pub(crate) picture_at: Option<f64>,
+
     /// Write frames into this folder, 30 per second.
     ///
     /// `frame_00000.obj` and so on. Vertices keep their order, and new ones are appended. Messages about

@@ -152,7 +152,7 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
 }
 
 /// Why a scene cannot be played with this mesh.
-pub(super) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
+pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
     let blame = |at, code, message, help: Option<&str>| {
         let mut fault = source.blame(at, code, message);
         fault.help = help.map(str::to_owned);

@@ -1,0 +1,107 @@
+//! A strip of pictures of a simulation, from its first tear on.
+
+use tearmesh::{Blend, Cursor, Mesh, Point};
+use tearmesh_cloth::scene::{Frame, Run};
+use tearmesh_view::{Camera, CameraError, Picture, RenderOptions, fit_all, render};
+
+use crate::args::RenderArgs;
+use crate::exit::{Exit, Stop};
+use crate::picture::no_camera;
+use crate::scene::SceneFile;
+use crate::session::Opened;
+use crate::streams::Streams;
+use crate::tear;
+
+/// A mesh at a moment.
+struct Moment {
+    mesh: Mesh,
+    points: Vec<Point>,
+    texture: Vec<[f64; 2]>,
+}
+
+/// Plays a scene and draws so many moments of it, at equal times: from the step before the first tear, or the
+/// beginning if nothing tears, to the end.
+pub(super) fn draw(
+    count: u32,
+    opened: &Opened,
+    given: Option<Camera>,
+    options: &RenderOptions,
+    args: &RenderArgs,
+    streams: &mut Streams<'_>,
+) -> Result<Picture, Stop> {
+    let source = SceneFile::find(args.scene.as_deref().unwrap_or_default(), streams)?;
+    let Opened {
+        mesh, positions, ..
+    } = opened;
+    let frame = Frame::new(mesh, positions.as_slice(), source.up());
+    let begin = || {
+        let mut scene = source.scene(&frame, None)?;
+        scene.duration_s = args.seconds.unwrap_or(scene.duration_s);
+        tear::name_vertices(&mut scene, &opened.document);
+        let run = Run::new(mesh.clone(), positions, scene, &frame);
+        run.map_err(|error| tear::check::refused(&error, opened, &source))
+    };
+    let mut run = begin()?;
+    while !run.is_over() && run.tally().splits == 0 {
+        step(&mut run)?;
+    }
+    let first = match run.tally() {
+        tally if tally.splits > 0 => tally.steps - 1,
+        _ => 0,
+    };
+    let last = run.steps_planned();
+
+    let mut run = begin()?;
+    let (mut texture, mut seen) = (options.texture.clone(), Cursor::START);
+    let mut moments = Vec::new();
+    for number in 0..u64::from(count) {
+        let at = match count {
+            1 => last,
+            _ => first + (last - first) * number / u64::from(count - 1),
+        };
+        while run.tally().steps < at {
+            step(&mut run)?;
+            if !texture.is_empty() {
+                run.edits()
+                    .replay_corners(&mut seen, &mut texture, Blend::blend);
+            }
+        }
+        moments.push(Moment {
+            mesh: run.mesh().clone(),
+            points: run.cloth().positions().to_vec(),
+            texture: texture.clone(),
+        });
+    }
+    let up = frame.up.vector();
+    let seen = moments.iter().map(|moment| (&moment.mesh, &*moment.points));
+    let refused = |error: CameraError| Stop::new(Exit::Usage, no_camera(error));
+    let camera = match given {
+        Some(camera) => camera,
+        None => fit_all(seen, up, args.fov, args.size.as_f64())
+            .map_err(refused)?
+            .expect("a scene has faces"),
+    };
+    let pictures: Vec<Picture> = moments
+        .into_iter()
+        .map(|moment| {
+            let options = RenderOptions {
+                texture: moment.texture,
+                ground: Some(up),
+                ..options.clone()
+            };
+            render(&moment.mesh, &*moment.points, &camera, args.size, &options)
+        })
+        .collect();
+    Ok(Picture::beside(&pictures))
+}
+
+/// Takes a step that has to be good.
+fn step(run: &mut Run) -> Result<(), Stop> {
+    match run.step() {
+        Ok(_) => Ok(()),
+        Err(error) => Err(Stop::new(
+            Exit::Simulation,
+            tear::advice::failure(&error, run),
+        )),
+    }
+}

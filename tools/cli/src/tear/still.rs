@@ -1,0 +1,60 @@
+//! The moment of a run whose picture is drawn.
+
+use tearmesh::{Mesh, Point};
+use tearmesh_cloth::scene::Run;
+
+use super::frames::RATE_PER_S;
+
+/// A moment, kept until the run is over: the one that was asked for, or the end of the frame in which most
+/// vertices were split by tearing, or by cuts if nothing tore. What is torn hangs beside its counterpart then; later it has often fallen out of
+/// sight.
+#[derive(Default)]
+pub(super) struct Still {
+    at_s: Option<f64>,
+    kept: Option<(Mesh, Vec<Point>)>,
+    /// The most splits of a frame so far, by tearing and by cuts, and all splits before this frame.
+    most: [u64; 2],
+    before: [u64; 2],
+    frames: u64,
+}
+
+impl Still {
+    pub(super) fn new(at_s: Option<f64>) -> Still {
+        Still {
+            at_s,
+            ..Still::default()
+        }
+    }
+
+    /// Looks at a run after a step.
+    pub(super) fn follow(&mut self, run: &Run) {
+        let now_s = run.elapsed_s();
+        if let Some(at_s) = self.at_s {
+            if self.kept.is_none() && now_s >= at_s {
+                self.keep(run);
+            }
+            return;
+        }
+        if now_s * RATE_PER_S < (self.frames + 1) as f64 {
+            return;
+        }
+        self.frames += 1;
+        let tally = run.tally();
+        let splits = [tally.splits, tally.cut_splits];
+        let now = [0, 1].map(|kind| splits[kind] - self.before[kind]);
+        if now > self.most {
+            self.most = now;
+            self.keep(run);
+        }
+        self.before = splits;
+    }
+
+    fn keep(&mut self, run: &Run) {
+        self.kept = Some((run.mesh().clone(), run.cloth().positions().to_vec()));
+    }
+
+    /// The moment; none if it is the end.
+    pub(super) fn kept(&self) -> Option<(&Mesh, &[Point])> {
+        self.kept.as_ref().map(|(mesh, points)| (mesh, &**points))
+    }
+}
