@@ -1,14 +1,14 @@
 //! The balance of energy, against answers on paper; and the watch over what a method makes.
 
 use tearmesh::{Edits, Masses, Plane, Point, Vector, mend, shapes, split};
-use tearmesh_cloth::scene::{EnergyGain, Frame, Run, Scene};
+use tearmesh_cloth::scene::{EnergyGain, Frame, Scene};
 use tearmesh_cloth::{
     Balance, Cloth, Collider, Copies, EnergyBalance, Fabric, Implicit, Limiter, Loads, Path,
     Solver, StepError, System, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd, energy,
 };
 use tearmesh_cloth::{Method, implicit};
 
-use crate::parts::scenes::{methods, play, staged};
+use crate::parts::scenes::{methods, play, played, staged};
 use crate::parts::{mechanical_j, near, run};
 use crate::plain_verlet::PlainVerlet;
 
@@ -466,33 +466,28 @@ fn beyond_the_limit_a_spring_makes_energy() {
     }
 }
 
-fn played(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Run {
-    play(staged(cells, scene))
-}
-
-fn check_no_gain(cells: u32, scene: fn(&Frame) -> Scene, name: &str, solver: &Method) {
-    let run = played(cells, |frame| Scene {
-        solver: solver.clone(),
-        ..scene(frame)
-    });
+fn check_no_gain(cells: u32, scene: &'static str, method: &'static str) {
+    let run = played(cells, scene, method);
     let balance = run.energy_balance();
-    println!("{name} {cells}: {} J made, {balance:?}", balance.made_j());
-    assert_eq!(run.energy_gain(), None, "{name} at {cells}");
+    println!(
+        "{scene} {method} {cells}: {} J made, {balance:?}",
+        balance.made_j()
+    );
+    assert_eq!(run.energy_gain(), None, "{scene} by {method} at {cells}");
 }
 
 #[test]
 fn no_method_makes_energy_in_the_scenes_that_stand_ready() {
-    for (name, solver) in methods() {
-        for scene in [Scene::hang, Scene::flag, Scene::rip, Scene::trouser] {
-            check_no_gain(16, scene, name, &solver);
+    for (method, _) in methods() {
+        for scene in ["fall", "hang", "flag", "rip", "trouser"] {
+            check_no_gain(16, scene, method);
         }
-        check_no_gain(16, |frame| Scene::fall(frame.up), name, &solver);
     }
-    for scene in [Scene::hang, Scene::rip] {
-        check_no_gain(32, scene, "verlet", &Method::Verlet);
+    for scene in ["hang", "rip"] {
+        check_no_gain(32, scene, "verlet");
     }
-    for scene in [Scene::hang, Scene::flag, Scene::rip] {
-        check_no_gain(32, scene, "xpbd", &Method::Xpbd(Xpbd::new(1, 1)));
+    for scene in ["hang", "flag", "rip"] {
+        check_no_gain(32, scene, "xpbd");
     }
 }
 
@@ -515,9 +510,9 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
         stretch_ratio_max: 1e6,
         ..Limiter::default()
     });
-    let own = played(16, |frame| violent(frame, springs.clone(), None));
+    let own = play(staged(16, |frame| violent(frame, springs.clone(), None)));
     let step_s = Some(own.step_s());
-    let run = played(16, |frame| violent(frame, springs.clone(), step_s));
+    let run = play(staged(16, |frame| violent(frame, springs.clone(), step_s)));
     let Some(EnergyGain {
         since_s,
         made_j,
@@ -534,11 +529,11 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     assert!(pieces > 20);
     // A step that may be divided is, as soon as the cloth is torn; and the guards of Verlet show what
     // nature would do at the same step.
-    let half = played(16, |frame| violent(frame, Method::Verlet, step_s));
+    let half = play(staged(16, |frame| violent(frame, Method::Verlet, step_s)));
     assert_eq!(half.energy_gain(), None, "{:?}", half.energy_balance());
     assert!(half.mesh().components().count() < pieces / 2);
     for (name, solver) in methods() {
-        let run = played(16, |frame| violent(frame, solver.clone(), None));
+        let run = play(staged(16, |frame| violent(frame, solver.clone(), None)));
         assert_eq!(
             run.energy_gain(),
             None,
@@ -551,11 +546,11 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
 /// The slivers beside the cut are measured once, and get a tenth faster while they turn.
 #[test]
 fn regression_a_flag_that_is_cut_goes_on_waving_by_verlet() {
-    let run = played(24, |frame| Scene {
+    let run = play(staged(24, |frame| Scene {
         solver: Method::Verlet,
         duration_s: 1.56,
         ..Scene::flag(frame)
-    });
+    }));
     assert!(run.tally().stretch_ratio_max < 1.3, "{:?}", run.tally());
     assert_eq!(run.energy_gain(), None);
 }

@@ -2,7 +2,7 @@
 
 use tearmesh::{Plane, Point, Vector};
 use tearmesh_cloth::{
-    BlowUpSite, Collider, Constraint, Limiter, Loads, Path, Pbd, Provot, Solver, StepError, System,
+    BlowUpSite, Collider, Constraint, Loads, Path, Pbd, Provot, Solver, StepError, System,
     SystemError, Unstable, Verlet, Wind, Xpbd, energy, frequency_bound, stable_step_s,
 };
 
@@ -221,36 +221,11 @@ fn f4_the_bound_holds_is_not_far_off_and_names_the_spring_that_sets_it() {
 }
 
 #[test]
-fn f5_the_limiter_needs_the_velocity_rewrite_and_says_what_it_did() {
+fn f5_the_limiter_says_what_it_did() {
     // A weight that pulls a soft chain beyond the limit.
-    let heavy = || {
-        let mut chain = row(10, 0.02, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
-        chain.set_loads(gravity(0.0)).expect("loads");
-        chain
-    };
-    let energy_after = |rewrites_velocities: bool, passes_max: u32| {
-        let limiter = Limiter {
-            passes_max,
-            rewrites_velocities,
-            ..Limiter::default()
-        };
-        let mut chain = heavy();
-        let dt = 0.9 * 2.0 / largest_frequency(&chain);
-        let mut provot = Provot::new(limiter);
-        for _ in 0..2000 {
-            if chain.step(&mut provot, dt).is_err() {
-                return f64::INFINITY;
-            }
-        }
-        energy::kinetic_j(&chain)
-    };
-    for passes in [1, 20] {
-        let (with, without) = (energy_after(true, passes), energy_after(false, passes));
-        println!("kinetic energy with {passes} passes: {with:e} J, not rewritten {without:e} J");
-        assert!(with < 1.0 && without > 10.0 * with);
-    }
+    let mut chain = row(10, 0.02, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
+    chain.set_loads(gravity(0.0)).expect("loads");
     let mut provot = Provot::default();
-    let mut chain = heavy();
     run(&mut chain, &mut provot, 0.005, 400);
     let stats = provot.stats();
     assert!(stats.passes > 400 && stats.steps_limited > 0, "{stats:?}");

@@ -1,16 +1,14 @@
-//! F5: what Provot's limiter does to stability where velocities are not rewritten.
+//! F5: what Provot's limiter does to stability: nothing, since velocities are rewritten to what was
+//! really moved.
 //!
 //! Protocol: no drag; Δt as a part of 2/ω of the springs alone; passes 1, 2, 5 and 20.
 //!
 //! * *Shaken*: nets without weight that start within the limit of 1.1, at speeds up to a tenth of
-//!   the shortest rest length times ω; four seeds, 2000 steps; stable where energy stays below four
-//!   times what it was. The limiter shortens the stable step of none, whatever the passes; where the
-//!   springs alone fail, just below 2/ω, it holds them together.
-//! * *Loaded*: a chain too heavy for the limit, and a string between nails too far apart for it.
-//!   Positions are held while velocities go on to grow, so no step is stable, however short. With
-//!   the rewrite the chain comes to rest at every step.
-//!
-//! So there is no threshold to be quoted as a part of 2/ω: it is the load that decides.
+//!   the shortest rest length times ω; 2000 steps; stable where energy stays below four times what it
+//!   was. The limiter shortens the stable step of none, whatever the passes; where the springs alone
+//!   fail, just below 2/ω, it holds them together.
+//! * *Loaded*: a chain too heavy for the limit comes to rest at every step. (Where positions are held
+//!   while velocities go on to grow, no step is stable under such a load, however short.)
 
 use tearmesh::Vector;
 use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable, energy};
@@ -23,13 +21,12 @@ use crate::random::Random;
 const PASSES: [u32; 4] = [1, 2, 5, 20];
 
 /// The limiter with a number of passes; zero for springs alone.
-fn limited(passes_max: u32, rewrites_velocities: bool) -> Provot {
+fn limited(passes_max: u32) -> Provot {
     if passes_max == 0 {
         return Provot::unlimited();
     }
     Provot::new(Limiter {
         passes_max,
-        rewrites_velocities,
         ..Limiter::default()
     })
 }
@@ -79,70 +76,48 @@ fn survives(mut system: System, mut provot: Provot, part: f64) -> (bool, u64) {
     (true, provot.stats().steps_limited)
 }
 
-/// How many of four seeds survive.
-fn survivors(name: &str, passes: u32, part: f64) -> usize {
-    let run = |&seed: &u64| survives(kicked(name, seed), limited(passes, false), part).0;
-    (0..4).filter(run).count()
-}
-
 #[test]
-fn table_of_shaken_nets_under_the_limiter_without_a_rewrite() {
-    println!("\nF5, shaken: how many of four seeds keep their energy at .2 .5 .8 .999 of 2/ω");
-    println!("passes      0     1     2     5    20");
+fn table_of_shaken_nets_under_the_limiter() {
+    println!("\nF5, shaken: which keep their energy at .2 .5 .8 .999 of 2/ω");
+    println!("passes    0    1    2    5    20");
     for name in ["chain", "string", "frame"] {
         let mut line = format!("{name:8}");
-        for passes in [0, 1, 2, 5, 20] {
-            let cells = [0.2, 0.5, 0.8, 0.999].map(|part| survivors(name, passes, part));
-            line.extend(cells.map(|cell| cell.to_string()));
-            line.push_str("  ");
-            assert_eq!(cells[..3], [4; 3], "{name}, {passes} passes");
-            assert_eq!(cells[3] == 4, passes > 0, "{name}, {passes} passes");
+        for passes in [0].into_iter().chain(PASSES) {
+            let cells = [0.2, 0.5, 0.8, 0.999]
+                .map(|part| survives(kicked(name, u64::from(passes)), limited(passes), part).0);
+            line.extend(cells.map(|survives| if survives { '+' } else { '-' }));
+            line.push(' ');
+            assert_eq!(
+                cells,
+                [true, true, true, passes > 0],
+                "{name}, {passes} passes"
+            );
         }
         println!("{line}");
-        let (_, worked) = survives(kicked(name, 0), limited(1, false), 0.5);
+        let (_, worked) = survives(kicked(name, 0), limited(1), 0.5);
         assert!(worked > 10, "{name}: the limiter worked in {worked} steps");
-    }
-    // Nails too far apart: it works in each step, and none of them is short enough.
-    for passes in PASSES {
-        for part in [0.05, 0.2, 0.5, 0.9] {
-            assert_eq!(survivors("nails", passes, part), 0, "{passes} at {part}");
-        }
     }
 }
 
 #[test]
 fn table_of_a_chain_too_heavy_for_the_limit() {
-    println!("\nF5, loaded: kinetic energy after 20 s in J, at this part of 2/ω; B blown up");
-    println!("passes      1        2        5       20   with rewrite: 1       20");
+    println!("\nF5, loaded: kinetic energy after 20 s in J, at this part of 2/ω");
+    println!("passes      1        2        5       20");
     for part in [0.05, 0.2, 0.5, 0.9] {
         let mut line = format!("{part:5}");
-        let settings = PASSES.map(|passes| (passes, false));
-        for (passes, rewrites) in settings.into_iter().chain([(1, true), (20, true)]) {
+        for passes in PASSES {
             let mut chain = row(10, 0.02, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
             chain.set_loads(gravity(0.0)).expect("loads");
             chain.when_unstable(Unstable::Allow);
             let dt = part * 2.0 / omega(&mut chain);
-            let mut provot = limited(passes, rewrites);
-            let ran = (0..(20.0 / dt) as usize).all(|_| chain.step(&mut provot, dt).is_ok());
-            let kinetic = if ran {
-                energy::kinetic_j(&chain)
-            } else {
-                f64::INFINITY
-            };
-            line.push_str(&if ran {
-                format!(" {kinetic:8.1e}")
-            } else {
-                "        B".into()
-            });
+            let mut provot = limited(passes);
+            for _ in 0..(20.0 / dt) as usize {
+                chain.step(&mut provot, dt).expect("a stable step");
+            }
+            let kinetic = energy::kinetic_j(&chain);
+            line.push_str(&format!(" {kinetic:8.1e}"));
             // It could fall by a tenth of a metre: 0.2 J at most.
-            assert!(
-                if rewrites {
-                    kinetic < 0.2
-                } else {
-                    kinetic > 1e3
-                },
-                "{line}"
-            );
+            assert!(kinetic < 0.2, "{line}");
         }
         println!("{line}");
     }

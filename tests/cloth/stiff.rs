@@ -413,8 +413,11 @@ fn the_work_of_a_refused_step_is_counted() {
 fn pushed_chains_never_have_more_energy_than_they_were_given() {
     let (k, m) = (100.0, 0.01);
     let omega = 2.0 * f64::sqrt(k / m);
-    let chains = (2..40).flat_map(|links| (1..4).map(move |seed| (links, seed)));
-    for (links, seed) in chains {
+    // Of all with 2 to 39 links and three seeds, those that come to more if a step may make .5 %; and some
+    // others.
+    let nearest = [(12, 1), (15, 2), (18, 1), (22, 2), (26, 1), (27, 3)];
+    let others = (2..40).step_by(6).map(|links| (links, 1));
+    for (links, seed) in others.chain(nearest) {
         let mut pushed = row(links, m, k, 0.1, Vector::x() * 0.1);
         let mut random = Random::new(100 * links as u64 + seed);
         for i in 1..=links {

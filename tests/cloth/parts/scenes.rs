@@ -1,10 +1,12 @@
 //! Scenes that play on a square metre.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock};
+
 use tearmesh::{Mesh, Positions, shapes};
 use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-use tearmesh_cloth::{Limiter, Pbd, Xpbd};
 
 /// A square of one metre with `cells` cells per side and alternating diagonals.
 pub(crate) fn square(cells: u32) -> (Mesh, Positions) {
@@ -30,13 +32,49 @@ pub(crate) fn play(mut run: Run) -> Run {
     run
 }
 
+/// The scenes that stand ready, by their names.
+const READY: [(&str, fn(&Frame) -> Scene); 5] = [
+    ("fall", |frame| Scene::fall(frame.up)),
+    ("hang", Scene::hang),
+    ("flag", Scene::flag),
+    ("rip", Scene::rip),
+    ("trouser", Scene::trouser),
+];
+
+/// What was played of [`READY`], by cells, scene and method.
+type Played = BTreeMap<(u32, &'static str, &'static str), &'static OnceLock<Run>>;
+
+/// A ready scene on a [`square`] after its end, by one of [`methods`]. It is played once, whoever reads
+/// it.
+pub(crate) fn played(cells: u32, scene: &'static str, method: &'static str) -> &'static Run {
+    static PLAYED: Mutex<Played> = Mutex::new(BTreeMap::new());
+    let run = {
+        let mut played = PLAYED.lock().expect("nobody panics while they hold it");
+        *played
+            .entry((cells, scene, method))
+            .or_insert_with(|| Box::leak(Box::default()))
+    };
+    run.get_or_init(|| {
+        let (_, ready) = READY
+            .into_iter()
+            .find(|(name, _)| *name == scene)
+            .expect("a scene");
+        let solver = methods().into_iter().find(|(name, _)| *name == method);
+        let (_, solver) = solver.expect("a method");
+        play(staged(cells, |frame| Scene {
+            solver: solver.clone(),
+            ..ready(frame)
+        }))
+    })
+}
+
 /// Every method that a scene can name, by its name.
 pub(crate) fn methods() -> [(&'static str, Method); 5] {
     [
-        ("xpbd", Method::Xpbd(Xpbd::new(1, 1))),
-        ("pbd", Method::Pbd(Pbd::default())),
+        ("xpbd", Method::xpbd()),
+        ("pbd", Method::pbd()),
         ("verlet", Method::Verlet),
-        ("provot", Method::Provot(Limiter::default())),
+        ("provot", Method::provot()),
         ("implicit", Method::Implicit(Settings::default())),
     ]
 }

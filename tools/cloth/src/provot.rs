@@ -32,9 +32,6 @@ pub struct Limiter {
     pub stretch_ratio_max: f64,
     /// The largest number of passes over all constraints. The default is 20.
     pub passes_max: u32,
-    /// Whether velocities are rewritten afterwards. The default is true; without it every step is
-    /// unstable under a load that the limit cannot carry.
-    pub rewrites_velocities: bool,
 }
 
 impl Default for Limiter {
@@ -42,7 +39,6 @@ impl Default for Limiter {
         Limiter {
             stretch_ratio_max: 1.1,
             passes_max: 20,
-            rewrites_velocities: true,
         }
     }
 }
@@ -111,7 +107,7 @@ impl Provot {
             has_shortened |= largest > ratio_max;
             passes += 1;
         }
-        if limiter.rewrites_velocities && has_shortened {
+        if has_shortened {
             let moved = positions.iter().zip(&scratch.before);
             for (v, (x, before)) in velocities.iter_mut().zip(moved) {
                 *v += (x - before) / dt_s;
