@@ -14,7 +14,7 @@ use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::{self, Method, Stats};
 use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System, force};
 
-use crate::parts::{G, implicit};
+use crate::parts::{G, implicit, solved};
 
 /// A spring, or a bend with its stiffness against compression.
 #[derive(Clone, Copy)]
@@ -151,9 +151,9 @@ pub(crate) fn step(
     solver: &mut Implicit,
     dt_s: f64,
 ) -> Result<Stats, implicit::StepError> {
-    let before = solver.stats();
+    let before = solved(solver, system);
     match system.step(solver, dt_s) {
-        Ok(_) => Ok(since(solver.stats(), before)),
+        Ok(_) => Ok(since(solved(solver, system), before)),
         Err(StepError::Implicit { error, .. }) => Err(error),
         Err(other) => panic!("{other}"),
     }

@@ -8,8 +8,12 @@ pub(crate) mod vibration;
 pub(crate) mod woven;
 
 use tearmesh::Vector;
-use tearmesh_cloth::implicit::{Method, Settings};
-use tearmesh_cloth::{Implicit, Loads, Solver, System, Unstable, energy};
+use tearmesh::geometry::length;
+use tearmesh_cloth::implicit::{Method, Settings, Stats};
+use tearmesh_cloth::{
+    ConstraintId, Implicit, LimiterStats, Loads, Provot, Quality, Solver, System, Unstable, Xpbd,
+    energy,
+};
 
 use crate::random::Random;
 
@@ -59,6 +63,43 @@ pub(crate) fn run(system: &mut System, mut solver: impl Solver, dt_s: f64, steps
     for _ in 0..steps {
         system.step(&mut solver, dt_s).expect("a stable step");
     }
+}
+
+/// What Provot's limiter did in all steps so far.
+pub(crate) fn limited(provot: &Provot, system: &System) -> LimiterStats {
+    match provot.quality(system) {
+        Quality::Limiter(stats) => stats,
+        _ => LimiterStats::default(),
+    }
+}
+
+/// What an implicit method did in all steps so far.
+pub(crate) fn solved(solver: &Implicit, system: &System) -> Stats {
+    match solver.quality(system) {
+        Quality::Implicit(stats) => stats,
+        _ => unreachable!("an implicit method tells what it did"),
+    }
+}
+
+/// How far the forces that XPBD used are from those that the springs have now, in newtons.
+pub(crate) fn residual_n(xpbd: Xpbd, system: &System) -> f64 {
+    match xpbd.quality(system) {
+        Quality::Residual(newtons) => newtons,
+        _ => unreachable!("XPBD tells its residual"),
+    }
+}
+
+/// The force of a spring by its length, in newtons.
+pub(crate) fn tension_n(system: &System, id: ConstraintId) -> f64 {
+    let spring = system.stretches().get(id);
+    let [a, b] = spring.ends.map(|end| system.positions()[end]);
+    spring.stiffness_n_per_m * (length(b - a) - spring.rest_length_m)
+}
+
+/// The largest strain of a spring, longer or shorter.
+pub(crate) fn strain_max(system: &System) -> f64 {
+    let ratios = system.stretches().iter().map(|id| system.stretch_ratio(id));
+    ratios.map(|ratio| (ratio - 1.0).abs()).fold(0.0, f64::max)
 }
 
 /// The elastic and the kinetic energy, in joules.

@@ -1,7 +1,7 @@
 //! Statistics against definitions that are simpler: published numbers, counts, and all draws of a
 //! small sample.
 
-use tearmesh_cloth::statistics::{Random, Verdict, compare, median, quantile, spread};
+use tearmesh_cloth::statistics::{Random, Verdict, compare, median};
 
 /// Published results of splitmix64 for the seed 1234567.
 const SPLITMIX64: [u64; 5] = [
@@ -53,18 +53,6 @@ fn no_more_than_half_of_a_sample_is_on_either_side_of_its_median() {
     }
     assert_eq!(median(vec![4.0, 1.0, 2.0, 8.0]), Some(3.0));
     assert_eq!(median(Vec::new()), None);
-}
-
-#[test]
-fn quantiles_are_the_values_and_straight_lines_between_them() {
-    let sorted = [1.0, 2.0, 4.0, 8.0, 16.0];
-    for (i, value) in sorted.into_iter().enumerate() {
-        assert_eq!(quantile(&sorted, i as f64 / 4.0), Some(value));
-    }
-    assert_eq!(quantile(&sorted, 0.625), Some(6.0));
-    assert_eq!(quantile(&[], 0.5), None);
-    assert_eq!(spread(&[3.0, 1.0, 2.0]), [1.2, 2.0, 2.8]);
-    assert_eq!(spread(&[f64::INFINITY; 3]), [f64::INFINITY; 3]);
 }
 
 /// How many of all 5⁵ draws of five ascending values have each of them as their median.

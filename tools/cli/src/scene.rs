@@ -12,7 +12,6 @@ use std::path::Path;
 
 use self::kinds::READY;
 pub(crate) use self::kinds::axis;
-pub(crate) use self::method::{SolverName, method_name};
 pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
 use crate::exit::{Exit, Stop};

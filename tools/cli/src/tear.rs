@@ -27,7 +27,7 @@ use crate::args::{TearArgs, cut_name};
 use crate::cut::nothing::Obstacle;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
-use crate::scene::{SceneFile, method_name};
+use crate::scene::SceneFile;
 use crate::session::{Clock, Opened, Session};
 use crate::streams::Streams;
 use crate::{files, report};
@@ -50,7 +50,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let opened = session.open(None, streams)?;
     let up = args.up.unwrap_or_else(|| source.up());
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
-    let mut scene = source.scene(&frame, args.solver)?;
+    let mut scene = source.scene(&frame, args.solver.as_deref())?;
     settle(args, cuts, &mut scene);
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
@@ -183,7 +183,7 @@ impl Play<'_> {
         };
         let tear = report::Tear {
             scene: self.name.clone(),
-            solver: method_name(&run.scene().solver),
+            solver: run.scene().solver.name(),
             status,
             steps: tally.steps,
             dt_s: run.step_s(),
@@ -291,7 +291,7 @@ impl Play<'_> {
             .and_then(|file| file.path.clone());
         let facts = [
             ("scene", self.name.clone()),
-            ("method", method_name(&run.scene().solver).to_owned()),
+            ("method", run.scene().solver.name().to_owned()),
             ("steps", run.tally().steps.to_string()),
             ("vertices split", run.tally().splits.to_string()),
         ];

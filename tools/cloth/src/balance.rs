@@ -153,9 +153,8 @@ impl Balance {
         }
     }
 
-    /// Adds the energy in joules that edits of the mesh made: the difference of
-    /// [`energy::total_j`](crate::energy::total_j) before and after. Without this call it counts as
-    /// made by the method.
+    /// Adds the energy in joules that edits of the mesh made: what there is of it after them, and was not
+    /// before. Without this call it counts as made by the method.
     pub fn add_edits(&mut self, made_j: f64) {
         self.edits_j += made_j;
     }

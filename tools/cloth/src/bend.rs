@@ -77,12 +77,6 @@ impl Buckling {
         })
     }
 
-    /// Returns the fraction of the rest length below which a bend acts as an arc.
-    #[must_use]
-    pub fn buckles_below(&self) -> f64 {
-        self.below
-    }
-
     /// Returns the stiffness c against compression, in N/m, of a bend with the flexural stiffness k
     /// and the rest length L.
     #[must_use]

@@ -148,7 +148,7 @@ impl Constraints {
     /// # Panics
     ///
     /// If there is no such particle.
-    pub fn of(&self, particle: usize) -> impl Iterator<Item = ConstraintId> + '_ {
+    pub(crate) fn of(&self, particle: usize) -> impl Iterator<Item = ConstraintId> + '_ {
         let ids = self.lists.of(particle);
         ids.map(|(id, _)| ConstraintId(id as u32))
     }

@@ -11,10 +11,8 @@ pub fn elastic_j(system: &System) -> f64 {
     system.model.elastic_j(&system.positions)
 }
 
-/// Returns the kinetic and elastic energy and the potential of gravity together, in joules. The
-/// difference before and after an edit of the mesh is what the edit made.
-#[must_use]
-pub fn total_j(system: &System) -> f64 {
+/// The kinetic and elastic energy and the potential of gravity together, in joules.
+pub(crate) fn total_j(system: &System) -> f64 {
     kinetic_j(system) + elastic_j(system) + potential_j(system)
 }
 

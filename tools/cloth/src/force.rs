@@ -15,22 +15,15 @@ use tearmesh::geometry::Vector;
 use crate::constraint::ConstraintId;
 use crate::system::System;
 
-/// Returns the force in a stretch constraint, computed from its length as k (l − L), in newtons.
-/// Tension is positive.
-///
-/// # Panics
-///
-/// If there is no such constraint.
-#[must_use]
-pub fn tension_n(system: &System, id: ConstraintId) -> f64 {
+/// The force in a stretch constraint, computed from its length as k (l − L), in newtons.
+fn tension_n(system: &System, id: ConstraintId) -> f64 {
     let [stretch, _] = system.model.families();
     stretch.force_of(&stretch.constraints.get(id), &system.positions)
 }
 
 /// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
 /// Tension is positive. For methods with physical stiffness, and before any step, it is computed
-/// from the length ([`tension_n`]). For methods that project it is the multiplier
-/// ([`System::multiplier_n`]). Where a limiter helped the springs, it is the sum of both. Between
+/// from the length, as k (l − L). For methods that project it is the multiplier, −λ/Δt². Where a limiter helped the springs, it is the sum of both. Between
 /// two held particles, which no method moves, the length is used.
 ///
 /// # Panics

@@ -152,12 +152,6 @@ impl Implicit {
         }
     }
 
-    /// Returns what the method did in all steps that were taken so far.
-    #[must_use]
-    pub fn stats(&self) -> Stats {
-        self.stats
-    }
-
     /// Takes a step, or its halves where it overshoots.
     fn divide(
         &mut self,
@@ -196,6 +190,7 @@ impl Implicit {
             velocities: v,
             model,
             counters,
+            changes,
             ..
         } = system;
         let weights = Weights {
@@ -226,15 +221,26 @@ impl Implicit {
         if let Some(particle) = first_bad(&self.reached, &self.velocities) {
             return Err(Failure::Implicit(StepError::NotFinite { particle }));
         }
+        if overstretches(model, x, &self.reached) {
+            return Ok(false);
+        }
+        let elastic_j = |x: &[Point], counters: &mut Counters| {
+            model.count_visits(1, counters);
+            model.elastic_j(x)
+        };
+        let to_j = elastic_j(&self.reached, counters);
         // The shortest part is taken also if it makes energy: what is left then is the solver's error, which
         // no shorter one would lower.
-        if overstretches(model, x, &self.reached)
-            || !is_last && self.makes_energy(model, weights, (x, v), counters)
-        {
-            return Ok(false);
+        if !is_last {
+            let known_j = self.history.elastic_j(x, *changes);
+            let from_j = known_j.unwrap_or_else(|| elastic_j(x, counters));
+            if self.makes_energy(model, weights, (x, v), [from_j, to_j], counters) {
+                return Ok(false);
+            }
         }
         let reached = (&self.reached[..], &self.velocities[..]);
         self.history.note((x, v), reached, dt_s);
+        self.history.stored_j = (*changes, to_j);
         x.copy_from_slice(reached.0);
         v.copy_from_slice(reached.1);
         stats.parts += 1;
@@ -371,12 +377,13 @@ impl Implicit {
 
     /// Whether the step ends with more energy than there was and was put in, by gravity, by wind and by
     /// those that are held; by more than a part of what moves and changes hands, and than what rounding of
-    /// positions makes.
+    /// positions makes. `from_j` and `to_j` are the elastic energies at its ends.
     fn makes_energy(
         &mut self,
         model: &Model,
         weights: Weights<'_>,
         (x, v): (&[Point], &[Vector]),
+        [from_j, to_j]: [f64; 2],
         counters: &mut Counters,
     ) -> bool {
         let moved = &mut self.shift;
@@ -390,8 +397,6 @@ impl Implicit {
             counters.matrix_products += 1;
             model.count_visits(1, counters);
         }
-        // Two sums of energy.
-        model.count_visits(2, counters);
         let (mut moving_j, mut gained_j, mut work_j) = (0.0, 0.0, 0.0);
         for (i, &m) in weights.masses.iter().enumerate() {
             let kinetic_j = |v: Vector| 0.5 * m * dot(v, v);
@@ -405,7 +410,6 @@ impl Implicit {
             }
             work_j += dot(load, moved[i]);
         }
-        let [from_j, to_j] = [x, &self.reached].map(|x| model.elastic_j(x));
         let grain_m = f64::EPSILON * x.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
         let stiffness = self.hessian.trace().max(0.0);
         let rounding_j =
@@ -496,6 +500,8 @@ struct History {
     positions: Vec<Point>,
     velocities: Vec<Vector>,
     time_step_s: f64,
+    /// How often the system was changed until then, and the elastic energy that the step left, in joules.
+    stored_j: (u64, f64),
 }
 
 impl History {
@@ -509,6 +515,12 @@ impl History {
             is_known && (self.positions == x || moving.any(|i| self.positions[i] == x[i]));
         let ratio = dt_s / self.time_step_s;
         (leads_here && ratio <= 1.0 + std::f64::consts::SQRT_2).then_some(ratio)
+    }
+
+    /// The elastic energy at these positions, if the last step left it there.
+    fn elastic_j(&self, x: &[Point], changes: u64) -> Option<f64> {
+        let (until, stored_j) = self.stored_j;
+        (until == changes && self.positions == x).then_some(stored_j)
     }
 
     fn note(

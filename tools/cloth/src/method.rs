@@ -38,6 +38,32 @@ pub enum Method {
 }
 
 impl Method {
+    /// The names of the methods, as scenes and reports have them.
+    pub const NAMES: [&str; 5] = ["provot", "pbd", "verlet", "xpbd", "implicit"];
+
+    /// Returns the name of this method, one of [`Method::NAMES`].
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        let [provot, pbd, verlet, xpbd, implicit] = Method::NAMES;
+        match self {
+            Method::Provot(_) => provot,
+            Method::Pbd(_) => pbd,
+            Method::Verlet => verlet,
+            Method::Xpbd(_) => xpbd,
+            Method::Implicit(_) => implicit,
+        }
+    }
+
+    /// Returns the method of this name, with the settings that scenes use by default; `None` if no
+    /// method has it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Method> {
+        let projecting = [Method::pbd(), Method::xpbd()];
+        let by_forces = [Method::provot(), Method::Verlet, Method::implicit()];
+        let mut methods = projecting.into_iter().chain(by_forces);
+        methods.find(|method| method.name() == name)
+    }
+
     /// Returns Provot's model with the settings that scenes use by default.
     #[must_use]
     pub fn provot() -> Method {
@@ -78,6 +104,7 @@ impl Method {
             Method::Implicit(settings) => Box::new(Implicit::new(settings)),
         }
     }
+
     /// Returns the step in seconds that is taken where a scene or a definition sets none, for a system
     /// through which a pull travels at the speed c = √(k/ρ), in m/s. It is 1/60 s divided by a whole
     /// number.

@@ -68,12 +68,6 @@ impl Provot {
         }
     }
 
-    /// Returns what the limiter did in all steps so far.
-    #[must_use]
-    pub fn stats(&self) -> LimiterStats {
-        self.stats
-    }
-
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
         let Some(limiter) = self.limiter else {
             return;

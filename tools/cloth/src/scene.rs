@@ -101,12 +101,6 @@ impl SwayingWind {
         let mut beyond = parts.filter(beyond);
         Some(("wind.sway_m_per_s", *beyond.next()?.1))
     }
-
-    /// Returns whether the wind changes with time.
-    #[must_use]
-    pub fn sways(&self) -> bool {
-        self.sway_m_per_s != Vector::zeros()
-    }
 }
 
 /// A region of vertices that are held in place, or led along a path.
@@ -149,7 +143,7 @@ pub enum Region {
     Near {
         /// The place, in fractions of width and height, from the bottom left corner.
         at: [f64; 2],
-        /// The radius, as a fraction of [`Frame::size_m`].
+        /// The radius, as a fraction of the longer of width and height.
         radius: f64,
     },
     /// The vertices between these fractions of width and height, bounds included.

@@ -186,7 +186,7 @@ impl Cloth {
     /// neither they allocate nor a step by a method that keeps its room in the system: all but
     /// [`Implicit`](crate::Implicit). (Only a colour beyond those that the present valence of vertices
     /// needs would take room of its own.) Costs some hundred bytes per face.
-    pub fn reserve(&mut self) {
+    pub(crate) fn reserve(&mut self) {
         let corners = self.stretch_of.len();
         let splits = corners.saturating_sub(self.system.positions.len());
         self.masses.reserve(splits);

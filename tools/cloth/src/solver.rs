@@ -131,8 +131,7 @@ pub enum Quality {
     #[cfg_attr(feature = "serde", serde(rename = "strain_rms"))]
     Strain(f64),
     /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
-    /// substep used and the one that the springs have now
-    /// ([`Xpbd::residual_n`](crate::Xpbd::residual_n)).
+    /// substep used and the one that the springs have now.
     #[cfg_attr(feature = "serde", serde(rename = "residual_n"))]
     Residual(f64),
     /// For an implicit method: what its linear solver did.
@@ -272,7 +271,7 @@ pub enum StepError {
         /// The rate that sets the limit.
         rate: AirRate,
     },
-    /// The step would need more substeps than [`StepError::SUBSTEPS_MAX`].
+    /// The step would need more than 10 000 substeps.
     Substeps {
         /// The step that was given, in seconds.
         given_s: f64,
@@ -302,7 +301,7 @@ pub enum StepError {
 
 impl StepError {
     /// The largest number of substeps into which a step is divided.
-    pub const SUBSTEPS_MAX: u32 = 10_000;
+    pub(crate) const SUBSTEPS_MAX: u32 = 10_000;
 
     /// Returns the code of this error, such as `E-SIM-UNSTABLE`.
     #[must_use]

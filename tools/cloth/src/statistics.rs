@@ -126,14 +126,9 @@ pub fn median(mut sample: Vec<f64>) -> Option<f64> {
     quantile(&sample, 0.5)
 }
 
-/// Returns the value at `fraction` of the way from the first to the last value of a sorted sample,
+/// The value at `fraction` of the way from the first to the last value of a sorted sample,
 /// interpolated linearly between neighbours; `None` if the sample is empty.
-///
-/// # Panics
-///
-/// If `fraction` is not within 0 … 1.
-#[must_use]
-pub fn quantile(sorted: &[f64], fraction: f64) -> Option<f64> {
+fn quantile(sorted: &[f64], fraction: f64) -> Option<f64> {
     assert!(
         (0.0..=1.0).contains(&fraction),
         "{fraction} is a fraction of a sample"
@@ -183,5 +178,22 @@ impl Random {
         assert!(count > 0, "a number below 0 does not exist");
         // The product may be rounded up to `count`.
         ((self.next() * count as f64) as usize).min(count - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_the_values_and_straight_lines_between_them() {
+        let sorted = [1.0, 2.0, 4.0, 8.0, 16.0];
+        for (i, value) in sorted.into_iter().enumerate() {
+            assert_eq!(quantile(&sorted, i as f64 / 4.0), Some(value));
+        }
+        assert_eq!(quantile(&sorted, 0.625), Some(6.0));
+        assert_eq!(quantile(&[], 0.5), None);
+        assert_eq!(spread(&[3.0, 1.0, 2.0]), [1.2, 2.0, 2.8]);
+        assert_eq!(spread(&[f64::INFINITY; 3]), [f64::INFINITY; 3]);
     }
 }

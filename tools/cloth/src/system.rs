@@ -486,7 +486,7 @@ impl System {
 
     /// Returns mutable access to positions and velocities. The next step notices values that are
     /// not finite. The forces and ratios that the last step recorded in constraints
-    /// ([`force_n`](crate::force::force_n), [`System::unlimited_ratio`]) are discarded.
+    /// ([`force_n`](crate::force::force_n)) are discarded.
     #[must_use]
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.keep();
@@ -530,12 +530,6 @@ impl System {
         &self.model.bend
     }
 
-    /// Returns the law by which bend constraints buckle; `None` if they are springs.
-    #[must_use]
-    pub fn buckling(&self) -> Option<Buckling> {
-        self.model.buckling
-    }
-
     /// Returns the triangles that resist stretch and shear, by index.
     #[must_use]
     pub fn triangles(&self) -> &[Triangle] {
@@ -571,15 +565,9 @@ impl System {
         pair::span(&self.positions, constraint.ends) / constraint.rest_length_m
     }
 
-    /// Returns the length of a stretch constraint as a multiple of its rest length, as it was in
-    /// the last step before a limiter shortened it. If no limiter ran, this is
-    /// [`System::stretch_ratio`].
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    #[must_use]
-    pub fn unlimited_ratio(&self, id: ConstraintId) -> f64 {
+    /// The length of a stretch constraint as a multiple of its rest length, as it was in the last step
+    /// before a limiter shortened it.
+    pub(crate) fn unlimited_ratio(&self, id: ConstraintId) -> f64 {
         if self.model.recorded == Recorded::Limiter {
             self.model.stretch.memory(id).ratio
         } else {
@@ -587,23 +575,8 @@ impl System {
         }
     }
 
-    /// Returns the force in a stretch constraint that belongs to the multiplier of the last step of
-    /// [`Xpbd`](crate::Xpbd) or [`Pbd`](crate::Pbd), −λ/Δt², in newtons; tension is positive. After
-    /// a step of [`Provot`](crate::Provot) it is the share of the limiter. It is zero before the
-    /// first step.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    #[must_use]
-    pub fn multiplier_n(&self, id: ConstraintId) -> f64 {
-        -self.model.stretch.memory(id).multiplier
-    }
-
-    /// Returns the root mean square of the strains l/L − 1 of all stretch constraints; 0 if there
-    /// are none.
-    #[must_use]
-    pub fn strain_rms(&self) -> f64 {
+    /// The root mean square of the strains l/L − 1 of all stretch constraints; 0 if there are none.
+    pub(crate) fn strain_rms(&self) -> f64 {
         let squares = self.model.stretch.iter().map(|id| {
             let strain = self.stretch_ratio(id) - 1.0;
             strain * strain

@@ -38,11 +38,11 @@ pub struct Triangle {
     pub vertices: [u32; 3],
     /// The inverse of the matrix of the triangle's edges in the material, in 1/m. Rows belong to
     /// the edges x₁ − x₀ and x₂ − x₀, and columns to u and v.
-    pub rest_inverse: [[f64; 2]; 2],
+    pub(crate) rest_inverse: [[f64; 2]; 2],
     /// The area at rest, in m².
     pub area: f64,
     /// The stiffness along u, along v, and in shear, in N/m.
-    pub stiffness: [f64; 3],
+    pub(crate) stiffness: [f64; 3],
 }
 
 impl Triangle {
@@ -61,7 +61,7 @@ impl Triangle {
     /// assert_eq!(Triangle::new([0, 1, 2], [[0., 0.], [1., 1.], [2., 2.]], [1.; 3]), None);
     /// ```
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         vertices: [u32; 3],
         material: [[f64; 2]; 3],
         stiffness: [f64; 3],

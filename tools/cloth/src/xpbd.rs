@@ -58,11 +58,9 @@ impl Xpbd {
         Xpbd { substeps, sweeps }
     }
 
-    /// Returns the largest difference, over all free particles, between the sum of the forces that
-    /// the last substep used and the sum of those that the springs have now, in newtons. It is zero
-    /// if the sweeps have converged. Costs one force evaluation.
-    #[must_use]
-    pub fn residual_n(&self, system: &System) -> f64 {
+    /// The largest difference, over all free particles, between the sum of the forces that the last
+    /// substep used and the sum of those that the springs have now, in newtons.
+    fn residual_n(&self, system: &System) -> f64 {
         let (model, x) = (&system.model, &system.positions);
         let miss = |_, by_length, multiplier| by_length + multiplier;
         let residual = |particle| {

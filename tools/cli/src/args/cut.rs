@@ -233,13 +233,17 @@ impl Method {
     }
 }
 
+/// The names of [`Method`]s, in its order.
+pub(crate) const CUT_METHODS: [&str; 4] = ["exact", "partition", "uniform", "alternating"];
+
 /// [`Method::name`] of a method of the library.
 pub(crate) fn cut_name(method: tearmesh::CutMethod) -> &'static str {
+    let [exact, partition, uniform, alternating] = CUT_METHODS;
     match method {
-        tearmesh::CutMethod::Partition => "partition",
-        tearmesh::CutMethod::Uniform => "uniform",
-        tearmesh::CutMethod::Alternating => "alternating",
-        _ => "exact",
+        tearmesh::CutMethod::Partition => partition,
+        tearmesh::CutMethod::Uniform => uniform,
+        tearmesh::CutMethod::Alternating => alternating,
+        _ => exact,
     }
 }
 

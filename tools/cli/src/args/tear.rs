@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::{Parser, ValueEnum};
 
 use super::files::FileArgs;
-use crate::scene::SolverName;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,8 +32,8 @@ pub(crate) struct TearArgs {
     pub(crate) scene: String,
 
     /// The method: verlet (default), xpbd, pbd, provot or implicit.
-    #[arg(long, value_enum, value_name = "METHOD", hide_possible_values = true)]
-    pub(crate) solver: Option<SolverName>,
+    #[arg(long, value_parser = tearmesh_cloth::Method::NAMES, value_name = "METHOD", hide_possible_values = true)]
+    pub(crate) solver: Option<String>,
 
     /// Tear edges at this many times their rest length (default: 1.5).
     ///

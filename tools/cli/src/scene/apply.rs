@@ -8,7 +8,6 @@ use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Scene, SwayingWin
 use tearmesh_cloth::{Collider, Tearing, Threshold};
 
 use super::kinds::{Gravity, axis, ready, set};
-use super::method::SolverName;
 use super::read::{Place, SceneFile, Table, sorted};
 use super::schema::{ColliderKeys, Cut, Tear, Vertices};
 use crate::args::Method as CutMethod;
@@ -23,7 +22,7 @@ impl SceneFile {
     }
 
     /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
-    pub(crate) fn scene(&self, frame: &Frame, solver: Option<SolverName>) -> Result<Scene, Stop> {
+    pub(crate) fn scene(&self, frame: &Frame, solver: Option<&str>) -> Result<Scene, Stop> {
         let base = self.top.base.as_ref().map_or("fall", |base| &*base.0);
         let mut scene = ready(base, frame);
         let mut faults = Vec::new();

@@ -3,8 +3,11 @@
 
 use serde::de::{Deserialize, Deserializer, Error};
 use tearmesh::{Point, Vector};
+use tearmesh_cloth::Method;
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use toml::Spanned;
+
+use crate::args::CUT_METHODS;
 
 /// A value of another type, and one out of range.
 const TYPE: &str = "E-SCENE-TYPE";
@@ -87,8 +90,8 @@ pub(super) type Order = Word<7>;
 const SETS: [&[&str]; 8] = [
     &READY,
     &["x", "y", "z", "-x", "-y", "-z"],
-    &["provot", "pbd", "verlet", "xpbd", "implicit"],
-    &["exact", "partition", "uniform", "alternating"],
+    &Method::NAMES,
+    &CUT_METHODS,
     &["spring", "buckling"],
     &["halved", "whole"],
     &["seam", "vertex"],

@@ -1,6 +1,5 @@
 //! What `[solver]` says, and the methods with their defaults.
 
-use clap::ValueEnum;
 use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::Scene;
@@ -11,24 +10,19 @@ use crate::say::Fault;
 
 impl SceneFile {
     /// The method: its keys are those of the file's or of the one that was typed in its place.
-    pub(super) fn solver(
-        &self,
-        scene: &mut Scene,
-        typed: Option<SolverName>,
-        faults: &mut Vec<Fault>,
-    ) {
+    pub(super) fn solver(&self, scene: &mut Scene, typed: Option<&str>, faults: &mut Vec<Fault>) {
         let word = self.solver.as_ref().and_then(|table| table.method.as_ref());
-        let method = word.map_or(method_name(&scene.solver), |word| &*word.0);
-        let named = word.and_then(|word| typed_as(&word.0));
-        if let Some(name) = typed.or(named) {
-            scene.solver = name.method();
+        let word = word.map(|word| &*word.0);
+        let method = word.unwrap_or(scene.solver.name());
+        if let Some(named) = typed.or(word).and_then(Method::named) {
+            scene.solver = named;
         }
         let Some(table) = &self.solver else {
             return;
         };
         scene.step_s = table.dt_s.map(f64::from).or(scene.step_s);
         for (key, readers) in OF_METHODS {
-            let is_read = |reader: &&str| *reader == method || typed_as(reader) == typed;
+            let is_read = |reader: &&str| *reader == method || Some(*reader) == typed;
             if table.place.values.contains_key(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");
@@ -74,41 +68,3 @@ const OF_METHODS: [(&str, &[&str]); 8] = [
     ("order", &["implicit"]),
     ("tolerance", &["implicit"]),
 ];
-
-/// A method of simulation, as it is typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SolverName {
-    Provot,
-    Pbd,
-    Verlet,
-    Xpbd,
-    Implicit,
-}
-
-impl SolverName {
-    /// The method with its default settings.
-    pub(super) fn method(self) -> Method {
-        match self {
-            SolverName::Provot => Method::provot(),
-            SolverName::Pbd => Method::pbd(),
-            SolverName::Verlet => Method::Verlet,
-            SolverName::Xpbd => Method::xpbd(),
-            SolverName::Implicit => Method::implicit(),
-        }
-    }
-}
-
-fn typed_as(word: &str) -> Option<SolverName> {
-    SolverName::from_str(word, false).ok()
-}
-
-/// As it is typed, and as it stands in the report.
-pub(crate) fn method_name(method: &Method) -> &'static str {
-    match method {
-        Method::Provot(_) => "provot",
-        Method::Pbd(_) => "pbd",
-        Method::Verlet => "verlet",
-        Method::Xpbd(_) => "xpbd",
-        Method::Implicit(_) => "implicit",
-    }
-}

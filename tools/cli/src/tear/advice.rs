@@ -9,7 +9,6 @@ use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError};
 use super::frames::RATE_PER_S;
 use crate::args::TearArgs;
 use crate::say::{Fault, Severity, count, short, three_digits, two_digits};
-use crate::scene::method_name;
 
 /// What is known before the first step. `number` is that of a vertex in its file.
 pub(crate) fn before(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) -> Vec<Fault> {
@@ -212,7 +211,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
                 format!(
                     "{} damped motion as much as a drag of {rate} /s would, {beside}: swinging cloth comes \
                      to rest too soon",
-                    method_name(&scene.solver)
+                    scene.solver.name()
                 ),
                 format!("--dt {half}, {order}or --solver verlet"),
             )

@@ -73,7 +73,7 @@ pub enum StepError {
         /// The number of conjugate gradient iterations that were spent.
         solver_iterations: u32,
     },
-    /// The step overshot, and so did each of [`StepError::PARTS_MAX`] parts of it.
+    /// The step overshot, and so did each of 1024 parts of it.
     Overshot,
     /// The step would have moved a particle beyond the coordinates or velocities that are usable.
     NotFinite {
@@ -84,7 +84,7 @@ pub enum StepError {
 
 impl StepError {
     /// The largest number of parts into which a step that overshoots is divided.
-    pub const PARTS_MAX: u32 = 1024;
+    pub(crate) const PARTS_MAX: u32 = 1024;
 }
 
 impl fmt::Display for StepError {

@@ -74,18 +74,6 @@ pub enum MemberStatus {
     Interrupted,
 }
 
-impl MemberStatus {
-    /// Returns the name of the status in tables and reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            MemberStatus::Done => "done",
-            MemberStatus::Failed => "failed",
-            MemberStatus::Interrupted => "interrupted",
-        }
-    }
-}
-
 /// The measured quantities of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -105,7 +93,7 @@ pub struct Observed {
     /// the work of Provot's limiter grows without bound as steps get shorter.
     pub work_j: Option<f64>,
     /// The cost of the run: the number of visits to single constraints, whatever for.
-    pub visits: u64,
+    pub(crate) visits: u64,
 }
 
 /// A measured quantity of a run.
@@ -234,7 +222,7 @@ pub struct Job {
 ///
 /// # Panics
 ///
-/// If a divided step leads to more than [`Run::STEPS_MAX`] steps, or if `map` does not return one
+/// If a divided step leads to more than 2⁴⁰ steps, or if `map` does not return one
 /// member per job, in the order of the jobs.
 pub fn play(
     subject: Subject<'_>,
@@ -273,7 +261,7 @@ pub fn play(
 ///
 /// # Panics
 ///
-/// If the divided step leads to more than [`Run::STEPS_MAX`] steps.
+/// If the divided step leads to more than 2⁴⁰ steps.
 #[must_use]
 pub fn member(
     subject: Subject<'_>,

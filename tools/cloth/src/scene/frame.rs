@@ -57,15 +57,15 @@ pub struct Frame {
     /// The direction opposite to gravity.
     pub up: Axis,
     /// The axis from left to right, along which width is measured.
-    pub across: Axis,
+    pub(crate) across: Axis,
     /// The axis from bottom to top, along which height is measured.
     pub along: Axis,
     /// The remaining axis, perpendicular to width and height. It points toward the viewer or away.
-    pub depth: Axis,
+    pub(crate) depth: Axis,
     /// The corner of the bounding box from which width, height and depth are measured.
-    pub corner: Point,
+    pub(crate) corner: Point,
     /// The extents of the box along `across`, `along` and `depth`, in metres.
-    pub extents_m: [f64; 3],
+    pub(crate) extents_m: [f64; 3],
 }
 
 impl Frame {
@@ -118,14 +118,14 @@ impl Frame {
 
     /// Returns the longer of width and height, in metres.
     #[must_use]
-    pub fn size_m(&self) -> f64 {
+    pub(crate) fn size_m(&self) -> f64 {
         self.extents_m[0].max(self.extents_m[1])
     }
 
     /// Returns the place of a point, as fractions of width and height from the bottom left corner.
     /// A fraction is 0 along an axis without extent.
     #[must_use]
-    pub fn parts(&self, point: Point) -> [f64; 2] {
+    pub(crate) fn parts(&self, point: Point) -> [f64; 2] {
         let d = point - self.corner;
         let part = |axis: Axis, extent: f64| {
             let distance = dot(axis.vector(), d);
@@ -139,7 +139,7 @@ impl Frame {
 
     /// Returns the point at these fractions of width, height and depth.
     #[must_use]
-    pub fn point(&self, parts: [f64; 3]) -> Point {
+    pub(crate) fn point(&self, parts: [f64; 3]) -> Point {
         let [across, along, depth] = [0, 1, 2].map(|i| parts[i] * self.extents_m[i]);
         self.corner
             + self.across.vector() * across

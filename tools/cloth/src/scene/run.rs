@@ -67,8 +67,6 @@ pub struct RunTally {
     pub steps: u64,
     /// The number of vertices that tearing has split.
     pub splits: u64,
-    /// The number of vertices that cuts have split.
-    pub cut_splits: u64,
     /// The number of steps in which the cap on splits left an edge that would have torn.
     pub steps_at_cap: u64,
     /// The elastic energy of the edges that tore, in joules, which turned into motion.
@@ -78,7 +76,7 @@ pub struct RunTally {
     pub stretch_ratio_max: f64,
     /// The farthest that a vertex moved in one substep, in metres. It is measured only if the scene
     /// has a ball, since a fast vertex may pass through one; otherwise it is 0.
-    pub farthest_m: f64,
+    pub(crate) farthest_m: f64,
     /// The largest change of momentum by a cut or by the tears of a step, as a fraction of Σ |m v|
     /// before it.
     pub momentum_drift: f64,
@@ -197,7 +195,7 @@ impl Run {
     }
 
     /// The largest number of steps in a run.
-    pub const STEPS_MAX: u64 = 1 << 40;
+    pub(crate) const STEPS_MAX: u64 = 1 << 40;
 
     /// Divides the step of a run that has not begun by `parts`, to show which results depend on the
     /// step. A step that the run chose itself is divided further if stability needs it.
@@ -218,7 +216,7 @@ impl Run {
     ///
     /// # Panics
     ///
-    /// If a step was taken already, or the run would need more than [`Run::STEPS_MAX`] steps.
+    /// If a step was taken already, or the run would need more than 2⁴⁰ steps.
     #[must_use]
     pub fn in_smaller_steps(mut self, parts: NonZero<u32>) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
@@ -347,7 +345,6 @@ impl Run {
                 elapsed_s: self.elapsed_s(),
                 at: BlowUpSite::Particle(error.unusable()[0].0.index()),
             })?;
-            self.tally.cut_splits += report.splits as u64;
             self.compare(&before);
             self.cuts_made.push(CutMade {
                 number: self.next_cut,
@@ -359,7 +356,8 @@ impl Run {
     }
 
     fn blow(&mut self, now: u64) {
-        let Some(wind) = self.scene.wind.filter(SwayingWind::sways) else {
+        let sways = |wind: &SwayingWind| wind.sway_m_per_s != Vector::zeros();
+        let Some(wind) = self.scene.wind.filter(sways) else {
             return;
         };
         let step_s = self.step_s();
@@ -407,7 +405,7 @@ impl Run {
     /// Returns whether an event at this time, in seconds, takes place. Times are rounded to steps,
     /// and an event at the end of the last step never happens.
     #[must_use]
-    pub fn reaches(&self, time_s: f64) -> bool {
+    pub(crate) fn reaches(&self, time_s: f64) -> bool {
         held::step_at(time_s, self.step_s()) < self.steps_planned
     }
 
@@ -425,8 +423,8 @@ impl Run {
     ///   so are vertices that become light by a tear or a cut.
     /// * Provot: at most 0.925 of the longest step that is admitted at rest. If a tear or a cut lowers
     ///   the limit, each step is divided ([`Unstable::Substep`]).
-    /// * PBD, XPBD: at most [`Run::step_wanted_s`], since a pull travels only an edge or two in
-    ///   each sweep.
+    /// * PBD, XPBD: at most a step at which it is about as stiff as the fabric, since a pull travels only
+    ///   an edge or two in each sweep.
     /// * Implicit: 1/240 s.
     ///
     /// A chosen step is also at most 0.7 of the limit set by wind
@@ -440,7 +438,7 @@ impl Run {
     /// `None` for other methods. With a longer step, cloth that merely hangs is overstretched, and
     /// may tear without cause.
     #[must_use]
-    pub fn step_wanted_s(&self) -> Option<f64> {
+    pub(crate) fn step_wanted_s(&self) -> Option<f64> {
         let scene = &self.scene;
         let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
         let system = self.cloth().system();
@@ -547,7 +545,7 @@ impl Run {
 
     /// Returns the state of tearing; `None` for a scene without a rule for tearing.
     #[must_use]
-    pub fn tear(&self) -> Option<&Tear> {
+    pub(crate) fn tear(&self) -> Option<&Tear> {
         self.sim.tear.as_ref()
     }
 
@@ -570,7 +568,7 @@ impl Run {
     ///
     /// If the scene has no hold of this number.
     #[must_use]
-    pub fn pins(&self, hold: usize) -> usize {
+    pub(crate) fn pins(&self, hold: usize) -> usize {
         self.held[hold].pins(self.mesh())
     }
 

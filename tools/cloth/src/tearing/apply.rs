@@ -125,7 +125,7 @@ impl Tear {
     }
 
     /// Makes room for all splits that can follow ([`Cloth::reserve`]), so that they allocate nothing.
-    pub fn reserve(&mut self, mesh: &Mesh) {
+    pub(crate) fn reserve(&mut self, mesh: &Mesh) {
         let corners = mesh.half_edge_count();
         let splits = corners.saturating_sub(mesh.vertex_count());
         self.strengths.reserve(splits);

@@ -14,7 +14,7 @@ pub enum RunError {
     /// a strength cannot be used.
     Simulation(SimulationError),
     /// The step is not positive and finite, the duration is negative or not finite, or the run
-    /// would need more than [`Run::STEPS_MAX`](super::Run::STEPS_MAX) steps.
+    /// would need more than 2⁴⁰ steps.
     Times {
         /// The step, in seconds.
         step_s: f64,
