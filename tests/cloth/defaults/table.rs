@@ -1,6 +1,4 @@
-//! The table of methods at rest, crushed, and what a step costs: what chose the default.
-
-use std::time::Instant;
+//! The table of methods at rest and crushed: what chose the default.
 
 use tearmesh::Point;
 use tearmesh_cloth::{Solver, Verlet, Xpbd, recommended_step_s};
@@ -70,23 +68,6 @@ fn crushed(sheet: &Sheet, make: Make, dt_s: f64) -> f64 {
     largest
 }
 
-/// Microseconds of a step, the least of five runs; infinite where it blew up.
-fn cost_us(sheet: &Sheet, make: Make, dt_s: f64) -> f64 {
-    let took = |_| {
-        let (mut system, mut solver) = (sheet.system(ORDERS[0]), make());
-        system.set_loads(weight(9.81, 1.0)).expect("loads");
-        system.when_unstable(tearmesh_cloth::Unstable::Allow);
-        let began = Instant::now();
-        for _ in 0..200 {
-            if system.step(&mut *solver, dt_s).is_err() {
-                return f64::INFINITY;
-            }
-        }
-        began.elapsed().as_secs_f64() * 1e6 / 200.0
-    };
-    (0..5).map(took).fold(f64::INFINITY, f64::min)
-}
-
 /// The error in per cent; `-` if the run blew up.
 fn percent(x: f64) -> String {
     match x.is_finite() && x < 1e3 {
@@ -99,7 +80,7 @@ fn percent(x: f64) -> String {
 fn table_of_what_chose_the_default() {
     for sheet in Sheet::all() {
         println!(
-            "\n{}: step in h/c, off in % (largest, 99 %, rms), crushed E/E0, µs",
+            "\n{}: step in h/c, off in % (largest, 99 %, rms), crushed E/E0",
             sheet.name
         );
         let exact = sheet.strains(&reference(&sheet, 400.0));
@@ -111,7 +92,6 @@ fn table_of_what_chose_the_default() {
                 let dt_s = part * hc;
                 let [largest, most, rms] = at_rest(&sheet, make, dt_s, &exact);
                 let energy = crushed(&sheet, make, dt_s);
-                let us = cost_us(&sheet, make, dt_s);
                 let [largest, most, rms_percent] = [largest, most, rms].map(percent);
                 let made = if energy < 1e3 {
                     format!("{energy:.2}")
@@ -119,7 +99,7 @@ fn table_of_what_chose_the_default() {
                     "–".to_owned()
                 };
                 println!(
-                    "{name:18} {part:.3} | {largest:>6} {most:>6} {rms_percent:>6} | {made:>6} | {us:.1}"
+                    "{name:18} {part:.3} | {largest:>6} {most:>6} {rms_percent:>6} | {made:>6}"
                 );
                 // The reason for the default, at its step and half as long a one.
                 if name == "verlet" && part <= own {

@@ -32,16 +32,19 @@ pub(crate) fn play(mut run: Run) -> Run {
     run
 }
 
-/// The scenes that stand ready, by their names.
-const READY: [(&str, fn(&Frame) -> Scene); 5] = [
-    ("fall", |frame| Scene::fall(frame.up)),
-    ("hang", Scene::hang),
-    ("flag", Scene::flag),
-    ("rip", Scene::rip),
-    ("trouser", Scene::trouser),
-];
+/// The scene of this name that stands ready.
+fn ready(name: &str, frame: &Frame) -> Scene {
+    match name {
+        "fall" => Scene::fall(frame.up),
+        "hang" => Scene::hang(frame),
+        "flag" => Scene::flag(frame),
+        "rip" => Scene::rip(frame),
+        "trouser" => Scene::trouser(frame),
+        _ => panic!("{name} does not stand ready"),
+    }
+}
 
-/// What was played of [`READY`], by cells, scene and method.
+/// What was played of those, by cells, scene and method.
 type Played = BTreeMap<(u32, &'static str, &'static str), &'static OnceLock<Run>>;
 
 /// A ready scene on a [`square`] after its end, by one of [`methods`]. It is played once, whoever reads
@@ -55,15 +58,11 @@ pub(crate) fn played(cells: u32, scene: &'static str, method: &'static str) -> &
             .or_insert_with(|| Box::leak(Box::default()))
     };
     run.get_or_init(|| {
-        let (_, ready) = READY
-            .into_iter()
-            .find(|(name, _)| *name == scene)
-            .expect("a scene");
         let solver = methods().into_iter().find(|(name, _)| *name == method);
         let (_, solver) = solver.expect("a method");
         play(staged(cells, |frame| Scene {
             solver: solver.clone(),
-            ..ready(frame)
+            ..ready(scene, frame)
         }))
     })
 }

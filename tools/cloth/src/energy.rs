@@ -51,15 +51,8 @@ pub(crate) fn potential_j(system: &System) -> f64 {
     -particles.fold(0.0, |sum, (x, m)| sum + m * dot(gravity, x.coords))
 }
 
-/// The elastic energy of all that a particle has a part in, in joules.
-pub(crate) fn elastic_at_j(system: &System, particle: usize) -> f64 {
-    let (model, x) = (&system.model, &system.positions);
-    let [stretch, bend] = model.families().map(|pairs| pairs.energy_at(x, particle));
-    stretch + bend + model.triangles.energy_at(x, particle)
-}
-
 /// The kinetic energy of a particle, in joules: none of one that is held.
-pub(crate) fn kinetic_at_j(system: &System, particle: usize) -> f64 {
+fn kinetic_at_j(system: &System, particle: usize) -> f64 {
     if system.model.held[particle] {
         return 0.0;
     }
@@ -67,14 +60,11 @@ pub(crate) fn kinetic_at_j(system: &System, particle: usize) -> f64 {
     0.5 * system.model.masses[particle] * dot(v, v)
 }
 
-/// The potential of gravity of a particle, in joules.
-pub(crate) fn potential_at_j(system: &System, particle: usize) -> f64 {
-    let weight = system.model.gravity() * system.model.masses[particle];
-    -dot(weight, system.positions[particle].coords)
-}
-
-/// The energy that a particle has a part in: its motion, what it is joined by, and its weight.
+/// The energy that a particle has a part in, in joules: what it is joined by, its motion, and its weight.
 pub(crate) fn at_j(system: &System, particle: usize) -> f64 {
-    let motion_j = kinetic_at_j(system, particle);
-    elastic_at_j(system, particle) + motion_j + potential_at_j(system, particle)
+    let (model, x) = (&system.model, &system.positions);
+    let [stretch, bend] = model.families().map(|pairs| pairs.energy_at(x, particle));
+    let elastic_j = stretch + bend + model.triangles.energy_at(x, particle);
+    let weight = model.gravity() * model.masses[particle];
+    elastic_j + kinetic_at_j(system, particle) - dot(weight, x[particle].coords)
 }

@@ -85,7 +85,7 @@ impl Provot {
         for colour in model.stretch.colours_mut() {
             spring::ratios(colour, positions);
         }
-        model.clear_multipliers();
+        model.multipliers_mut().for_each(|lambda| *lambda = 0.0);
         let ratio_max = limiter.stretch_ratio_max;
         let (mut passes, mut has_shortened) = (0, false);
         let (mut largest, mut last) = (f64::INFINITY, f64::INFINITY);
@@ -107,7 +107,8 @@ impl Provot {
                 *v += (x - before) / dt_s;
             }
         }
-        model.scale_multipliers(force_scale(model, dt_s));
+        let scale = force_scale(model, dt_s);
+        model.multipliers_mut().for_each(|lambda| *lambda *= scale);
         model.recorded = Recorded::Limiter;
         self.stats.passes += u64::from(passes);
         self.stats.steps_limited += u64::from(has_shortened);

@@ -168,7 +168,8 @@ fn go_back(system: &mut System, failure: Failure) -> StepError {
     std::mem::swap(&mut system.velocities, &mut system.scratch.velocities);
     system.scratch.is_fresh = false;
     system.model.recorded = Recorded::Nothing;
-    system.model.clear_multipliers();
+    let multipliers = system.model.multipliers_mut();
+    multipliers.for_each(|lambda| *lambda = 0.0);
     system.changes += 1;
     error
 }

@@ -218,7 +218,8 @@ fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> R
 fn conclude(system: &mut System, substep_s: f64, recorded: Recorded) {
     finish(system, substep_s);
     let model = &mut system.model;
-    model.scale_multipliers(force_scale(model, substep_s));
+    let scale = force_scale(model, substep_s);
+    model.multipliers_mut().for_each(|lambda| *lambda *= scale);
     model.recorded = recorded;
 }
 

@@ -210,7 +210,11 @@ impl Model {
         let gravity = self.gravity();
         let Some(carry) = carry.filter(|carry| carry.len() > 0) else {
             for (a, &w) in forces.iter_mut().zip(&self.inverse_masses) {
-                *a = accelerated(*a, w, gravity);
+                *a = if w > 0.0 {
+                    *a * w + gravity
+                } else {
+                    Vector::zeros()
+                };
             }
             return;
         };
@@ -264,34 +268,10 @@ impl Model {
         }
     }
 
-    /// Makes forces of multipliers.
-    pub(crate) fn scale_multipliers(&mut self, scale: f64) {
-        for family in [&mut self.stretch, &mut self.bend] {
-            for colour in family.colours_mut() {
-                colour
-                    .multipliers
-                    .iter_mut()
-                    .for_each(|lambda| *lambda *= scale);
-            }
-        }
-    }
-
-    /// Sets all multipliers to zero.
-    pub(crate) fn clear_multipliers(&mut self) {
-        for family in [&mut self.stretch, &mut self.bend] {
-            for colour in family.colours_mut() {
-                colour.multipliers.fill(0.0);
-            }
-        }
-    }
-}
-
-/// The acceleration of a particle by a force beside its weight; none of one that is held.
-#[inline]
-fn accelerated(force: Vector, inverse_mass: f64, gravity: Vector) -> Vector {
-    if inverse_mass > 0.0 {
-        force * inverse_mass + gravity
-    } else {
-        Vector::zeros()
+    /// The multipliers of all constraints.
+    pub(crate) fn multipliers_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let families = [&mut self.stretch, &mut self.bend].into_iter();
+        let colours = families.flat_map(Constraints::colours_mut);
+        colours.flat_map(|colour| &mut colour.multipliers)
     }
 }
