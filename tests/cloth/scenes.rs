@@ -386,31 +386,6 @@ fn what_one_hold_lets_go_another_still_holds() {
 }
 
 #[test]
-fn the_wind_sways_as_a_triangle() {
-    let wind = SwayingWind {
-        steady: Wind {
-            velocity_m_per_s: Vector::new(5.0, 0.0, 0.0),
-            coefficient: 1.0,
-        },
-        sway_m_per_s: Vector::new(0.0, 0.0, 2.0),
-        period_s: 4.0,
-    };
-    for (at_s, sway) in [
-        (0.0, 0.0),
-        (0.5, 1.0),
-        (1.0, 2.0),
-        (2.0, 0.0),
-        (3.0, -2.0),
-        (3.5, -1.0),
-        (4.0, 0.0),
-        (5.0, 2.0),
-    ] {
-        let wind = wind.at(at_s).velocity_m_per_s;
-        assert_eq!(wind, Vector::new(5.0, 0.0, sway), "{at_s}");
-    }
-}
-
-#[test]
 fn regions_hold_what_lies_in_them() {
     let (mesh, positions) = square(4);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);

@@ -71,9 +71,8 @@ pub struct SwayingWind {
 }
 
 impl SwayingWind {
-    /// Returns the wind at `elapsed_s` seconds.
-    #[must_use]
-    pub fn at(&self, elapsed_s: f64) -> Wind {
+    /// The wind at `elapsed_s` seconds.
+    fn at(&self, elapsed_s: f64) -> Wind {
         let phase = elapsed_s / self.period_s;
         let phase = phase - phase.floor();
         let triangle = if phase < 0.25 {
@@ -229,4 +228,34 @@ pub struct TimedCut {
     pub through: bool,
     /// The method by which the mesh is cut.
     pub method: tearmesh::CutMethod,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wind_sways_as_a_triangle() {
+        let wind = SwayingWind {
+            steady: Wind {
+                velocity_m_per_s: Vector::new(5.0, 0.0, 0.0),
+                coefficient: 1.0,
+            },
+            sway_m_per_s: Vector::new(0.0, 0.0, 2.0),
+            period_s: 4.0,
+        };
+        for (at_s, sway) in [
+            (0.0, 0.0),
+            (0.5, 1.0),
+            (1.0, 2.0),
+            (2.0, 0.0),
+            (3.0, -2.0),
+            (3.5, -1.0),
+            (4.0, 0.0),
+            (5.0, 2.0),
+        ] {
+            let wind = wind.at(at_s).velocity_m_per_s;
+            assert_eq!(wind, Vector::new(5.0, 0.0, sway), "{at_s}");
+        }
+    }
 }

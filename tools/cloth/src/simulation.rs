@@ -292,11 +292,7 @@ impl Simulation {
                 return Err(error);
             }
         }
-        Ok(Reached {
-            steps,
-            time_s: self.time_s(),
-            dropped_s,
-        })
+        Ok(Reached { steps, dropped_s })
     }
 
     fn step(&mut self) -> Result<(), StepError> {

@@ -67,8 +67,6 @@ pub struct Picked {
 pub struct Reached {
     /// The number of steps that were taken.
     pub steps: u64,
-    /// The time simulated since the beginning, in seconds.
-    pub time_s: f64,
     /// The time in seconds that the budget of steps left out. It is not made up for later.
     pub dropped_s: f64,
 }
