@@ -682,6 +682,47 @@ fn the_report_says_what_the_method_made() {
     assert_eq!(warned.count(), 1);
 }
 
+/// Each step is below its limit and no number is large, but the balance is absurd: such a run is not done.
+#[test]
+fn a_run_that_triples_its_energy_fails_and_keeps_its_state() {
+    let folder = Folder::new();
+    let springs = "base = \"rip\"\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n[tear]\n";
+    folder.write("springs.toml", format!("{springs}threshold = 2.5\n"));
+    let line = "tearmesh tear flag.obj --scene springs.toml --seconds 1.6";
+    let output = folder.run(&format!("{line} --dt 0.00035 -o x.obj --report r.json"));
+    let said = seen(&output);
+    assert_eq!(output.status.code(), Some(5), "{said}");
+    assert!(
+        said.contains("error[E-SIM-ENERGY]: the method made "),
+        "{said}"
+    );
+    assert!(!said.contains("W-SIM-ENERGY"), "{said}");
+    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("a report");
+    assert_eq!(report["status"], "gained energy");
+    assert_eq!(report["ok"], false);
+    let gain = |name: &str| report["energy_j"]["gain"][name].as_f64().expect("a gain");
+    assert!(gain("made_j") > 3.0 * gain("put_in_j"), "{said}");
+    // It ends with the frame in which that showed.
+    let time_s = report["time_simulated_s"].as_f64().expect("a time");
+    assert!((1.4..1.59).contains(&time_s), "{time_s}");
+    assert!(
+        said.contains(&format!("; the state after {time_s} s is kept")),
+        "{said}"
+    );
+    assert_eq!(folder.run("tearmesh check x.obj").status.code(), Some(0));
+
+    // A limiter does unbounded work, so its balance decides nothing.
+    folder.write(
+        "limited.toml",
+        springs.replace("1000", "4") + "threshold = 2.5\n",
+    );
+    let line = line.replace("springs", "limited");
+    let output = folder.run(&format!("{line} --dt 0.00035 --dry-run"));
+    let said = seen(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("warning[W-SIM-ENERGY]"), "{said}");
+}
+
 #[test]
 fn help_fits_a_screen_and_has_two_examples_and_every_key() {
     let folder = Folder::new();

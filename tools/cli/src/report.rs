@@ -144,8 +144,8 @@ pub(crate) struct Mend {
 pub(crate) struct Tear {
     pub(crate) scene: String,
     pub(crate) solver: &'static str,
-    /// `done`, `interrupted`, `unstable`, `unsolved` (an implicit step missed its tolerance) or
-    /// `blown up`.
+    /// `done`, `interrupted`, `unstable`, `unsolved` (an implicit step missed its tolerance),
+    /// `gained energy` (E-SIM-ENERGY) or `blown up`.
     pub(crate) status: &'static str,
     pub(crate) steps: u64,
     pub(crate) dt_s: f64,

@@ -139,6 +139,8 @@ type Followers<'f, 'd> = (
 enum Ended {
     Done,
     Interrupted,
+    /// The method made energy beyond all bounds.
+    Exploded,
     Failed(StepError),
 }
 
@@ -177,6 +179,7 @@ impl Play<'_> {
         let status = match &ended {
             Ended::Done => "done",
             Ended::Interrupted => "interrupted",
+            Ended::Exploded => "gained energy",
             Ended::Failed(StepError::BlowUp { .. }) => "blown up",
             Ended::Failed(StepError::Implicit { .. }) => "unsolved",
             Ended::Failed(_) => "unstable",
@@ -235,6 +238,7 @@ impl Play<'_> {
             Ended::Done if self.guard.is_interrupted() => session.exit = Exit::Interrupted,
             Ended::Done => {}
             Ended::Interrupted => session.exit = Exit::Interrupted,
+            Ended::Exploded => session.exit = Exit::Simulation,
             Ended::Failed(error) => {
                 session.exit = Exit::Simulation;
                 session.faults.push(advice::failure(&error, &run));
@@ -357,6 +361,10 @@ impl Play<'_> {
                     ended = Ended::Failed(error);
                     break;
                 }
+            }
+            if advice::has_exploded(run) {
+                ended = Ended::Exploded;
+                break;
             }
             bar.set_position(run.tally().steps);
         }

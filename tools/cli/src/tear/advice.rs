@@ -3,10 +3,11 @@
 //! [`Warning`].
 
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Frame, Run, Warning};
+use tearmesh_cloth::scene::{EnergyGain, Frame, Run, Warning};
 use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError};
 
 use super::frames::RATE_PER_S;
+use super::summary::has_limited;
 use crate::args::TearArgs;
 use crate::say::{Fault, Severity, count, short, three_digits, two_digits};
 
@@ -31,6 +32,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
     let scene = run.scene();
     let step = short(run.step_s());
     let half = two_digits(run.step_s() / 2.0);
+    let has_failed = matches!(warning, Warning::Energy(_)) && has_exploded(run);
     let (message, help) = match warning {
         Warning::Size { size_m } => (
             format!(
@@ -178,7 +180,11 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
         ),
         Warning::Energy(gain) => {
             let since = short(gain.since_s);
-            let much = if super::summary::has_limited(run) {
+            let so = match has_failed {
+                true => "; ".to_owned() + &state_kept(run),
+                false => ": what tore since then tore partly because of it".to_owned(),
+            };
+            let much = if has_limited(run) {
                 format!("energy out of nothing, from {since} s on")
             } else {
                 let [made, put_in] = [gain.made_j, gain.put_in_j].map(three_digits);
@@ -190,7 +196,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
                 _ => "--solver verlet or implicit",
             };
             (
-                format!("the method made {much}: what tore since then tore partly because of it"),
+                format!("the method made {much}{so}"),
                 format!("{others}, --dt {half}, or a larger drag_per_s in a scene file"),
             )
         }
@@ -218,13 +224,29 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
         }
     };
     let severity = match warning {
+        _ if has_failed => Severity::Error,
         Warning::Rigid | Warning::Strong { .. } | Warning::Damped { .. } => Severity::Note,
         _ => Severity::Warning,
     };
+    let code = match has_failed {
+        true => "E-SIM-ENERGY",
+        false => warning.code(),
+    };
     Fault {
         severity,
-        ..Fault::error(warning.code(), message).help(help)
+        ..Fault::error(code, message).help(help)
     }
+}
+
+/// Whether the method has made so much energy that the run shows nothing of the cloth: more than three times what
+/// was put in, and more than a millijoule. Where the limiter has worked, its energy is not known.
+pub(super) fn has_exploded(run: &Run) -> bool {
+    let is_absurd = |gain: EnergyGain| gain.made_j > f64::max(3.0 * gain.put_in_j, 1e-3);
+    run.energy_gain().is_some_and(is_absurd) && !has_limited(run)
+}
+
+fn state_kept(run: &Run) -> String {
+    format!("the state after {} s is kept", short(run.elapsed_s()))
 }
 
 /// How many steps were taken; where they were divided, and the method had each part, how many parts.
@@ -328,7 +350,7 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
     };
     let after = match run.elapsed_s() {
         0.0 => String::new(),
-        elapsed => format!("; the state after {} s is kept", short(elapsed)),
+        _ => format!("; {}", state_kept(run)),
     };
     Fault::error(error.code(), message + &after).help(help)
 }
