@@ -247,6 +247,59 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
 }
 
 #[test]
+fn pieces_of_a_rerun_replace_those_of_an_earlier_run() {
+    let folder = Folder::new();
+    let cut = |options: &str| {
+        let output = folder.run(&format!(
+            "tearmesh cut flag.obj {options} --pieces p -o p.obj"
+        ));
+        (output.status.code(), seen(&output))
+    };
+    let names = || {
+        let entries = fs::read_dir(folder.path("p")).expect("a folder");
+        let mut names: Vec<_> = entries
+            .map(|entry| {
+                entry
+                    .expect("a file")
+                    .file_name()
+                    .into_string()
+                    .expect("text")
+            })
+            .collect();
+        names.sort();
+        names
+    };
+    let first = cut(CROSS);
+    assert_eq!(first.0, Some(0), "{}", first.1);
+    folder.write("p/notes.txt", "mine");
+    assert_eq!(cut(CROSS), first);
+    assert_eq!(check(&folder, "p.obj", "p").len(), 4);
+    // Fewer pieces leave none of the old ones, and a run that cuts nothing leaves all.
+    let half = "--plane 0.3,0,0:1,0,0";
+    assert_eq!(cut(half).0, Some(0));
+    assert_eq!(check(&folder, "p.obj", "p").len(), 2);
+    let left = [
+        "notes.txt",
+        "piece_00000.obj",
+        "piece_00001.obj",
+        "pieces.json",
+    ];
+    assert_eq!(names(), left);
+    assert_eq!(cut("--plane 0,9,0:0,1,0").0, Some(1));
+    assert_eq!(names(), left);
+    assert_eq!(folder.read("p/notes.txt"), "mine");
+    // A piece that the list does not name is not replaced.
+    folder.write("p/piece_00002.obj", "strange");
+    let (exit, said) = cut(CROSS);
+    assert_eq!(exit, Some(2), "{said}");
+    assert!(
+        said.contains("`p/piece_00002.obj` is not of an earlier run"),
+        "{said}"
+    );
+    assert_eq!(folder.read("p/piece_00002.obj"), "strange");
+}
+
+#[test]
 fn a_piece_replaces_no_other_file() {
     let folder = Folder::new();
     fs::create_dir(folder.path("p")).expect("a folder");
@@ -278,6 +331,22 @@ fn a_piece_replaces_no_other_file() {
         assert!(output.status.success(), "{}", seen(&output));
         assert_eq!(folder.path("new").is_dir(), is_there);
     }
+    // Neither is one that no list of ours names, nor a list that is none of ours.
+    fs::create_dir(folder.path("q")).expect("a folder");
+    let list = r#"{"schema": "tearmesh.pieces/1", "pieces": [{"file": "piece_00001.obj"}]}"#;
+    for (to, list, strange) in [
+        ("p", "{}", "piece_00001.obj"),
+        ("p", list, "piece_00002.obj"),
+        ("q", "{}", "pieces.json"),
+    ] {
+        folder.write(&format!("{to}/pieces.json"), list);
+        let output = folder.run(&format!("{line} {to} -o x.obj"));
+        assert_eq!(output.status.code(), Some(2), "{}", seen(&output));
+        let message = format!("`{to}/{strange}` is not of an earlier run of --pieces");
+        assert!(seen(&output).contains(&message), "{}", seen(&output));
+        assert_eq!(folder.read(&format!("{to}/pieces.json")), list);
+    }
+    assert_eq!(folder.read("p/piece_00001.obj"), folder.read("flag.obj"));
     let output = folder.run("tearmesh cut flag.obj --plane 0,9,0:0,1,0 --pieces none -o x.obj");
     assert_eq!(output.status.code(), Some(1), "{}", seen(&output));
     assert!(!folder.path("none").exists(), "nothing was cut");

@@ -1,7 +1,5 @@
 //! What a first hour trips over: advice, refusals that say why, and one number for one thing.
 
-use std::fs;
-
 use crate::harness::{Folder, seen};
 
 /// Runs a command, which ends with this status, and gives what is said.
@@ -92,19 +90,6 @@ fn layers_of_a_plane_are_refused_with_the_reason() {
     let why = said(&folder, &format!("{line} first"), 2);
     assert!(why.contains("no ray hits a layer first"), "{why}");
     said(&folder, &format!("{line} all"), 0);
-}
-
-#[test]
-fn pieces_go_into_no_folder_that_has_pieces() {
-    let folder = Folder::new();
-    let line = "tearmesh cut sheet.obj --plane 0.3,0,0:1,0,0 -o x.obj --pieces p";
-    said(&folder, line, 0);
-    fs::remove_file(folder.path("x.obj")).expect("a file");
-    folder.write("p/piece_00000.obj", "of an earlier run\n");
-    let why = said(&folder, line, 2);
-    assert!(why.contains("`p` already has pieces"), "{why}");
-    assert_eq!(folder.read("p/piece_00000.obj"), "of an earlier run\n");
-    assert!(!folder.path("x.obj").exists());
 }
 
 /// A note that nothing has to be done about is for those who ask, and for the report.

@@ -88,8 +88,8 @@ pub(crate) struct CutArgs {
     ///
     /// `piece_00000.obj` is the largest. A piece has the objects, groups, materials, texture
     /// coordinates and normals of its faces; `pieces.json` lists all pieces, with these names. Pieces
-    /// have no record of the cut, and no gap: to mend, keep the whole mesh as well, with -o. A folder
-    /// that has other pieces is refused.
+    /// have no record of the cut, and no gap: to mend, keep the whole mesh as well, with -o. The pieces
+    /// of an earlier run in the folder are replaced; a folder with other pieces is refused.
     #[arg(long, value_name = "DIR")]
     pub(crate) pieces: Option<PathBuf>,
 

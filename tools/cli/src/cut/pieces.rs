@@ -18,10 +18,15 @@ use crate::{files, output, report};
 /// Where pieces go.
 pub(super) struct Pieces {
     folder: PathBuf,
+    /// The pieces of an earlier run, which are replaced or removed.
+    old: Vec<String>,
 }
 
 /// The name of the list.
 const LIST: &str = "pieces.json";
+
+/// The schema of the list.
+const SCHEMA: &str = "tearmesh.pieces/1";
 
 /// The list of the pieces.
 #[derive(Serialize)]
@@ -43,7 +48,7 @@ struct Entry {
 }
 
 impl Pieces {
-    /// Refuses to replace other files, if pieces are wanted.
+    /// Refuses to replace files other than the pieces of an earlier run, if pieces are wanted.
     pub(super) fn of(args: &CutArgs) -> Result<Option<Pieces>, Stop> {
         let Some(folder) = args.pieces.clone().filter(|_| !args.files.dry_run) else {
             return Ok(None);
@@ -64,20 +69,23 @@ impl Pieces {
             (args.rays_file.as_deref(), "the rays"),
         ];
         files::keep_from(&folder, ("a piece", "pieces"), is_ours, &kept)?;
-        // Those of two runs in one folder could not be told apart.
-        let mut entries = fs::read_dir(&folder).into_iter().flatten().flatten();
-        if entries.any(|entry| is_piece(&entry.file_name().to_string_lossy())) {
-            let message = format!("`{}` already has pieces", folder.display());
-            return Err(Stop::usage(
-                message,
-                "name another folder, or remove them first",
-            ));
+        let entries = fs::read_dir(&folder).into_iter().flatten().flatten();
+        let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let mut old: Vec<String> = names.filter(|name| is_ours(name)).collect();
+        old.sort();
+        // Pieces of two runs in one folder could not be told apart, and those without a list may be anybody's.
+        let listed = listed(&folder);
+        if let Some(strange) = old.iter().find(|name| !listed.contains(name)) {
+            let path = folder.join(strange);
+            let message = format!("`{}` is not of an earlier run of --pieces", path.display());
+            let help = "name another folder, or remove it first";
+            return Err(Stop::usage(message, help));
         }
-        Ok(Some(Pieces { folder }))
+        Ok(Some(Pieces { folder, old }))
     }
 
-    /// Writes the pieces, and then their list: each file whole or not at all. Makes the folder where
-    /// there is none.
+    /// Writes the pieces, and then their list: each file whole or not at all. Then removes the pieces of an
+    /// earlier run that had more. Makes the folder where there is none.
     pub(super) fn write(
         &self,
         torn: &TornDocument<'_>,
@@ -93,7 +101,7 @@ impl Pieces {
         pieces.sort_by_key(|piece| Reverse(piece.faces().len()));
         let writer = PieceWriter::new(torn);
         let mut list = List {
-            schema: "tearmesh.pieces/1",
+            schema: SCHEMA,
             pieces: Vec::with_capacity(pieces.len()),
         };
         for (number, piece) in pieces.iter().enumerate() {
@@ -121,10 +129,32 @@ impl Pieces {
         let path = self.folder.join(LIST);
         output::write(&path, |out| out.write_all(json.as_bytes()))
             .map_err(|error| unwritable(&path, &error))?;
+        let is_new =
+            |name: &str| name == LIST || list.pieces.iter().any(|piece| piece.file == name);
+        for path in self
+            .old
+            .iter()
+            .filter(|name| !is_new(name))
+            .map(|name| folder.join(name))
+        {
+            fs::remove_file(&path).map_err(|error| unwritable(&path, &error))?;
+        }
         let count = pieces.len();
         let folder = self.folder.display().to_string();
         Ok(report::Pieces { folder, count })
     }
+}
+
+/// The files of an earlier run in a folder, by its list there, and the list itself.
+fn listed(folder: &Path) -> Vec<String> {
+    let text = fs::read(folder.join(LIST)).unwrap_or_default();
+    let list: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
+    if list["schema"] != SCHEMA {
+        return Vec::new();
+    }
+    let pieces = list["pieces"].as_array().into_iter().flatten();
+    let files = pieces.filter_map(|piece| Some(piece["file"].as_str()?.to_owned()));
+    files.chain([LIST.to_owned()]).collect()
 }
 
 /// The line of the summary.
