@@ -20,9 +20,7 @@ use crate::rays;
 
 pub(crate) use self::chart::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
 pub(crate) use self::check::CheckArgs;
-pub(crate) use self::cut::{
-    CUT_METHODS, CameraArgs, CutArgs, Layers, Mass, Method, Tips, cut_name,
-};
+pub(crate) use self::cut::{CameraArgs, CutArgs, Mass};
 pub(crate) use self::files::{FileArgs, Format};
 pub(crate) use self::mend::MendArgs;
 pub(crate) use self::read::{Gap, numbers};

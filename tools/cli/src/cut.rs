@@ -11,7 +11,10 @@ pub(crate) mod words;
 use std::ffi::OsString;
 use std::path::Path;
 
-use tearmesh::{Cursor, Cut, CutEnd, CutLayers, Edit, Edits, Masses, Positions, Scissor, Vector};
+use tearmesh::{
+    Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses, Positions, Scissor,
+    Vector,
+};
 use tearmesh_obj::TornDocument;
 
 use self::map::Map;
@@ -19,7 +22,8 @@ use self::nothing::Obstacle;
 use self::pieces::Pieces;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
-use crate::args::{CutArgs, Gap, Layers, Mass, Method, Tips};
+use crate::args::{CutArgs, Gap, Mass};
+use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
 use crate::measure::Edges;
 use crate::rays::{self, Pair};
@@ -62,7 +66,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         Gap::Edges(part) => part * Edges::of(&mesh, &positions).mean,
     });
     let mut map = args.map.as_ref().map(|_| Map::new(&document));
-    let is_exact = args.method == Method::Exact;
+    let is_exact = args.method == CutMethod::Exact;
     let mut slid = false;
     let mut line = Polyline::default();
     let through = args.through || !args.plane.is_empty();
@@ -70,12 +74,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     for (i, along) in cuts.iter().enumerate() {
         let number = (cuts.len() > 1).then_some(i + 1);
         let scissor = scissor(args, along, &line, &positions)?;
-        let made = scissor.cut_measured(
-            args.method.of_library(),
-            &mut mesh,
-            &mut positions,
-            &mut edits,
-        );
+        let made = scissor.cut_measured(args.method, &mut mesh, &mut positions, &mut edits);
         let (cut, done) = made.expect("what follows every cut is in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
@@ -85,7 +84,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         line.go_on(&edits, &cut);
         edits.clear();
         torn.next_cut();
-        let chosen = (args.layers == Layers::First).then_some(&cut);
+        let chosen = (args.layers == CutLayers::First).then_some(&cut);
         let mut entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
         session.words.push(words::cut(number, &done));
         if let Some(pair) = along.rays().filter(|_| args.camera.camera.is_some()) {
@@ -94,7 +93,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
             entry.equivalent = Some(typed);
         }
         session.report.cuts.push(entry);
-        let method = args.method.of_library();
+        let method = args.method;
         let obstacle = if done.splits == 0 {
             let how = (&scissor, method, args.snap);
             nothing::obstacle(how, through, (&mesh, &positions), &done)
@@ -196,15 +195,10 @@ fn scissor(
         Along::Rays(pair) => between(args, pair, line, positions)?,
         Along::Plane(plane) => Scissor::by_plane(*plane),
     };
-    let tips = match args.tips {
-        Tips::Vertex => tearmesh::CutTips::Vertex,
-        Tips::Midpoint => tearmesh::CutTips::Midpoint,
-    };
-    let layers = match args.layers {
-        Layers::All => CutLayers::All,
-        Layers::First => CutLayers::First,
-    };
-    let scissor = scissor.through(args.through).tips(tips).layers(layers);
+    let scissor = scissor
+        .through(args.through)
+        .tips(args.tips)
+        .layers(args.layers);
     Ok(scissor.snap(args.snap).snap_move(args.snap_move))
 }
 
@@ -227,11 +221,11 @@ fn between(
 
 /// The options that the report repeats.
 fn how(args: &CutArgs) -> report::How {
-    let is_exact = args.method == Method::Exact;
+    let is_exact = args.method == CutMethod::Exact;
     report::How {
-        method: args.method.name(),
+        method: args.method.word(),
         through: args.through || !args.plane.is_empty(),
-        tips: args.tips.name(),
+        tips: args.tips.word(),
         snap: is_exact.then_some(args.snap),
         snap_move: is_exact.then_some(args.snap_move),
     }
@@ -240,7 +234,7 @@ fn how(args: &CutArgs) -> report::How {
 /// Refuses options that do not go together.
 fn check(args: &CutArgs) -> Result<(), Stop> {
     let usage = |message: &str, help: &str| Err(Stop::usage(message, help));
-    let is_exact = args.method == Method::Exact;
+    let is_exact = args.method == CutMethod::Exact;
     if args.files.input == Path::new("-") && args.rays_file.as_deref() == Some(Path::new("-")) {
         return usage(
             "the mesh and the rays both come from standard input",
@@ -265,16 +259,16 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
         }
         files::keep(&args.files, Some(path), what)?;
     }
-    if args.layers == Layers::First && !args.plane.is_empty() {
+    if args.layers == CutLayers::First && !args.plane.is_empty() {
         return usage(
             "`--layers first` is for rays: with a plane, no ray hits a layer first",
             "cut with --rays or --camera, or leave out --layers",
         );
     }
-    if args.tips == Tips::Midpoint && args.method != Method::Partition {
+    if args.tips == CutTips::Midpoint && args.method != CutMethod::Partition {
         let message = format!(
             "`--tips midpoint` is for the method partition, not {}",
-            args.method.name()
+            args.method.word()
         );
         let help = if is_exact {
             "leave it out, because exact ends at the rays themselves, or add --method partition"
@@ -299,7 +293,7 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
     if args.snap_move && !is_exact {
         let message = format!(
             "`--snap-move` is for the method exact, not {}",
-            args.method.name()
+            args.method.word()
         );
         return usage(&message, "leave it out: the other methods move no vertex");
     }

@@ -16,6 +16,7 @@ mod args;
 mod bug;
 mod chart;
 mod check;
+mod choice;
 mod cut;
 mod defects;
 mod exit;

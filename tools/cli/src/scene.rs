@@ -10,10 +10,9 @@ mod schema;
 use std::io::Read as _;
 use std::path::Path;
 
-use self::kinds::READY;
-pub(crate) use self::kinds::axis;
 pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
+use crate::choice::{Choice as _, Preset};
 use crate::exit::{Exit, Stop};
 use crate::input::{Input, cannot_read};
 use crate::say::Fault;
@@ -27,12 +26,13 @@ impl SceneFile {
             exit: Exit::Usage,
             faults,
         };
-        if READY.contains(&name) {
+        if Preset::of(name).is_some() {
             return SceneFile::read(name, &format!("base = \"{name}\"")).map_err(refused);
         }
         if !Path::new(name).exists() && !name.contains(['.', '/', '\\']) {
             let fault = Fault::error("E-SCENE-NAME", format!("there is no scene `{name}`"));
-            let help = "scenes are hang, flag, rip, trouser, fall, and files such as scene.toml";
+            let scenes = Preset::words();
+            let help = format!("scenes are {scenes}, and files such as scene.toml");
             return Err(Stop::new(Exit::Usage, fault.help(help)));
         }
         let unreadable = |fault| Stop::new(Exit::Input, fault);
@@ -54,7 +54,7 @@ impl SceneFile {
     }
 
     pub(crate) fn is_ready(&self) -> bool {
-        READY.contains(&self.name())
+        Preset::of(self.name()).is_some()
     }
 }
 

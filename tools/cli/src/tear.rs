@@ -23,7 +23,8 @@ use tearmesh_obj::{Document, TornDocument};
 use self::film::Film;
 use self::frames::{Frames, places};
 use self::still::Still;
-use crate::args::{TearArgs, cut_name};
+use crate::args::TearArgs;
+use crate::choice::{Choice as _, method_name};
 use crate::cut::nothing::Obstacle;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
@@ -391,7 +392,7 @@ impl Play<'_> {
             return; // It was made with these rays.
         };
         let how = report::How {
-            method: cut_name(cut.method),
+            method: cut.method.word(),
             through: cut.through,
             tips: "vertex",
             snap: (cut.method == tearmesh::CutMethod::Exact).then_some(Scissor::SNAP),

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
-use tearmesh::Point;
+use tearmesh::{CutLayers, CutMethod, CutTips, Point};
 
 use super::files::FileArgs;
 use super::read::Gap;
+use crate::choice::Choice as _;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,14 +52,9 @@ pub(crate) struct CutArgs {
     ///
     /// first: cut only the connected strip of surface that the rays hit first. The back of a garment
     /// stays whole. If a ray misses the mesh, the strip nearest to it is cut.
-    #[arg(
-        long,
-        value_enum,
-        value_name = "all|first",
-        hide_possible_values = true,
-        default_value_t
-    )]
-    pub(crate) layers: Layers,
+    #[arg(long, value_parser = CutLayers::parser(), value_name = "all|first", hide_possible_values = true,
+        default_value = "all")]
+    pub(crate) layers: CutLayers,
 
     /// Write the two sides of a cut this far apart: a length, or N% of the mean edge.
     ///
@@ -94,8 +90,8 @@ pub(crate) struct CutArgs {
     pub(crate) pieces: Option<PathBuf>,
 
     /// The cutting method.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) method: Method,
+    #[arg(long, value_parser = CutMethod::parser(), default_value = "exact")]
+    pub(crate) method: CutMethod,
 
     /// Snap a crossing to an edge's endpoint if it is closer than this fraction of the edge.
     ///
@@ -116,8 +112,8 @@ pub(crate) struct CutArgs {
     pub(crate) through: bool,
 
     /// End a cut at vertices between the rays, or at edges with their midpoint between the rays.
-    #[arg(long, hide_short_help = true, value_enum, default_value_t)]
-    pub(crate) tips: Tips,
+    #[arg(long, hide_short_help = true, value_parser = CutTips::parser(), default_value = "vertex")]
+    pub(crate) tips: CutTips,
 
     /// Divide the mass of a split vertex by the area of its faces, or in half.
     #[arg(long, hide_short_help = true, value_enum, default_value_t)]
@@ -188,73 +184,6 @@ pub(crate) struct CameraArgs {
     /// last point of the pair before continues its cut. The report has the same cut as --rays.
     #[arg(long, value_name = "X,Y X,Y", requires = "camera")]
     pub(crate) points: Vec<String>,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Method {
-    /// Insert vertices where the plane crosses edges: a straight seam.
-    #[default]
-    Exact,
-    /// Split the edges between the faces of either side; adds no face.
-    Partition,
-    /// The paper's first method: leaves irregular meshes undivided.
-    Uniform,
-    /// The paper's better method: leaves crumbs, and a long seam.
-    Alternating,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Tips {
-    #[default]
-    Vertex,
-    Midpoint,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Layers {
-    #[default]
-    All,
-    First,
-}
-
-impl Method {
-    /// As it is typed, and as it stands in the report.
-    pub(crate) fn name(self) -> &'static str {
-        cut_name(self.of_library())
-    }
-
-    pub(crate) fn of_library(self) -> tearmesh::CutMethod {
-        match self {
-            Method::Exact => tearmesh::CutMethod::Exact,
-            Method::Partition => tearmesh::CutMethod::Partition,
-            Method::Uniform => tearmesh::CutMethod::Uniform,
-            Method::Alternating => tearmesh::CutMethod::Alternating,
-        }
-    }
-}
-
-/// The names of [`Method`]s, in its order.
-pub(crate) const CUT_METHODS: [&str; 4] = ["exact", "partition", "uniform", "alternating"];
-
-/// [`Method::name`] of a method of the library.
-pub(crate) fn cut_name(method: tearmesh::CutMethod) -> &'static str {
-    let [exact, partition, uniform, alternating] = CUT_METHODS;
-    match method {
-        tearmesh::CutMethod::Partition => partition,
-        tearmesh::CutMethod::Uniform => uniform,
-        tearmesh::CutMethod::Alternating => alternating,
-        _ => exact,
-    }
-}
-
-impl Tips {
-    /// As it is typed, and as it stands in the report.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Tips::Vertex => "vertex",
-            Tips::Midpoint => "midpoint",
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Parser, ValueEnum};
 
 use super::files::FileArgs;
+use crate::choice::{Choice as _, Solver};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,8 +33,8 @@ pub(crate) struct TearArgs {
     pub(crate) scene: String,
 
     /// The method: verlet (default), xpbd, pbd, provot or implicit.
-    #[arg(long, value_parser = tearmesh_cloth::Method::NAMES, value_name = "METHOD", hide_possible_values = true)]
-    pub(crate) solver: Option<String>,
+    #[arg(long, value_parser = Solver::parser(), value_name = "METHOD", hide_possible_values = true)]
+    pub(crate) solver: Option<Solver>,
 
     /// Tear edges at this many times their rest length (default: 1.5).
     ///
@@ -80,7 +81,7 @@ pub(crate) struct TearArgs {
     pub(crate) dt: Option<f64>,
 
     /// The direction that is up: x, y, z, -x, -y or -z (default: y).
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::scene::axis)]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::choice::axis)]
     pub(crate) up: Option<tearmesh_cloth::scene::Axis>,
 
     /// Cut between two rays at --cut-at; may be given repeatedly.

@@ -2,29 +2,29 @@
 
 use std::collections::BTreeSet;
 
-use clap::ValueEnum as _;
 use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
 use tearmesh_cloth::{Collider, Tearing, Threshold};
 
-use super::kinds::{Gravity, axis, ready, set};
+use super::kinds::{Gravity, Word, set};
 use super::read::{Place, SceneFile, Table, sorted};
 use super::schema::{ColliderKeys, Cut, Tear, Vertices};
-use crate::args::Method as CutMethod;
+use crate::choice::{Preset, Solver};
 use crate::exit::{Exit, Stop};
 use crate::say::Fault;
 
 impl SceneFile {
     /// Which way is up.
     pub(crate) fn up(&self) -> Axis {
-        let up = self.top.up.as_ref();
-        up.and_then(|up| axis(&up.0).ok()).unwrap_or(Axis::Y)
+        self.top.up.map_or(Axis::Y, |up| up.0)
     }
 
     /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
-    pub(crate) fn scene(&self, frame: &Frame, solver: Option<&str>) -> Result<Scene, Stop> {
-        let base = self.top.base.as_ref().map_or("fall", |base| &*base.0);
-        let mut scene = ready(base, frame);
+    pub(crate) fn scene(&self, frame: &Frame, solver: Option<Solver>) -> Result<Scene, Stop> {
+        let mut scene = match self.top.base {
+            Some(Word(Preset(preset))) => preset(frame),
+            None => Scene::fall(frame.up),
+        };
         let mut faults = Vec::new();
         set(&mut scene.duration_s, self.top.seconds);
         match self.top.gravity_m_per_s2 {
@@ -171,13 +171,11 @@ impl SceneFile {
         Scissor::new(rays[0], rays[1]).map_err(|error| {
             self.fault(&table.place, "rays", "E-SCENE-RANGE", error.to_string())
         })?;
-        let method = table.method.as_ref();
-        let method = method.and_then(|word| CutMethod::from_str(&word.0, false).ok());
         Ok(TimedCut {
             at_s: table.at_s.map_or(0.0, f64::from),
             rays,
             through: table.through.unwrap_or(false),
-            method: method.unwrap_or_default().of_library(),
+            method: table.method.map(|word| word.0).unwrap_or_default(),
         })
     }
 

@@ -3,11 +3,12 @@
 use tearmesh::Vector;
 use tearmesh_cloth::Method;
 use tearmesh_cloth::scene::{Frame, Scene};
-use tearmesh_cloth::{Bending, Buckling, Copies, Unbend, Weave};
+use tearmesh_cloth::{Bending, Buckling, Weave};
 
 use super::kinds::set;
 use super::read::{Place, SceneFile, Table};
 use super::schema::Fabric;
+use crate::choice::BendLaw;
 use crate::say::Fault;
 
 impl SceneFile {
@@ -19,16 +20,8 @@ impl SceneFile {
         let fabric = &mut scene.fabric;
         set(&mut scene.areal_density_kg_per_m2, table.density_kg_per_m2);
         set(&mut fabric.stretch_n_per_m, table.stretch_n_per_m);
-        let copies = table.copies.as_ref().map(|word| match &*word.0 {
-            "whole" => Copies::Whole,
-            _ => Copies::Halved,
-        });
-        set(&mut fabric.copies, copies);
-        let unbend = table.unbend.as_ref().map(|word| match &*word.0 {
-            "vertex" => Unbend::Vertex,
-            _ => Unbend::Seam,
-        });
-        set(&mut fabric.unbend, unbend);
+        set(&mut fabric.copies, table.copies.map(|word| word.0));
+        set(&mut fabric.unbend, table.unbend.map(|word| word.0));
         for done in [self.bend(table, scene), self.weave(table, scene, frame)] {
             faults.extend(done.err().map(|fault| *fault));
         }
@@ -37,16 +30,16 @@ impl SceneFile {
     /// What resists bending: springs, or arcs that buckle.
     fn bend(&self, table: &Table<Fabric>, scene: &mut Scene) -> Result<(), Box<Fault>> {
         let place = &table.place;
-        let law = table.bend_law.as_ref().map(|law| &*law.0);
-        let (foreign, other): (&[&str], _) = match law {
-            Some("buckling") => (&["bend_n_per_m"], "spring"),
-            _ => (&["flexural_n_m2", "buckles_below"], "buckling"),
+        let buckles = table.bend_law.is_some_and(|law| law.0 == BendLaw::Buckling);
+        let (foreign, other): (&[&str], _) = match buckles {
+            true => (&["bend_n_per_m"], "spring"),
+            false => (&["flexural_n_m2", "buckles_below"], "buckling"),
         };
         if let Some(&key) = place.those_of(foreign).first() {
             let message = format!("`{key}` goes with bend_law = \"{other}\"");
             return Err(self.fault(place, key, "E-SCENE-CLASH", message));
         }
-        if law != Some("buckling") {
+        if !buckles {
             if let Some(stiffness_n_per_m) = table.bend_n_per_m.map(f64::from) {
                 let spring = Bending::Spring { stiffness_n_per_m };
                 scene.fabric.bend = (stiffness_n_per_m > 0.0).then_some(spring);

@@ -3,11 +3,9 @@
 
 use serde::de::{Deserialize, Deserializer, Error};
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use toml::Spanned;
 
-use crate::args::CUT_METHODS;
+use crate::choice::Choice;
 
 /// A value of another type, and one out of range.
 const TYPE: &str = "E-SCENE-TYPE";
@@ -74,67 +72,17 @@ fn count(n: i64) -> Result<u32, &'static str> {
     u32::try_from(n).ok().filter(|&n| n > 0).ok_or(RANGE)
 }
 
-/// One of the words of a set.
-#[derive(Clone, Debug)]
-pub(super) struct Word<const SET: usize>(pub(super) String);
+/// A value that is chosen by a word.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Word<T>(pub(super) T);
 
-pub(super) type ReadyName = Word<0>;
-pub(super) type AxisName = Word<1>;
-pub(super) type MethodName = Word<2>;
-pub(super) type CutName = Word<3>;
-pub(super) type BendLaw = Word<4>;
-pub(super) type CopiesName = Word<5>;
-pub(super) type UnbendName = Word<6>;
-pub(super) type Order = Word<7>;
-
-const SETS: [&[&str]; 8] = [
-    &READY,
-    &["x", "y", "z", "-x", "-y", "-z"],
-    &Method::NAMES,
-    &CUT_METHODS,
-    &["spring", "buckling"],
-    &["halved", "whole"],
-    &["seam", "vertex"],
-    &["1", "2"],
-];
-
-impl<'de, const SET: usize> Deserialize<'de> for Word<SET> {
+impl<'de, T: Choice> Deserialize<'de> for Word<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let what = format!("one of {}", SETS[SET].join(", "));
+        let what = format!("one of {}", T::words());
         admit(from, &what, |word: String| {
-            let is_one = SETS[SET].contains(&&*word);
-            is_one.then_some(Word(word)).ok_or(RANGE)
+            T::of(&word).map(Word).ok_or(RANGE)
         })
     }
-}
-
-/// The scenes that stand ready; a scene file can start from each.
-pub(super) const READY: [&str; 5] = ["hang", "flag", "rip", "trouser", "fall"];
-
-/// The scene of this name, one of [`READY`], for a mesh with this frame.
-pub(super) fn ready(name: &str, frame: &Frame) -> Scene {
-    match name {
-        "hang" => Scene::hang(frame),
-        "flag" => Scene::flag(frame),
-        "rip" => Scene::rip(frame),
-        "trouser" => Scene::trouser(frame),
-        _ => Scene::fall(frame.up),
-    }
-}
-
-/// Reads an axis, as it is typed.
-pub(crate) fn axis(text: &str) -> Result<Axis, String> {
-    let axes = SETS[1];
-    let axis = match text.trim_start_matches('-') {
-        _ if !axes.contains(&text) => return Err(format!("expected one of {}", axes.join(", "))),
-        "x" => Axis::X,
-        "y" => Axis::Y,
-        _ => Axis::Z,
-    };
-    Ok(match text.len() {
-        1 => axis,
-        _ => axis.opposite(),
-    })
 }
 
 /// So many finite numbers.

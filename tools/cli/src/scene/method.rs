@@ -1,28 +1,30 @@
-//! What `[solver]` says, and the methods with their defaults.
+//! The keys of `[solver]`.
 
 use tearmesh_cloth::Method;
-use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::Scene;
 
-use super::kinds::{Count, set};
+use super::kinds::{Count, Word, set};
 use super::read::SceneFile;
+use crate::choice::{Solver, method_name};
 use crate::say::Fault;
 
 impl SceneFile {
     /// The method: its keys are those of the file's or of the one that was typed in its place.
-    pub(super) fn solver(&self, scene: &mut Scene, typed: Option<&str>, faults: &mut Vec<Fault>) {
-        let word = self.solver.as_ref().and_then(|table| table.method.as_ref());
-        let word = word.map(|word| &*word.0);
-        let method = word.unwrap_or(scene.solver.name());
-        if let Some(named) = typed.or(word).and_then(Method::named) {
-            scene.solver = named;
+    pub(super) fn solver(&self, scene: &mut Scene, typed: Option<Solver>, faults: &mut Vec<Fault>) {
+        let named = self.solver.as_ref().and_then(|table| table.method);
+        if let Some(Word(Solver(method))) = named {
+            scene.solver = method();
+        }
+        let method = method_name(&scene.solver);
+        if let Some(Solver(typed)) = typed {
+            scene.solver = typed();
         }
         let Some(table) = &self.solver else {
             return;
         };
         scene.step_s = table.dt_s.map(f64::from).or(scene.step_s);
         for (key, readers) in OF_METHODS {
-            let is_read = |reader: &&str| *reader == method || Some(*reader) == typed;
+            let is_read = |reader: &&str| [method, method_name(&scene.solver)].contains(reader);
             if table.place.values.contains_key(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");
@@ -47,11 +49,7 @@ impl SceneFile {
             }
             Method::Implicit(settings) => {
                 set(&mut settings.tolerance, table.tolerance);
-                let order = table.order.as_ref().map(|order| match &*order.0 {
-                    "2" => implicit::Method::Bdf2,
-                    _ => implicit::Method::BackwardEuler,
-                });
-                set(&mut settings.method, order);
+                set(&mut settings.method, table.order.map(|word| word.0));
             }
         }
     }

@@ -4,11 +4,15 @@
 use std::fmt::Write as _;
 
 use serde::Deserialize;
+use tearmesh::CutMethod;
+use tearmesh_cloth::scene::Axis;
+use tearmesh_cloth::{Copies, Unbend, implicit};
 
 use super::kinds::{
-    AxisName, BendLaw, CopiesName, Count, CutName, Gravity, Interval, MethodName, Moves,
-    NotNegative, Numbers, Order, Pair, Part, Positive, Ratio, Rays, ReadyName, Triple, UnbendName,
+    Count, Gravity, Interval, Moves, NotNegative, Numbers, Pair, Part, Positive, Ratio, Rays,
+    Triple, Word,
 };
+use crate::choice::{BendLaw, Preset, Solver as Method};
 
 /// Keys that scene files once had, by table, and what to do without them.
 pub(super) const REMOVED: [(&str, &str, &str); 3] = [
@@ -31,9 +35,9 @@ pub(super) const REMOVED: [(&str, &str, &str); 3] = [
 
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Top {
-    pub(super) base: Option<ReadyName>,
+    pub(super) base: Option<Word<Preset>>,
     pub(super) seconds: Option<NotNegative>,
-    pub(super) up: Option<AxisName>,
+    pub(super) up: Option<Word<Axis>>,
     pub(super) gravity_m_per_s2: Option<Gravity>,
     pub(super) drag_per_s: Option<NotNegative>,
 }
@@ -46,17 +50,17 @@ pub(super) struct Fabric {
     pub(super) weft_n_per_m: Option<Positive>,
     pub(super) shear_n_per_m: Option<NotNegative>,
     pub(super) warp: Option<Triple>,
-    pub(super) bend_law: Option<BendLaw>,
+    pub(super) bend_law: Option<Word<BendLaw>>,
     pub(super) bend_n_per_m: Option<NotNegative>,
     pub(super) flexural_n_m2: Option<Positive>,
     pub(super) buckles_below: Option<Part>,
-    pub(super) copies: Option<CopiesName>,
-    pub(super) unbend: Option<UnbendName>,
+    pub(super) copies: Option<Word<Copies>>,
+    pub(super) unbend: Option<Word<Unbend>>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Solver {
-    pub(super) method: Option<MethodName>,
+    pub(super) method: Option<Word<Method>>,
     pub(super) dt_s: Option<Positive>,
     pub(super) substeps: Option<Count>,
     pub(super) sweeps: Option<Count>,
@@ -64,7 +68,7 @@ pub(super) struct Solver {
     pub(super) bend_stiffness: Option<Part>,
     pub(super) limit_ratio: Option<Ratio>,
     pub(super) limit_passes: Option<Count>,
-    pub(super) order: Option<Order>,
+    pub(super) order: Option<Word<implicit::Method>>,
     pub(super) tolerance: Option<Positive>,
 }
 
@@ -107,7 +111,7 @@ pub(super) struct Cut {
     pub(super) at_s: Option<NotNegative>,
     pub(super) rays: Option<Rays>,
     pub(super) through: Option<bool>,
-    pub(super) method: Option<CutName>,
+    pub(super) method: Option<Word<CutMethod>>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
