@@ -2,11 +2,11 @@
 
 mod gap;
 mod map;
-pub(crate) mod nothing;
+pub(crate) mod no_op;
 mod pieces;
 pub(crate) mod scissors;
 mod seam;
-pub(crate) mod words;
+pub(crate) mod summary;
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -18,14 +18,14 @@ use tearmesh::{
 use tearmesh_obj::TornDocument;
 
 use self::map::Map;
-use self::nothing::Obstacle;
+use self::no_op::NoOpReason;
 use self::pieces::Pieces;
 use self::scissors::{Along, no_plane, warn_of_skew};
 use self::seam::Seam;
 use crate::args::{CutArgs, Gap, Mass};
 use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
-use crate::measure::Edges;
+use crate::measure::{Bounds, Edges};
 use crate::rays::{self, Pair};
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
@@ -66,7 +66,6 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         Gap::Edges(part) => part * Edges::of(&mesh, &positions).mean,
     });
     let mut map = args.map.as_ref().map(|_| Map::new(&document));
-    let is_exact = args.method == CutMethod::Exact;
     let mut slid = false;
     let mut line = Polyline::default();
     let through = args.through || !args.plane.is_empty();
@@ -86,26 +85,23 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         torn.next_cut();
         let chosen = (args.layers == CutLayers::First).then_some(&cut);
         let mut entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
-        session.words.push(words::cut(number, &done));
+        session.words.push(summary::cut(number, &done));
         if let Some(pair) = along.rays().filter(|_| args.camera.camera.is_some()) {
             let typed = rays::typed(pair);
             session.words.push(format!("the same as {typed}"));
             entry.equivalent = Some(typed);
         }
         session.report.cuts.push(entry);
-        let method = args.method;
-        let obstacle = if done.splits == 0 {
-            let how = (&scissor, method, args.snap);
-            nothing::obstacle(how, through, (&mesh, &positions), &done)
+        let reason = if done.splits == 0 {
+            let how = (&scissor, args.method, args.snap);
+            no_op::reason(how, through, (&mesh, &positions), &done)
         } else {
-            Obstacle::Unknown
+            NoOpReason::Unknown
         };
-        let mut warnings = words::warnings(number, (through, is_exact), &done, obstacle);
-        if let Some(last) = warnings.last_mut().filter(|_| done.missed) {
-            last.help = nothing::advice(obstacle, &mesh, &positions);
-        }
+        let extent = done.missed.then(|| Bounds::of(&mesh, &positions));
+        let warnings = summary::warnings(number, how(args), &done, reason, extent);
         session.faults.extend(warnings);
-        session.faults.extend(words::of_layers(number, &cut));
+        session.faults.extend(summary::of_layers(number, &cut));
         seams.push(Seam::new(&cut, &mesh, &positions));
     }
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
@@ -122,8 +118,8 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     let mut shown = None;
     if let Some(gap) = gap {
         let gapped = gap::gapped(&mesh, &positions, gap);
-        session.words.push(words::gap(gap, &gapped));
-        session.faults.extend(words::of_gap(&gapped));
+        session.words.push(summary::gap(gap, &gapped));
+        session.faults.extend(summary::of_gap(&gapped));
         session.report.gap = Some(report::Gap {
             length: gap,
             vertices_moved: gapped.moved,

@@ -25,7 +25,7 @@ use self::frames::{Frames, places};
 use self::still::Still;
 use crate::args::TearArgs;
 use crate::choice::{Choice as _, method_name};
-use crate::cut::nothing::Obstacle;
+use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::scene::SceneFile;
@@ -402,12 +402,11 @@ impl Play<'_> {
         session.report.cuts.push(entry);
         let many = (scene.cuts.len() > 1).then_some(made.number + 1);
         let at = crate::say::short(cut.at_s);
-        let line = crate::cut::words::cut(many, done);
+        let line = crate::cut::summary::cut(many, done);
         session.words.push(format!("{line} · at {at} s"));
-        let kind = (cut.through, cut.method == tearmesh::CutMethod::Exact);
         // The cloth has moved since, and there is no snap to choose.
-        let why = Obstacle::Unknown;
-        let warnings = crate::cut::words::warnings(many, kind, done, why);
+        let why = NoOpReason::Unknown;
+        let warnings = crate::cut::summary::warnings(many, how, done, why, None);
         session.faults.extend(warnings);
     }
 

@@ -1,15 +1,12 @@
-//! Why a cut split nothing.
+//! The reason why a cut split nothing.
 
 use tearmesh::{
     CutMethod, CutReport, Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, Scissor, Side,
 };
 
-use crate::measure::Bounds;
-use crate::say::{count, place};
-
-/// What kept a cut from splitting anything.
+/// A reason for which a cut splits nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Obstacle {
+pub(crate) enum NoOpReason {
     /// It follows the seam of an earlier cut.
     Seam,
     /// It meets the mesh in a corner or along the boundary, and goes through no face.
@@ -18,21 +15,19 @@ pub(crate) enum Obstacle {
     Snap,
     /// Beyond the rays, the plane crosses this many faces and splits this many vertices.
     Elsewhere { faces: usize, splits: usize },
-    /// None that is known: what the report says is all.
+    /// None that is known.
     Unknown,
 }
 
-/// Looks for what kept a cut from splitting anything; `snap` is that of the scissor. Linear in the
-/// mesh, and not worth asking of a cut that split something.
+/// Finds the reason for which a cut split nothing; `snap` is that of the scissor. Takes linear time.
 ///
-/// Whether it was the snap or the rays is tried on a copy and not concluded, so that the advice to cut
-/// without one, or beyond the others, works when it is typed.
-pub(super) fn obstacle(
+/// Cuts without the snap, and beyond the rays, are tried on a copy, so that the advice to make one works.
+pub(super) fn reason(
     (scissor, method, snap): (&Scissor, CutMethod, f64),
     through: bool,
     (mesh, positions): (&Mesh, &Positions),
     done: &CutReport,
-) -> Obstacle {
+) -> NoOpReason {
     let is_exact = method == CutMethod::Exact;
     let slit = Slit {
         scissor,
@@ -43,49 +38,27 @@ pub(super) fn obstacle(
     };
     let lengths = mesh.half_edges().map(|h| slit.length(h));
     if mesh.half_edges().any(|h| slit.follows(h)) {
-        Obstacle::Seam
+        NoOpReason::Seam
     } else if done.faces_crossed == 0
         && done.nearest_vertex <= ROUNDING * lengths.fold(0.0, f64::max)
     {
-        Obstacle::Touch
+        NoOpReason::Touch
     } else if done.missed {
         let elsewhere = || tried(&scissor.clone().through(true), method, mesh, positions);
         // Copies take memory, and most cuts that miss do so by far.
         let is_met = !through && mesh.faces().any(|f| slit.meets(f));
         let elsewhere = is_met.then(elsewhere).flatten();
-        elsewhere.map_or(Obstacle::Unknown, |[faces, splits]| Obstacle::Elsewhere {
-            faces,
-            splits,
+        elsewhere.map_or(NoOpReason::Unknown, |[faces, splits]| {
+            NoOpReason::Elsewhere { faces, splits }
         })
     } else if is_exact
         && snap > 0.0
         && tried(&scissor.clone().snap(0.0), method, mesh, positions).is_some()
     {
-        Obstacle::Snap
+        NoOpReason::Snap
     } else {
-        Obstacle::Unknown
+        NoOpReason::Unknown
     }
-}
-
-/// What would help a cut that met no face.
-pub(super) fn advice(obstacle: Obstacle, mesh: &Mesh, positions: &Positions) -> Option<String> {
-    let elsewhere = match obstacle {
-        Obstacle::Seam | Obstacle::Touch | Obstacle::Snap => return None,
-        Obstacle::Unknown => String::new(),
-        Obstacle::Elsewhere { faces: 0, splits } => {
-            let vertices = count(splits, "vertex", "vertices");
-            format!("; the plane runs along edges elsewhere: --through splits {vertices} there")
-        }
-        Obstacle::Elsewhere { faces, .. } => {
-            let faces = count(faces, "face", "faces");
-            format!("; the plane crosses {faces} elsewhere: --through cuts there")
-        }
-    };
-    let Bounds { min, max } = Bounds::of(mesh, positions);
-    let (least, most) = (place(min), place(max));
-    Some(format!(
-        "the mesh extends from {least} to {most}{elsewhere}"
-    ))
 }
 
 /// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses words.

@@ -1,0 +1,161 @@
+//! The summary of a cut and its gap, and the warnings about them.
+
+use tearmesh::{Cut, CutReport};
+
+use super::gap::Gapped;
+use super::no_op::NoOpReason;
+use crate::measure::Bounds;
+use crate::report::How;
+use crate::say::{Fault, count, place, short};
+
+/// The line of the summary on a cut; cuts have numbers where there are several.
+pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
+    let name = number.map_or_else(|| "cut".to_owned(), |number| format!("cut {number}"));
+    let inserted = match cut.vertices_inserted {
+        0 => String::new(),
+        inserted => count(inserted, "vertex", "vertices") + " inserted, ",
+    };
+    format!(
+        "{name}: {} crossed, {inserted}{} split ({} refused), {} -> {}",
+        count(cut.faces_crossed, "face", "faces"),
+        count(cut.splits, "vertex", "vertices"),
+        cut.refused,
+        count(cut.pieces_before, "piece", "pieces"),
+        count(cut.pieces, "piece", "pieces"),
+    )
+}
+
+/// The line of the summary on a gap.
+pub(crate) fn gap(gap: f64, gapped: &Gapped) -> String {
+    let pieces = count(gapped.pieces, "piece", "pieces");
+    let vertices = count(gapped.lips, "vertex", "vertices") + " along the cut";
+    let what = match (gapped.pieces, gapped.lips) {
+        (0, _) => vertices,
+        (_, 0) => pieces,
+        _ => format!("{pieces} and {vertices}"),
+    };
+    let up_to = if gapped.clamped > 0 { "up to " } else { "" };
+    format!("gap: {what} moved apart by {up_to}{}", short(gap))
+}
+
+/// A warning if the gap is narrower somewhere than it was to be.
+pub(crate) fn of_gap(gapped: &Gapped) -> Option<Fault> {
+    let vertices = count(gapped.clamped, "vertex", "vertices");
+    let message = format!("{vertices} moved less than half the gap, to keep faces from flipping");
+    (gapped.clamped > 0).then(|| Fault::warning("W-CUT-GAP", message))
+}
+
+/// The table of warnings about a cut, with its number where there are several: each row has the code, when it is due,
+/// and what is said. `reason` is why it split nothing, and `extent` that of the mesh, which helps if the cut missed it.
+pub(crate) fn warnings(
+    number: Option<usize>,
+    how: How,
+    cut: &CutReport,
+    reason: NoOpReason,
+    extent: Option<Bounds>,
+) -> Vec<Fault> {
+    let is_cut = !cut.missed && cut.splits > 0;
+    let crumbs = cut.crumbs.saturating_sub(cut.necks.len());
+    let [crossed, crumb, lost] = [
+        count(cut.faces_crossed, "face", "faces"),
+        count(crumbs, "piece", "pieces"),
+        count(cut.lost, "piece", "pieces"),
+    ];
+    let far = format!("; the nearest vertex is {} away", short(cut.nearest_vertex));
+    let (missed, uncut) = match reason {
+        NoOpReason::Seam => (": it is already cut there", "but it is already cut there"),
+        NoOpReason::Touch => (
+            ": the cut only touches the mesh",
+            "it only touches the mesh",
+        ),
+        NoOpReason::Snap => ("", "but is shorter than the snap: use --snap 0"),
+        _ if cut.nearest_vertex == 0.0 => (": the cut only touches the mesh", UNSPLIT),
+        _ => (&*far, UNSPLIT),
+    };
+    let place_of_cut = match how.through {
+        true => "on the plane",
+        false => "between the rays",
+    };
+    let why_lost = match how.method {
+        "exact" => "the part to cut off is smaller than the snap",
+        _ => "the mesh has no edges for the cut to follow",
+    };
+    let necks = cut.necks.iter().map(|neck| {
+        let (at, width) = (place(neck.at.into()), short(neck.width));
+        let faces = count(neck.faces, "face", "faces");
+        let hung = format!("it hung on a neck {width} wide, which is narrower than the snap");
+        (
+            "W-CUT-NECK",
+            is_cut,
+            format!("a piece of {faces} came off at {at}: {hung}"),
+        )
+    });
+    let shared = "the two sides still share a vertex between the rays";
+    let rows = [
+        (
+            "W-CUT-MISS",
+            cut.missed,
+            format!("no face lies {place_of_cut}{missed}"),
+        ),
+        (
+            "W-CUT-NONE",
+            !cut.missed && !is_cut,
+            format!("the cut crosses {crossed}, {uncut}"),
+        ),
+    ];
+    let rows = rows.into_iter().chain(necks).chain([
+        (
+            "W-CUT-CRUMBS",
+            is_cut && crumbs > 0,
+            format!("{crumb} came loose beside the cut"),
+        ),
+        (
+            "W-CUT-LOST",
+            is_cut && cut.lost > 0,
+            format!("{lost} stayed joined: {why_lost}"),
+        ),
+        ("W-CUT-JOINED", is_cut && !cut.separated, shared.to_owned()),
+    ]);
+    let due = rows.filter(|(_, is_due, _)| *is_due);
+    let extent = extent.filter(|_| cut.missed);
+    let warned = due.map(|(code, _, message)| Fault {
+        help: extent.and_then(|extent| help(reason, extent)),
+        ..warning(code, number, &message)
+    });
+    warned.collect()
+}
+
+/// What is said where the reason for it is not known.
+const UNSPLIT: &str = "but no vertex could be split";
+
+/// What would help a cut that met no face.
+fn help(reason: NoOpReason, Bounds { min, max }: Bounds) -> Option<String> {
+    let elsewhere = match reason {
+        NoOpReason::Seam | NoOpReason::Touch | NoOpReason::Snap => return None,
+        NoOpReason::Unknown => String::new(),
+        NoOpReason::Elsewhere { faces: 0, splits } => {
+            let vertices = count(splits, "vertex", "vertices");
+            format!("; the plane runs along edges elsewhere: --through splits {vertices} there")
+        }
+        NoOpReason::Elsewhere { faces, .. } => {
+            let faces = count(faces, "face", "faces");
+            format!("; the plane crosses {faces} elsewhere: --through cuts there")
+        }
+    };
+    let (least, most) = (place(min), place(max));
+    Some(format!(
+        "the mesh extends from {least} to {most}{elsewhere}"
+    ))
+}
+
+/// A warning if a cut through the first layers went through two.
+pub(crate) fn of_layers(number: Option<usize>, cut: &Cut) -> Option<Fault> {
+    let [one, other] = cut.layers().map(|hit| hit.map(|hit| hit.chain));
+    let message = "the rays hit different layers of the mesh: both are cut";
+    (one != other).then(|| warning("W-CUT-LAYERS", number, message))
+}
+
+fn warning(code: &'static str, number: Option<usize>, message: &str) -> Fault {
+    let of = number.map_or_else(String::new, |number| format!("cut {number}: "));
+    Fault::warning(code, of + message)
+}
